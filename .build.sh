@@ -1,0 +1,38 @@
+# Sourced by run.sh and test.sh: what they need from Debian 12, and how they build.
+
+packages=(
+  g++ cmake ninja-build ccache git ca-certificates
+  libdeal.ii-dev libgmsh-dev libeigen3-dev libhdf5-openmpi-dev nlohmann-json3-dev
+  python3 python3-h5py python3-matplotlib python3-jinja2
+)
+test_packages=(libgtest-dev)
+
+# OpenMPI refuses to start as root, which a container usually is.
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+
+# install_missing [PACKAGE...]: the common list and the given ones, only where something is missing.
+install_missing() {
+  local missing=() package
+  for package in "${packages[@]}" "$@"; do
+    [ "$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null)" = "install ok installed" ] || missing+=("$package")
+  done
+  [ ${#missing[@]} -eq 0 ] && return
+  echo "installing: ${missing[*]}"
+  local root=()
+  [ "$(id -u)" -eq 0 ] || root=(sudo)
+  "${root[@]}" apt-get update -qq
+  "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+# build PRESET TARGET...: at most one compiler per 2.5 GB of memory, which a deal.II unit takes.
+build() {
+  local preset=$1 jobs memory_gb
+  shift
+  memory_gb=$(awk '/MemAvailable/ {print int($2 / 1048576)}' /proc/meminfo)
+  jobs=$((memory_gb * 2 / 5))
+  [ "$jobs" -ge 1 ] || jobs=1
+  [ "$jobs" -le "$(nproc)" ] || jobs=$(nproc)
+  cmake --preset "$preset" >build-"$preset".log 2>&1 || { cat build-"$preset".log; return 1; }
+  rm -f build-"$preset".log
+  cmake --build --preset "$preset" -j "$jobs" --target "$@"
+}

@@ -1,0 +1,144 @@
+// diptych: the program
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <functional>
+#include <iostream>
+#include <map>
+
+#include <deal.II/base/mpi.h>
+
+#include "coupling/commands.h"
+#include "coupling/scene.h"
+#include "coupling/stop_signal.h"
+#include "coupling/version.h"
+
+namespace
+{
+  using namespace diptych::coupling;
+
+  constexpr char usage[] = R"(diptych: one granular sample twice, every grain beside a continuum
+
+  diptych run SCENE        both panels, homogenisation, comparison, report
+  diptych discrete SCENE   the grains alone
+  diptych continuum SCENE  the continuum alone (prepares the sample for its outline)
+  diptych compare DIR      homogenise and compare again from a result folder
+  diptych report DIR       draw report.html again
+  diptych explain [SECTION] every key of a scene: default, unit, range, meaning
+
+  --output DIR             result folder (default: results/<scene name>)
+  --set section/key=value  change one key of the scene; may be repeated
+  --threads N              upper bound; the same bits for every N (this version computes on one)
+  --quiet                  no progress
+  --version, --help
+
+Exit codes: 0 done, 1 a stated invariant failed, 2 wrong input, 3 did not converge or was stopped (what was reached is kept)
+)";
+
+  // What each command is called and whether it needs a target.
+  struct Command
+  {
+    std::function<int(const CommandLine &)> execute;
+    bool                                    needs_target;
+  };
+
+  const std::map<std::string, Command> commands = {{"run", {run_both, true}},         {"discrete", {run_discrete, true}},
+                                                   {"continuum", {run_continuum, true}}, {"compare", {compare_again, true}},
+                                                   {"report", {report_again, true}},   {"explain", {explain_keys, false}}};
+
+  int positive_number(const std::string &text)
+  {
+    std::size_t end   = 0;
+    int         value = 0;
+    try
+      {
+        value = std::stoi(text, &end);
+      }
+    catch (const std::exception &)
+      {}
+    if (end != text.size() || value < 1)
+      throw SceneError("--threads " + text + ": must be a whole number from 1 on");
+    return value;
+  }
+
+  CommandLine parse(const std::vector<std::string> &words)
+  {
+    CommandLine line;
+    line.text = "diptych";
+    for (const std::string &word : words)
+      line.text += " " + word;
+    for (std::size_t k = 0; k < words.size(); ++k)
+      {
+        const auto argument = [&]() {
+          if (k + 1 >= words.size())
+            throw SceneError(words[k] + ": its value is missing");
+          return words[++k];
+        };
+        if (words[k] == "--output")
+          line.output = argument();
+        else if (words[k] == "--set")
+          line.overrides.push_back(argument());
+        else if (words[k] == "--threads")
+          line.threads = positive_number(argument());
+        else if (words[k] == "--quiet")
+          line.quiet = true;
+        else if (words[k].rfind("--", 0) == 0)
+          throw SceneError("unknown option '" + words[k] + "'; see diptych --help");
+        else if (line.command.empty())
+          line.command = words[k];
+        else if (line.target.empty())
+          line.target = words[k];
+        else
+          throw SceneError("'" + words[k] + "': one scene, folder or section is enough");
+      }
+    const auto found = commands.find(line.command);
+    if (found == commands.end())
+      throw SceneError("unknown command '" + line.command + "'; see diptych --help");
+    if (found->second.needs_target && line.target.empty())
+      throw SceneError("diptych " + line.command + ": a scene file or result folder is missing");
+    return line;
+  }
+
+  int execute(int argc, char **argv)
+  {
+    const std::vector<std::string> words(argv + 1, argv + argc);
+    if (words.empty() || words[0] == "--help" || words[0] == "-h" || words[0] == "help")
+      {
+        std::cout << usage;
+        return words.empty() ? wrong_input : done;
+      }
+    if (words[0] == "--version")
+      {
+        std::cout << "diptych " << version << " (" << git_revision << ")\n";
+        return done;
+      }
+    const CommandLine line = parse(words);
+    // One thread: deal.II's pool would change nothing but the clock.
+    dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+    if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+      throw SceneError("mpirun: this version runs on one process");
+    install_stop_signals();
+    return commands.at(line.command).execute(line);
+  }
+} // namespace
+
+int main(int argc, char **argv)
+{
+  try
+    {
+      return execute(argc, argv);
+    }
+  catch (const std::invalid_argument &error)
+    {
+      std::cerr << "diptych: " << error.what() << std::endl;
+      return wrong_input;
+    }
+  catch (const std::runtime_error &error) // files that are missing, truncated or cannot be written
+    {
+      std::cerr << "diptych: " << error.what() << std::endl;
+      return wrong_input;
+    }
+  catch (const std::exception &error)
+    {
+      std::cerr << "diptych: " << error.what() << std::endl;
+      return invariant;
+    }
+}

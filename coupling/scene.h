@@ -1,0 +1,98 @@
+// diptych: the scene, every parameter of one comparison
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "continuum/panel.h"
+#include "discrete/panel.h"
+
+namespace diptych::coupling
+{
+  // What is done to the sample, in both panels alike.
+  struct LoadingOptions
+  {
+    double pressure                 = 1;
+    double inertial_number          = 3e-5;
+    double horizontal_over_vertical = 1;
+    double axial_strain             = 0.04;
+    double stage_strain             = 0.005;
+    bool   affine_start             = true;
+  };
+
+  template <class Visitor>
+  void visit_parameters(LoadingOptions &o, Visitor &&visitor)
+  {
+    visitor("pressure", o.pressure, "pressure", {1e-12, 1e15}, "P of the lateral action; also the initial isotropic stress");
+    visitor("inertial_number", o.inertial_number, "-", {1e-9, 0.1},
+            "I = strain rate d sqrt(rho/P): fixes the speed of the upper platen in the discrete panel");
+    visitor("horizontal_over_vertical", o.horizontal_over_vertical, "-", {-10., 10.},
+            "travel of the upper platen to the right per descent: 1 is 45 degrees, 0 vertical");
+    visitor("axial_strain", o.axial_strain, "-", {1e-6, 0.5}, "descent of the upper platen / initial height at the end");
+    visitor("stage_strain", o.stage_strain, "-", {1e-6, 0.5}, "axial strain between two stages, at which both panels are compared");
+    visitor("affine_start", o.affine_start, "-", {}, "grains start with the affine velocity field between the platens, not at rest");
+  }
+
+  struct ComparisonOptions
+  {
+    std::vector<double> window_edges        = {0, 0.01, 0.02, 0.04};
+    double              coarse_element_size = 4;
+    double              averaging_strain    = 0.005;
+  };
+
+  template <class Visitor>
+  void visit_parameters(ComparisonOptions &o, Visitor &&visitor)
+  {
+    visitor("window_edges", o.window_edges, "axial strain", {0., 0.5},
+            "edges of the windows over which displacement increments are compared; each must be a stage or 0");
+    visitor("coarse_element_size", o.coarse_element_size, "mean diameters", {0.1, 100.},
+            "element size of the second continuum run that shows what the mesh does to the band");
+    visitor("averaging_strain", o.averaging_strain, "axial strain", {1e-9, 0.5},
+            "last part of a stage over which stress ratio and platen forces are averaged, in both panels");
+  }
+
+  struct OutputOptions
+  {
+    std::string directory;
+    bool        report = true;
+  };
+
+  template <class Visitor>
+  void visit_parameters(OutputOptions &o, Visitor &&visitor)
+  {
+    visitor("directory", o.directory, "-", {}, "result folder; empty: results/<scene name>");
+    visitor("report", o.report, "-", {}, "draw report.html at the end of a run");
+  }
+
+  struct Scene
+  {
+    std::string             name; // of the scene file's folder, or of the file where it is not called scene.*
+    discrete::SampleOptions sample;
+    LoadingOptions          loading;
+    discrete::Options       discrete;
+    continuum::Options      continuum;
+    ComparisonOptions       comparison;
+    OutputOptions           output;
+  };
+
+  // Wrong input: the text names file, line, key, value and what is allowed.
+  struct SceneError : std::invalid_argument
+  {
+    using std::invalid_argument::invalid_argument;
+  };
+
+  // Reads a .prm or .json file, then applies `overrides` of the form section/key=value. Throws SceneError.
+  Scene read_scene(const std::string &file, const std::vector<std::string> &overrides);
+
+  // The whole scene with every default, in .prm format, each key with its meaning.
+  std::string echo(const Scene &scene);
+
+  // Every key of a section (of all, if empty): default, unit, range, meaning. Throws SceneError on an unknown section.
+  std::string explain(const std::string &section);
+
+  std::vector<double> stages(const LoadingOptions &loading); // axial strains, ascending, the first is stage_strain
+  discrete::Loading   discrete_loading(const LoadingOptions &loading);
+  continuum::Loading  continuum_loading(const LoadingOptions &loading, double height);
+} // namespace diptych::coupling

@@ -1,0 +1,9 @@
+// diptych: Ctrl-C and SIGTERM end the run at the next step
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+namespace diptych::coupling
+{
+  void install_stop_signals(); // the second signal kills as usual
+  bool stop_requested();
+} // namespace diptych::coupling

@@ -1,0 +1,51 @@
+// diptych: unilateral contact with dry friction, the solution of one contact for itself
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <algorithm>
+
+#include "discrete/contact_problem.h"
+
+namespace diptych::discrete
+{
+  // u = H^T v of one contact.
+  struct RelativeVelocity
+  {
+    double normal, tangential;
+  };
+
+  inline RelativeVelocity relative_velocity(const ContactRow &c, const BodyVelocity &vi, const BodyVelocity &vj)
+  {
+    const double dx = vi.x - vj.x, dy = vi.y - vj.y;
+    return {c.nx * dx + c.ny * dy, c.nx * dy - c.ny * dx - vi.surface - vj.surface};
+  }
+
+  // Signorini-Coulomb with the other contacts held (Moreau 1988; Jean 1999); omega = 1 is the exact solution:
+  //   r_n' = max(0, r_n - omega (u_n + c_n)/W_nn),
+  //   r_t' = r_t - omega (u_t + c_t)/W_tt clamped to +-mu r_n'.
+  inline Impulse local_solution(const ContactRow &c, const RelativeVelocity &u, const Impulse &r, const double omega)
+  {
+    const double normal = std::max(0., r.normal - omega * (u.normal + c.normal_term) * c.inverse_wnn);
+    const double bound  = c.friction * normal;
+    const double stick  = r.tangential - omega * (u.tangential + c.tangential_term) * c.inverse_wtt;
+    return {normal, std::min(bound, std::max(-bound, stick))};
+  }
+
+  // Adds M^-1 H dr of one contact to the velocities of its bodies.
+  inline void apply_impulse(const ContactRow &c, const Impulse &dr, BodyVelocity &vi, BodyVelocity &vj)
+  {
+    const double px = c.nx * dr.normal - c.ny * dr.tangential, py = c.ny * dr.normal + c.nx * dr.tangential;
+    vi.x += vi.inverse_mass * px;
+    vi.y += vi.inverse_mass * py;
+    vi.surface -= c.ki * dr.tangential;
+    vj.x -= vj.inverse_mass * px;
+    vj.y -= vj.inverse_mass * py;
+    vj.surface -= c.kj * dr.tangential;
+  }
+
+  // A contact at its Coulomb bound. The margin absorbs the rounding of mu r_n.
+  inline bool is_slipping(const ContactRow &c, const Impulse &r)
+  {
+    return std::abs(r.tangential) > 0.9999 * c.friction * r.normal;
+  }
+} // namespace diptych::discrete

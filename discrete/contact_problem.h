@@ -1,0 +1,56 @@
+// diptych: the contact problem of one step as data, and its residual
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <vector>
+
+namespace diptych::discrete
+{
+  // Velocity of a body in the form the contact kinematics needs, with the inverse mass beside it (32 bytes).
+  // Walls of prescribed motion have inverse mass 0.
+  struct BodyVelocity
+  {
+    double x, y;
+    double surface;      // s = r omega: speed of the surface due to spin; 0 for walls
+    double inverse_mass; // [1/mass]
+  };
+
+  // Impulses on body i of a contact (on j: the opposite).
+  struct Impulse
+  {
+    double normal = 0, tangential = 0;
+  };
+
+  // One contact between bodies i and j: normal n from j to i, tangent t = n turned by +90 degrees, relative velocity
+  //   u_n = n.(v_i - v_j),  u_t = t.(v_i - v_j) - s_i - s_j.
+  struct ContactRow
+  {
+    double nx, ny;
+    double normal_term;     // c_n of  0 <= u_n' + c_n  _|_  r_n >= 0   [length/time]
+    double tangential_term; // c_t = e_t u_t of the friction law        [length/time]
+    double friction;        // mu
+    double inverse_wnn;     // 1 / (1/m_i + 1/m_j)                      [mass]
+    double inverse_wtt;     // 1 / (1/m_i + 1/m_j + k_i + k_j)          [mass]
+    double ki, kj;          // r^2/I of each side, 2/m for a disc, 0 for a wall [1/mass]
+    int    i, j;
+  };
+
+  // Find impulses r and velocities v = v_free + M^-1 H r such that every contact obeys Signorini's condition and
+  // Coulomb's law (DESIGN: Moreau-Jean step). For discs the normal/tangential coupling of one contact vanishes, so that
+  // its own problem has a closed solution (contact_law.h). The order of the rows is the order of the sweeps.
+  struct ContactProblem
+  {
+    std::vector<BodyVelocity> free_velocity; // all bodies, grains first
+    std::vector<ContactRow>   contacts;
+  };
+
+  // v = v_free + M^-1 H r for all bodies.
+  std::vector<BodyVelocity> velocities(const ContactProblem &problem, const std::vector<Impulse> &impulses);
+
+  // Natural map ||r - P(r)||_2 / ||r||_2: P solves every contact for itself with its own W_nn and W_tt, all others held, v
+  // computed afresh from r. Returns 0 where nothing acts and nothing should; infinity where r vanishes but P(r) does not.
+  double natural_map_residual(const ContactProblem &problem, const std::vector<Impulse> &impulses);
+
+  // Largest remaining violation of u_n' + c_n >= 0 over the contacts [length/time].
+  double largest_closing_velocity(const ContactProblem &problem, const std::vector<Impulse> &impulses);
+} // namespace diptych::discrete

@@ -1,0 +1,253 @@
+// diptych: result files of the discrete panel
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/output.h"
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "discrete/hdf5_file.h"
+
+namespace diptych::discrete
+{
+  namespace
+  {
+    std::string group_name(const std::size_t stage)
+    {
+      char name[32];
+      std::snprintf(name, sizeof name, "stage_%04zu", stage);
+      return name;
+    }
+
+    void write_text(const std::string &path, const std::string &text)
+    {
+      std::ofstream file(path + ".part");
+      file << text;
+      file.close();
+      if (!file || std::rename((path + ".part").c_str(), path.c_str()) != 0)
+        throw std::runtime_error("cannot write " + path);
+    }
+
+    template <class Byte>
+    std::vector<int> integers(const std::vector<Byte> &values)
+    {
+      std::vector<int> result;
+      for (const Byte value : values)
+        result.push_back(int(value));
+      return result;
+    }
+
+    void write_forces(Hdf5Writer &file, const std::string &group, const std::vector<ContactForce> &forces)
+    {
+      std::vector<int>             body;
+      std::vector<Eigen::Vector2d> point, normal, force;
+      for (const ContactForce &c : forces)
+        {
+          body.insert(body.end(), {c.i, c.j});
+          point.push_back(c.point), normal.push_back(c.normal), force.push_back(c.force);
+        }
+      file.write(group + "/body", body, {forces.size(), 2});
+      file.write(group + "/point", point, 3);
+      file.write(group + "/normal", normal, 3);
+      file.write(group + "/force", force, 3);
+    }
+
+    std::vector<ContactForce> read_forces(const Hdf5Reader &file, const std::string &group)
+    {
+      const std::vector<int> body  = file.read_int(group + "/body");
+      const auto             point = file.read_vectors(group + "/point"), normal = file.read_vectors(group + "/normal"),
+                 force = file.read_vectors(group + "/force");
+      std::vector<ContactForce> forces(point.size());
+      for (std::size_t k = 0; k < forces.size(); ++k)
+        forces[k] = {body[2 * k], body[2 * k + 1], point[k], normal[k], force[k]};
+      return forces;
+    }
+
+    void write_impulses(Hdf5Writer &file, const std::string &group, const Snapshot &s)
+    {
+      std::vector<double> impulse;
+      for (const ContactForce &c : s.contacts)
+        {
+          const Eigen::Vector2d tangent(-c.normal.y(), c.normal.x());
+          impulse.insert(impulse.end(), {s.step * c.force.dot(c.normal), s.step * c.force.dot(tangent)});
+        }
+      file.write(group + "/impulse", impulse, {s.contacts.size(), 2});
+    }
+
+    void write_attributes(Hdf5Writer &file, const std::string &group, const Snapshot &s)
+    {
+      file.attribute(group, "axial_strain", s.axial_strain);
+      file.attribute(group, "time", s.time);
+      file.attribute(group, "step", s.step);
+      file.attribute(group, "residual", s.residual);
+      file.attribute(group, "mean_diameter", s.mean_diameter);
+      file.attribute(group, "window_time", s.window_time);
+      file.attribute(group, "lower_y", s.lower_y);
+      file.attribute(group, "upper_y", s.upper_y);
+      file.attribute(group, "area", s.area);
+      file.attribute(group, "upper_platen_displacement_x", s.upper_platen_displacement.x());
+      file.attribute(group, "upper_platen_displacement_y", s.upper_platen_displacement.y());
+      file.attribute(group, "lower_platen_force_x", s.lower_platen_force.x());
+      file.attribute(group, "lower_platen_force_y", s.lower_platen_force.y());
+      file.attribute(group, "upper_platen_force_x", s.upper_platen_force.x());
+      file.attribute(group, "upper_platen_force_y", s.upper_platen_force.y());
+    }
+
+    void write_stage(Hdf5Writer &file, const std::string &group, const Snapshot &s)
+    {
+      const std::string grains = group + "/grains", contacts = group + "/contacts", window = group + "/window";
+      file.write(grains + "/position", s.position, 3);
+      file.write(grains + "/displacement", s.displacement, 3);
+      file.write(grains + "/velocity", s.velocity, 3);
+      file.write(grains + "/rotation", s.rotation);
+      file.write(grains + "/spin", s.spin);
+      file.write(grains + "/radius", s.radius);
+      file.write(grains + "/mass", s.mass);
+      file.write(grains + "/internal_moment", s.internal_moment, 3);
+      file.write(grains + "/mean_internal_moment", s.mean_internal_moment, 3);
+      file.write(grains + "/mean_spin_term", s.mean_spin_term);
+      file.write(grains + "/rattler", integers(s.rattler));
+      file.write(grains + "/applied_force", s.applied_force, 3);
+      write_forces(file, contacts, s.contacts);
+      write_impulses(file, contacts, s);
+      file.write(contacts + "/gap", s.gap);
+      file.write(contacts + "/status", integers(s.status));
+      write_forces(file, window, s.window_forces);
+      file.write(group + "/outline/left", s.outline.left);
+      file.write(group + "/outline/right", s.outline.right);
+      write_attributes(file, group, s);
+    }
+
+    // One array of the HDF5 file as an XDMF attribute on the points of the grid.
+    std::string xdmf_attribute(const std::string &file, const std::string &path, const std::string &name,
+                               const std::string &type, const std::size_t n, const std::size_t components, const bool integer)
+    {
+      std::ostringstream out;
+      out << "        <Attribute Name=\"" << name << "\" AttributeType=\"" << type << "\" Center=\"Node\"><DataItem Format=\"HDF\" "
+          << (integer ? "NumberType=\"Int\"" : "NumberType=\"Float\" Precision=\"8\"") << " Dimensions=\"" << n;
+      if (components > 1)
+        out << ' ' << components;
+      out << "\">" << file << ":/" << path << "/" << name << "</DataItem></Attribute>\n";
+      return out.str();
+    }
+
+    std::string xdmf_points(const std::string &file, const std::string &path, const std::string &points, const std::size_t n,
+                            const double time)
+    {
+      std::ostringstream out;
+      out << "      <Grid Name=\"" << path << "\" GridType=\"Uniform\">\n        <Time Value=\"" << time
+          << "\"/>\n        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"" << n
+          << "\"/>\n        <Geometry GeometryType=\"XYZ\"><DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"8\" Dimensions=\""
+          << n << " 3\">" << file << ":/" << path << "/" << points << "</DataItem></Geometry>\n";
+      return out.str();
+    }
+
+    std::string xdmf_collection(const std::string &name, const std::string &grids)
+    {
+      return "    <Grid Name=\"" + name + "\" GridType=\"Collection\" CollectionType=\"Temporal\">\n" + grids + "    </Grid>\n";
+    }
+
+    std::string xdmf(const std::string &file, const std::vector<Snapshot> &snapshots)
+    {
+      std::string grains, contacts;
+      for (std::size_t k = 0; k < snapshots.size(); ++k)
+        {
+          const Snapshot   &s = snapshots[k];
+          const std::size_t n = s.position.size(), m = s.contacts.size();
+          const std::string g = group_name(k) + "/grains", c = group_name(k) + "/contacts";
+          grains += xdmf_points(file, g, "position", n, s.axial_strain);
+          for (const char *name : {"displacement", "velocity", "applied_force"})
+            grains += xdmf_attribute(file, g, name, "Vector", n, 3, false);
+          for (const char *name : {"radius", "mass", "spin", "rotation"})
+            grains += xdmf_attribute(file, g, name, "Scalar", n, 1, false);
+          for (const char *name : {"internal_moment", "mean_internal_moment"})
+            grains += xdmf_attribute(file, g, name, "Tensor", n, 9, false);
+          grains += xdmf_attribute(file, g, "rattler", "Scalar", n, 1, true) + "      </Grid>\n";
+          contacts += xdmf_points(file, c, "point", m, s.axial_strain);
+          contacts += xdmf_attribute(file, c, "normal", "Vector", m, 3, false);
+          contacts += xdmf_attribute(file, c, "force", "Vector", m, 3, false);
+          contacts += xdmf_attribute(file, c, "gap", "Scalar", m, 1, false);
+          contacts += xdmf_attribute(file, c, "status", "Scalar", m, 1, true) + "      </Grid>\n";
+        }
+      return "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n" + xdmf_collection("grains", grains) +
+             xdmf_collection("contacts", contacts) + "  </Domain>\n</Xdmf>\n";
+    }
+  } // namespace
+
+  void write_snapshots(const std::string &path, const std::vector<Snapshot> &snapshots)
+  {
+    Hdf5Writer file(path + ".h5");
+    for (std::size_t k = 0; k < snapshots.size(); ++k)
+      write_stage(file, group_name(k), snapshots[k]);
+    file.finish();
+    write_text(path + ".xdmf", xdmf(path.substr(path.find_last_of('/') + 1) + ".h5", snapshots));
+  }
+
+  std::vector<Snapshot> read_snapshots(const std::string &h5_path)
+  {
+    const Hdf5Reader      file(h5_path);
+    std::vector<Snapshot> snapshots;
+    for (std::size_t k = 0; file.has(group_name(k)); ++k)
+      {
+        const std::string group = group_name(k), grains = group + "/grains";
+        const auto        number = [&](const char *name) { return file.attribute(group, name); };
+        Snapshot          s;
+        s.axial_strain              = number("axial_strain");
+        s.time                      = number("time");
+        s.step                      = number("step");
+        s.residual                  = number("residual");
+        s.mean_diameter             = number("mean_diameter");
+        s.window_time               = number("window_time");
+        s.lower_y                   = number("lower_y");
+        s.upper_y                   = number("upper_y");
+        s.area                      = number("area");
+        s.upper_platen_displacement = {number("upper_platen_displacement_x"), number("upper_platen_displacement_y")};
+        s.lower_platen_force        = {number("lower_platen_force_x"), number("lower_platen_force_y")};
+        s.upper_platen_force        = {number("upper_platen_force_x"), number("upper_platen_force_y")};
+        s.position                  = file.read_vectors(grains + "/position");
+        s.displacement              = file.read_vectors(grains + "/displacement");
+        s.velocity                  = file.read_vectors(grains + "/velocity");
+        s.rotation                  = file.read(grains + "/rotation");
+        s.spin                      = file.read(grains + "/spin");
+        s.radius                    = file.read(grains + "/radius");
+        s.mass                      = file.read(grains + "/mass");
+        s.internal_moment           = file.read_tensors(grains + "/internal_moment");
+        s.mean_internal_moment      = file.read_tensors(grains + "/mean_internal_moment");
+        s.mean_spin_term            = file.read(grains + "/mean_spin_term");
+        s.applied_force             = file.read_vectors(grains + "/applied_force");
+        for (const int r : file.read_int(grains + "/rattler"))
+          s.rattler.push_back(std::uint8_t(r));
+        s.contacts      = read_forces(file, group + "/contacts");
+        s.gap           = file.read(group + "/contacts/gap");
+        for (const int status : file.read_int(group + "/contacts/status"))
+          s.status.push_back(ContactStatus(status));
+        s.window_forces = read_forces(file, group + "/window");
+        s.outline       = {file.read_vectors(group + "/outline/left"), file.read_vectors(group + "/outline/right")};
+        snapshots.push_back(std::move(s));
+      }
+    if (snapshots.empty())
+      throw std::runtime_error(h5_path + " holds no stage");
+    return snapshots;
+  }
+
+  void write_history(const std::string &csv_path, const std::vector<HistoryRow> &rows)
+  {
+    std::ostringstream out;
+    out.precision(10);
+    out << "step,time,axial_strain,stress_ratio,volumetric_strain,sxx,sxy,syx,syy,lower_fx,lower_fy,upper_fx,upper_fy,contacts,"
+           "sweeps,residual,kinetic_energy,kinetic_energy_ratio,friction_dissipation,impact_dissipation,external_work,"
+           "correction_work,energy_residual,inertial_number,max_penetration,rattlers,spin_term_share,momentum_residual,"
+           "unbalanced_force\n";
+    for (const HistoryRow &r : rows)
+      out << r.step << ',' << r.time << ',' << r.axial_strain << ',' << r.stress_ratio << ',' << r.volumetric_strain << ','
+          << r.stress(0, 0) << ',' << r.stress(0, 1) << ',' << r.stress(1, 0) << ',' << r.stress(1, 1) << ','
+          << r.lower_force.x() << ',' << r.lower_force.y() << ',' << r.upper_force.x() << ',' << r.upper_force.y() << ','
+          << r.contacts << ',' << r.sweeps << ',' << r.residual << ',' << r.kinetic_energy << ',' << r.kinetic_energy_ratio << ','
+          << r.friction_dissipation << ',' << r.impact_dissipation << ',' << r.external_work << ',' << r.correction_work << ','
+          << r.energy_residual << ',' << r.inertial_number << ',' << r.max_penetration << ',' << r.rattlers << ','
+          << r.spin_term_share << ',' << r.momentum_residual << ',' << r.unbalanced_force << '\n';
+    write_text(csv_path, out.str());
+  }
+} // namespace diptych::discrete

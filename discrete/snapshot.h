@@ -1,0 +1,71 @@
+// diptych: what the discrete panel hands over at one instant
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace diptych::discrete
+{
+  // A contact with the force it transmits. Bodies are numbered 0 .. n_grains-1 for grains, n_grains and above for platens;
+  // i is always a grain, j may be a platen. The normal points from j to i.
+  struct ContactForce
+  {
+    int             i, j;
+    Eigen::Vector2d point;  // contact point [length]
+    Eigen::Vector2d normal; // unit, from j to i
+    Eigen::Vector2d force;  // on i = impulse / step [pressure * length, unit thickness]
+  };
+
+  enum class ContactStatus : std::uint8_t
+  {
+    open,
+    sticking,
+    slipping
+  };
+
+  // Side of the sample's outline: points from the lower platen upward to the upper one.
+  struct Outline
+  {
+    std::vector<Eigen::Vector2d> left, right;
+  };
+
+  // One instant of the discrete panel. Tensors are positive in compression.
+  struct Snapshot
+  {
+    double axial_strain  = 0; // platen descent / initial height
+    double time          = 0;
+    double step          = 0; // h of the last step
+    double residual      = 0; // natural map relative to |r|, of the last step
+    double mean_diameter = 1;
+
+    // grains, n_grains entries each
+    std::vector<Eigen::Vector2d> position, displacement /* since the start of loading */, velocity;
+    std::vector<double>          rotation, spin, radius, mass;
+    std::vector<Eigen::Matrix2d> internal_moment;      // last step, spin term included [pressure * length^2]
+    std::vector<Eigen::Matrix2d> mean_internal_moment; // of window_forces, mean spin term included
+    std::vector<double>          mean_spin_term;       // mean over the window of (1/2) omega^2 I >= 0 (enters M as -1 times it)
+    std::vector<std::uint8_t>    rattler;              // 1 where the grain carries no contact force
+
+    // candidate contacts of the last step with their impulses / step; open ones carry zero force
+    std::vector<ContactForce>    contacts;
+    std::vector<double>          gap;
+    std::vector<ContactStatus>   status;
+    std::vector<Eigen::Vector2d> applied_force; // on each grain in the last step: containing action and gravity
+
+    // mean force of every pair that touched in the window since the preceding snapshot (sum of impulses / window time),
+    // placed at the pair's present contact point
+    std::vector<ContactForce> window_forces;
+    double                    window_time = 0; // 0: no window yet
+
+    // platens: lower and upper, force on the sample
+    double          lower_y = 0, upper_y = 0;
+    Eigen::Vector2d upper_platen_displacement = Eigen::Vector2d::Zero();
+    Eigen::Vector2d lower_platen_force = Eigen::Vector2d::Zero(), upper_platen_force = Eigen::Vector2d::Zero();
+
+    Outline outline;
+    double  area = 0; // of the outline [length^2]
+  };
+} // namespace diptych::discrete

@@ -1,0 +1,53 @@
+// diptych: what every contact solver takes and returns
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+
+#include "discrete/contact_problem.h"
+
+namespace diptych::discrete
+{
+  struct SolverOptions
+  {
+    std::string solver           = "psor";
+    double      tolerance        = 2e-5;
+    int         max_sweeps       = 20000;
+    double      omega_sticking   = 1.8;
+    double      omega_slipping   = 1.0;
+    int         sweeps_per_check = 20;
+  };
+
+  template <class Visitor>
+  void visit_parameters(SolverOptions &o, Visitor &&visitor)
+  {
+    visitor("solver", o.solver, "-", {"psor", "nsgs"},
+            "psor: over-relaxed Gauss-Seidel, omega by contact status; nsgs: plain Gauss-Seidel, the reference");
+    visitor("tolerance", o.tolerance, "-", {1e-14, 1.},
+            "stop of a step: natural map residual relative to |r|; keep tolerance x step / inertial number below 0.7");
+    visitor("max_sweeps", o.max_sweeps, "-", {1, 100000000},
+            "sweeps after which a step counts as not converged; the run then stops with exit code 3");
+    visitor("omega_sticking", o.omega_sticking, "-", {0.1, 1.99},
+            "psor: relaxation of sticking and open contacts; lower to 1.7 above 10000 discs or below 1e-5");
+    visitor("omega_slipping", o.omega_slipping, "-", {0.1, 1.99},
+            "psor: relaxation of contacts at their Coulomb bound; above 1 limit cycles were measured");
+    visitor("sweeps_per_check", o.sweeps_per_check, "-", {1, 10000}, "sweeps between two evaluations of the residual");
+  }
+
+  enum class SolveStatus
+  {
+    converged,
+    max_sweeps_reached
+  };
+
+  struct [[nodiscard]] SolveReport
+  {
+    SolveStatus status   = SolveStatus::converged;
+    long        sweeps   = 0;
+    double      residual = 0; // natural map, relative to |r|, measured outside the solver
+  };
+
+  // Solves in place from the given first guess (one impulse per contact). A residual that is already below the tolerance
+  // costs one check and no sweep. Throws std::invalid_argument on an unknown solver.
+  SolveReport solve(const ContactProblem &problem, const SolverOptions &options, std::vector<Impulse> &impulses);
+} // namespace diptych::discrete

@@ -1,0 +1,18 @@
+// diptych: the two kinds of sweep over all contacts
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "discrete/contact_problem.h"
+
+namespace diptych::discrete
+{
+  // One Gauss-Seidel pass in the order of the rows, omega = 1. The slow clear reference.
+  void sweep_nsgs(const ContactProblem &problem, std::vector<BodyVelocity> &v, std::vector<Impulse> &impulses);
+
+  // One projected over-relaxed pass; a contact at its Coulomb bound (judged on its old impulse) takes omega_slipping.
+  void sweep_psor(const ContactProblem      &problem,
+                  double                     omega_sticking,
+                  double                     omega_slipping,
+                  std::vector<BodyVelocity> &v,
+                  std::vector<Impulse>      &impulses);
+} // namespace diptych::discrete

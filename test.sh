@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# Installs what is missing (Debian 12), builds Release and runs the tests.
+#   ./test.sh         all but the long ones (label slow)
+#   ./test.sh --all   the long ones too
+#   ./test.sh debug | sanitize   the same on another preset of CMakePresets.json
+set -euo pipefail
+cd "$(dirname "$0")"
+source ./.build.sh
+
+preset=release
+select=(-LE slow)
+for word in "$@"; do
+  case "$word" in
+    --all) select=() ;;
+    release | debug | sanitize) preset=$word ;;
+    *) echo "usage: ./test.sh [--all] [release|debug|sanitize]" >&2; exit 2 ;;
+  esac
+done
+install_missing "${test_packages[@]}"
+build "$preset" all
+ctest --test-dir build/"$preset" --output-on-failure -j "$(nproc)" "${select[@]}"

@@ -1,0 +1,106 @@
+// diptych: the small scenes that several tests start from
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "discrete/panel.h"
+
+namespace diptych::tests
+{
+  using namespace diptych::discrete;
+
+  // Plain Gauss-Seidel to round-off, no lateral action, no friction but what a test sets.
+  inline StepSetting exact_setting(const double step)
+  {
+    StepSetting setting;
+    setting.time.step        = step;
+    setting.law              = {0., 0., 0., 0.};
+    setting.solver.solver    = "nsgs";
+    setting.solver.tolerance = 1e-14;
+    setting.solver.max_sweeps = 100000;
+    setting.lateral.lateral  = "none";
+    return setting;
+  }
+
+  inline State disc_on_floor(const Eigen::Vector2d &velocity, const double radius = 0.5)
+  {
+    State state;
+    state.walls = {{{0, 0}, {0, 1}}};
+    add_grain(state.grains, {0, radius}, radius, 1.);
+    state.grains.velocity[0] = velocity;
+    return state;
+  }
+
+  // A disc whose gap to the floor is zero at mid-step, where contacts are looked for.
+  inline State touching_at_mid_step(const Eigen::Vector2d &velocity, const double step)
+  {
+    State state = disc_on_floor(velocity);
+    state.grains.position[0] -= 0.5 * step * velocity;
+    return state;
+  }
+
+  // n equal discs along x with the given gaps; the first moves at speed 1 towards the others.
+  inline State row_of_discs(const int n, const double gap)
+  {
+    State state;
+    for (int k = 0; k < n; ++k)
+      add_grain(state.grains, {k * (1 + gap), 0}, 0.5, 1.);
+    state.grains.velocity[0] = {1, 0};
+    return state;
+  }
+
+  // A sample that is prepared within a second.
+  inline SampleOptions small_sample(const int grains = 300, const int seed = 1)
+  {
+    SampleOptions options;
+    options.grains = grains;
+    options.seed   = seed;
+    return options;
+  }
+
+  inline Loading short_loading()
+  {
+    Loading loading;
+    loading.inertial_number = 1e-3;
+    loading.stages          = {0.005, 0.01};
+    return loading;
+  }
+
+  inline Options quick_options()
+  {
+    Options options;
+    options.time.step        = 0.1;
+    options.solver.tolerance = 1e-4;
+    return options;
+  }
+
+  // A sheared state and the result of the step that led to it, both for tests that need a real packing.
+  struct ShearedSample
+  {
+    State       before, state;
+    StepSetting setting;
+    StepResult  result;
+  };
+
+  inline ShearedSample sheared_sample()
+  {
+    PreparedSample sample = prepare_sample(small_sample(), {}, {}, 1., [](int, int) { return true; });
+    ShearedSample  sheared;
+    sheared.setting                  = {{}, {}, {}, {}, 1., 1.};
+    sheared.setting.time.step        = 0.1;
+    sheared.setting.solver.tolerance = 1e-5;
+    // Affine start: an impulsive one on a packed sample is much harder to solve.
+    const Eigen::Vector2d velocity(0.02, -0.02);
+    sample.state.walls[1].velocity = velocity;
+    for (std::size_t i = 0; i < sample.state.grains.size(); ++i)
+      sample.state.grains.velocity[i] = velocity * sample.state.grains.position[i].y() / sample.state.walls[1].point.y();
+    for (int k = 0; k < 20; ++k)
+      {
+        sheared.before = sample.state;
+        sheared.result = advance(sample.state, sheared.setting);
+        if (sheared.result.solve.status != SolveStatus::converged)
+          throw std::runtime_error("the sheared sample did not converge");
+      }
+    sheared.state = sample.state;
+    return sheared;
+  }
+} // namespace diptych::tests
