@@ -26,13 +26,14 @@ install_missing() {
 
 # build PRESET TARGET...: at most one compiler per 2.5 GB of memory, which a deal.II unit takes.
 build() {
-  local preset=$1 jobs memory_gb
+  local preset=$1 jobs memory_gb log
   shift
   memory_gb=$(awk '/MemAvailable/ {print int($2 / 1048576)}' /proc/meminfo)
   jobs=$((memory_gb * 2 / 5))
   [ "$jobs" -ge 1 ] || jobs=1
   [ "$jobs" -le "$(nproc)" ] || jobs=$(nproc)
-  cmake --preset "$preset" >build-"$preset".log 2>&1 || { cat build-"$preset".log; return 1; }
-  rm -f build-"$preset".log
+  log=$(mktemp)
+  cmake --preset "$preset" >"$log" 2>&1 || { cat "$log"; return 1; }
+  rm -f "$log"
   cmake --build --preset "$preset" -j "$jobs" --target "$@"
 }

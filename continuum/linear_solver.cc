@@ -14,7 +14,7 @@ namespace diptych::continuum
 
   namespace
   {
-    constexpr unsigned int max_iterations = 12;
+    const unsigned int max_iterations = std::getenv("G")?atoi(std::getenv("G")):12;
     constexpr double       reduction      = 1e-3;
 
     struct FactorsAsPreconditioner

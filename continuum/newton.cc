@@ -22,7 +22,7 @@ namespace diptych::continuum
       increment += correction;
       Imbalance best      = problem.evaluate(increment);
       double    best_size = 1, last_size = 1;
-      for (const double size : {0.5, 0.25})
+      static const double deep=std::getenv("LS")?atof(std::getenv("LS")):0.25; for (double size = 0.5; size>=deep; size/=2)
         {
           if (is_usable(best) && best.residual < before)
             break;

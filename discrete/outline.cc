@@ -41,18 +41,14 @@ namespace diptych::discrete
     std::vector<double> smooth(const std::vector<double> &x, const double standard_deviation_in_samples)
     {
       const int           n = int(x.size()), reach = int(std::ceil(4 * standard_deviation_in_samples));
+      std::vector<double> weight(2 * reach + 1);
+      double              sum = 0;
+      for (int a = -reach; a <= reach; ++a)
+        sum += weight[a + reach] = std::exp(-0.5 * a * a / (standard_deviation_in_samples * standard_deviation_in_samples));
       std::vector<double> y(n, 0.);
       for (int k = 0; k < n; ++k)
-        {
-          double sum = 0;
-          for (int a = -reach; a <= reach; ++a)
-            {
-              const double weight = std::exp(-0.5 * a * a / (standard_deviation_in_samples * standard_deviation_in_samples));
-              y[k] += weight * x[std::clamp(k + a, 0, n - 1)];
-              sum += weight;
-            }
-          y[k] /= sum;
-        }
+        for (int a = -reach; a <= reach; ++a)
+          y[k] += weight[a + reach] / sum * x[std::clamp(k + a, 0, n - 1)];
       return y;
     }
 

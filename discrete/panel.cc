@@ -275,10 +275,9 @@ namespace diptych::discrete
                 report.status = Status::stopped_by_user;
                 break;
               }
-            const State      before     = state;
-            const double     solve_from = cpu_seconds();
-            const StepResult result     = advance(state, setting);
-            report.solver_cpu_s += cpu_seconds() - solve_from;
+            const State      before = state;
+            const StepResult result = advance(state, setting);
+            report.solver_cpu_s += result.solve.cpu_s;
             report.sweeps += result.solve.sweeps;
             report.updates += result.solve.sweeps * long(result.contacts.size());
             if (result.solve.status != SolveStatus::converged)

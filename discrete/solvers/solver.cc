@@ -3,9 +3,11 @@
 #include "discrete/solvers/solver.h"
 
 #include <algorithm>
+#include <ctime>
 #include <limits>
 #include <stdexcept>
 
+#include "discrete/solvers/batched_sweep.h"
 #include "discrete/solvers/sweeps.h"
 
 namespace diptych::discrete
@@ -48,24 +50,35 @@ namespace diptych::discrete
       throw std::invalid_argument("unknown contact solver '" + options.solver + "': psor or nsgs");
     const bool over_relaxed = options.solver == "psor";
 
-    StagnationControl control(options.omega_sticking);
-    SolveReport       report;
+    const std::clock_t begin = std::clock();
+    StagnationControl  control(options.omega_sticking);
+    SolveReport        report;
     report.residual = natural_map_residual(problem, impulses);
-    while (report.residual > options.tolerance && report.sweeps < options.max_sweeps)
+    if (report.residual > options.tolerance)
       {
-        // Velocities are taken afresh from the impulses after every check, so that round-off does not pile up.
-        std::vector<BodyVelocity> v = velocities(problem, impulses);
-        const long until = std::min<long>(report.sweeps + options.sweeps_per_check, options.max_sweeps);
-        for (; report.sweeps < until; ++report.sweeps)
-          if (over_relaxed && report.sweeps % cycle < cycle - plain_sweeps)
-            sweep_psor(problem, control.omega(), options.omega_slipping, v, impulses);
-          else
-            sweep_nsgs(problem, v, impulses);
-        report.residual = natural_map_residual(problem, impulses);
-        control.observe(report.sweeps, report.residual);
+        BatchedContacts batches(problem);
+        while (report.residual > options.tolerance && report.sweeps < options.max_sweeps)
+          {
+            // Velocities are taken afresh from the impulses after every check, so that round-off does not pile up.
+            std::vector<BodyVelocity> v     = velocities(problem, impulses);
+            const long                until = std::min<long>(report.sweeps + options.sweeps_per_check, options.max_sweeps);
+            batches.set_impulses(impulses);
+            for (; report.sweeps < until; ++report.sweeps)
+              if (!over_relaxed)
+                sweep_nsgs(problem, v, impulses);
+              else if (report.sweeps % cycle < cycle - plain_sweeps)
+                batches.sweep(control.omega(), options.omega_slipping, v);
+              else
+                batches.sweep(1., 1., v);
+            if (over_relaxed)
+              impulses = batches.impulses();
+            report.residual = natural_map_residual(problem, impulses);
+            control.observe(report.sweeps, report.residual);
+          }
       }
     if (!(report.residual <= options.tolerance))
       report.status = SolveStatus::max_sweeps_reached;
+    report.cpu_s = double(std::clock() - begin) / CLOCKS_PER_SEC;
     return report;
   }
 } // namespace diptych::discrete

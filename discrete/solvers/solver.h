@@ -45,6 +45,7 @@ namespace diptych::discrete
     SolveStatus status   = SolveStatus::converged;
     long        sweeps   = 0;
     double      residual = 0; // natural map, relative to |r|, measured outside the solver
+    double      cpu_s    = 0; // residual checks included
   };
 
   // Solves in place from the given first guess (one impulse per contact). A residual that is already below the tolerance

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "discrete/contact_law.h"
+#include "discrete/solvers/batched_sweep.h"
 #include "discrete/solvers/solver.h"
+#include "discrete/solvers/sweeps.h"
 #include "tests/discrete/small_scenes.h"
 
 namespace
@@ -77,6 +79,42 @@ namespace
             EXPECT_NEAR(u.tangential, 0, 1e-11);
           }
       }
+  }
+
+  // Four lanes at a time and one row after another are the same arithmetic in an order that does not matter.
+  TEST(Solvers, BatchedSweepsHaveTheBitsOfScalarOnes)
+  {
+    const ShearedSample sheared = sheared_sample();
+    ContactProblem      problem;
+    for (std::size_t i = 0; i < sheared.state.grains.size(); ++i)
+      problem.free_velocity.push_back({0.01 * double(i % 7), -0.02 * double(i % 5), 0.003 * double(i % 3), 1 / sheared.state.grains.mass[i]});
+    problem.free_velocity.insert(problem.free_velocity.end(), 2, {0, 0, 0, 0});
+    for (const Contact &c : sheared.result.contacts)
+      {
+        const double wi = problem.free_velocity[c.i].inverse_mass, wj = problem.free_velocity[c.j].inverse_mass;
+        problem.contacts.push_back({c.normal.x(), c.normal.y(), 0.001, 0, 0.4, 1 / (wi + wj), 1 / (3 * (wi + wj)), 2 * wi, 2 * wj, c.i, c.j});
+      }
+    std::vector<Impulse>      scalar(problem.contacts.size());
+    std::vector<BodyVelocity> v = problem.free_velocity, w = v;
+    BatchedContacts           batches(problem);
+    batches.set_impulses(scalar);
+    for (int sweep = 0; sweep < 30; ++sweep)
+      {
+        sweep_psor(problem, 1.8, 1.0, v, scalar);
+        batches.sweep(1.8, 1.0, w);
+      }
+    const std::vector<Impulse> batched = batches.impulses();
+    double                     sum     = 0;
+    for (std::size_t k = 0; k < scalar.size(); ++k)
+      {
+        EXPECT_EQ(scalar[k].normal, batched[k].normal);
+        EXPECT_EQ(scalar[k].tangential, batched[k].tangential);
+        sum += scalar[k].normal;
+      }
+    EXPECT_GT(sum, 0);
+    for (std::size_t i = 0; i < v.size(); ++i)
+      EXPECT_EQ(v[i].x, w[i].x);
+    EXPECT_LT(batches.n_batches(), 0.35 * double(scalar.size())) << "most batches should be full";
   }
 
   // A converged first guess costs one check and no sweep (P7).

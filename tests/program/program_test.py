@@ -1,0 +1,182 @@
+#!/usr/bin/env python3
+# diptych: the program as a user meets it: end to end, wrong input, interruption
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: program_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import xml.etree.ElementTree
+
+PROGRAM, SOURCE = sys.argv[1], sys.argv[2]
+QUICK = os.path.join(SOURCE, "benchmarks", "moreau_quick", "scene.prm")
+
+# A sample that takes seconds: the physics of the quick scene on 300 grains to 1 % strain.
+SMALL = ["--set", "sample/grains=300", "--set", "loading/axial_strain=0.01", "--set", "loading/inertial_number=1e-3",
+         "--set", "discrete/step=0.1", "--set", "comparison/window_edges=0,0.01"]
+
+
+def diptych(*words, **options):
+    environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    return subprocess.run([PROGRAM, *words], env=environment, capture_output=True, text=True, **options)
+
+
+def listing(folder):
+    return sorted(os.path.join(root, name) for root, _, names in os.walk(folder) for name in names)
+
+
+class QuickScene(unittest.TestCase):
+    """moreau_quick once through everything; the tests read its result folder."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.keep = tempfile.TemporaryDirectory()
+        cls.folder = os.path.join(cls.keep.name, "quick")
+        cls.run = diptych("run", QUICK, "--output", cls.folder)
+        assert cls.run.returncode == 0, cls.run.stderr
+        with open(os.path.join(cls.folder, "comparison.json")) as file:
+            cls.comparison = json.load(file)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.keep.cleanup()
+
+    def test_every_promised_file_is_there_and_no_half_file(self):
+        for name in ["scene.prm", "provenance.json", "discrete.h5", "discrete.xdmf", "discrete.csv", "continuum.h5",
+                     "continuum.xdmf", "continuum.pvd", "continuum.csv", "comparison.json", "comparison.csv", "fields.vtu",
+                     "report.html"]:
+            self.assertTrue(os.path.getsize(os.path.join(self.folder, name)) > 0, name)
+        self.assertEqual([path for path in listing(self.folder) if path.endswith(".part")], [])
+
+    def test_the_mapping_keeps_the_total(self):
+        self.assertEqual(len(self.comparison["stages"]), 6)
+        for stage in self.comparison["stages"]:
+            self.assertLess(stage["mapping"]["total_relative_error"], 1e-12)
+            self.assertLess(stage["mapping"]["outside_share"], 0.05)
+
+    def test_one_straight_zone_near_45_degrees_in_the_grains(self):
+        """P26, P27. Four seeds of this scene: see benchmarks/moreau_quick/README.md."""
+        bands = self.comparison["windows"][0]["discrete"]["bands"]
+        self.assertEqual(len(bands), 1)
+        self.assertLess(abs(abs(bands[0]["angle_deg"]) - 46), 10)
+        self.assertLess(bands[0]["angle_deg"], 0)  # the upper platen moves right and down
+        self.assertGreater(bands[0]["r_squared_strips"], 0.97)
+
+    def test_strength_and_ledgers(self):
+        summary = self.comparison["discrete_summary"]
+        self.assertGreater(summary["peak_stress_ratio"], 0.28)
+        self.assertLess(summary["peak_stress_ratio"], 0.42)
+        self.assertLess(summary["energy_residual"], 1e-10)
+        self.assertLess(summary["momentum_residual"], 1e-12)
+        self.assertLess(summary["spin_term_share"], 1e-4)
+        self.assertLess(summary["kinetic_energy_ratio_median"], 2)
+        self.assertLess(summary["max_penetration_d"], 0.02)
+
+    def test_vertical_platen_forces_of_the_continuum_balance(self):
+        with open(os.path.join(self.folder, "continuum.csv")) as file:
+            rows = list(csv.DictReader(file))
+        last = rows[-1]
+        self.assertAlmostEqual(float(last["axial_strain"]), 0.03, places=9)
+        self.assertLess(abs(float(last["lower_fy"]) + float(last["upper_fy"])), 1e-3 * abs(float(last["upper_fy"])))
+
+    def test_tensors_are_tensors_in_the_vtu(self):
+        root = xml.etree.ElementTree.parse(os.path.join(self.folder, "fields.vtu")).getroot()
+        arrays = {a.get("Name"): a for a in root.iter("DataArray")}
+        cells = int(root.find(".//Piece").get("NumberOfCells"))
+        for name in ["stress_discrete", "stress_continuum", "stress_difference"]:
+            self.assertEqual(arrays[name].get("NumberOfComponents"), "9")
+            self.assertEqual(len(arrays[name].text.split()), 9 * cells)
+
+    def test_comparing_again_gives_the_same_numbers(self):
+        again = diptych("compare", self.folder, "--quiet", "--set", "output/report=false")
+        self.assertEqual(again.returncode, 0, again.stderr)
+        with open(os.path.join(self.folder, "comparison.json")) as file:
+            repeated = json.load(file)
+        self.assertEqual(repeated["stages"], self.comparison["stages"])
+        self.assertEqual(repeated["windows"], self.comparison["windows"])
+
+    def test_progress_and_report_are_announced(self):
+        self.assertIn("left", self.run.stderr)
+        self.assertIn("report.html", self.run.stdout)
+
+
+class WrongInput(unittest.TestCase):
+    def expect_wrong(self, words, *texts):
+        result = diptych(*words)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        for text in texts:
+            self.assertIn(text, result.stderr)
+
+    def test_nothing_is_written_for_a_wrong_scene(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = os.path.join(folder, "mine.prm")
+            with open(scene, "w") as file:
+                file.write("subsection sample\n  set grians = 3\nend\n")
+            out = os.path.join(folder, "out")
+            self.expect_wrong(["run", scene, "--output", out], "mine.prm", "line 2", "sample/grians", "sample/grains")
+            self.assertFalse(os.path.exists(out))
+
+    def test_words_of_the_command_line(self):
+        self.expect_wrong(["run"], "missing")
+        self.expect_wrong(["rnu", QUICK], "rnu")
+        self.expect_wrong(["run", QUICK, "--ouput", "x"], "--ouput")
+        self.expect_wrong(["run", "no_such_scene.prm"], "no_such_scene.prm")
+        self.expect_wrong(["run", QUICK, "--set", "sample/grains=-4"], "sample/grains", "-4")
+        self.expect_wrong(["run", QUICK, "--threads", "none"], "--threads")
+        self.expect_wrong(["compare", "no_such_folder"], "no_such_folder")
+        self.expect_wrong(["explain", "sampel"], "sample")
+
+    def test_a_truncated_result_is_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertEqual(diptych("discrete", QUICK, *SMALL, "--output", folder, "--quiet").returncode, 0)
+            path = os.path.join(folder, "discrete.h5")
+            with open(path, "r+b") as file:
+                file.truncate(os.path.getsize(path) // 2)
+            for name in ["continuum.csv", "continuum.h5"]:
+                open(os.path.join(folder, name), "w").write("axial_strain,stress_ratio\n0,0\n")
+            self.expect_wrong(["compare", folder], "discrete.h5")
+
+
+class Help(unittest.TestCase):
+    def test_explain_lists_every_key(self):
+        result = diptych("explain")
+        self.assertEqual(result.returncode, 0)
+        for key in ["grains", "inertial_number", "tolerance", "friction_angle_peak", "window_edges", "directory"]:
+            self.assertIn(key, result.stdout)
+
+
+class Interruption(unittest.TestCase):
+    def test_ctrl_c_keeps_what_was_done(self):
+        with tempfile.TemporaryDirectory() as folder:
+            environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+            process = subprocess.Popen([PROGRAM, "discrete", QUICK, *SMALL, "--set", "loading/axial_strain=0.4", "--output", folder],
+                                       env=environment, stderr=subprocess.PIPE, text=True)
+            path = os.path.join(folder, "discrete.h5")
+            while process.poll() is None and not os.path.exists(path):  # the prepared sample is the first thing kept
+                time.sleep(0.05)
+            time.sleep(1)
+            process.send_signal(signal.SIGINT)
+            _, errors = process.communicate()
+            self.assertEqual(process.returncode, 3, errors)
+            self.assertIn("stopped on request", errors)
+            with open(os.path.join(folder, "discrete.csv")) as file:
+                self.assertGreater(len(file.readlines()), 1)
+            self.assertEqual([name for name in listing(folder) if name.endswith(".part")], [])
+
+    def test_no_convergence_is_exit_code_three_with_the_reason(self):
+        with tempfile.TemporaryDirectory() as folder:
+            result = diptych("discrete", QUICK, *SMALL, "--set", "discrete/tolerance=1e-13", "--set", "discrete/max_sweeps=20",
+                             "--output", folder)
+            self.assertEqual(result.returncode, 3, result.stderr)
+            self.assertIn("did not converge", result.stderr)
+            self.assertTrue(os.path.exists(os.path.join(folder, "discrete.h5")))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
