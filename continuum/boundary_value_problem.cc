@@ -127,8 +127,9 @@ namespace diptych::continuum
 
   // The pressure acts on the projected height: f_a = +-P int N_a dy along the edge. With y quadratic in xi the integrand
   // is cubic, so that two Gauss points are exact.
-  void BoundaryValueProblem::set_lateral_load(const double share)
+  void BoundaryValueProblem::set_lateral_load(const DistributedVector &increment, const double share)
   {
+    const auto u = relevant_values(increment);
     for (std::size_t i = 0; i < external.size(); ++i)
       external[i] = (1 - share) * initial_internal_force[i];
     for (const auto &edge : mesh.sides)
@@ -137,7 +138,10 @@ namespace diptych::continuum
           const std::array<double, 3> value{xi * (xi - 1) / 2, xi * (xi + 1) / 2, 1 - xi * xi}, slope{xi - 0.5, xi + 0.5, -2 * xi};
           double                      dy = 0;
           for (unsigned int k = 0; k < 3; ++k)
-            dy += slope[k] * (mesh.node_position[edge.nodes[k]].y() + committed_displacement[mesh.node_local_dofs[edge.nodes[k]][1]]);
+            {
+              const unsigned int dof = mesh.node_local_dofs[edge.nodes[k]][1];
+              dy += slope[k] * (mesh.node_position[edge.nodes[k]].y() + committed_displacement[dof] + u[dof]);
+            }
           for (unsigned int k = 0; k < 3; ++k)
             external[mesh.node_local_dofs[edge.nodes[k]][0]] += share * edge.inward * pressure * value[k] * dy;
         }

@@ -38,9 +38,9 @@ namespace diptych::continuum
     // Displacement increment that moves the platens by `d_axial_strain` and nothing else.
     DistributedVector platen_increment(double d_axial_strain) const;
 
-    // Lateral load from the committed positions. `share` < 1 mixes it with the load that the initial stress balances
-    // by itself, which lets a wavy outline be brought to equilibrium gradually.
-    void set_lateral_load(double share = 1);
+    // Lateral load at the positions that the increment leads to; kept through the iterations of a step. `share` < 1 mixes
+    // it with the load that the initial stress balances by itself, which lets a wavy outline find equilibrium gradually.
+    void set_lateral_load(const DistributedVector &increment, double share = 1);
 
     // Trial state: committed + increment, the law called at every point.
     Imbalance evaluate(const DistributedVector &increment);

@@ -41,7 +41,7 @@ namespace diptych::continuum
       {
         const double target = std::min(1., share + d_share);
         auto         increment = problem.zero_vector();
-        problem.set_lateral_load(target);
+        problem.set_lateral_load(increment, target);
         const auto report = attempt(increment);
         if (report.converged)
           {
@@ -82,9 +82,10 @@ namespace diptych::continuum
         const double remaining = axial_strain - problem.axial_strain();
         const double n_steps   = std::ceil(remaining / step * (1 - 1e-9));
         const double size      = remaining / n_steps;
-        problem.set_lateral_load();
-        auto       increment = predict(size);
-        const auto report    = attempt(increment);
+        auto         increment = predict(size);
+        // At the committed positions instead, the load would jump by a whole step however small the present one is.
+        problem.set_lateral_load(increment);
+        const auto report = attempt(increment);
         if (!report.converged)
           {
             step = size / 2;

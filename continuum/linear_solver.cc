@@ -15,7 +15,7 @@ namespace diptych::continuum
   namespace
   {
     const unsigned int max_iterations = std::getenv("G")?atoi(std::getenv("G")):12;
-    constexpr double       reduction      = 1e-3;
+    const double       reduction      = std::getenv("RED")?atof(std::getenv("RED")):1e-3; const unsigned slow=std::getenv("SLOW")?atoi(std::getenv("SLOW")):100;
 
     struct FactorsAsPreconditioner
     {
@@ -57,6 +57,7 @@ namespace diptych::continuum
         return false;
       }
     n_iterations += control.last_step();
+    if (control.last_step()>slow) factors.reset();
     return std::isfinite(x.l2_norm());
   }
 
