@@ -47,7 +47,10 @@ namespace diptych::continuum
     }
 
     // force += B^T stress weight
-    void add_stress(const CellGeometry &cell, const unsigned int q, const SymmetricTensor<2, 2> &stress, std::vector<double> &force)
+    void add_stress(const CellGeometry          &cell,
+                    const unsigned int           q,
+                    const SymmetricTensor<2, 2> &stress,
+                    std::vector<double>         &force)
     {
       for (unsigned int node = 0; node < nodes_per_cell; ++node)
         {
@@ -86,15 +89,15 @@ namespace diptych::continuum
   } // namespace
 
   BoundaryValueProblem::BoundaryValueProblem(const std::string &msh_file, const Loading &loading, const Law &law)
-    : mesh(msh_file, loading.platens == "rough")
-    , law(law)
-    , pressure(loading.pressure)
-    , platen_travel(loading.upper_platen_travel)
-    , committed(mesh.cells.size() * points_per_cell)
-    , trial(committed.size())
-    , committed_displacement(mesh.relevant.n_elements(), 0.)
-    , trial_increment(committed_displacement)
-    , external(committed_displacement)
+      : mesh(msh_file, loading.platens == "rough"),
+        law(law),
+        pressure(loading.pressure),
+        platen_travel(loading.upper_platen_travel),
+        committed(mesh.cells.size() * points_per_cell),
+        trial(committed.size()),
+        committed_displacement(mesh.relevant.n_elements(), 0.),
+        trial_increment(committed_displacement),
+        external(committed_displacement)
   {
     for (auto &point : committed)
       {
@@ -102,7 +105,8 @@ namespace diptych::continuum
         point.stress_zz = -pressure;
       }
     TrilinosWrappers::SparsityPattern pattern(mesh.owned, mesh.owned, mesh.relevant, MPI_COMM_WORLD);
-    DoFTools::make_sparsity_pattern(mesh.dof_handler, pattern, mesh.constraints, false, Utilities::MPI::this_mpi_process(MPI_COMM_WORLD));
+    DoFTools::make_sparsity_pattern(mesh.dof_handler, pattern, mesh.constraints, false,
+                                    Utilities::MPI::this_mpi_process(MPI_COMM_WORLD));
     pattern.compress();
     matrix.reinit(pattern);
 
@@ -125,25 +129,25 @@ namespace diptych::continuum
     return increment;
   }
 
-  // The pressure acts on the projected height: f_a = +-P int N_a dy along the edge. With y quadratic in xi the integrand
-  // is cubic, so that two Gauss points are exact.
-  void BoundaryValueProblem::set_lateral_load(const DistributedVector &increment, const double share)
+  // f_a = +-P (1 - eps_axial) int N_a dy along the edge, y of the initial mesh: the total is the pressure times the current
+  // height, spread as on the initial side. The moved y of the edge itself would be wrong in small strain: where a band
+  // leaves the sample it folds over as soon as the jump exceeds an element, and the pressure would pull there. The integrand
+  // is cubic in the edge's own coordinate, so that two Gauss points are exact.
+  void BoundaryValueProblem::set_lateral_load(const double axial_strain, const double share)
   {
-    const auto u = relevant_values(increment);
     for (std::size_t i = 0; i < external.size(); ++i)
       external[i] = (1 - share) * initial_internal_force[i];
     for (const auto &edge : mesh.sides)
       for (const double xi : {-1 / std::sqrt(3.), 1 / std::sqrt(3.)})
         {
-          const std::array<double, 3> value{xi * (xi - 1) / 2, xi * (xi + 1) / 2, 1 - xi * xi}, slope{xi - 0.5, xi + 0.5, -2 * xi};
-          double                      dy = 0;
+          const std::array<double, 3> value{xi * (xi - 1) / 2, xi * (xi + 1) / 2, 1 - xi * xi},
+            slope{xi - 0.5, xi + 0.5, -2 * xi};
+          double dy = 0;
           for (unsigned int k = 0; k < 3; ++k)
-            {
-              const unsigned int dof = mesh.node_local_dofs[edge.nodes[k]][1];
-              dy += slope[k] * (mesh.node_position[edge.nodes[k]].y() + committed_displacement[dof] + u[dof]);
-            }
+            dy += slope[k] * mesh.node_position[edge.nodes[k]].y();
           for (unsigned int k = 0; k < 3; ++k)
-            external[mesh.node_local_dofs[edge.nodes[k]][0]] += share * edge.inward * pressure * value[k] * dy;
+            external[mesh.node_local_dofs[edge.nodes[k]][0]] += share * edge.inward * pressure * (1 - axial_strain) * value[k] *
+                                                                dy;
         }
   }
 
@@ -168,8 +172,7 @@ namespace diptych::continuum
     return vector;
   }
 
-  template <class L>
-  void BoundaryValueProblem::update_points(const L &chosen_law, const std::vector<double> &increment)
+  template <class L> void BoundaryValueProblem::update_points(const L &chosen_law, const std::vector<double> &increment)
   {
     for (std::size_t c = 0; c < mesh.cells.size(); ++c)
       {

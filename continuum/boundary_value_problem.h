@@ -38,9 +38,9 @@ namespace diptych::continuum
     // Displacement increment that moves the platens by `d_axial_strain` and nothing else.
     DistributedVector platen_increment(double d_axial_strain) const;
 
-    // Lateral load at the positions that the increment leads to; kept through the iterations of a step. `share` < 1 mixes
-    // it with the load that the initial stress balances by itself, which lets a wavy outline find equilibrium gradually.
-    void set_lateral_load(const DistributedVector &increment, double share = 1);
+    // Lateral load at an axial strain; kept through the iterations of a step. `share` < 1 mixes it with the load that the
+    // initial stress balances by itself, which lets a wavy outline find equilibrium gradually.
+    void set_lateral_load(double axial_strain, double share = 1);
 
     // Trial state: committed + increment, the law called at every point.
     Imbalance evaluate(const DistributedVector &increment);
@@ -57,22 +57,21 @@ namespace diptych::continuum
     // The trial state becomes the committed one.
     void commit(double axial_strain);
 
-    const Discretisation              &discretisation() const { return mesh; }
-    const std::vector<MaterialState>  &points() const { return committed; }      // points_per_cell per cell
-    const std::vector<double>         &displacement() const { return committed_displacement; } // relevant dofs
-    double                             axial_strain() const { return committed_axial_strain; }
-    Eigen::Vector2d                    platen_force(bool upper) const { return committed_platen_force[upper]; } // on the sample
-    double                             yielding_share() const { return committed_yielding_share; } // of the initial area, in the last step
-    double                             assembly_cpu_s() const { return cpu_s; }
+    const Discretisation             &discretisation() const { return mesh; }
+    const std::vector<MaterialState> &points() const { return committed; }                    // points_per_cell per cell
+    const std::vector<double>        &displacement() const { return committed_displacement; } // relevant dofs
+    double                            axial_strain() const { return committed_axial_strain; }
+    Eigen::Vector2d                   platen_force(bool upper) const { return committed_platen_force[upper]; } // on the sample
+    double yielding_share() const { return committed_yielding_share; } // of the initial area, in the last step
+    double assembly_cpu_s() const { return cpu_s; }
 
   private:
-    std::vector<double>  relevant_values(const DistributedVector &vector) const;
-    std::vector<double>  internal_force() const;
-    DistributedVector    assembled(const std::vector<double> &local) const;
-    Eigen::Vector2d      trial_platen_force(bool upper) const;
-    double               trial_yielding_share() const;
-    template <class L>
-    void                 update_points(const L &law, const std::vector<double> &increment);
+    std::vector<double>     relevant_values(const DistributedVector &vector) const;
+    std::vector<double>     internal_force() const;
+    DistributedVector       assembled(const std::vector<double> &local) const;
+    Eigen::Vector2d         trial_platen_force(bool upper) const;
+    double                  trial_yielding_share() const;
+    template <class L> void update_points(const L &law, const std::vector<double> &increment);
 
     Discretisation                         mesh;
     Law                                    law;
@@ -82,10 +81,10 @@ namespace diptych::continuum
     std::vector<MaterialUpdate>            trial;
     std::vector<double>                    committed_displacement, trial_increment; // relevant dofs
     std::vector<double>                    external, initial_internal_force;        // relevant dofs, this process's part
-    DistributedVector                      nodal_force, rhs;                        // internal - external; its negative on free dofs
+    DistributedVector                      nodal_force, rhs; // internal - external; its negative on free dofs
     dealii::TrilinosWrappers::SparseMatrix matrix;
     double                                 committed_axial_strain = 0, committed_yielding_share = 0;
-    std::array<Eigen::Vector2d, 2>         committed_platen_force{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}; // lower, upper
-    double                                 cpu_s = 0;
+    std::array<Eigen::Vector2d, 2> committed_platen_force{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}; // lower, upper
+    double                         cpu_s = 0;
   };
 } // namespace diptych::continuum

@@ -33,8 +33,7 @@ namespace diptych::continuum
     }
 
     // Calls action(cell's index in `cells`, cell, edge number) for every edge on the outer boundary of a locally owned cell.
-    template <class Action>
-    void for_boundary_edges(const DoFHandler<2> &dof_handler, Action &&action)
+    template <class Action> void for_boundary_edges(const DoFHandler<2> &dof_handler, Action &&action)
     {
       unsigned int index = 0;
       for (const auto &cell : dof_handler.active_cell_iterators())
@@ -49,9 +48,9 @@ namespace diptych::continuum
   } // namespace
 
   Discretisation::Discretisation(const std::string &msh_file, const bool rough)
-    : triangulation(MPI_COMM_WORLD)
-    , element(FE_Q<2>(2), 2)
-    , dof_handler(triangulation)
+      : triangulation(MPI_COMM_WORLD),
+        element(FE_Q<2>(2), 2),
+        dof_handler(triangulation)
   {
     GridIn<2> reader;
     reader.attach_triangulation(triangulation);
@@ -82,10 +81,10 @@ namespace diptych::continuum
 
   void Discretisation::number_nodes()
   {
-    std::vector<types::global_dof_index>                    dofs(dofs_per_cell);
-    std::map<types::global_dof_index, unsigned int>         node_of_dof; // keyed by the x component
-    const auto                                             &points  = element.base_element(0).get_unit_support_points();
-    const Mapping<2>                                       &mapping = get_default_linear_mapping(triangulation);
+    std::vector<types::global_dof_index>            dofs(dofs_per_cell);
+    std::map<types::global_dof_index, unsigned int> node_of_dof; // keyed by the x component
+    const auto                                     &points  = element.base_element(0).get_unit_support_points();
+    const Mapping<2>                               &mapping = get_default_linear_mapping(triangulation);
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         {
@@ -108,7 +107,8 @@ namespace diptych::continuum
             }
           cells.push_back(geometry);
         }
-    const auto [low, high] = std::minmax_element(node_position.begin(), node_position.end(), [](const auto &a, const auto &b) { return a.y() < b.y(); });
+    const auto [low, high] = std::minmax_element(node_position.begin(), node_position.end(),
+                                                 [](const auto &a, const auto &b) { return a.y() < b.y(); });
     height                 = high->y() - low->y();
   }
 
@@ -178,7 +178,8 @@ namespace diptych::continuum
       if (id != left_side && id != right_side)
         return;
       const auto &nodes = cells[index].nodes;
-      SideEdge    edge{{nodes[edge_nodes[face][0]], nodes[edge_nodes[face][1]], nodes[edge_nodes[face][2]]}, id == left_side ? 1. : -1.};
+      SideEdge    edge{{nodes[edge_nodes[face][0]], nodes[edge_nodes[face][1]], nodes[edge_nodes[face][2]]},
+                    id == left_side ? 1. : -1.};
       if (node_position[edge.nodes[0]].y() > node_position[edge.nodes[1]].y())
         std::swap(edge.nodes[0], edge.nodes[1]);
       sides.push_back(edge);

@@ -24,11 +24,11 @@ namespace diptych::continuum
   // Its dofs are ordered 2 * node + component; nodes in deal.II's order of FE_Q(2).
   struct CellGeometry
   {
-    std::array<unsigned int, nodes_per_cell>                                          nodes;
-    std::array<dealii::types::global_dof_index, dofs_per_cell>                        dofs;
-    std::array<unsigned int, dofs_per_cell>                                           local_dofs; // among the relevant ones
-    std::array<std::array<dealii::Tensor<1, 2>, nodes_per_cell>, points_per_cell>     gradients;  // [point][node], 1/length
-    std::array<double, points_per_cell>                                               weights;    // JxW [length^2]
+    std::array<unsigned int, nodes_per_cell>                                      nodes;
+    std::array<dealii::types::global_dof_index, dofs_per_cell>                    dofs;
+    std::array<unsigned int, dofs_per_cell>                                       local_dofs; // among the relevant ones
+    std::array<std::array<dealii::Tensor<1, 2>, nodes_per_cell>, points_per_cell> gradients;  // [point][node], 1/length
+    std::array<double, points_per_cell>                                           weights;    // JxW [length^2]
   };
 
   // One element edge on a lateral side, from its lower to its upper end: nodes (lower, upper, middle).
@@ -58,15 +58,15 @@ namespace diptych::continuum
     dealii::FESystem<2>                             element;
     dealii::DoFHandler<2>                           dof_handler;
     dealii::IndexSet                                owned, relevant;
-    dealii::AffineConstraints<double>               constraints; // homogeneous: Newton corrections vanish where motion is prescribed
+    dealii::AffineConstraints<double> constraints; // homogeneous: Newton corrections vanish where motion is prescribed
 
-    std::vector<CellGeometry>                cells; // locally owned
-    std::vector<SideEdge>                    sides;
-    std::vector<PlatenDof>                   platen_dofs;
-    std::vector<Eigen::Vector2d>             node_position;   // initial
-    std::vector<std::array<unsigned int, 2>> node_local_dofs; // per component, among the relevant ones
-    double                                   height = 0, area = 0; // initial
-    std::array<std::array<double, nodes_per_cell>, points_per_cell> shape_values; // [point][node]
+    std::vector<CellGeometry>                                       cells; // locally owned
+    std::vector<SideEdge>                                           sides;
+    std::vector<PlatenDof>                                          platen_dofs;
+    std::vector<Eigen::Vector2d>                                    node_position;   // initial
+    std::vector<std::array<unsigned int, 2>>                        node_local_dofs; // per component, among the relevant ones
+    double                                                          height = 0, area = 0; // initial
+    std::array<std::array<double, nodes_per_cell>, points_per_cell> shape_values;         // [point][node]
 
   private:
     void distribute_dofs(bool rough);

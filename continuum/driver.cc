@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <sstream>
 
 namespace diptych::continuum
@@ -16,10 +15,10 @@ namespace diptych::continuum
   } // namespace
 
   LoadDriver::LoadDriver(BoundaryValueProblem &problem, const Options &options)
-    : problem(problem)
-    , options(options)
-    , step(std::min(options.initial_step, options.max_step))
-    , last_increment(problem.zero_vector())
+      : problem(problem),
+        options(options),
+        step(std::min(options.initial_step, options.max_step)),
+        last_increment(problem.zero_vector())
   {}
 
   NewtonReport LoadDriver::attempt(DistributedVector &increment)
@@ -29,7 +28,7 @@ namespace diptych::continuum
     if (!report.converged)
       {
         ++count.cut_backs;
-        if(!std::getenv("KEEP")) solver.forget(); // factors of a state that never was
+        solver.forget(); // factors of a state that never was
       }
     return report;
   }
@@ -39,9 +38,9 @@ namespace diptych::continuum
     double share = 0, d_share = 1;
     while (share < 1)
       {
-        const double target = std::min(1., share + d_share);
+        const double target    = std::min(1., share + d_share);
         auto         increment = problem.zero_vector();
-        problem.set_lateral_load(increment, target);
+        problem.set_lateral_load(0, target);
         const auto report = attempt(increment);
         if (report.converged)
           {
@@ -51,7 +50,8 @@ namespace diptych::continuum
           }
         d_share /= 2;
         if (d_share < 1e-3)
-          return "no equilibrium of the initial state under the lateral pressure (" + report.message + "); is the outline too rough?";
+          return "no equilibrium of the initial state under the lateral pressure (" + report.message +
+                 "); is the outline too rough?";
       }
     return {};
   }
@@ -84,7 +84,7 @@ namespace diptych::continuum
         const double size      = remaining / n_steps;
         auto         increment = predict(size);
         // At the committed positions instead, the load would jump by a whole step however small the present one is.
-        problem.set_lateral_load(increment);
+        problem.set_lateral_load(n_steps == 1 ? axial_strain : problem.axial_strain() + size);
         const auto report = attempt(increment);
         if (!report.converged)
           {

@@ -44,8 +44,8 @@ namespace diptych::continuum
     Options               options;
     KeptFactorisation     solver;
     StepCounts            count;
-    double                step;             // wanted length of the next one [axial strain]
-    DistributedVector     last_increment;   // accepted
+    double                step;           // wanted length of the next one [axial strain]
+    DistributedVector     last_increment; // accepted
     double                last_step = 0;
   };
 } // namespace diptych::continuum

@@ -20,8 +20,8 @@ namespace diptych::continuum
     {
     public:
       Id(const hid_t id, herr_t (*close)(hid_t), const std::string &what)
-        : id(id)
-        , close(close)
+          : id(id),
+            close(close)
       {
         if (id < 0)
           throw std::runtime_error("HDF5: cannot open or create " + what);
@@ -42,8 +42,14 @@ namespace diptych::continuum
         throw std::runtime_error("HDF5: cannot read or write " + what);
     }
 
-    hid_t type_of(const double *) { return H5T_NATIVE_DOUBLE; }
-    hid_t type_of(const unsigned int *) { return H5T_NATIVE_UINT; }
+    hid_t type_of(const double *)
+    {
+      return H5T_NATIVE_DOUBLE;
+    }
+    hid_t type_of(const unsigned int *)
+    {
+      return H5T_NATIVE_UINT;
+    }
 
     template <class T>
     void write(const hid_t parent, const std::string &name, const Extents &extents, const std::vector<T> &values)
@@ -56,8 +62,7 @@ namespace diptych::continuum
       require(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
     }
 
-    template <class T>
-    std::vector<T> read(const hid_t parent, const std::string &name)
+    template <class T> std::vector<T> read(const hid_t parent, const std::string &name)
     {
       const Id       set(H5Dopen2(parent, name.c_str(), H5P_DEFAULT), H5Dclose, name);
       const Id       space(H5Dget_space(set), H5Sclose, "space of " + name);
@@ -69,8 +74,9 @@ namespace diptych::continuum
     void write_attribute(const hid_t group, const std::string &name, const std::vector<double> &values)
     {
       const hsize_t extent = values.size();
-      const Id      space(values.size() == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &extent, nullptr), H5Sclose, "space of " + name);
-      const Id      attribute(H5Acreate2(group, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
+      const Id      space(values.size() == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &extent, nullptr), H5Sclose,
+                     "space of " + name);
+      const Id attribute(H5Acreate2(group, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
       require(H5Awrite(attribute, H5T_NATIVE_DOUBLE, values.data()), name);
     }
 
@@ -172,18 +178,18 @@ namespace diptych::continuum
     Snapshot read_stage(const hid_t group)
     {
       Snapshot s;
-      s.axial_strain          = read_attribute(group, "axial_strain").at(0);
-      s.time                  = read_attribute(group, "time").at(0);
-      s.area                  = read_attribute(group, "area").at(0);
-      const auto lower        = read_attribute(group, "lower_platen_force");
-      const auto upper        = read_attribute(group, "upper_platen_force");
-      s.lower_platen_force    = {lower.at(0), lower.at(1)};
-      s.upper_platen_force    = {upper.at(0), upper.at(1)};
-      const auto stress       = read_attribute(group, "mean_stress");
-      s.mean_stress           = from_row_major(&stress.at(8) - 8);
-      s.position              = unpadded(read<double>(group, "nodes/position"));
-      s.displacement          = unpadded(read<double>(group, "nodes/displacement"));
-      s.weight                = read<double>(group, "nodes/weight");
+      s.axial_strain       = read_attribute(group, "axial_strain").at(0);
+      s.time               = read_attribute(group, "time").at(0);
+      s.area               = read_attribute(group, "area").at(0);
+      const auto lower     = read_attribute(group, "lower_platen_force");
+      const auto upper     = read_attribute(group, "upper_platen_force");
+      s.lower_platen_force = {lower.at(0), lower.at(1)};
+      s.upper_platen_force = {upper.at(0), upper.at(1)};
+      const auto stress    = read_attribute(group, "mean_stress");
+      s.mean_stress        = from_row_major(&stress.at(8) - 8);
+      s.position           = unpadded(read<double>(group, "nodes/position"));
+      s.displacement       = unpadded(read<double>(group, "nodes/displacement"));
+      s.weight             = read<double>(group, "nodes/weight");
       read_cells(group, s);
       return s;
     }
@@ -191,14 +197,13 @@ namespace diptych::continuum
 
   void append_to_hdf5(const std::string &h5_file, const Snapshot &snapshot, const unsigned int stage)
   {
-    const std::string temporary = h5_file + ".tmp";
+    const std::string temporary = h5_file + ".part";
     if (stage > 0)
       std::filesystem::copy_file(h5_file, temporary, std::filesystem::copy_options::overwrite_existing);
     {
-      const Id      file(stage > 0 ? H5Fopen(temporary.c_str(), H5F_ACC_RDWR, H5P_DEFAULT) :
-                                     H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
-                    H5Fclose,
-                    temporary);
+      const Id file(stage > 0 ? H5Fopen(temporary.c_str(), H5F_ACC_RDWR, H5P_DEFAULT)
+                              : H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
+                    H5Fclose, temporary);
       const auto    name = stage_name(stage);
       const Id      group(H5Gcreate2(file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name);
       const hsize_t n = snapshot.position.size();

@@ -3,7 +3,6 @@
 #include "continuum/linear_solver.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <ctime>
 
 #include <deal.II/lac/solver_gmres.h>
@@ -14,18 +13,18 @@ namespace diptych::continuum
 
   namespace
   {
-    const unsigned int max_iterations = std::getenv("G")?atoi(std::getenv("G")):12;
-    const double       reduction      = std::getenv("RED")?atof(std::getenv("RED")):1e-3; const unsigned slow=std::getenv("SLOW")?atoi(std::getenv("SLOW")):100;
+    constexpr unsigned int max_iterations = 12;
+    constexpr double       reduction      = 1e-3;
 
     struct FactorsAsPreconditioner
     {
       TrilinosWrappers::SolverDirect &factors;
-      void                            vmult(KeptFactorisation::Vector &x, const KeptFactorisation::Vector &b) const { factors.solve(x, b); }
+      void vmult(KeptFactorisation::Vector &x, const KeptFactorisation::Vector &b) const { factors.solve(x, b); }
     };
   } // namespace
 
   KeptFactorisation::KeptFactorisation()
-    : direct_control(1, 0.)
+      : direct_control(1, 0.)
   {}
 
   bool KeptFactorisation::solve(const TrilinosWrappers::SparseMatrix &matrix, Vector &x, const Vector &rhs)
@@ -57,14 +56,13 @@ namespace diptych::continuum
         return false;
       }
     n_iterations += control.last_step();
-    if (control.last_step()>slow) factors.reset();
     return std::isfinite(x.l2_norm());
   }
 
   bool KeptFactorisation::factorise(const TrilinosWrappers::SparseMatrix &matrix)
   {
-    const char *name = std::getenv("DIPTYCH_AMESOS");
-    factors = std::make_unique<TrilinosWrappers::SolverDirect>(direct_control, TrilinosWrappers::SolverDirect::AdditionalData(false, name ? name : "Amesos_Mumps"));
+    factors = std::make_unique<TrilinosWrappers::SolverDirect>(
+      direct_control, TrilinosWrappers::SolverDirect::AdditionalData(false, "Amesos_Klu"));
     ++n_factorisations;
     try
       {

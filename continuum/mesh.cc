@@ -35,8 +35,7 @@ namespace diptych::continuum
     };
 
     // gmsh throws ints, strings or exceptions, depending on the place.
-    template <class Action>
-    auto guarded(const std::string &what, Action &&action)
+    template <class Action> auto guarded(const std::string &what, Action &&action)
     {
       try
         {
@@ -62,12 +61,14 @@ namespace diptych::continuum
         throw std::invalid_argument(std::string("outline: the ") + name + " side has fewer than two points");
       for (std::size_t i = 0; i < side.size(); ++i)
         if (!side[i].allFinite() || (i > 0 && side[i].y() <= side[i - 1].y()))
-          throw std::invalid_argument(std::string("outline: the ") + name + " side must run upward; point " + std::to_string(i) + " does not");
+          throw std::invalid_argument(std::string("outline: the ") + name + " side must run upward; point " + std::to_string(i) +
+                                      " does not");
     }
 
     double x_at(const Polyline &side, const double y)
     {
-      const auto above = std::upper_bound(side.begin() + 1, side.end() - 1, y, [](const double value, const Eigen::Vector2d &p) { return value < p.y(); });
+      const auto  above = std::upper_bound(side.begin() + 1, side.end() - 1, y,
+                                           [](const double value, const Eigen::Vector2d &p) { return value < p.y(); });
       const auto &a = *(above - 1), &b = *above;
       return a.x() + (b.x() - a.x()) * (y - a.y()) / (b.y() - a.y());
     }
@@ -86,7 +87,8 @@ namespace diptych::continuum
           if (x_at(outline.left, p.y()) >= x_at(outline.right, p.y()))
             throw std::invalid_argument("outline: the left side is not left of the right side at y = " + std::to_string(p.y()));
       if (!(element_size > 0) || element_size > 1.0001 * height)
-        throw std::invalid_argument("element_size = " + std::to_string(element_size) + " must be positive and at most the height " + std::to_string(height));
+        throw std::invalid_argument("element_size = " + std::to_string(element_size) +
+                                    " must be positive and at most the height " + std::to_string(height));
     }
 
     // `n` pieces of equal arc length along the polyline.
@@ -117,7 +119,7 @@ namespace diptych::continuum
     // The four edges of the sample, each from left to right or upward, cut into element edges.
     std::map<unsigned int, Polyline> boundary_of(const Outline &outline, const double element_size)
     {
-      std::map<unsigned int, Polyline> edges{{lower_platen, {outline.left.front(), outline.right.front()}},
+      std::map<unsigned int, Polyline>     edges{{lower_platen, {outline.left.front(), outline.right.front()}},
                                              {upper_platen, {outline.left.back(), outline.right.back()}},
                                              {left_side, outline.left},
                                              {right_side, outline.right}};
@@ -238,8 +240,9 @@ namespace diptych::continuum
         for (std::size_t k = 0; k < 4; ++k)
           {
             const Eigen::Vector2d p = positions.at(vertices[cell + k]);
-            const Eigen::Vector2d a = positions.at(vertices[cell + (k + 1) % 4]) - p, b = positions.at(vertices[cell + (k + 3) % 4]) - p;
-            worst = std::min(worst, (a.x() * b.y() - a.y() * b.x()) / (a.norm() * b.norm()));
+            const Eigen::Vector2d a = positions.at(vertices[cell + (k + 1) % 4]) - p,
+                                  b = positions.at(vertices[cell + (k + 3) % 4]) - p;
+            worst                   = std::min(worst, (a.x() * b.y() - a.y() * b.x()) / (a.norm() * b.norm()));
           }
       return worst;
     }
@@ -265,7 +268,8 @@ namespace diptych::continuum
           if (all_quadrilaterals() && worst_corner() > 0.1)
             return algorithm.name;
         }
-      throw std::runtime_error("no algorithm of gmsh meshes this outline with sound quadrilaterals only; smooth the outline or change element_size");
+      throw std::runtime_error(
+        "no algorithm of gmsh meshes this outline with sound quadrilaterals only; smooth the outline or change element_size");
     }
 
     std::map<std::pair<std::size_t, std::size_t>, int> outer_edges()
@@ -317,7 +321,7 @@ namespace diptych::continuum
       summary.algorithm   = algorithm;
 
       gmsh::option::setNumber("Mesh.MshFileVersion", 2.2);
-      const std::string temporary = msh_file + ".tmp.msh"; // gmsh chooses the format by the ending
+      const std::string temporary = msh_file + ".part.msh"; // gmsh chooses the format by the ending
       gmsh::write(temporary);
       if (!std::filesystem::exists(temporary))
         throw std::runtime_error("cannot write " + temporary);

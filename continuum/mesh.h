@@ -19,12 +19,12 @@ namespace diptych::continuum
 
   struct MeshSummary
   {
-    unsigned int n_cells      = 0;
-    unsigned int n_vertices   = 0;
-    double       area         = 0; // [length^2]
+    unsigned int n_cells       = 0;
+    unsigned int n_vertices    = 0;
+    double       area          = 0; // [length^2]
     double       shortest_edge = 0; // [length]
     double       longest_edge  = 0; // [length]
-    std::string  algorithm;        // what gmsh used, empty for a mesh that was read
+    std::string  algorithm;         // what gmsh used, empty for a mesh that was read
   };
 
   // Mesh the polygon left side - upper platen - right side - lower platen with quadrilaterals whose edges are about

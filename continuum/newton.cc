@@ -3,8 +3,6 @@
 #include "continuum/newton.h"
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 namespace diptych::continuum
 {
@@ -16,13 +14,16 @@ namespace diptych::continuum
     }
 
     // Adds `correction` whole, or the half or quarter of it that leaves the least residual where the whole makes it grow.
-    Imbalance add_with_line_search(BoundaryValueProblem &problem, const DistributedVector &correction, const double before, DistributedVector &increment)
+    Imbalance add_with_line_search(BoundaryValueProblem    &problem,
+                                   const DistributedVector &correction,
+                                   const double             before,
+                                   DistributedVector       &increment)
     {
       const auto start = increment;
       increment += correction;
       Imbalance best      = problem.evaluate(increment);
       double    best_size = 1, last_size = 1;
-      static const double deep=std::getenv("LS")?atof(std::getenv("LS")):0.25; for (double size = 0.5; size>=deep; size/=2)
+      for (const double size : {0.5, 0.25})
         {
           if (is_usable(best) && best.residual < before)
             break;
@@ -44,17 +45,18 @@ namespace diptych::continuum
     }
   } // namespace
 
-  NewtonReport solve_step(BoundaryValueProblem &problem, KeptFactorisation &solver, const NewtonOptions &options, DistributedVector &increment)
+  NewtonReport solve_step(BoundaryValueProblem &problem,
+                          KeptFactorisation    &solver,
+                          const NewtonOptions  &options,
+                          DistributedVector    &increment)
   {
     NewtonReport report;
     Imbalance    imbalance  = problem.evaluate(increment);
     const double first      = imbalance.residual;
     auto         correction = problem.zero_vector();
-    const bool trace = std::getenv("DIPTYCH_TRACE");
     while (true)
       {
         report.residual = imbalance.relative();
-        if (trace) std::fprintf(stderr, "   it %d res %g lin %d fact %d\n", report.iterations, report.residual, solver.linear_iterations(), solver.factorisations());
         if (!is_usable(imbalance))
           report.message = "the law failed at " + std::to_string(imbalance.n_failed) + " points";
         else if (report.residual <= options.tolerance)
@@ -62,7 +64,8 @@ namespace diptych::continuum
         else if (imbalance.residual > 100 * first)
           report.message = "the residual grew a hundredfold";
         else if (report.iterations == options.max_iterations)
-          report.message = std::to_string(report.iterations) + " Newton iterations left a relative residual of " + std::to_string(report.residual);
+          report.message = std::to_string(report.iterations) + " Newton iterations left a relative residual of " +
+                           std::to_string(report.residual);
         else if (!solver.solve(problem.assemble_tangent(), correction, problem.negative_residual()))
           report.message = "the tangent is singular";
         if (report.converged || !report.message.empty())

@@ -30,9 +30,15 @@ namespace diptych::continuum
       out << "<DataItem Dimensions=\"" << extents << "\" " << number << " Format=\"HDF\">continuum.h5:/" << path << "</DataItem>";
     }
 
-    void write_attribute(std::ostream &out, const StageEntry &stage, const std::string &path, const char *type, const char *center, const std::string &extents)
+    void write_attribute(std::ostream      &out,
+                         const StageEntry  &stage,
+                         const std::string &path,
+                         const char        *type,
+                         const char        *center,
+                         const std::string &extents)
     {
-      out << "<Attribute Name=\"" << path.substr(path.find('/') + 1) << "\" AttributeType=\"" << type << "\" Center=\"" << center << "\">";
+      out << "<Attribute Name=\"" << path.substr(path.find('/') + 1) << "\" AttributeType=\"" << type << "\" Center=\"" << center
+          << "\">";
       write_item(out, stage.name + '/' + path, extents, "NumberType=\"Float\" Precision=\"8\"");
       out << "</Attribute>\n";
     }
@@ -57,7 +63,8 @@ namespace diptych::continuum
     void write_xdmf(const std::string &name, const std::vector<StageEntry> &stages)
     {
       write_text_file(name, [&](std::ostream &out) {
-        out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n<Grid Name=\"continuum\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+        out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n<Grid Name=\"continuum\" GridType=\"Collection\" "
+               "CollectionType=\"Temporal\">\n";
         for (const auto &stage : stages)
           write_xdmf_stage(out, stage);
         out << "</Grid>\n</Domain>\n</Xdmf>\n";
@@ -67,7 +74,8 @@ namespace diptych::continuum
     void write_pvd(const std::string &name, const std::vector<StageEntry> &stages)
     {
       write_text_file(name, [&](std::ostream &out) {
-        out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
+        out
+          << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
         for (const auto &stage : stages)
           out << "<DataSet timestep=\"" << stage.axial_strain << "\" part=\"0\" file=\"continuum/" << stage.name << ".vtu\"/>\n";
         out << "</Collection>\n</VTKFile>\n";
@@ -78,20 +86,22 @@ namespace diptych::continuum
   void write_history(const std::string &csv_file, const std::vector<HistoryRow> &rows)
   {
     write_text_file(csv_file, [&](std::ostream &out) {
-      out << "step,axial_strain,stress_ratio,volumetric_strain,sxx,sxy,syy,szz,lower_fx,lower_fy,upper_fx,upper_fy,newton_iterations,"
+      out << "step,axial_strain,stress_ratio,volumetric_strain,sxx,sxy,syy,szz,lower_fx,lower_fy,upper_fx,upper_fy,newton_"
+             "iterations,"
              "linear_iterations,factorisations,cut_backs,plastic_share,share_zz_not_intermediate,max_equivalent_plastic_strain,"
              "assembly_cpu_s,solve_cpu_s\n";
       for (const auto &r : rows)
-        out << r.step << ',' << r.axial_strain << ',' << r.stress_ratio << ',' << r.volumetric_strain << ',' << r.mean_stress(0, 0) << ','
-            << r.mean_stress(0, 1) << ',' << r.mean_stress(1, 1) << ',' << r.mean_stress(2, 2) << ',' << r.lower_platen_force.x() << ','
-            << r.lower_platen_force.y() << ',' << r.upper_platen_force.x() << ',' << r.upper_platen_force.y() << ',' << r.newton_iterations
-            << ',' << r.linear_iterations << ',' << r.factorisations << ',' << r.cut_backs << ',' << r.plastic_share << ','
-            << r.share_zz_not_intermediate << ',' << r.max_equivalent_plastic_strain << ',' << r.assembly_cpu_s << ',' << r.solve_cpu_s << '\n';
+        out << r.step << ',' << r.axial_strain << ',' << r.stress_ratio << ',' << r.volumetric_strain << ','
+            << r.mean_stress(0, 0) << ',' << r.mean_stress(0, 1) << ',' << r.mean_stress(1, 1) << ',' << r.mean_stress(2, 2)
+            << ',' << r.lower_platen_force.x() << ',' << r.lower_platen_force.y() << ',' << r.upper_platen_force.x() << ','
+            << r.upper_platen_force.y() << ',' << r.newton_iterations << ',' << r.linear_iterations << ',' << r.factorisations
+            << ',' << r.cut_backs << ',' << r.plastic_share << ',' << r.share_zz_not_intermediate << ','
+            << r.max_equivalent_plastic_strain << ',' << r.assembly_cpu_s << ',' << r.solve_cpu_s << '\n';
     });
   }
 
   ResultFiles::ResultFiles(const std::string &folder)
-    : folder(folder)
+      : folder(folder)
   {
     std::error_code failure;
     std::filesystem::create_directories(folder + "/continuum", failure);

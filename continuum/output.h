@@ -29,10 +29,10 @@ namespace diptych::continuum
     void finish() const;
 
   private:
-    std::string             folder;
-    std::vector<double>     axial_strains; // of the stages
+    std::string              folder;
+    std::vector<double>      axial_strains; // of the stages
     std::vector<std::size_t> n_cells, n_nodes;
-    std::vector<HistoryRow> rows;
+    std::vector<HistoryRow>  rows;
   };
 
   // The stages of a continuum.h5, as they were given to ResultFiles. Throws std::runtime_error naming file and group.

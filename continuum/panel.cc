@@ -14,8 +14,7 @@ namespace diptych::continuum
 {
   namespace
   {
-    template <class... Text>
-    void require(const bool holds, const Text &...text)
+    template <class... Text> void require(const bool holds, const Text &...text)
     {
       if (holds)
         return;
@@ -46,9 +45,9 @@ namespace diptych::continuum
       bool                 stopped = false;
 
       Run(const std::string &msh_file, const Loading &loading, const Options &options, const Callbacks &callbacks)
-        : problem(msh_file, loading, make_law(options))
-        , driver(problem, options)
-        , callbacks(callbacks)
+          : problem(msh_file, loading, make_law(options)),
+            driver(problem, options),
+            callbacks(callbacks)
       {}
 
       // Tells about the accepted step; false ends the run.
@@ -95,7 +94,8 @@ namespace diptych::continuum
     require(loading.pressure > 0, "pressure = ", loading.pressure, " must be positive");
     require(loading.upper_platen_travel.allFinite() && loading.upper_platen_travel.y() < 0, "upper_platen_travel = (",
             loading.upper_platen_travel.transpose(), "): the upper platen must descend");
-    require(loading.platens == "rough" || loading.platens == "smooth", "platens = '", loading.platens, "' must be rough or smooth");
+    require(loading.platens == "rough" || loading.platens == "smooth", "platens = '", loading.platens,
+            "' must be rough or smooth");
     require(!loading.stages.empty(), "stages: at least one axial strain is needed");
     for (std::size_t i = 0; i < loading.stages.size(); ++i)
       require(loading.stages[i] >= 0 && loading.stages[i] < 1 && (i == 0 || loading.stages[i] > loading.stages[i - 1]),
@@ -107,7 +107,8 @@ namespace diptych::continuum
     require(options.law == "mohr_coulomb" || options.law == "linear_elastic", "law = '", options.law,
             "' must be mohr_coulomb or linear_elastic");
     require(options.min_step > 0 && options.min_step <= options.initial_step && options.initial_step <= options.max_step,
-            "steps: 0 < min_step = ", options.min_step, " <= initial_step = ", options.initial_step, " <= max_step = ", options.max_step, " is needed");
+            "steps: 0 < min_step = ", options.min_step, " <= initial_step = ", options.initial_step,
+            " <= max_step = ", options.max_step, " is needed");
     require(options.tolerance > 0 && options.tolerance < 1, "tolerance = ", options.tolerance, " must lie in (0, 1)");
     require(options.max_newton_iterations > 0, "max_newton_iterations = ", options.max_newton_iterations, " must be positive");
     validate(options.mohr_coulomb);
@@ -122,10 +123,10 @@ namespace diptych::continuum
 
     Run    panel(msh_file, loading, options, callbacks);
     Report report;
-    report.message           = panel.through(loading.stages);
-    report.axial_strain      = panel.problem.axial_strain();
-    report.status            = panel.stopped ? Status::stopped_by_user : report.message.empty() ? Status::finished : Status::not_converged;
-    report.n_cells           = mesh.n_cells;
+    report.message      = panel.through(loading.stages);
+    report.axial_strain = panel.problem.axial_strain();
+    report.status  = panel.stopped ? Status::stopped_by_user : report.message.empty() ? Status::finished : Status::not_converged;
+    report.n_cells = mesh.n_cells;
     report.n_unknowns        = panel.problem.discretisation().dof_handler.n_dofs();
     report.steps             = panel.driver.counts().steps;
     report.cut_backs         = panel.driver.counts().cut_backs;

@@ -17,10 +17,10 @@ namespace diptych::continuum
   // pressure that acts horizontally per unit of current height.
   struct Loading
   {
-    double              pressure = 1;                                   // lateral, and initial isotropic stress [pressure]
-    Eigen::Vector2d     upper_platen_travel = Eigen::Vector2d::Zero();  // displacement per unit axial strain: (H, -H) [length]
-    std::vector<double> stages;                                         // axial strains of the snapshots, ascending; the last is the end
-    std::string         platens = "rough";                              // rough: both components prescribed; smooth: only the vertical one
+    double              pressure            = 1;                       // lateral, and initial isotropic stress [pressure]
+    Eigen::Vector2d     upper_platen_travel = Eigen::Vector2d::Zero(); // displacement per unit axial strain: (H, -H) [length]
+    std::vector<double> stages;            // axial strains of the snapshots, ascending; the last is the end
+    std::string         platens = "rough"; // rough: both components prescribed; smooth: only the vertical one
   };
 
   struct Options
@@ -32,18 +32,19 @@ namespace diptych::continuum
     double             min_step     = 1e-5; // axial strain; below it the run gives up and says so
     double             tolerance    = 1e-5; // residual relative to the reaction forces; looser saves one iteration a step at most
     int                max_newton_iterations = 20;
-    MohrCoulombOptions mohr_coulomb;        // linear_elastic takes its elastic part
+    MohrCoulombOptions mohr_coulomb; // linear_elastic takes its elastic part
   };
 
   // Lists the panel's own keys first, then those of the law; all names are distinct.
-  template <class Visitor>
-  void visit_parameters(Options &o, Visitor &&visitor)
+  template <class Visitor> void visit_parameters(Options &o, Visitor &&visitor)
   {
     visitor("law", o.law, "", {"mohr_coulomb", "linear_elastic"}, "constitutive law");
-    visitor("element_size", o.element_size, "d", {0.05, 1e3}, "edge length of an element; a local law's band is 2-4 elements wide");
+    visitor("element_size", o.element_size, "d", {0.05, 1e3},
+            "edge length of an element; a local law's band is 2-4 elements wide");
     visitor("initial_step", o.initial_step, "axial strain", {1e-9, 1.}, "first load step");
     visitor("max_step", o.max_step, "axial strain", {1e-9, 1.}, "largest load step");
-    visitor("min_step", o.min_step, "axial strain", {1e-12, 1.}, "smallest load step; below it the run stops and says how far it got");
+    visitor("min_step", o.min_step, "axial strain", {1e-12, 1.},
+            "smallest load step; below it the run stops and says how far it got");
     visitor("tolerance", o.tolerance, "-", {1e-12, 1e-1}, "unbalanced nodal force relative to the reaction forces");
     visitor("max_newton_iterations", o.max_newton_iterations, "", {1., 1000.}, "Newton iterations before a step is halved");
     visit_parameters(o.mohr_coulomb, visitor);
@@ -52,16 +53,16 @@ namespace diptych::continuum
   // One accepted load step; counters and seconds are cumulative. Stress positive in compression, forces act on the sample.
   struct HistoryRow
   {
-    int             step         = 0;
-    double          axial_strain = 0;                                   // platen descent / initial height
-    double          stress_ratio = 0;                                   // t/s of the mean stress
-    double          volumetric_strain = 0;                              // 1 - V/V0, dilation negative
-    Eigen::Matrix3d mean_stress  = Eigen::Matrix3d::Zero();             // [pressure]
-    Eigen::Vector2d lower_platen_force = Eigen::Vector2d::Zero();       // [pressure * length]
+    int             step               = 0;
+    double          axial_strain       = 0;                       // platen descent / initial height
+    double          stress_ratio       = 0;                       // t/s of the mean stress
+    double          volumetric_strain  = 0;                       // 1 - V/V0, dilation negative
+    Eigen::Matrix3d mean_stress        = Eigen::Matrix3d::Zero(); // [pressure]
+    Eigen::Vector2d lower_platen_force = Eigen::Vector2d::Zero(); // [pressure * length]
     Eigen::Vector2d upper_platen_force = Eigen::Vector2d::Zero();
     int             newton_iterations = 0, linear_iterations = 0, factorisations = 0, cut_backs = 0;
-    double          plastic_share              = 0;                     // of the area, yielding in this step
-    double          share_zz_not_intermediate  = 0;                     // of the area
+    double          plastic_share                 = 0; // of the area, yielding in this step
+    double          share_zz_not_intermediate     = 0; // of the area
     double          max_equivalent_plastic_strain = 0;
     double          assembly_cpu_s = 0, solve_cpu_s = 0;
   };
@@ -97,5 +98,8 @@ namespace diptych::continuum
   // Run the panel on a mesh made by make_mesh or the user's own with the ids of BoundaryId. Every stage is landed on
   // exactly. MPI must have been initialised (dealii::Utilities::MPI::MPI_InitFinalize), with one process.
   // Throws std::invalid_argument for bad input and std::runtime_error for a mesh file that cannot be used.
-  [[nodiscard]] Report run(const std::string &msh_file, const Loading &loading, const Options &options, const Callbacks &callbacks = {});
+  [[nodiscard]] Report run(const std::string &msh_file,
+                           const Loading     &loading,
+                           const Options     &options,
+                           const Callbacks   &callbacks = {});
 } // namespace diptych::continuum

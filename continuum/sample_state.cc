@@ -24,7 +24,10 @@ namespace diptych::continuum
     }
 
     // F = 1 + grad u at one point of a cell.
-    dealii::Tensor<2, 2> deformation_gradient(const Discretisation &mesh, const CellGeometry &cell, const unsigned int q, const std::vector<double> &u)
+    dealii::Tensor<2, 2> deformation_gradient(const Discretisation      &mesh,
+                                              const CellGeometry        &cell,
+                                              const unsigned int         q,
+                                              const std::vector<double> &u)
     {
       dealii::Tensor<2, 2> F = dealii::unit_symmetric_tensor<2>();
       for (unsigned int node = 0; node < nodes_per_cell; ++node)
@@ -44,7 +47,7 @@ namespace diptych::continuum
         {
           const auto  &point = problem.points()[c * points_per_cell + q];
           const auto   F     = deformation_gradient(mesh, cell, q, problem.displacement());
-          const double w     = cell.weights[q], current = w * determinant(F);
+          const double w = cell.weights[q], current = w * determinant(F);
           state.stress += w * compression_positive(point.stress, point.stress_zz);
           state.strain += w * compression_positive(symmetrize(F) - dealii::unit_symmetric_tensor<2>(), 0);
           state.equivalent_plastic_strain += w * point.equivalent_plastic_strain;

@@ -20,27 +20,27 @@ namespace diptych::continuum
   // Means over one cell. Stress is positive in compression: row 0 = (xx, xy, 0), row 1 = (yx, yy, 0), row 2 = (0, 0, zz).
   struct CellState
   {
-    Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();             // [pressure]
-    Eigen::Matrix3d strain = Eigen::Matrix3d::Zero();             // total, positive in compression [-]
-    double          area                       = 0;               // current area [length^2]
-    double          equivalent_plastic_strain  = 0;               // integral of d(eps_1 - eps_3) plastic [-]
-    double          share_zz_not_intermediate  = 0;               // share of its points where sigma_zz is an outer principal stress
+    Eigen::Matrix3d stress                    = Eigen::Matrix3d::Zero(); // [pressure]
+    Eigen::Matrix3d strain                    = Eigen::Matrix3d::Zero(); // total, positive in compression [-]
+    double          area                      = 0;                       // current area [length^2]
+    double          equivalent_plastic_strain = 0;                       // integral of d(eps_1 - eps_3) plastic [-]
+    double          share_zz_not_intermediate = 0; // share of its points where sigma_zz is an outer principal stress
   };
 
   // One instant of the continuum panel, plain values. Nodes are all support points of the Q2 displacement.
   struct Snapshot
   {
-    double axial_strain = 0;                                      // platen descent / initial height
+    double axial_strain = 0; // platen descent / initial height
     double time         = 0;
 
-    std::vector<Eigen::Vector2d> position;                        // current = initial + displacement [length], n_nodes
-    std::vector<Eigen::Vector2d> displacement;                    // since the start [length], n_nodes
-    std::vector<double>          weight;                          // lumped area of a node (sums to the current area)
+    std::vector<Eigen::Vector2d> position;     // current = initial + displacement [length], n_nodes
+    std::vector<Eigen::Vector2d> displacement; // since the start [length], n_nodes
+    std::vector<double>          weight;       // lumped area of a node (sums to the current area)
 
     // Node indices of a cell: four corners counter-clockwise, then the midpoints of edges 0-1, 1-2, 2-3, 3-0, then the centre
     // (VTK's biquadratic quad).
     std::vector<std::array<unsigned int, 9>> cells;
-    std::vector<CellState>                   cell_state;          // n_cells
+    std::vector<CellState>                   cell_state; // n_cells
 
     Eigen::Vector2d lower_platen_force = Eigen::Vector2d::Zero(); // force on the sample [pressure * length]
     Eigen::Vector2d upper_platen_force = Eigen::Vector2d::Zero();

@@ -10,10 +10,9 @@
 namespace diptych::continuum
 {
   // Calls body(stream) on a temporary file and renames it. Throws std::runtime_error naming the file.
-  template <class Body>
-  void write_text_file(const std::string &name, Body &&body)
+  template <class Body> void write_text_file(const std::string &name, Body &&body)
   {
-    const std::string temporary = name + ".tmp";
+    const std::string temporary = name + ".part";
     std::ofstream     stream(temporary);
     stream.precision(12);
     body(stream);

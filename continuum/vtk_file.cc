@@ -11,9 +11,15 @@ namespace diptych::continuum
 
     // One <DataArray> whose values are given by value(stream, i) for i < n.
     template <class Value>
-    void write_array(std::ostream &out, const char *type, const char *name, const int n_components, const std::size_t n, Value &&value)
+    void write_array(std::ostream     &out,
+                     const char       *type,
+                     const char       *name,
+                     const int         n_components,
+                     const std::size_t n,
+                     Value           &&value)
     {
-      out << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\"" << n_components << "\" format=\"ascii\">\n";
+      out << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\"" << n_components
+          << "\" format=\"ascii\">\n";
       for (std::size_t i = 0; i < n; ++i)
         {
           value(i);
@@ -27,7 +33,10 @@ namespace diptych::continuum
       write_array(out, "Float64", name, 3, v.size(), [&](const std::size_t i) { out << v[i].x() << ' ' << v[i].y() << " 0"; });
     }
 
-    void write_tensors(std::ostream &out, const char *name, const std::vector<CellState> &states, Eigen::Matrix3d CellState::*member)
+    void write_tensors(std::ostream                 &out,
+                       const char                   *name,
+                       const std::vector<CellState> &states,
+                       Eigen::Matrix3d CellState::*member)
     {
       write_array(out, "Float64", name, 9, states.size(), [&](const std::size_t i) {
         for (int row = 0; row < 3; ++row)
@@ -57,7 +66,8 @@ namespace diptych::continuum
   void write_vtu(const std::string &vtu_file, const Snapshot &s)
   {
     write_text_file(vtu_file, [&](std::ostream &out) {
-      out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n"
+      out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
+             "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n"
           << "<Piece NumberOfPoints=\"" << s.position.size() << "\" NumberOfCells=\"" << s.cells.size() << "\">\n<Points>\n";
       write_vectors(out, "position", s.position);
       out << "</Points>\n";

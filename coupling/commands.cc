@@ -103,8 +103,7 @@ namespace diptych::coupling
         discrete::write_history(directory + "/discrete.csv", rows);
       };
       PhaseTimer             timer("discrete");
-      const discrete::Report report =
-        discrete::run(scene.sample, discrete_loading(scene.loading), scene.discrete, callbacks);
+      const discrete::Report report = discrete::run(scene.sample, discrete_loading(scene.loading), scene.discrete, callbacks);
       progress.finish();
       discrete::write_history(directory + "/discrete.csv", rows);
       PhaseCost loading = timer.stop(), preparation = loading;
@@ -135,11 +134,11 @@ namespace diptych::coupling
       return discrete::make_outline(sample.state, scene.sample.mean_diameter);
     }
 
-    continuum::Report continuum_run(const CommandLine             &line,
-                                    const Scene                   &scene,
-                                    const continuum::Outline      &outline,
-                                    const double                   element_size,
-                                    const std::string             &directory)
+    continuum::Report continuum_run(const CommandLine        &line,
+                                    const Scene              &scene,
+                                    const continuum::Outline &outline,
+                                    const double              element_size,
+                                    const std::string        &directory)
     {
       std::filesystem::create_directories(directory);
       remove_results(directory, {"continuum.h5", "continuum.xdmf", "continuum.csv", "continuum.pvd", "continuum"});
@@ -158,8 +157,7 @@ namespace diptych::coupling
         files.add(row);
         progress.update(phase.str(), row.axial_strain / scene.loading.axial_strain);
       };
-      const continuum::Report report =
-        continuum::run(mesh, continuum_loading(scene.loading, height), scene.continuum, callbacks);
+      const continuum::Report report = continuum::run(mesh, continuum_loading(scene.loading, height), scene.continuum, callbacks);
       progress.finish();
       files.finish();
       return report;
@@ -172,12 +170,11 @@ namespace diptych::coupling
       const discrete::Outline  grains = prepared_outline(line, scene, outline_from_file);
       const continuum::Outline outline{grains.left, grains.right};
       PhaseTimer               timer("continuum");
-      const continuum::Report  report =
-        continuum_run(line, scene, outline, scene.continuum.element_size, directory);
-      const PhaseCost         fine = timer.stop();
-      PhaseTimer              coarse_timer("continuum_coarse");
-      const continuum::Report coarse =
-        continuum_run(line, scene, outline, scene.comparison.coarse_element_size, directory + "/coarse");
+      const continuum::Report  report = continuum_run(line, scene, outline, scene.continuum.element_size, directory);
+      const PhaseCost          fine   = timer.stop();
+      PhaseTimer               coarse_timer("continuum_coarse");
+      const continuum::Report  coarse = continuum_run(line, scene, outline, scene.comparison.coarse_element_size,
+                                                      directory + "/coarse");
       update_provenance(directory, scene, line.text, {fine, coarse_timer.stop()},
                         {{"continuum",
                           {{"cells", report.n_cells},

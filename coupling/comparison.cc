@@ -96,7 +96,7 @@ namespace diptych::coupling
                                const std::vector<Eigen::Matrix2d> &a,
                                const std::vector<Eigen::Matrix2d> &b)
     {
-      const std::vector<double> area = cell_areas(increment.mesh);
+      const std::vector<double> area       = cell_areas(increment.mesh);
       double                    difference = 0, norm = 0;
       for (std::size_t k = 0; k < area.size(); ++k)
         if (increment.cover.covered[k])
@@ -108,7 +108,10 @@ namespace diptych::coupling
       return norm > 0 ? std::sqrt(difference / norm) : NAN;
     }
 
-    double nodal_residual(const QuadMesh &mesh, const TriangleSearch &search, const discrete::Snapshot &s, const MappedMoment &mapped)
+    double nodal_residual(const QuadMesh           &mesh,
+                          const TriangleSearch     &search,
+                          const discrete::Snapshot &s,
+                          const MappedMoment       &mapped)
     {
       const auto a = nodal_forces(mesh, mapped), b = nodal_contact_forces(mesh, search, s.position, s.window_forces);
       double     difference = 0, norm = 0;
@@ -146,9 +149,9 @@ namespace diptych::coupling
       for (const ProbeRegion &region :
            place_probes(outline_polygon(grains.outline), stage.increment.frame, stage.increment.discrete.band.bands))
         {
-          stage.discrete.probes.push_back({region,
-                                           grain_probe_stress(region, grains.position, grains.radius, grains.mean_internal_moment),
-                                           probe_fabric(region, grains.contacts)});
+          stage.discrete.probes.push_back(
+            {region, grain_probe_stress(region, grains.position, grains.radius, grains.mean_internal_moment),
+             probe_fabric(region, grains.contacts)});
           stage.continuum.probes.push_back(
             {region, cell_probe_stress(region, stage.increment.mesh, stage.continuum.cell_stress), {}});
         }

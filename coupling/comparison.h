@@ -28,8 +28,8 @@ namespace diptych::coupling
   {
     double              from = 0, to = 0; // axial strain
     SampleFrame         frame;
-    QuadMesh            mesh;        // of the continuum at `to`
-    CellCover           cover;       // by the grains at `to`
+    QuadMesh            mesh;  // of the continuum at `to`
+    CellCover           cover; // by the grains at `to`
     PanelIncrement      discrete, continuum;
     std::vector<double> grain_shear; // shear strain increment at the grains
   };
@@ -45,8 +45,8 @@ namespace diptych::coupling
   {
     double                       stress_ratio = 0, volumetric_strain = 0; // averaged over the last averaging_strain
     Eigen::Vector2d              lower_force, upper_force;                // on the sample, averaged likewise [pressure * length]
-    double                       dynamic_share = 0; // grains: spin term / mean stress, over the stage
-    std::vector<Eigen::Matrix2d> cell_stress;       // on the continuum's mesh [pressure]
+    double                       dynamic_share = 0;                       // grains: spin term / mean stress, over the stage
+    std::vector<Eigen::Matrix2d> cell_stress;                             // on the continuum's mesh [pressure]
     std::vector<ProbeRecord>     probes;
   };
 
@@ -56,23 +56,23 @@ namespace diptych::coupling
     Increment   increment; // since the preceding stage
     PanelRecord discrete, continuum;
     double      total_relative_error = 0, outside_share = 0, nodal_residual = 0; // of the mapping
-    double      stress_difference    = 0; // relative L2 over the covered cells
+    double      stress_difference = 0;                                           // relative L2 over the covered cells
   };
 
   struct CoarseRun
   {
-    double                  element_size = 0; // mean diameters
-    std::vector<Increment>  windows;          // continuum side only
-    Peak                    peak;
+    double                 element_size = 0; // mean diameters
+    std::vector<Increment> windows;          // continuum side only
+    Peak                   peak;
   };
 
   // Everything the report shows. Lengths in the scene's own unit.
   struct Comparison
   {
-    std::vector<StageRecord> stages;
-    std::vector<Increment>   windows;
-    CoarseRun                coarse;
-    HistoryTable             discrete_history, continuum_history;
+    std::vector<StageRecord>         stages;
+    std::vector<Increment>           windows;
+    CoarseRun                        coarse;
+    HistoryTable                     discrete_history, continuum_history;
     std::vector<discrete::Snapshot>  grains; // stage 0 first
     std::vector<continuum::Snapshot> nodes;
   };

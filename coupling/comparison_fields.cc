@@ -31,7 +31,10 @@ namespace diptych::coupling
       file.attribute(group, "axial_strain", increment.to);
     }
 
-    void write_stage(discrete::Hdf5Writer &file, const std::string &group, const StageRecord &stage, const Comparison &c,
+    void write_stage(discrete::Hdf5Writer     &file,
+                     const std::string        &group,
+                     const StageRecord        &stage,
+                     const Comparison         &c,
                      const discrete::Snapshot &grains)
     {
       write_increment(file, group, stage.increment, c);
@@ -67,8 +70,7 @@ namespace diptych::coupling
         out << "</DataArray></Cells>\n<CellData>\n";
       }
 
-      template <class Number>
-      void scalar(const std::string &name, const std::vector<Number> &values)
+      template <class Number> void scalar(const std::string &name, const std::vector<Number> &values)
       {
         out << "<DataArray type=\"Float64\" Name=\"" << name << "\" format=\"ascii\">\n";
         for (const Number value : values)

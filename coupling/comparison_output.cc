@@ -55,7 +55,8 @@ namespace diptych::coupling
 
     json increment_json(const PanelIncrement &panel, const double d)
     {
-      return {{"bands", bands_json(panel.band, d)}, {"band_verdict", panel.band.verdict}, {"strips", strips_json(panel.strips, d)}};
+      return {
+        {"bands", bands_json(panel.band, d)}, {"band_verdict", panel.band.verdict}, {"strips", strips_json(panel.strips, d)}};
     }
 
     json probe_json(const ProbeRecord &probe, const bool grains)
@@ -84,11 +85,12 @@ namespace diptych::coupling
 
     json panel_json(const PanelRecord &panel, const PanelIncrement &increment, const bool grains, const double d)
     {
-      json result = {{"stress_ratio", panel.stress_ratio},
-                     {"volumetric_strain", panel.volumetric_strain},
-                     {"platen_resultants", {{"lower", vector_json(panel.lower_force)}, {"upper", vector_json(panel.upper_force)}}},
-                     {"dynamic_share", panel.dynamic_share},
-                     {"probes", json::array()}};
+      json result = {
+        {"stress_ratio", panel.stress_ratio},
+        {"volumetric_strain", panel.volumetric_strain},
+        {"platen_resultants", {{"lower", vector_json(panel.lower_force)}, {"upper", vector_json(panel.upper_force)}}},
+        {"dynamic_share", panel.dynamic_share},
+        {"probes", json::array()}};
       result.update(increment_json(increment, d));
       for (const ProbeRecord &probe : panel.probes)
         result["probes"].push_back(probe_json(probe, grains));
@@ -165,30 +167,30 @@ namespace diptych::coupling
 
     json discrete_summary(const Scene &scene, const Comparison &c, const json &provenance)
     {
-      const HistoryTable       &h      = c.discrete_history;
-      const auto                mean   = [&](const char *name) { return sum_of(column(h, name)) / column(h, name).size(); };
-      const discrete::Snapshot &last   = c.grains.back();
-      const Peak                peak   = peak_of_running_mean(h, "stress_ratio", scene.comparison.averaging_strain);
-      const double              bodies = double(last.position.size());
-      json summary = {{"grains", last.position.size()},
-                      {"steps", column(h, "step").size()},
-                      {"sweeps", sum_of(column(h, "sweeps"))},
-                      {"step_length", last.step},
-                      {"max_penetration_d", largest(column(h, "max_penetration"))},
-                      {"mean_inertial_number", mean("inertial_number")},
-                      {"energy_residual", largest(column(h, "energy_residual"))},
-                      {"momentum_residual", largest(column(h, "momentum_residual"))},
-                      {"residual", largest(column(h, "residual"))},
-                      {"residual_factor", nullptr},
-                      {"peak_stress_ratio", peak.value},
-                      {"strain_at_peak", peak.axial_strain},
-                      {"final_volumetric_strain", column(h, "volumetric_strain").back()},
-                      {"spin_term_share", largest(column(h, "spin_term_share"))},
-                      {"kinetic_energy_ratio_median", median(column(h, "kinetic_energy_ratio"))},
-                      {"kinetic_energy_ratio_largest", largest(column(h, "kinetic_energy_ratio"))},
-                      {"contacts", column(h, "contacts").back()},
-                      {"coordination_number", 2 * column(h, "contacts").back() / bodies},
-                      {"rattlers", column(h, "rattlers").back()}};
+      const HistoryTable       &h       = c.discrete_history;
+      const auto                mean    = [&](const char *name) { return sum_of(column(h, name)) / column(h, name).size(); };
+      const discrete::Snapshot &last    = c.grains.back();
+      const Peak                peak    = peak_of_running_mean(h, "stress_ratio", scene.comparison.averaging_strain);
+      const double              bodies  = double(last.position.size());
+      json                      summary = {{"grains", last.position.size()},
+                                           {"steps", column(h, "step").size()},
+                                           {"sweeps", sum_of(column(h, "sweeps"))},
+                                           {"step_length", last.step},
+                                           {"max_penetration_d", largest(column(h, "max_penetration"))},
+                                           {"mean_inertial_number", mean("inertial_number")},
+                                           {"energy_residual", largest(column(h, "energy_residual"))},
+                                           {"momentum_residual", largest(column(h, "momentum_residual"))},
+                                           {"residual", largest(column(h, "residual"))},
+                                           {"residual_factor", nullptr},
+                                           {"peak_stress_ratio", peak.value},
+                                           {"strain_at_peak", peak.axial_strain},
+                                           {"final_volumetric_strain", column(h, "volumetric_strain").back()},
+                                           {"spin_term_share", largest(column(h, "spin_term_share"))},
+                                           {"kinetic_energy_ratio_median", median(column(h, "kinetic_energy_ratio"))},
+                                           {"kinetic_energy_ratio_largest", largest(column(h, "kinetic_energy_ratio"))},
+                                           {"contacts", column(h, "contacts").back()},
+                                           {"coordination_number", 2 * column(h, "contacts").back() / bodies},
+                                           {"rattlers", column(h, "rattlers").back()}};
       summary.update(platen_balance(h));
       summary.update(provenance.value("discrete", json::object()));
       return summary;
@@ -196,8 +198,8 @@ namespace diptych::coupling
 
     json continuum_summary(const Scene &scene, const Comparison &c, const json &provenance)
     {
-      const HistoryTable &h    = c.continuum_history;
-      const Peak          peak = peak_of_running_mean(h, "stress_ratio", scene.comparison.averaging_strain);
+      const HistoryTable &h       = c.continuum_history;
+      const Peak          peak    = peak_of_running_mean(h, "stress_ratio", scene.comparison.averaging_strain);
       json                summary = {{"law", scene.continuum.law},
                                      {"element_size_d", scene.continuum.element_size},
                                      {"newton_iterations", column(h, "newton_iterations").back()},
@@ -221,7 +223,8 @@ namespace diptych::coupling
 
     json cost(const json &provenance)
     {
-      json   result = {{"discrete_cpu_s", nullptr}, {"continuum_cpu_s", nullptr}, {"comparison_cpu_s", nullptr}, {"preparation_cpu_s", nullptr}};
+      json result = {
+        {"discrete_cpu_s", nullptr}, {"continuum_cpu_s", nullptr}, {"comparison_cpu_s", nullptr}, {"preparation_cpu_s", nullptr}};
       double memory = 0;
       for (const json &phase : provenance.value("phases", json::array()))
         {
@@ -241,9 +244,10 @@ namespace diptych::coupling
     json         root = {{"format", 1},
                          {"scene", scene.name},
                          {"seed", scene.sample.seed},
-                         {"units", {{"length", "mean diameter d where the name ends in _d, else the scene's"},
-                                    {"stress", "the scene's pressure unit, compression positive"},
-                                    {"time", "the scene's"}}},
+                         {"units",
+                          {{"length", "mean diameter d where the name ends in _d, else the scene's"},
+                           {"stress", "the scene's pressure unit, compression positive"},
+                           {"time", "the scene's"}}},
                          {"mean_diameter", d},
                          {"pressure", scene.loading.pressure},
                          {"stages", json::array()},
@@ -256,9 +260,8 @@ namespace diptych::coupling
                                  {"discrete", increment_json(window.discrete, d)},
                                  {"continuum", increment_json(window.continuum, d)},
                                  {"difference", band_difference(window, d)}});
-    json &coarse = root["continuum_coarse"] = {{"element_size_d", c.coarse.element_size},
-                                               {"peak_stress_ratio", c.coarse.peak.value},
-                                               {"windows", json::array()}};
+    json &coarse = root["continuum_coarse"] = {
+      {"element_size_d", c.coarse.element_size}, {"peak_stress_ratio", c.coarse.peak.value}, {"windows", json::array()}};
     for (const Increment &window : c.coarse.windows)
       coarse["windows"].push_back({{"from", window.from}, {"to", window.to}, {"bands", bands_json(window.continuum.band, d)}});
     root["discrete_summary"]  = discrete_summary(scene, c, provenance);

@@ -12,7 +12,10 @@ namespace diptych::coupling
 {
   // comparison.json and comparison.csv: every number of the report, lengths in mean diameters where the name ends in _d,
   // stresses in the scene's unit, angles from the horizontal in degrees. `provenance` supplies cost and counts.
-  void write_comparison_json(const std::string &directory, const Scene &scene, const Comparison &c, const nlohmann::json &provenance);
+  void write_comparison_json(const std::string    &directory,
+                             const Scene          &scene,
+                             const Comparison     &c,
+                             const nlohmann::json &provenance);
 
   // One line a number: axial_strain_from, axial_strain_to, panel, quantity, value.
   void write_comparison_csv(const std::string &directory, const Comparison &c);

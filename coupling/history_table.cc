@@ -50,8 +50,8 @@ namespace diptych::coupling
           throw std::runtime_error(csv_path + ", line " + std::to_string(number) + ": " + std::to_string(fields.size()) +
                                    " values for " + std::to_string(names.size()) + " columns");
         for (std::size_t k = 0; k < names.size(); ++k)
-          table[names[k]].push_back(fields[k] == "nan" || fields[k] == "-nan" ? std::numeric_limits<double>::quiet_NaN() :
-                                                                                std::stod(fields[k]));
+          table[names[k]].push_back(fields[k] == "nan" || fields[k] == "-nan" ? std::numeric_limits<double>::quiet_NaN()
+                                                                              : std::stod(fields[k]));
       }
     if (column(table, "axial_strain").empty())
       throw std::runtime_error(csv_path + ": holds no row");

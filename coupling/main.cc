@@ -40,9 +40,9 @@ Exit codes: 0 done, 1 a stated invariant failed, 2 wrong input, 3 did not conver
     bool                                    needs_target;
   };
 
-  const std::map<std::string, Command> commands = {{"run", {run_both, true}},         {"discrete", {run_discrete, true}},
-                                                   {"continuum", {run_continuum, true}}, {"compare", {compare_again, true}},
-                                                   {"report", {report_again, true}},   {"explain", {explain_keys, false}}};
+  const std::map<std::string, Command> commands = {
+    {"run", {run_both, true}},          {"discrete", {run_discrete, true}}, {"continuum", {run_continuum, true}},
+    {"compare", {compare_again, true}}, {"report", {report_again, true}},   {"explain", {explain_keys, false}}};
 
   int positive_number(const std::string &text)
   {

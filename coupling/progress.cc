@@ -24,8 +24,8 @@ namespace diptych::coupling
   }
 
   Progress::Progress(const bool quiet)
-    : quiet(quiet)
-    , terminal(isatty(STDERR_FILENO) != 0)
+      : quiet(quiet),
+        terminal(isatty(STDERR_FILENO) != 0)
   {}
 
   Progress::~Progress()

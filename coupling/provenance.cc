@@ -60,9 +60,9 @@ namespace diptych::coupling
   }
 
   PhaseTimer::PhaseTimer(std::string name)
-    : name(std::move(name))
-    , wall(std::chrono::steady_clock::now())
-    , cpu(cpu_seconds(true))
+      : name(std::move(name)),
+        wall(std::chrono::steady_clock::now()),
+        cpu(cpu_seconds(true))
   {}
 
   PhaseCost PhaseTimer::stop() const
@@ -92,25 +92,25 @@ namespace diptych::coupling
                          const std::vector<PhaseCost> &phases,
                          const nlohmann::json         &facts)
   {
-    nlohmann::json record   = read_provenance(directory);
-    record["program"]       = "diptych";
-    record["version"]       = version;
-    record["git_revision"]  = git_revision;
-    record["libraries"]     = {{"deal.II", deal_ii_version}, {"Trilinos", trilinos_version}, {"Eigen", eigen_version},
-                               {"HDF5", hdf5_version},       {"compiler", compiler_version}, {"build", build_type}};
-    record["command"]       = command;
-    record["scene"]         = scene.name;
-    record["seed"]          = scene.sample.seed;
-    record["host"]          = {{"cpu", cpu_name()}, {"cores", std::thread::hardware_concurrency()}};
-    record["date"]          = now_utc();
-    nlohmann::json &stored  = record["phases"];
+    nlohmann::json record  = read_provenance(directory);
+    record["program"]      = "diptych";
+    record["version"]      = version;
+    record["git_revision"] = git_revision;
+    record["libraries"]    = {{"deal.II", deal_ii_version}, {"Trilinos", trilinos_version}, {"Eigen", eigen_version},
+                              {"HDF5", hdf5_version},       {"compiler", compiler_version}, {"build", build_type}};
+    record["command"]      = command;
+    record["scene"]        = scene.name;
+    record["seed"]         = scene.sample.seed;
+    record["host"]         = {{"cpu", cpu_name()}, {"cores", std::thread::hardware_concurrency()}};
+    record["date"]         = now_utc();
+    nlohmann::json &stored = record["phases"];
     if (!stored.is_array())
       stored = nlohmann::json::array();
     for (const PhaseCost &phase : phases)
       {
-        const nlohmann::json row = {{"name", phase.name}, {"wall_s", phase.wall_s}, {"cpu_s", phase.cpu_s},
-                                    {"peak_memory_mb", phase.peak_memory_mb}};
-        bool                 replaced = false;
+        const nlohmann::json row = {
+          {"name", phase.name}, {"wall_s", phase.wall_s}, {"cpu_s", phase.cpu_s}, {"peak_memory_mb", phase.peak_memory_mb}};
+        bool replaced = false;
         for (nlohmann::json &old : stored)
           if (old["name"] == phase.name)
             old = row, replaced = true;

@@ -20,8 +20,7 @@ namespace diptych::coupling
   namespace
   {
     // The sections of a scene file. A new section is added here and nowhere else.
-    template <class Function>
-    void for_each_section(Scene &scene, Function &&function)
+    template <class Function> void for_each_section(Scene &scene, Function &&function)
     {
       function("sample", scene.sample);
       function("loading", scene.loading);
@@ -81,8 +80,8 @@ namespace diptych::coupling
           for (std::size_t j = 1; j <= b.size(); ++j)
             {
               const std::size_t up = row[j];
-              row[j]   = std::min({up + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-              diagonal = up;
+              row[j]               = std::min({up + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+              diagonal             = up;
             }
         }
       return row[b.size()];
@@ -123,8 +122,8 @@ namespace diptych::coupling
         }
       catch (const dealii::ExceptionBase &)
         {
-          throw SceneError(entry.place + ": " + entry.section + "/" + entry.key + " = '" + entry.value + "' is not allowed: " +
-                           key.allowed + " [" + key.unit + "] is");
+          throw SceneError(entry.place + ": " + entry.section + "/" + entry.key + " = '" + entry.value +
+                           "' is not allowed: " + key.allowed + " [" + key.unit + "] is");
         }
       prm.leave_subsection();
     }
@@ -195,8 +194,8 @@ namespace diptych::coupling
 
       const auto line_of = [&](const std::string &name, const std::size_t from) {
         const std::size_t at = std::min(text.find('"' + name + '"', from), text.size());
-        return std::pair<std::size_t, std::string>(
-          at, file + ", line " + std::to_string(1 + std::count(text.begin(), text.begin() + at, '\n')));
+        return std::pair<std::size_t, std::string>(at, file + ", line " +
+                                                         std::to_string(1 + std::count(text.begin(), text.begin() + at, '\n')));
       };
       const auto value_text = [](const nlohmann::json &value) {
         const auto plain = [](const nlohmann::json &v) { return v.is_string() ? v.get<std::string>() : v.dump(); };
@@ -238,10 +237,10 @@ namespace diptych::coupling
         {
           const double k = edge / loading.stage_strain;
           if (std::abs(k - std::round(k)) > 1e-6 || edge > loading.axial_strain * (1 + 1e-9))
-            throw SceneError(file + ": comparison/window_edges holds " + std::to_string(edge) +
-                             ", which is no stage: stages are multiples of loading/stage_strain = " +
-                             std::to_string(loading.stage_strain) + " up to loading/axial_strain = " +
-                             std::to_string(loading.axial_strain));
+            throw SceneError(
+              file + ": comparison/window_edges holds " + std::to_string(edge) +
+              ", which is no stage: stages are multiples of loading/stage_strain = " + std::to_string(loading.stage_strain) +
+              " up to loading/axial_strain = " + std::to_string(loading.axial_strain));
         }
       try
         {

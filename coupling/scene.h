@@ -22,8 +22,7 @@ namespace diptych::coupling
     bool   affine_start             = true;
   };
 
-  template <class Visitor>
-  void visit_parameters(LoadingOptions &o, Visitor &&visitor)
+  template <class Visitor> void visit_parameters(LoadingOptions &o, Visitor &&visitor)
   {
     visitor("pressure", o.pressure, "pressure", {1e-12, 1e15}, "P of the lateral action; also the initial isotropic stress");
     visitor("inertial_number", o.inertial_number, "-", {1e-9, 0.1},
@@ -31,8 +30,10 @@ namespace diptych::coupling
     visitor("horizontal_over_vertical", o.horizontal_over_vertical, "-", {-10., 10.},
             "travel of the upper platen to the right per descent: 1 is 45 degrees, 0 vertical");
     visitor("axial_strain", o.axial_strain, "-", {1e-6, 0.5}, "descent of the upper platen / initial height at the end");
-    visitor("stage_strain", o.stage_strain, "-", {1e-6, 0.5}, "axial strain between two stages, at which both panels are compared");
-    visitor("affine_start", o.affine_start, "-", {}, "grains start with the affine velocity field between the platens, not at rest");
+    visitor("stage_strain", o.stage_strain, "-", {1e-6, 0.5},
+            "axial strain between two stages, at which both panels are compared");
+    visitor("affine_start", o.affine_start, "-", {},
+            "grains start with the affine velocity field between the platens, not at rest");
   }
 
   struct ComparisonOptions
@@ -42,8 +43,7 @@ namespace diptych::coupling
     double              averaging_strain    = 0.005;
   };
 
-  template <class Visitor>
-  void visit_parameters(ComparisonOptions &o, Visitor &&visitor)
+  template <class Visitor> void visit_parameters(ComparisonOptions &o, Visitor &&visitor)
   {
     visitor("window_edges", o.window_edges, "axial strain", {0., 0.5},
             "edges of the windows over which displacement increments are compared; each must be a stage or 0");
@@ -59,8 +59,7 @@ namespace diptych::coupling
     bool        report = true;
   };
 
-  template <class Visitor>
-  void visit_parameters(OutputOptions &o, Visitor &&visitor)
+  template <class Visitor> void visit_parameters(OutputOptions &o, Visitor &&visitor)
   {
     visitor("directory", o.directory, "-", {}, "result folder; empty: results/<scene name>");
     visitor("report", o.report, "-", {}, "draw report.html at the end of a run");

@@ -112,7 +112,8 @@ namespace diptych::coupling
 
     void operator()(const char *name, double &value, const char *unit, const Range range, const char *meaning) const
     {
-      keys.push_back({section, name, text_of(value), unit, "a number from " + text_of(range[0]) + " to " + text_of(range[1]), meaning});
+      keys.push_back(
+        {section, name, text_of(value), unit, "a number from " + text_of(range[0]) + " to " + text_of(range[1]), meaning});
     }
     void operator()(const char *name, int &value, const char *unit, const Range range, const char *meaning) const
     {

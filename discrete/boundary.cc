@@ -9,7 +9,10 @@ namespace diptych::discrete
 {
   namespace
   {
-    void share_force(const Grains &grains, const int *begin, const int *end, const double total,
+    void share_force(const Grains                 &grains,
+                     const int                    *begin,
+                     const int                    *end,
+                     const double                  total,
                      std::vector<Eigen::Vector2d> &force)
     {
       double mass = 0;
@@ -28,8 +31,8 @@ namespace diptych::discrete
   {
     if (options.lateral == "none" || state.walls.size() < 2)
       return;
-    const Grains &g       = state.grains;
-    const double  bottom  = state.walls[0].point.y(), height = state.walls[1].point.y() - bottom;
+    const Grains &g      = state.grains;
+    const double  bottom = state.walls[0].point.y(), height = state.walls[1].point.y() - bottom;
     const int     n_bands = std::max(1, int(std::lround(height / (options.band_height * mean_diameter))));
     const double  w       = height / n_bands;
 

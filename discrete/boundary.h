@@ -15,8 +15,7 @@ namespace diptych::discrete
     int         end_grains  = 5;
   };
 
-  template <class Visitor>
-  void visit_parameters(LateralOptions &o, Visitor &&visitor)
+  template <class Visitor> void visit_parameters(LateralOptions &o, Visitor &&visitor)
   {
     visitor("lateral", o.lateral, "-", {"end_grains", "none"},
             "containing action on the free sides: the end grains of horizontal bands carry the pressure, or nothing does");

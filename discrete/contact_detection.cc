@@ -119,9 +119,8 @@ namespace diptych::discrete
               contacts.push_back(contact);
           }
       }
-    std::sort(contacts.begin(), contacts.end(), [](const Contact &a, const Contact &b) {
-      return a.i != b.i ? a.i < b.i : a.j < b.j;
-    });
+    std::sort(contacts.begin(), contacts.end(),
+              [](const Contact &a, const Contact &b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
     return contacts;
   }
 } // namespace diptych::discrete

@@ -22,9 +22,8 @@ namespace diptych::discrete
   {
     std::vector<int> queue(contacts.size());
     std::iota(queue.begin(), queue.end(), 0);
-    std::stable_sort(queue.begin(), queue.end(), [&](const int a, const int b) {
-      return contacts[a].point.y() < contacts[b].point.y();
-    });
+    std::stable_sort(queue.begin(), queue.end(),
+                     [&](const int a, const int b) { return contacts[a].point.y() < contacts[b].point.y(); });
 
     std::vector<Contact> ordered;
     ordered.reserve(contacts.size());
@@ -38,9 +37,8 @@ namespace diptych::discrete
         for (auto w = window.begin(); w != window.end() && ordered.size() < batch_begin + batch_size;)
           {
             const Contact &candidate = contacts[*w];
-            const bool     free      = std::none_of(ordered.begin() + batch_begin, ordered.end(), [&](const Contact &c) {
-              return share_a_grain(c, candidate, n_grains);
-            });
+            const bool     free      = std::none_of(ordered.begin() + batch_begin, ordered.end(),
+                                                    [&](const Contact &c) { return share_a_grain(c, candidate, n_grains); });
             if (free)
               {
                 ordered.push_back(candidate);

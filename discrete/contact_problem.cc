@@ -22,7 +22,7 @@ namespace diptych::discrete
 
   double natural_map_residual(const ContactProblem &problem, const std::vector<Impulse> &impulses)
   {
-    const std::vector<BodyVelocity> v = velocities(problem, impulses);
+    const std::vector<BodyVelocity> v          = velocities(problem, impulses);
     double                          difference = 0, norm = 0;
     for (std::size_t k = 0; k < problem.contacts.size(); ++k)
       {

@@ -54,7 +54,7 @@ namespace diptych::discrete
   } // namespace
 
   Hdf5Writer::Hdf5Writer(const std::string &path)
-    : path_(path)
+      : path_(path)
   {
     silence();
     file_ = H5Fcreate((path_ + ".part").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
@@ -133,7 +133,7 @@ namespace diptych::discrete
   }
 
   Hdf5Reader::Hdf5Reader(const std::string &path)
-    : path_(path)
+      : path_(path)
   {
     silence();
     file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);

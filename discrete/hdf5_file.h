@@ -18,7 +18,7 @@ namespace diptych::discrete
   public:
     explicit Hdf5Writer(const std::string &path);
     ~Hdf5Writer(); // an unfinished file is removed
-    Hdf5Writer(const Hdf5Writer &) = delete;
+    Hdf5Writer(const Hdf5Writer &)            = delete;
     Hdf5Writer &operator=(const Hdf5Writer &) = delete;
 
     // `values` in C order with the given extents.
@@ -27,7 +27,9 @@ namespace diptych::discrete
     void write(const std::string &name, const std::vector<double> &values); // (n)
     void write(const std::string &name, const std::vector<int> &values);
     void write(const std::string &name, const std::vector<Eigen::Vector2d> &values, std::size_t components = 2); // (n, 2 or 3)
-    void write(const std::string &name, const std::vector<Eigen::Matrix2d> &values, std::size_t components = 2); // (n, 2, 2 or 3, 3)
+    void write(const std::string                  &name,
+               const std::vector<Eigen::Matrix2d> &values,
+               std::size_t                         components = 2); // (n, 2, 2 or 3, 3)
     void attribute(const std::string &group, const std::string &name, double value);
     void finish();
 
@@ -41,7 +43,7 @@ namespace diptych::discrete
   public:
     explicit Hdf5Reader(const std::string &path);
     ~Hdf5Reader();
-    Hdf5Reader(const Hdf5Reader &) = delete;
+    Hdf5Reader(const Hdf5Reader &)            = delete;
     Hdf5Reader &operator=(const Hdf5Reader &) = delete;
 
     bool                         has(const std::string &name) const;

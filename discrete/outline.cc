@@ -54,10 +54,10 @@ namespace diptych::discrete
 
     std::vector<Eigen::Vector2d> side(const State &state, const double mean_diameter, const int sign)
     {
-      const double bottom = state.walls[0].point.y(), height = state.walls[1].point.y() - bottom;
-      const int    n      = std::max(2, int(std::lround(height / (0.1 * mean_diameter))) + 1);
-      const double dy     = height / (n - 1);
-      const std::vector<double> x = smooth(raw_envelope(state.grains, bottom, dy, n, sign), mean_diameter / dy);
+      const double              bottom = state.walls[0].point.y(), height = state.walls[1].point.y() - bottom;
+      const int                 n  = std::max(2, int(std::lround(height / (0.1 * mean_diameter))) + 1);
+      const double              dy = height / (n - 1);
+      const std::vector<double> x  = smooth(raw_envelope(state.grains, bottom, dy, n, sign), mean_diameter / dy);
 
       const int                    n_points = std::max(2, int(std::lround(height / (2 * mean_diameter))) + 1);
       std::vector<Eigen::Vector2d> points;

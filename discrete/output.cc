@@ -30,8 +30,7 @@ namespace diptych::discrete
         throw std::runtime_error("cannot write " + path);
     }
 
-    template <class Byte>
-    std::vector<int> integers(const std::vector<Byte> &values)
+    template <class Byte> std::vector<int> integers(const std::vector<Byte> &values)
     {
       std::vector<int> result;
       for (const Byte value : values)
@@ -121,11 +120,17 @@ namespace diptych::discrete
     }
 
     // One array of the HDF5 file as an XDMF attribute on the points of the grid.
-    std::string xdmf_attribute(const std::string &file, const std::string &path, const std::string &name,
-                               const std::string &type, const std::size_t n, const std::size_t components, const bool integer)
+    std::string xdmf_attribute(const std::string &file,
+                               const std::string &path,
+                               const std::string &name,
+                               const std::string &type,
+                               const std::size_t  n,
+                               const std::size_t  components,
+                               const bool         integer)
     {
       std::ostringstream out;
-      out << "        <Attribute Name=\"" << name << "\" AttributeType=\"" << type << "\" Center=\"Node\"><DataItem Format=\"HDF\" "
+      out << "        <Attribute Name=\"" << name << "\" AttributeType=\"" << type
+          << "\" Center=\"Node\"><DataItem Format=\"HDF\" "
           << (integer ? "NumberType=\"Int\"" : "NumberType=\"Float\" Precision=\"8\"") << " Dimensions=\"" << n;
       if (components > 1)
         out << ' ' << components;
@@ -133,13 +138,17 @@ namespace diptych::discrete
       return out.str();
     }
 
-    std::string xdmf_points(const std::string &file, const std::string &path, const std::string &points, const std::size_t n,
-                            const double time)
+    std::string xdmf_points(const std::string &file,
+                            const std::string &path,
+                            const std::string &points,
+                            const std::size_t  n,
+                            const double       time)
     {
       std::ostringstream out;
       out << "      <Grid Name=\"" << path << "\" GridType=\"Uniform\">\n        <Time Value=\"" << time
           << "\"/>\n        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"" << n
-          << "\"/>\n        <Geometry GeometryType=\"XYZ\"><DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"8\" Dimensions=\""
+          << "\"/>\n        <Geometry GeometryType=\"XYZ\"><DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"8\" "
+             "Dimensions=\""
           << n << " 3\">" << file << ":/" << path << "/" << points << "</DataItem></Geometry>\n";
       return out.str();
     }
@@ -219,8 +228,8 @@ namespace diptych::discrete
         s.applied_force             = file.read_vectors(grains + "/applied_force");
         for (const int r : file.read_int(grains + "/rattler"))
           s.rattler.push_back(std::uint8_t(r));
-        s.contacts      = read_forces(file, group + "/contacts");
-        s.gap           = file.read(group + "/contacts/gap");
+        s.contacts = read_forces(file, group + "/contacts");
+        s.gap      = file.read(group + "/contacts/gap");
         for (const int status : file.read_int(group + "/contacts/status"))
           s.status.push_back(ContactStatus(status));
         s.window_forces = read_forces(file, group + "/window");
@@ -242,9 +251,9 @@ namespace diptych::discrete
            "unbalanced_force\n";
     for (const HistoryRow &r : rows)
       out << r.step << ',' << r.time << ',' << r.axial_strain << ',' << r.stress_ratio << ',' << r.volumetric_strain << ','
-          << r.stress(0, 0) << ',' << r.stress(0, 1) << ',' << r.stress(1, 0) << ',' << r.stress(1, 1) << ','
-          << r.lower_force.x() << ',' << r.lower_force.y() << ',' << r.upper_force.x() << ',' << r.upper_force.y() << ','
-          << r.contacts << ',' << r.sweeps << ',' << r.residual << ',' << r.kinetic_energy << ',' << r.kinetic_energy_ratio << ','
+          << r.stress(0, 0) << ',' << r.stress(0, 1) << ',' << r.stress(1, 0) << ',' << r.stress(1, 1) << ',' << r.lower_force.x()
+          << ',' << r.lower_force.y() << ',' << r.upper_force.x() << ',' << r.upper_force.y() << ',' << r.contacts << ','
+          << r.sweeps << ',' << r.residual << ',' << r.kinetic_energy << ',' << r.kinetic_energy_ratio << ','
           << r.friction_dissipation << ',' << r.impact_dissipation << ',' << r.external_work << ',' << r.correction_work << ','
           << r.energy_residual << ',' << r.inertial_number << ',' << r.max_penetration << ',' << r.rattlers << ','
           << r.spin_term_share << ',' << r.momentum_residual << ',' << r.unbalanced_force << '\n';

@@ -142,10 +142,10 @@ namespace diptych::discrete
                         const Reference   &reference,
                         const StepSetting &setting)
     {
-      const Grains               &g      = state.grains;
-      const std::vector<double>   spin   = spin_terms(g);
-      const double                area   = outline_area(make_outline(state, setting.mean_diameter));
-      Eigen::Matrix2d             moment = Eigen::Matrix2d::Zero();
+      const Grains             &g      = state.grains;
+      const std::vector<double> spin   = spin_terms(g);
+      const double              area   = outline_area(make_outline(state, setting.mean_diameter));
+      Eigen::Matrix2d           moment = Eigen::Matrix2d::Zero();
       for (const Eigen::Matrix2d &m : internal_moments(g.position, contact_forces(state, result, setting.time.step), spin))
         moment += m;
 
@@ -158,13 +158,12 @@ namespace diptych::discrete
       row.volumetric_strain = 1 - area / reference.area;
       row.lower_force       = result.wall_force[0];
       row.upper_force       = result.wall_force[1];
-      row.contacts          = int(std::count_if(result.impulses.begin(), result.impulses.end(),
-                                                [](const Impulse &r) { return r.normal > 0; }));
-      row.sweeps            = result.solve.sweeps;
-      row.residual          = result.solve.residual;
-      row.kinetic_energy    = result.energies.kinetic;
-      row.kinetic_energy_ratio =
-        reference.platen_kinetic_energy > 0 ? row.kinetic_energy / reference.platen_kinetic_energy : 0;
+      row.contacts          = int(
+        std::count_if(result.impulses.begin(), result.impulses.end(), [](const Impulse &r) { return r.normal > 0; }));
+      row.sweeps               = result.solve.sweeps;
+      row.residual             = result.solve.residual;
+      row.kinetic_energy       = result.energies.kinetic;
+      row.kinetic_energy_ratio = reference.platen_kinetic_energy > 0 ? row.kinetic_energy / reference.platen_kinetic_energy : 0;
       row.friction_dissipation += result.energies.friction_dissipation;
       row.impact_dissipation += result.energies.impact_dissipation;
       row.external_work += result.energies.external_work;
@@ -213,9 +212,9 @@ namespace diptych::discrete
       for (std::size_t i = 0; i < state.grains.size(); ++i)
         {
           state.grains.rotation[i] = 0;
-          state.grains.velocity[i] =
-            affine ? Eigen::Vector2d(velocity * (state.grains.position[i].y() - bottom) / height) : Eigen::Vector2d::Zero();
-          state.grains.spin[i] = affine ? -0.5 * velocity.x() / height : 0.;
+          state.grains.velocity[i] = affine ? Eigen::Vector2d(velocity * (state.grains.position[i].y() - bottom) / height)
+                                            : Eigen::Vector2d::Zero();
+          state.grains.spin[i]     = affine ? -0.5 * velocity.x() / height : 0.;
         }
       state.walls[1].velocity = velocity;
     }
@@ -224,21 +223,20 @@ namespace diptych::discrete
   Report run(const SampleOptions &sample, const Loading &loading, const Options &options, const Callbacks &callbacks)
   {
     check(loading);
-    Report       report;
-    const double start    = cpu_seconds();
-    PreparedSample prepared = prepare_sample(sample, options.lateral, options.solver, loading.pressure,
-                                             [&](const int step, const int expected) {
-                                               callbacks.on_progress("preparing the sample",
-                                                                     std::min(1., double(step) / expected));
-                                               return !callbacks.stop_requested();
-                                             });
+    Report         report;
+    const double   start    = cpu_seconds();
+    PreparedSample prepared = prepare_sample(
+      sample, options.lateral, options.solver, loading.pressure, [&](const int step, const int expected) {
+        callbacks.on_progress("preparing the sample", std::min(1., double(step) / expected));
+        return !callbacks.stop_requested();
+      });
     report.preparation       = prepared.report;
     report.preparation_cpu_s = cpu_seconds() - start;
     State &state             = prepared.state;
 
-    const double d      = sample.mean_diameter;
-    const double height = state.walls[1].point.y() - state.walls[0].point.y();
-    const double rate   = loading.inertial_number / d * std::sqrt(loading.pressure / sample.density);
+    const double d        = sample.mean_diameter;
+    const double height   = state.walls[1].point.y() - state.walls[0].point.y();
+    const double rate     = loading.inertial_number / d * std::sqrt(loading.pressure / sample.density);
     report.initial_height = height;
     report.platen_speed   = rate * height;
 
@@ -247,7 +245,7 @@ namespace diptych::discrete
     report.step       = setting.time.step;
     if (!prepared.report.quiet)
       {
-        report.status  = callbacks.stop_requested() ? Status::stopped_by_user : Status::not_converged;
+        report.status = callbacks.stop_requested() ? Status::stopped_by_user : Status::not_converged;
         std::ostringstream text;
         text << "the sample was not quiet after " << prepared.report.steps << " preparation steps: residual "
              << prepared.report.residual << ", unbalanced force " << prepared.report.unbalanced_force;

@@ -117,10 +117,10 @@ namespace diptych::discrete
     return closed > 0 ? (unbalanced / after.grains.size()) / (contact / closed) : 0;
   }
 
-  PreparedSample prepare_sample(const SampleOptions                  &options,
-                                const LateralOptions                 &lateral,
-                                const SolverOptions                  &solver,
-                                const double                          pressure,
+  PreparedSample prepare_sample(const SampleOptions                 &options,
+                                const LateralOptions                &lateral,
+                                const SolverOptions                 &solver,
+                                const double                         pressure,
                                 const std::function<bool(int, int)> &progress)
   {
     validate(options);

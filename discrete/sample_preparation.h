@@ -27,14 +27,14 @@ namespace diptych::discrete
     int    seed                   = 1;
   };
 
-  template <class Visitor>
-  void visit_parameters(SampleOptions &o, Visitor &&visitor)
+  template <class Visitor> void visit_parameters(SampleOptions &o, Visitor &&visitor)
   {
     visitor("grains", o.grains, "-", {10, 10000000}, "number of discs");
     visitor("mean_diameter", o.mean_diameter, "length", {1e-12, 1e12}, "mean diameter d");
     visitor("radius_min", o.radius_min, "mean diameters", {0.05, 0.5}, "smallest radius; radii are uniform by number");
     visitor("radius_max", o.radius_max, "mean diameters", {0.5, 5.}, "largest radius; the two must average 0.5");
-    visitor("width_over_height", o.width_over_height, "-", {0.05, 20.}, "of the sample; below 1 a 45 degree band leaves by the sides");
+    visitor("width_over_height", o.width_over_height, "-", {0.05, 20.},
+            "of the sample; below 1 a 45 degree band leaves by the sides");
     visitor("density", o.density, "mass/length^2", {1e-12, 1e12}, "of the grains, per unit thickness");
     visitor("solid_fraction", o.solid_fraction, "-", {0.3, 0.92}, "expected; fixes the height from the number of grains");
     visitor("box_solid_fraction", o.box_solid_fraction, "-", {0.3, 0.9}, "of the box in which soft discs are relaxed first");
@@ -54,16 +54,16 @@ namespace diptych::discrete
 
   struct PreparationReport
   {
-    bool   quiet            = false;
-    int    steps            = 0;
-    double residual         = 0, unbalanced_force = 0; // of the last step
-    double solid_fraction   = 0; // grain area / outline area
-    double soft_overlap     = 0; // largest overlap left by the soft discs [length]
+    bool   quiet    = false;
+    int    steps    = 0;
+    double residual = 0, unbalanced_force = 0; // of the last step
+    double solid_fraction = 0;                 // grain area / outline area
+    double soft_overlap   = 0;                 // largest overlap left by the soft discs [length]
   };
 
   struct PreparedSample
   {
-    State             state; // at rest; walls[0] the lower platen at y = 0, walls[1] the upper one
+    State             state;     // at rest; walls[0] the lower platen at y = 0, walls[1] the upper one
     StepResult        last_step; // contacts and impulses that carry it
     PreparationReport report;
   };
@@ -71,10 +71,10 @@ namespace diptych::discrete
   // 1. height from count, width/height and solid fraction; 2. soft discs relaxed in a box at box_solid_fraction;
   // 3. frictionless steps with platens fixed and the containing action on. Grains are numbered upward.
   // `progress` is called with (step, expected steps) and stops the preparation when it returns false.
-  PreparedSample prepare_sample(const SampleOptions                  &options,
-                                const LateralOptions                 &lateral,
-                                const SolverOptions                  &solver,
-                                double                                pressure,
+  PreparedSample prepare_sample(const SampleOptions                 &options,
+                                const LateralOptions                &lateral,
+                                const SolverOptions                 &solver,
+                                double                               pressure,
                                 const std::function<bool(int, int)> &progress);
 
   // Mean over grains of |m dv/h| / mean normal contact force.

@@ -38,8 +38,8 @@ namespace diptych::discrete
   // Straight rigid wall or platen: the half plane behind `point`, moving with a prescribed velocity.
   struct Wall
   {
-    Eigen::Vector2d point;    // any point of its surface [length]
-    Eigen::Vector2d normal;   // unit, into the sample
+    Eigen::Vector2d point;  // any point of its surface [length]
+    Eigen::Vector2d normal; // unit, into the sample
     Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
   };
 
@@ -53,7 +53,7 @@ namespace diptych::discrete
   struct State
   {
     Grains                   grains;
-    std::vector<Wall>        walls; // a sample between platens has walls[0] below and walls[1] above
+    std::vector<Wall>        walls;    // a sample between platens has walls[0] below and walls[1] above
     std::vector<PairImpulse> impulses; // of the last step, ascending in (i, j)
     double                   time = 0;
   };

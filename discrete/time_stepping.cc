@@ -93,8 +93,17 @@ namespace diptych::discrete
           const bool   wall = c.j >= n;
           const double wi = v[c.i].inverse_mass, wj = v[c.j].inverse_mass;
           // r^2/I of a disc is 2/m; a wall does not turn.
-          ContactRow row{c.normal.x(), c.normal.y(), 0, 0, wall ? setting.law.platen_friction : setting.law.friction,
-                         1 / (wi + wj), 1 / (wi + wj + 2 * wi + 2 * wj), 2 * wi, 2 * wj, c.i, c.j};
+          ContactRow             row{c.normal.x(),
+                         c.normal.y(),
+                         0,
+                         0,
+                         wall ? setting.law.platen_friction : setting.law.friction,
+                         1 / (wi + wj),
+                         1 / (wi + wj + 2 * wi + 2 * wj),
+                         2 * wi,
+                         2 * wj,
+                         c.i,
+                         c.j};
           const RelativeVelocity u = relative_velocity(row, v[c.i], v[c.j]);
           row.normal_term          = normal_term(c, u.normal, setting.law.normal_restitution, setting.time);
           row.tangential_term      = setting.law.tangential_restitution * u.tangential;
@@ -109,10 +118,9 @@ namespace diptych::discrete
       std::vector<Impulse> guess(contacts.size());
       for (std::size_t k = 0; k < contacts.size(); ++k)
         {
-          const auto pair = std::lower_bound(previous.begin(), previous.end(), contacts[k],
-                                             [](const PairImpulse &p, const Contact &c) {
-                                               return p.i != c.i ? p.i < c.i : p.j < c.j;
-                                             });
+          const auto pair = std::lower_bound(
+            previous.begin(), previous.end(), contacts[k],
+            [](const PairImpulse &p, const Contact &c) { return p.i != c.i ? p.i < c.i : p.j < c.j; });
           if (pair != previous.end() && pair->i == contacts[k].i && pair->j == contacts[k].j)
             guess[k] = {pair->normal, pair->tangential};
         }
@@ -124,8 +132,8 @@ namespace diptych::discrete
       state.impulses.clear();
       for (std::size_t k = 0; k < result.contacts.size(); ++k)
         if (result.impulses[k].normal != 0)
-          state.impulses.push_back({result.contacts[k].i, result.contacts[k].j, result.impulses[k].normal,
-                                    result.impulses[k].tangential});
+          state.impulses.push_back(
+            {result.contacts[k].i, result.contacts[k].j, result.impulses[k].normal, result.impulses[k].tangential});
       std::sort(state.impulses.begin(), state.impulses.end(),
                 [](const PairImpulse &a, const PairImpulse &b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
     }
@@ -170,8 +178,8 @@ namespace diptych::discrete
           const double m = before.grains.mass[i];
           // m (v^2 + s^2/2)/2, since I omega^2 = m s^2 / 2.
           const double was = 0.5 * m * (v[i].x * v[i].x + v[i].y * v[i].y + 0.5 * v[i].surface * v[i].surface);
-          const double is =
-            0.5 * m * (v_new[i].x * v_new[i].x + v_new[i].y * v_new[i].y + 0.5 * v_new[i].surface * v_new[i].surface);
+          const double is  = 0.5 * m *
+                            (v_new[i].x * v_new[i].x + v_new[i].y * v_new[i].y + 0.5 * v_new[i].surface * v_new[i].surface);
           e.kinetic += is;
           e.kinetic_change += is - was;
           e.external_work += 0.5 * h * result.applied_force[i].dot(Eigen::Vector2d(v[i].x + v_new[i].x, v[i].y + v_new[i].y));
@@ -208,8 +216,9 @@ namespace diptych::discrete
           const Impulse    &r = result.impulses[k];
           impulse_sum += std::hypot(r.normal, r.tangential);
           if (std::size_t(c.j) >= n)
-            result.wall_force[c.j - n] +=
-              Eigen::Vector2d(c.nx * r.normal - c.ny * r.tangential, c.ny * r.normal + c.nx * r.tangential) / h;
+            result.wall_force[c.j - n] += Eigen::Vector2d(c.nx * r.normal - c.ny * r.tangential,
+                                                          c.ny * r.normal + c.nx * r.tangential) /
+                                          h;
         }
       Eigen::Vector2d balance = Eigen::Vector2d::Zero();
       for (std::size_t i = 0; i < n; ++i)
@@ -229,8 +238,8 @@ namespace diptych::discrete
 
     StepResult result;
     result.applied_force = applied_forces(trial, setting);
-    result.contacts = sweep_order(find_contacts(trial, detection_margins(trial, setting, result.applied_force)),
-                                  int(trial.grains.size()));
+    result.contacts      = sweep_order(find_contacts(trial, detection_margins(trial, setting, result.applied_force)),
+                                       int(trial.grains.size()));
     for (const Contact &c : result.contacts)
       result.largest_penetration = std::max(result.largest_penetration, -c.gap);
 

@@ -18,8 +18,7 @@ namespace diptych::discrete
     double tangential_restitution = 0;
   };
 
-  template <class Visitor>
-  void visit_parameters(ContactLawOptions &o, Visitor &&visitor)
+  template <class Visitor> void visit_parameters(ContactLawOptions &o, Visitor &&visitor)
   {
     visitor("friction", o.friction, "-", {0., 100.}, "Coulomb coefficient between grains");
     visitor("platen_friction", o.platen_friction, "-", {0., 100.},
@@ -37,8 +36,7 @@ namespace diptych::discrete
     double      gravity_y              = 0;
   };
 
-  template <class Visitor>
-  void visit_parameters(StepOptions &o, Visitor &&visitor)
+  template <class Visitor> void visit_parameters(StepOptions &o, Visitor &&visitor)
   {
     visitor("step", o.step, "time", {1e-12, 1e12},
             "step h; at most d sqrt(rho/P) with free end grains. Shortened so that every stage is a whole number of steps");
@@ -56,9 +54,9 @@ namespace diptych::discrete
     ContactLawOptions law;
     SolverOptions     solver;
     LateralOptions    lateral;
-    double            pressure            = 1; // of the containing action
-    double            mean_diameter       = 1; // [length]
-    bool              accept_unconverged  = false; // only while a sample is prepared
+    double            pressure           = 1;     // of the containing action
+    double            mean_diameter      = 1;     // [length]
+    bool              accept_unconverged = false; // only while a sample is prepared
   };
 
   // Work of one step. kinetic_change = external_work - friction_dissipation - impact_dissipation to round-off, because
@@ -72,8 +70,8 @@ namespace diptych::discrete
   struct [[nodiscard]] StepResult
   {
     SolveReport                  solve;
-    std::vector<Contact>         contacts; // at mid-step, in sweep order
-    std::vector<Impulse>         impulses; // of each contact
+    std::vector<Contact>         contacts;      // at mid-step, in sweep order
+    std::vector<Impulse>         impulses;      // of each contact
     std::vector<Eigen::Vector2d> applied_force; // on each grain: containing action and gravity
     std::vector<Eigen::Vector2d> wall_force;    // of each wall on the sample = impulse / step
     StepEnergies                 energies;

@@ -32,8 +32,8 @@ namespace diptych::continuum
   }
 
   LinearElastic::LinearElastic(const ElasticOptions &options)
-    : moduli(plane_moduli(options))
-    , tangent(elastic_tangent(moduli))
+      : moduli(plane_moduli(options)),
+        tangent(elastic_tangent(moduli))
   {
     validate(options);
   }

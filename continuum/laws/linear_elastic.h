@@ -15,8 +15,7 @@ namespace diptych::continuum
     double poisson_ratio = 0.2; // [-]
   };
 
-  template <class Visitor>
-  void visit_parameters(ElasticOptions &o, Visitor &&visitor)
+  template <class Visitor> void visit_parameters(ElasticOptions &o, Visitor &&visitor)
   {
     visitor("youngs_modulus", o.youngs_modulus, "P", {1e-3, 1e12}, "Young's modulus; steepness of the curve before the peak");
     visitor("poisson_ratio", o.poisson_ratio, "-", {0., 0.49}, "Poisson's ratio");

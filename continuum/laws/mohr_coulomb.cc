@@ -41,11 +41,12 @@ namespace diptych::continuum
             ": 0 <= residual <= peak is needed");
     // Both angles decay alike, so that the two ends decide for all values between.
     require(o.dilatancy_angle_peak <= o.friction_angle_peak && o.dilatancy_angle_residual <= o.friction_angle_residual,
-            "dilatancy angles ", o.dilatancy_angle_peak, " -> ", o.dilatancy_angle_residual, " must not exceed the friction angles ",
-            o.friction_angle_peak, " -> ", o.friction_angle_residual, " (plastic work would be negative)");
+            "dilatancy angles ", o.dilatancy_angle_peak, " -> ", o.dilatancy_angle_residual,
+            " must not exceed the friction angles ", o.friction_angle_peak, " -> ", o.friction_angle_residual,
+            " (plastic work would be negative)");
     require(o.cohesion >= 0, "cohesion = ", o.cohesion, " must not be negative");
-    require(o.cohesion == 0 || o.friction_angle_residual > 0,
-            "friction_angle_residual = 0 with cohesion = ", o.cohesion, " has no apex to return to; give a small angle");
+    require(o.cohesion == 0 || o.friction_angle_residual > 0, "friction_angle_residual = 0 with cohesion = ", o.cohesion,
+            " has no apex to return to; give a small angle");
     require(o.softening_strain > 0, "softening_strain = ", o.softening_strain, " must be positive");
   }
 
@@ -59,21 +60,21 @@ namespace diptych::continuum
 
   struct MohrCoulomb::PlasticMultiplier
   {
-    double value    = 0; // lambda, the increment of eps_1 - eps_3 plastic
-    double slope    = 0; // -dF/dlambda
-    bool   at_apex  = false;
+    double value     = 0; // lambda, the increment of eps_1 - eps_3 plastic
+    double slope     = 0; // -dF/dlambda
+    bool   at_apex   = false;
     bool   converged = true;
   };
 
   MohrCoulomb::MohrCoulomb(const MohrCoulombOptions &options)
-    : moduli(plane_moduli(options.elastic))
-    , elastic(elastic_tangent(moduli))
-    , friction_residual(options.friction_angle_residual * degree)
-    , friction_excess((options.friction_angle_peak - options.friction_angle_residual) * degree)
-    , dilatancy_residual(options.dilatancy_angle_residual * degree)
-    , dilatancy_excess((options.dilatancy_angle_peak - options.dilatancy_angle_residual) * degree)
-    , cohesion(options.cohesion)
-    , softening_strain(options.softening_strain)
+      : moduli(plane_moduli(options.elastic)),
+        elastic(elastic_tangent(moduli)),
+        friction_residual(options.friction_angle_residual * degree),
+        friction_excess((options.friction_angle_peak - options.friction_angle_residual) * degree),
+        dilatancy_residual(options.dilatancy_angle_residual * degree),
+        dilatancy_excess((options.dilatancy_angle_peak - options.dilatancy_angle_residual) * degree),
+        cohesion(options.cohesion),
+        softening_strain(options.softening_strain)
   {
     validate(options);
   }
@@ -82,10 +83,8 @@ namespace diptych::continuum
   Angles MohrCoulomb::angles(const double equivalent_plastic_strain) const
   {
     const double decay = std::exp(-equivalent_plastic_strain / softening_strain);
-    return {friction_residual + friction_excess * decay,
-            -friction_excess * decay / softening_strain,
-            dilatancy_residual + dilatancy_excess * decay,
-            -dilatancy_excess * decay / softening_strain};
+    return {friction_residual + friction_excess * decay, -friction_excess * decay / softening_strain,
+            dilatancy_residual + dilatancy_excess * decay, -dilatancy_excess * decay / softening_strain};
   }
 
   double MohrCoulomb::yield_function(const SymmetricTensor<2, 2> &stress, const double equivalent_plastic_strain) const
@@ -174,7 +173,7 @@ namespace diptych::continuum
     answer.state.equivalent_plastic_strain += lambda;
     const Angles a       = angles(answer.state.equivalent_plastic_strain);
     const double sin_psi = std::sin(a.dilatancy), t = trial.t - G * lambda;
-    answer.state.stress  = t * n - (trial.s + bulk * lambda * sin_psi) * one;
+    answer.state.stress = t * n - (trial.s + bulk * lambda * sin_psi) * one;
 
     const auto   d_lambda = (G * n + bulk * std::sin(a.friction) * one) / multiplier.slope;
     const double dilation = bulk * (sin_psi + lambda * std::cos(a.dilatancy) * a.dilatancy_rate);
@@ -193,7 +192,7 @@ namespace diptych::continuum
     const auto     one = dealii::unit_symmetric_tensor<2>();
     MaterialUpdate answer{trial.start, elastic, Regime::apex};
     answer.state.equivalent_plastic_strain += trial.t / moduli.shear;
-    const Angles a = angles(answer.state.equivalent_plastic_strain);
+    const Angles a       = angles(answer.state.equivalent_plastic_strain);
     const double sin_phi = std::sin(a.friction);
     if (cohesion == 0)
       {

@@ -10,24 +10,27 @@ namespace diptych::continuum
   struct MohrCoulombOptions
   {
     ElasticOptions elastic;
-    double         friction_angle_peak     = 20.5;  // [degrees]
-    double         friction_angle_residual = 13.5;  // [degrees]
-    double         dilatancy_angle_peak    = 12;    // [degrees]
-    double         dilatancy_angle_residual = 0;    // [degrees]; a constant positive value inflates the band for ever
-    double         cohesion                = 0.01;  // [pressure]; small, keeps free corners from losing all stiffness
-    double         softening_strain        = 0.075; // equivalent plastic strain of a decay by 1/e [-]
+    double         friction_angle_peak      = 20.5;  // [degrees]
+    double         friction_angle_residual  = 13.5;  // [degrees]
+    double         dilatancy_angle_peak     = 12;    // [degrees]
+    double         dilatancy_angle_residual = 0;     // [degrees]; a constant positive value inflates the band for ever
+    double         cohesion                 = 0.01;  // [pressure]; small, keeps free corners from losing all stiffness
+    double         softening_strain         = 0.075; // equivalent plastic strain of a decay by 1/e [-]
   };
 
-  template <class Visitor>
-  void visit_parameters(MohrCoulombOptions &o, Visitor &&visitor)
+  template <class Visitor> void visit_parameters(MohrCoulombOptions &o, Visitor &&visitor)
   {
     visit_parameters(o.elastic, visitor);
     visitor("friction_angle_peak", o.friction_angle_peak, "degrees", {0., 60.}, "friction angle before any plastic strain");
-    visitor("friction_angle_residual", o.friction_angle_residual, "degrees", {0., 60.}, "friction angle after long shear; at most the peak angle");
-    visitor("dilatancy_angle_peak", o.dilatancy_angle_peak, "degrees", {0., 60.}, "dilatancy angle before any plastic strain; at most the friction angle");
-    visitor("dilatancy_angle_residual", o.dilatancy_angle_residual, "degrees", {0., 60.}, "dilatancy angle after long shear; above zero the band dilates for ever");
+    visitor("friction_angle_residual", o.friction_angle_residual, "degrees", {0., 60.},
+            "friction angle after long shear; at most the peak angle");
+    visitor("dilatancy_angle_peak", o.dilatancy_angle_peak, "degrees", {0., 60.},
+            "dilatancy angle before any plastic strain; at most the friction angle");
+    visitor("dilatancy_angle_residual", o.dilatancy_angle_residual, "degrees", {0., 60.},
+            "dilatancy angle after long shear; above zero the band dilates for ever");
     visitor("cohesion", o.cohesion, "P", {0., 1e12}, "cohesion, constant");
-    visitor("softening_strain", o.softening_strain, "-", {1e-6, 1e6}, "equivalent plastic strain over which both angles decay by 1/e");
+    visitor("softening_strain", o.softening_strain, "-", {1e-6, 1e6},
+            "equivalent plastic strain over which both angles decay by 1/e");
   }
 
   // Throws std::invalid_argument where one value is out of range or two contradict each other (dilatancy above friction).

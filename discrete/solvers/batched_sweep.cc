@@ -7,9 +7,9 @@
 // A sweep is compiled for 128- and 256-bit registers and chosen when the program starts. Without contraction and
 // reassociation (see the build's flags) both give the same bits.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#  define DIPTYCH_FOR_EACH_REGISTER_WIDTH __attribute__((target_clones("avx2", "default")))
+#define DIPTYCH_FOR_EACH_REGISTER_WIDTH __attribute__((target_clones("avx2", "default")))
 #else
-#  define DIPTYCH_FOR_EACH_REGISTER_WIDTH
+#define DIPTYCH_FOR_EACH_REGISTER_WIDTH
 #endif
 
 namespace diptych::discrete
@@ -64,8 +64,7 @@ namespace diptych::discrete
     }
 
     // One batch: contact_law.h's local solution and update, line by line, on four contacts.
-    template <class Batch>
-    DIPTYCH_INLINE void update(Batch &c, const double sticking, const double slipping, BodyVelocity *v)
+    template <class Batch> DIPTYCH_INLINE void update(Batch &c, const double sticking, const double slipping, BodyVelocity *v)
     {
       const Four zero{};
       Bodies     bi = gather(v, c.i), bj = gather(v, c.j);
@@ -76,11 +75,11 @@ namespace diptych::discrete
       const Four size_rt = rt < zero ? -rt : rt;
       const Four omega   = size_rt > 0.9999 * mu * rn ? zero + slipping : zero + sticking;
 
-      const Four pushed = rn - omega * (un + read(c.normal_term)) * read(c.inverse_wnn);
-      const Four normal = zero < pushed ? pushed : zero;
-      const Four bound  = mu * normal;
-      const Four stick  = rt - omega * (ut + read(c.tangential_term)) * read(c.inverse_wtt);
-      const Four above  = -bound < stick ? stick : -bound;
+      const Four pushed     = rn - omega * (un + read(c.normal_term)) * read(c.inverse_wnn);
+      const Four normal     = zero < pushed ? pushed : zero;
+      const Four bound      = mu * normal;
+      const Four stick      = rt - omega * (ut + read(c.tangential_term)) * read(c.inverse_wtt);
+      const Four above      = -bound < stick ? stick : -bound;
       const Four tangential = above < bound ? above : bound;
 
       const Four dn = normal - rn, dt = tangential - rt;
@@ -93,8 +92,11 @@ namespace diptych::discrete
     }
 
     template <class Batch>
-    DIPTYCH_FOR_EACH_REGISTER_WIDTH void
-    sweep_batches(Batch *batches, const std::size_t n, const double sticking, const double slipping, BodyVelocity *v)
+    DIPTYCH_FOR_EACH_REGISTER_WIDTH void sweep_batches(Batch            *batches,
+                                                       const std::size_t n,
+                                                       const double      sticking,
+                                                       const double      slipping,
+                                                       BodyVelocity     *v)
     {
       for (std::size_t b = 0; b < n; ++b)
         update(batches[b], sticking, slipping, v);
@@ -102,7 +104,7 @@ namespace diptych::discrete
   } // namespace
 
   BatchedContacts::BatchedContacts(const ContactProblem &problem)
-    : n_rows_(problem.contacts.size())
+      : n_rows_(problem.contacts.size())
   {
     const int        rest = int(problem.free_velocity.size()); // the body that empty lanes act upon
     std::vector<int> last_batch(rest, -1);                     // that touched a body
@@ -119,7 +121,7 @@ namespace diptych::discrete
             std::fill_n(batches_.back().row, lanes, -1);
             filled = 0;
           }
-        Batch &batch = batches_.back();
+        Batch &batch     = batches_.back();
         batch.nx[filled] = c.nx, batch.ny[filled] = c.ny;
         batch.normal_term[filled] = c.normal_term, batch.tangential_term[filled] = c.tangential_term;
         batch.friction[filled]    = c.friction;

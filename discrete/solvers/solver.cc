@@ -23,7 +23,7 @@ namespace diptych::discrete
     {
     public:
       explicit StagnationControl(const double omega)
-        : omega_(omega)
+          : omega_(omega)
       {}
 
       double omega() const { return omega_; }

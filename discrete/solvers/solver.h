@@ -18,8 +18,7 @@ namespace diptych::discrete
     int         sweeps_per_check = 20;
   };
 
-  template <class Visitor>
-  void visit_parameters(SolverOptions &o, Visitor &&visitor)
+  template <class Visitor> void visit_parameters(SolverOptions &o, Visitor &&visitor)
   {
     visitor("solver", o.solver, "-", {"psor", "nsgs"},
             "psor: over-relaxed Gauss-Seidel, omega by contact status; nsgs: plain Gauss-Seidel, the reference");

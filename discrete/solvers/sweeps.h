@@ -9,7 +9,8 @@ namespace diptych::discrete
   // One Gauss-Seidel pass in the order of the rows, omega = 1. The slow clear reference.
   void sweep_nsgs(const ContactProblem &problem, std::vector<BodyVelocity> &v, std::vector<Impulse> &impulses);
 
-  // One projected over-relaxed pass, the scalar reference of batched_sweep.h; a contact at its Coulomb bound (judged on its old impulse) takes omega_slipping.
+  // One projected over-relaxed pass, the scalar reference of batched_sweep.h; a contact at its Coulomb bound (judged on its old
+  // impulse) takes omega_slipping.
   void sweep_psor(const ContactProblem      &problem,
                   double                     omega_sticking,
                   double                     omega_slipping,

@@ -49,8 +49,8 @@ namespace
     std::vector<Strain> strains;
     for (int k = 0; k < n; ++k)
       {
-        const auto number = [&] { return 2. * double(random()) / double(random.max()) - 1; };
-        const Strain e     = tensor(number(), number(), number());
+        const auto   number = [&] { return 2. * double(random()) / double(random.max()) - 1; };
+        const Strain e      = tensor(number(), number(), number());
         strains.push_back(size / e.norm() * e);
       }
     return strains;
@@ -177,8 +177,8 @@ namespace
     const PlaneModuli moduli = plane_moduli({});
     for (const Strain &strain : random_strains(100, 5e-3))
       {
-        const MaterialState  start  = compressed(0.3, 0.01);
-        const MaterialUpdate answer = law.update(start, strain);
+        const MaterialState  start    = compressed(0.3, 0.01);
+        const MaterialUpdate answer   = law.update(start, strain);
         const Strain         d_stress = answer.state.stress - start.stress;
         // Elastic strain of the stress increment: volume over 2 bulk, deviator over 2 G.
         const Strain elastic = trace(d_stress) / (4 * moduli.bulk) * dealii::unit_symmetric_tensor<2>() +

@@ -38,7 +38,8 @@ namespace
 
   TEST(HistoryTable, ABrokenFileIsNamedWithItsLine)
   {
-    const std::string path = (std::filesystem::path(testing::TempDir()) / ("history" + std::to_string(::getpid()) + ".csv")).string();
+    const std::string path =
+      (std::filesystem::path(testing::TempDir()) / ("history" + std::to_string(::getpid()) + ".csv")).string();
     std::ofstream(path) << "axial_strain,y\n0,1\n0.1\n";
     try
       {

@@ -19,14 +19,16 @@ namespace
     std::string path;
 
     explicit SceneFile(const std::string &text, const std::string &ending = ".prm")
-      : path((std::filesystem::path(testing::TempDir()) / ("scene_test" + std::to_string(::getpid()) + ending)).string())
+        : path((std::filesystem::path(testing::TempDir()) / ("scene_test" + std::to_string(::getpid()) + ending)).string())
     {
       std::ofstream(path) << text;
     }
     ~SceneFile() { std::filesystem::remove(path); }
   };
 
-  std::string error_of(const std::string &text, const std::vector<std::string> &overrides = {}, const std::string &ending = ".prm")
+  std::string error_of(const std::string              &text,
+                       const std::vector<std::string> &overrides = {},
+                       const std::string              &ending    = ".prm")
   {
     const SceneFile file(text, ending);
     try
@@ -71,8 +73,10 @@ namespace
 
   TEST(Scene, AnUnknownKeyIsNamedWithFileLineAndNearestKey)
   {
-    expect_words(error_of("subsection sample\n\n  set grians = 500\nend\n"), {".prm", "line 3", "sample/grians", "sample/grains"});
-    expect_words(error_of("{\n\"sample\":\n {\"grians\": 500}}", {}, ".json"), {".json", "line 3", "sample/grians", "sample/grains"});
+    expect_words(error_of("subsection sample\n\n  set grians = 500\nend\n"),
+                 {".prm", "line 3", "sample/grians", "sample/grains"});
+    expect_words(error_of("{\n\"sample\":\n {\"grians\": 500}}", {}, ".json"),
+                 {".json", "line 3", "sample/grians", "sample/grains"});
     expect_words(error_of("", {"sample/sead=3"}), {"--set", "sample/sead", "sample/seed"});
   }
 
@@ -83,7 +87,8 @@ namespace
 
   TEST(Scene, ValuesOfWrongTypeOrRangeAreNamedWithWhatIsAllowed)
   {
-    expect_words(error_of("subsection discrete\n  set friction = rough\nend\n"), {"line 2", "discrete/friction", "'rough'", "a number from 0 to 100"});
+    expect_words(error_of("subsection discrete\n  set friction = rough\nend\n"),
+                 {"line 2", "discrete/friction", "'rough'", "a number from 0 to 100"});
     expect_words(error_of("subsection discrete\n  set friction = -1\nend\n"), {"discrete/friction", "'-1'", "from 0 to 100"});
     expect_words(error_of("subsection sample\n  set grains = 4.5\nend\n"), {"sample/grains", "'4.5'", "whole number"});
     expect_words(error_of("subsection discrete\n  set solver = lemke\nend\n"), {"'lemke'", "psor, nsgs"});
@@ -101,7 +106,8 @@ namespace
 
   TEST(Scene, ContradictionsBetweenKeysAreNamed)
   {
-    expect_words(error_of("subsection loading\n  set axial_strain = 0.012\nend\n"), {"loading/axial_strain", "loading/stage_strain"});
+    expect_words(error_of("subsection loading\n  set axial_strain = 0.012\nend\n"),
+                 {"loading/axial_strain", "loading/stage_strain"});
     expect_words(error_of("subsection comparison\n  set window_edges = 0, 0.013\nend\n"), {"window_edges", "0.013"});
     expect_words(error_of("subsection continuum\n  set friction_angle_peak = 10\nend\n"), {"friction_angle"});
     expect_words(error_of("subsection sample\n  set radius_max = 0.8\nend\n"), {"radius_min", "radius_max"});
@@ -110,7 +116,8 @@ namespace
   // The echo holds every key with its value, so that reading it back gives the same scene.
   TEST(Scene, TheEchoReadsBackAsTheSameScene)
   {
-    const SceneFile file("subsection sample\n  set grains = 777\nend\nsubsection continuum\n  set poisson_ratio = 0.123456789\nend\n");
+    const SceneFile file(
+      "subsection sample\n  set grains = 777\nend\nsubsection continuum\n  set poisson_ratio = 0.123456789\nend\n");
     const Scene     scene = read_scene(file.path, {});
     const SceneFile echoed(echo(scene), "_echo.prm");
     Scene           again = read_scene(echoed.path, {});
@@ -122,8 +129,8 @@ namespace
   TEST(Scene, ExplainListsEveryKeyAndRefusesUnknownSections)
   {
     const std::string all = explain("");
-    expect_words(all, {"sample", "grains", "loading", "inertial_number", "discrete", "tolerance", "continuum", "friction_angle_peak",
-                       "comparison", "window_edges", "output", "directory"});
+    expect_words(all, {"sample", "grains", "loading", "inertial_number", "discrete", "tolerance", "continuum",
+                       "friction_angle_peak", "comparison", "window_edges", "output", "directory"});
     EXPECT_THROW(explain("sampel"), SceneError);
   }
 

@@ -25,9 +25,9 @@ namespace
 
   TEST(ClosedForm, DiscAtRestOnAPlaneCarriesItsWeight)
   {
-    StepSetting setting    = exact_setting(0.01);
-    setting.time.gravity_y = -9.81;
-    State            state = disc_on_floor({0, 0});
+    StepSetting setting     = exact_setting(0.01);
+    setting.time.gravity_y  = -9.81;
+    State            state  = disc_on_floor({0, 0});
     const StepResult result = advance(state, setting);
     EXPECT_NEAR(contact_force(result, 0, 1, 0.01), state.grains.mass[0] * 9.81, 1e-12 * state.grains.mass[0] * 9.81);
     EXPECT_NEAR(state.grains.velocity[0].norm(), 0, 1e-14);
@@ -38,9 +38,9 @@ namespace
   {
     for (const std::string solver : {"nsgs", "psor"})
       {
-        const int   n = 8;
+        const int    n = 8;
         const double g = 9.81, step = 0.01;
-        StepSetting setting    = exact_setting(step);
+        StepSetting  setting   = exact_setting(step);
         setting.solver.solver  = solver;
         setting.time.gravity_y = -g;
         State state;
@@ -66,9 +66,9 @@ namespace
     const int    n_steps = 50;
     for (const double slope : {0.2, 0.5, 0.54, 0.6, 0.9}) // atan(0.6) = 0.5404
       {
-        StepSetting setting    = exact_setting(step);
-        setting.time.gravity_x = g * std::sin(slope);
-        setting.time.gravity_y = -g * std::cos(slope);
+        StepSetting setting         = exact_setting(step);
+        setting.time.gravity_x      = g * std::sin(slope);
+        setting.time.gravity_y      = -g * std::cos(slope);
         setting.law.platen_friction = mu;
         State state                 = disc_on_floor({0, 0}, radius);
         for (int k = 0; k < n_steps; ++k)
@@ -89,7 +89,7 @@ namespace
     StepSetting  setting        = exact_setting(step);
     setting.time.gravity_y      = -g;
     setting.law.platen_friction = mu;
-    State state                 = disc_on_floor({v0, 0});
+    State  state                = disc_on_floor({v0, 0});
     double time_of_rolling      = NAN;
     for (int k = 1; k <= 600; ++k)
       {
@@ -132,8 +132,8 @@ namespace
         setting.law.tangential_restitution = et;
         setting.law.platen_friction        = mu;
         const Eigen::Vector2d before(std::sin(angle), -std::cos(angle));
-        State                 state  = touching_at_mid_step(before, step);
-        const double          mass   = state.grains.mass[0];
+        State                 state = touching_at_mid_step(before, step);
+        const double          mass  = state.grains.mass[0];
         (void)advance(state, setting);
         const bool   sticks  = std::tan(angle) <= 3 * mu * (1 + en) / (1 + et);
         const double impulse = sticks ? mass / 3 * (1 + et) * before.x() : mu * mass * (1 + en) * -before.y();
@@ -220,7 +220,7 @@ namespace
   {
     Grains grains;
     add_grain(grains, {3, 4}, 0.7, 2.);
-    grains.spin[0]              = 5;
+    grains.spin[0]                = 5;
     const double          inertia = 0.5 * 2 * M_PI * 0.49 * 0.49; // m r^2 / 2
     const Eigen::Matrix2d moment  = internal_moments(grains.position, {}, spin_terms(grains))[0];
     EXPECT_NEAR((moment + 0.5 * inertia * 25 * Eigen::Matrix2d::Identity()).norm(), 0, 1e-13);

@@ -48,7 +48,7 @@ namespace
 
   TEST(ContactDetection, AGrainThatFlewFarAwayDoesNotExhaustMemory)
   {
-    State state = random_grains(100, 10, 3);
+    State state              = random_grains(100, 10, 3);
     state.grains.position[5] = {1e9, -1e9};
     EXPECT_LT(find_contacts(state, std::vector<double>(100, 0.05)).size(), 1000u);
   }
@@ -59,7 +59,7 @@ namespace
     State state;
     add_grain(state.grains, {2, 5}, 0.5, 1.);
     add_grain(state.grains, {0, 5}, 1.0, 1.);
-    state.walls    = {{{0, 4.5}, {0, 1}}};
+    state.walls     = {{{0, 4.5}, {0, 1}}};
     const Contact c = make_contact(state, 0, 1);
     EXPECT_NEAR(c.gap, 0.5, 1e-15);
     EXPECT_NEAR((c.normal - Eigen::Vector2d(1, 0)).norm(), 0, 1e-15); // from j to i

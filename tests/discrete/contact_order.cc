@@ -13,10 +13,9 @@ namespace
 
   TEST(SweepOrder, IsAPermutationWithMostlyIndependentBatches)
   {
-    const ShearedSample        sheared = sheared_sample();
-    const std::vector<Contact> contacts =
-      find_contacts(sheared.state, std::vector<double>(sheared.state.grains.size(), 0.05));
-    const std::vector<Contact>    ordered = sweep_order(contacts, int(sheared.state.grains.size()));
+    const ShearedSample           sheared  = sheared_sample();
+    const std::vector<Contact>    contacts = find_contacts(sheared.state, std::vector<double>(sheared.state.grains.size(), 0.05));
+    const std::vector<Contact>    ordered  = sweep_order(contacts, int(sheared.state.grains.size()));
     std::set<std::pair<int, int>> before, after;
     for (const Contact &c : contacts)
       before.insert({c.i, c.j});

@@ -36,8 +36,8 @@ namespace
 
     Eigen::Vector2d acceleration_force(const std::size_t i) const
     {
-      return sheared.state.grains.mass[i] *
-             (sheared.state.grains.velocity[i] - sheared.before.grains.velocity[i]) / sheared.setting.time.step;
+      return sheared.state.grains.mass[i] * (sheared.state.grains.velocity[i] - sheared.before.grains.velocity[i]) /
+             sheared.setting.time.step;
     }
   };
 
@@ -47,8 +47,8 @@ namespace
   TEST(InternalMoment, IsAdditiveOverAnyPartition)
   {
     const Step                         step;
-    const std::size_t                  n    = step.position.size();
-    const std::vector<double>          spin = spin_terms(step.sheared.state.grains);
+    const std::size_t                  n      = step.position.size();
+    const std::vector<double>          spin   = spin_terms(step.sheared.state.grains);
     const std::vector<Eigen::Matrix2d> moment = internal_moments(step.position, step.forces, spin);
     double                             scale  = 0;
     for (const Eigen::Matrix2d &m : moment)
@@ -86,7 +86,7 @@ namespace
     for (ContactForce &c : forces)
       c.point += shift;
     const std::vector<double> no_spin(position.size(), 0.);
-    const auto                a = internal_moments(step.position, step.forces, no_spin), b = internal_moments(position, forces, no_spin);
+    const auto a = internal_moments(step.position, step.forces, no_spin), b = internal_moments(position, forces, no_spin);
     for (std::size_t i = 0; i < a.size(); ++i)
       EXPECT_NEAR((a[i] - b[i]).norm(), 0, 1e-12 * (1 + a[i].norm()));
   }
@@ -110,7 +110,7 @@ namespace
   TEST(InternalMoment, CompressionIsPositive)
   {
     const std::vector<Eigen::Vector2d> position = {{1, 0}, {0, 0}};
-    const auto m = internal_moments(position, {{0, 1, {0.5, 0}, {1, 0}, {3, 0}}}, {0, 0});
+    const auto                         m        = internal_moments(position, {{0, 1, {0.5, 0}, {1, 0}, {3, 0}}}, {0, 0});
     EXPECT_NEAR(m[0](0, 0), 1.5, 1e-15);
     EXPECT_NEAR(m[1](0, 0), 1.5, 1e-15);
     EXPECT_NEAR(m[0](1, 1), 0, 1e-15);

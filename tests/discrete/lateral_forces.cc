@@ -32,7 +32,7 @@ namespace
     EXPECT_NEAR(right, -pressure * height, 1e-10 * left);
 
     // Within one band and side the forces are as the masses.
-    const double w = height / n_bands;
+    const double w     = height / n_bands;
     double       ratio = 0;
     for (std::size_t i = 0; i < force.size(); ++i)
       if (state.grains.position[i].y() < w && force[i].x() > 0)

@@ -23,8 +23,8 @@ namespace
   {
     std::vector<Snapshot> snapshots;
     Callbacks             callbacks;
-    callbacks.on_stage    = [&](const Snapshot &s) { snapshots.push_back(s); };
-    const Report report   = run(small_sample(150), short_loading(), quick_options(), callbacks);
+    callbacks.on_stage  = [&](const Snapshot &s) { snapshots.push_back(s); };
+    const Report report = run(small_sample(150), short_loading(), quick_options(), callbacks);
     EXPECT_EQ(report.status, Status::finished) << report.message;
     return snapshots;
   }

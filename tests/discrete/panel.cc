@@ -65,7 +65,7 @@ namespace
     SampleOptions sample  = small_sample(200);
     Loading       loading = short_loading();
     Options       options = quick_options();
-    const Course     a       = loaded(sample, loading, options);
+    const Course  a       = loaded(sample, loading, options);
     loading.pressure      = 4;
     options.time.step /= 2;
     sample.preparation_step /= 2;
@@ -82,7 +82,7 @@ namespace
     Options options           = quick_options();
     options.solver.tolerance  = 1e-12;
     options.solver.max_sweeps = 5;
-    const Course r               = loaded(small_sample(150), short_loading(), options);
+    const Course r            = loaded(small_sample(150), short_loading(), options);
     EXPECT_EQ(r.report.status, Status::not_converged);
     EXPECT_NE(r.report.message.find("did not converge"), std::string::npos) << r.report.message;
     EXPECT_LT(r.rows.size(), 100u);
@@ -110,10 +110,10 @@ namespace
   // The window's mean forces carry the mean of the stress of its steps: their moments differ only by the motion within it.
   TEST(Panel, WindowForcesCarryTheMeanStress)
   {
-    const Course       r    = loaded(small_sample(), short_loading(), quick_options());
+    const Course    r    = loaded(small_sample(), short_loading(), quick_options());
     const Snapshot &last = r.snapshots.back();
     Eigen::Matrix2d mean = Eigen::Matrix2d::Zero(), moment = Eigen::Matrix2d::Zero();
-    int             n    = 0;
+    int             n = 0;
     for (const HistoryRow &row : r.rows)
       if (row.axial_strain > 0.005 + 1e-9)
         mean += row.stress, ++n;

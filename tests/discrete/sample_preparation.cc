@@ -30,11 +30,11 @@ namespace
     for (std::size_t k = 0; k < sample.last_step.contacts.size(); ++k)
       {
         const Contact &c = sample.last_step.contacts[k];
-        forces.push_back({c.i, c.j, c.point, c.normal, sample.last_step.impulses[k].normal / options.preparation_step * c.normal});
+        forces.push_back(
+          {c.i, c.j, c.point, c.normal, sample.last_step.impulses[k].normal / options.preparation_step * c.normal});
       }
     double moment = 0;
-    for (const Eigen::Matrix2d &m :
-         internal_moments(sample.state.grains.position, forces, spin_terms(sample.state.grains)))
+    for (const Eigen::Matrix2d &m : internal_moments(sample.state.grains.position, forces, spin_terms(sample.state.grains)))
       moment += m(0, 0);
     const double area = outline_area(make_outline(sample.state, 1.));
     EXPECT_NEAR(moment / area, 1, 0.1);

@@ -12,12 +12,12 @@ namespace diptych::tests
   inline StepSetting exact_setting(const double step)
   {
     StepSetting setting;
-    setting.time.step        = step;
-    setting.law              = {0., 0., 0., 0.};
-    setting.solver.solver    = "nsgs";
-    setting.solver.tolerance = 1e-14;
+    setting.time.step         = step;
+    setting.law               = {0., 0., 0., 0.};
+    setting.solver.solver     = "nsgs";
+    setting.solver.tolerance  = 1e-14;
     setting.solver.max_sweeps = 100000;
-    setting.lateral.lateral  = "none";
+    setting.lateral.lateral   = "none";
     return setting;
   }
 

@@ -18,7 +18,7 @@ namespace
     ContactProblem problem;
     const double   c = 0.5, s = std::sqrt(3.) / 2;
     problem.free_velocity = {{0, -1, 0, 1}, {0, -1, 0, 1}, {0.1, -1, 0, 1}, {0, 0, 0, 0}}; // left, right, top, floor
-    const auto row = [&](const int i, const int j, const double nx, const double ny) {
+    const auto row        = [&](const int i, const int j, const double nx, const double ny) {
       const double wi = problem.free_velocity[i].inverse_mass, wj = problem.free_velocity[j].inverse_mass;
       problem.contacts.push_back({nx, ny, 0, 0, friction, 1 / (wi + wj), 1 / (3 * (wi + wj)), 2 * wi, 2 * wj, i, j});
     };
@@ -87,12 +87,14 @@ namespace
     const ShearedSample sheared = sheared_sample();
     ContactProblem      problem;
     for (std::size_t i = 0; i < sheared.state.grains.size(); ++i)
-      problem.free_velocity.push_back({0.01 * double(i % 7), -0.02 * double(i % 5), 0.003 * double(i % 3), 1 / sheared.state.grains.mass[i]});
+      problem.free_velocity.push_back(
+        {0.01 * double(i % 7), -0.02 * double(i % 5), 0.003 * double(i % 3), 1 / sheared.state.grains.mass[i]});
     problem.free_velocity.insert(problem.free_velocity.end(), 2, {0, 0, 0, 0});
     for (const Contact &c : sheared.result.contacts)
       {
         const double wi = problem.free_velocity[c.i].inverse_mass, wj = problem.free_velocity[c.j].inverse_mass;
-        problem.contacts.push_back({c.normal.x(), c.normal.y(), 0.001, 0, 0.4, 1 / (wi + wj), 1 / (3 * (wi + wj)), 2 * wi, 2 * wj, c.i, c.j});
+        problem.contacts.push_back(
+          {c.normal.x(), c.normal.y(), 0.001, 0, 0.4, 1 / (wi + wj), 1 / (3 * (wi + wj)), 2 * wi, 2 * wj, c.i, c.j});
       }
     std::vector<Impulse>      scalar(problem.contacts.size());
     std::vector<BodyVelocity> v = problem.free_velocity, w = v;
@@ -131,8 +133,8 @@ namespace
   TEST(Solvers, SayWhenTheyDidNotConverge)
   {
     SolverOptions options;
-    options.tolerance  = 1e-14;
-    options.max_sweeps = 3;
+    options.tolerance            = 1e-14;
+    options.max_sweeps           = 3;
     const ContactProblem problem = pyramid(0.5);
     std::vector<Impulse> impulses(problem.contacts.size());
     const SolveReport    report = solve(problem, options, impulses);
@@ -155,11 +157,11 @@ namespace
   {
     for (const std::string solver : {"nsgs", "psor"})
       {
-        ShearedSample sheared            = sheared_sample();
-        sheared.setting.solver.solver    = solver;
-        sheared.setting.solver.tolerance = 1e-6;
+        ShearedSample sheared             = sheared_sample();
+        sheared.setting.solver.solver     = solver;
+        sheared.setting.solver.tolerance  = 1e-6;
         sheared.setting.solver.max_sweeps = 400000;
-        const StepResult result          = advance(sheared.state, sheared.setting);
+        const StepResult result           = advance(sheared.state, sheared.setting);
         EXPECT_EQ(result.solve.status, SolveStatus::converged) << solver << " residual " << result.solve.residual;
       }
   }

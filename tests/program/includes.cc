@@ -15,10 +15,11 @@ namespace
   namespace fs = std::filesystem;
 
   // What each folder may include of the project, and which libraries it must not know.
-  const std::map<std::string, std::set<std::string>> allowed = {{"discrete", {"discrete"}},
-                                                                {"continuum", {"continuum"}},
-                                                                {"coupling", {"discrete", "continuum", "coupling"}}};
-  const std::map<std::string, std::set<std::string>> forbidden_libraries = {{"discrete", {"deal.II", "gmsh", "Trilinos", "Epetra"}}};
+  const std::map<std::string, std::set<std::string>> allowed             = {{"discrete", {"discrete"}},
+                                                                            {"continuum", {"continuum"}},
+                                                                            {"coupling", {"discrete", "continuum", "coupling"}}};
+  const std::map<std::string, std::set<std::string>> forbidden_libraries = {
+    {"discrete", {"deal.II", "gmsh", "Trilinos", "Epetra"}}};
 
   std::vector<std::string> includes_of(const fs::path &file)
   {

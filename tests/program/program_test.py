@@ -38,8 +38,8 @@ class QuickScene(unittest.TestCase):
     def setUpClass(cls):
         cls.keep = tempfile.TemporaryDirectory()
         cls.folder = os.path.join(cls.keep.name, "quick")
-        cls.run = diptych("run", QUICK, "--output", cls.folder)
-        assert cls.run.returncode == 0, cls.run.stderr
+        cls.process = diptych("run", QUICK, "--output", cls.folder)
+        assert cls.process.returncode == 0, cls.process.stderr
         with open(os.path.join(cls.folder, "comparison.json")) as file:
             cls.comparison = json.load(file)
 
@@ -102,8 +102,8 @@ class QuickScene(unittest.TestCase):
         self.assertEqual(repeated["windows"], self.comparison["windows"])
 
     def test_progress_and_report_are_announced(self):
-        self.assertIn("left", self.run.stderr)
-        self.assertIn("report.html", self.run.stdout)
+        self.assertIn("left", self.process.stderr)
+        self.assertIn("report.html", self.process.stdout)
 
 
 class WrongInput(unittest.TestCase):
@@ -139,7 +139,8 @@ class WrongInput(unittest.TestCase):
             with open(path, "r+b") as file:
                 file.truncate(os.path.getsize(path) // 2)
             for name in ["continuum.csv", "continuum.h5"]:
-                open(os.path.join(folder, name), "w").write("axial_strain,stress_ratio\n0,0\n")
+                with open(os.path.join(folder, name), "w") as file:
+                    file.write("axial_strain,stress_ratio\n0,0\n")
             self.expect_wrong(["compare", folder], "discrete.h5")
 
 
