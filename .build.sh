@@ -2,18 +2,17 @@
 
 packages=(
   g++ cmake ninja-build ccache git ca-certificates
-  libdeal.ii-dev libgmsh-dev libeigen3-dev libhdf5-openmpi-dev nlohmann-json3-dev
+  libdeal.ii-dev libgmsh-dev libeigen3-dev libhdf5-openmpi-dev nlohmann-json3-dev libgtest-dev
   python3 python3-h5py python3-matplotlib python3-jinja2
 )
-test_packages=(libgtest-dev)
 
 # OpenMPI refuses to start as root, which a container usually is.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 
-# install_missing [PACKAGE...]: the common list and the given ones, only where something is missing.
+# install_missing: only what is missing; does not touch apt where nothing is.
 install_missing() {
   local missing=() package
-  for package in "${packages[@]}" "$@"; do
+  for package in "${packages[@]}"; do
     [ "$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null)" = "install ok installed" ] || missing+=("$package")
   done
   [ ${#missing[@]} -eq 0 ] && return

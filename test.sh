@@ -16,6 +16,6 @@ for word in "$@"; do
     *) echo "usage: ./test.sh [--all] [release|debug|sanitize]" >&2; exit 2 ;;
   esac
 done
-install_missing "${test_packages[@]}"
+install_missing
 build "$preset" all
 ctest --test-dir build/"$preset" --output-on-failure -j "$(nproc)" "${select[@]}"

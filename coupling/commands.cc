@@ -3,7 +3,9 @@
 #include "coupling/commands.h"
 
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <optional>
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -35,17 +37,6 @@ namespace diptych::coupling
       return scene;
     }
 
-    // The folder is made and the echo written only once the whole scene has been found good.
-    void open_result_folder(const Scene &scene)
-    {
-      const std::string &directory = scene.output.directory;
-      std::error_code    error;
-      std::filesystem::create_directories(directory, error);
-      if (error || access(directory.c_str(), W_OK) != 0)
-        throw SceneError("output/directory = '" + directory + "' cannot be made or written to");
-      write_file(directory + "/scene.prm", echo(scene));
-    }
-
     // What was derived from other results of the folder must not outlive them.
     void remove_results(const std::string &directory, const std::vector<std::string> &names)
     {
@@ -55,6 +46,34 @@ namespace diptych::coupling
 
     const std::vector<std::string> comparison_files = {"comparison.json", "comparison.csv", "comparison.h5", "fields.vtu",
                                                        "report.html"};
+
+    const std::vector<std::string> panel_files = {"discrete.h5",    "discrete.xdmf",  "discrete.csv",  "continuum.h5",
+                                                  "continuum.xdmf", "continuum.csv",  "continuum.pvd", "continuum",
+                                                  "coarse",         "provenance.json"};
+
+    // The sections sample, loading and discrete of an echoed scene: what decides which sample both panels show.
+    std::string sample_part(const std::string &echoed)
+    {
+      const std::size_t begin = echoed.find("subsection sample"), end = echoed.find("subsection continuum");
+      return begin == std::string::npos || end == std::string::npos ? "" : echoed.substr(begin, end - begin);
+    }
+
+    // The folder is made and the echo written only once the whole scene has been found good.
+    void open_result_folder(const Scene &scene)
+    {
+      const std::string &directory = scene.output.directory;
+      std::error_code    error;
+      std::filesystem::create_directories(directory, error);
+      if (error || access(directory.c_str(), W_OK) != 0)
+        throw SceneError("output/directory = '" + directory + "' cannot be made or written to");
+      // Results of another sample must not be compared with what this run will make.
+      std::ifstream      file(directory + "/scene.prm");
+      std::ostringstream earlier;
+      earlier << file.rdbuf();
+      if (sample_part(earlier.str()) != sample_part(echo(scene)))
+        remove_results(directory, panel_files);
+      write_file(directory + "/scene.prm", echo(scene));
+    }
 
     void say(const CommandLine &line, const std::string &text)
     {
@@ -120,8 +139,9 @@ namespace diptych::coupling
       return not_converged;
     }
 
-    // The outline that both meshes fill: of the prepared sample, kept as stage 0 of discrete.h5 or prepared again.
-    discrete::Outline prepared_outline(const CommandLine &line, const Scene &scene, const bool from_file)
+    // The outline that both meshes fill: of the prepared sample, kept as stage 0 of discrete.h5 or prepared again. Nothing
+    // where the sample does not get quiet or the preparation is interrupted.
+    std::optional<discrete::Outline> prepared_outline(const CommandLine &line, const Scene &scene, const bool from_file)
     {
       if (from_file)
         return discrete::read_snapshots(scene.output.directory + "/discrete.h5").front().outline;
@@ -131,7 +151,13 @@ namespace diptych::coupling
                                                      progress.update("preparing the sample", double(step) / expected);
                                                      return !stop_requested();
                                                    });
-      return discrete::make_outline(sample.state, scene.sample.mean_diameter);
+      progress.finish();
+      if (sample.report.quiet)
+        return discrete::make_outline(sample.state, scene.sample.mean_diameter);
+      std::cerr << "preparing the sample: " << (stop_requested() ? "stopped on request" : "it did not get quiet") << " after "
+                << sample.report.steps << " steps (residual " << sample.report.residual << ", unbalanced force "
+                << sample.report.unbalanced_force << ")" << std::endl;
+      return std::nullopt;
     }
 
     continuum::Report continuum_run(const CommandLine        &line,
@@ -167,8 +193,10 @@ namespace diptych::coupling
     {
       const std::string &directory = scene.output.directory;
       remove_results(directory, comparison_files);
-      const discrete::Outline  grains = prepared_outline(line, scene, outline_from_file);
-      const continuum::Outline outline{grains.left, grains.right};
+      const std::optional<discrete::Outline> grains = prepared_outline(line, scene, outline_from_file);
+      if (!grains)
+        return not_converged;
+      const continuum::Outline outline{grains->left, grains->right};
       PhaseTimer               timer("continuum");
       const continuum::Report  report = continuum_run(line, scene, outline, scene.continuum.element_size, directory);
       const PhaseCost          fine   = timer.stop();

@@ -53,7 +53,7 @@ namespace diptych::coupling
       return strip_means(field, increment.frame, angle, strip_edges(increment.frame, angle, offset));
     }
 
-    Increment make_increment(const Comparison &c, const std::size_t from, const std::size_t to)
+    Increment make_increment(const Comparison &c, const std::size_t from, const std::size_t to, const BandOptions &options)
     {
       const double radius = strain_radius(c.grains[to].mean_diameter);
       Increment    result;
@@ -68,7 +68,7 @@ namespace diptych::coupling
       const std::vector<Eigen::Vector2d> centres = cell_centres(result.mesh);
       for (PanelIncrement *panel : {&result.discrete, &result.continuum})
         {
-          panel->band       = find_bands(panel->field, result.frame);
+          panel->band       = find_bands(panel->field, result.frame, options);
           panel->cell_shear = shear_strain_increment(panel->field, centres, radius);
         }
       for (PanelIncrement *panel : {&result.discrete, &result.continuum})
@@ -85,7 +85,7 @@ namespace diptych::coupling
       const auto  mean = [&](const char *name) { return mean_over_strain(history, name, to - averaging_strain, to); };
       PanelRecord record;
       record.stress_ratio      = mean("stress_ratio");
-      record.volumetric_strain = mean("volumetric_strain");
+      record.volumetric_strain = mean_over_strain(history, "volumetric_strain", to, to);
       record.lower_force       = {mean("lower_fx"), mean("lower_fy")};
       record.upper_force       = {mean("upper_fx"), mean("upper_fy")};
       return record;
@@ -144,10 +144,10 @@ namespace diptych::coupling
           stage.discrete.cell_stress[k].setConstant(NAN);
     }
 
-    void take_probes(const discrete::Snapshot &grains, StageRecord &stage)
+    void take_probes(const discrete::Snapshot &grains, const ProbeOptions &options, StageRecord &stage)
     {
       for (const ProbeRegion &region :
-           place_probes(outline_polygon(grains.outline), stage.increment.frame, stage.increment.discrete.band.bands))
+           place_probes(outline_polygon(grains.outline), stage.increment.frame, stage.increment.discrete.band.bands, options))
         {
           stage.discrete.probes.push_back(
             {region, grain_probe_stress(region, grains.position, grains.radius, grains.mean_internal_moment),
@@ -157,15 +157,15 @@ namespace diptych::coupling
         }
     }
 
-    StageRecord make_stage(const Comparison &c, const std::size_t k, const double averaging_strain)
+    StageRecord make_stage(const Comparison &c, const std::size_t k, const ComparisonOptions &options)
     {
       StageRecord stage;
       stage.axial_strain = c.grains[k].axial_strain;
-      stage.increment    = make_increment(c, k - 1, k);
-      stage.discrete     = averages(c.discrete_history, stage.axial_strain, averaging_strain);
-      stage.continuum    = averages(c.continuum_history, stage.axial_strain, averaging_strain);
+      stage.increment    = make_increment(c, k - 1, k, options.band);
+      stage.discrete     = averages(c.discrete_history, stage.axial_strain, options.averaging_strain);
+      stage.continuum    = averages(c.continuum_history, stage.axial_strain, options.averaging_strain);
       map_stress(c.grains[k], c.nodes[k], stage);
-      take_probes(c.grains[k], stage);
+      take_probes(c.grains[k], options.probes, stage);
       return stage;
     }
 
@@ -193,7 +193,7 @@ namespace diptych::coupling
           Increment coarse;
           coarse.from = window.from, coarse.to = window.to, coarse.frame = window.frame;
           coarse.continuum.field = displacement_field(nodes[from], nodes[to]);
-          coarse.continuum.band  = find_bands(coarse.continuum.field, coarse.frame);
+          coarse.continuum.band  = find_bands(coarse.continuum.field, coarse.frame, scene.comparison.band);
           result.windows.push_back(std::move(coarse));
         }
       return result;
@@ -216,11 +216,11 @@ namespace diptych::coupling
                                std::to_string(c.nodes.size()) + ") share no stage beyond the start");
     c.grains.resize(n), c.nodes.resize(n);
     for (std::size_t k = 1; k < n; ++k)
-      c.stages.push_back(make_stage(c, k, scene.comparison.averaging_strain));
+      c.stages.push_back(make_stage(c, k, scene.comparison));
     const std::vector<double> &edges = scene.comparison.window_edges;
     for (std::size_t w = 0; w + 1 < edges.size(); ++w)
       if (const int from = stage_at(c, edges[w]), to = stage_at(c, edges[w + 1]); from >= 0 && to >= 0)
-        c.windows.push_back(make_increment(c, from, to));
+        c.windows.push_back(make_increment(c, from, to, scene.comparison.band));
     c.coarse = coarse_run(scene, c, directory + "/coarse");
     return c;
   }

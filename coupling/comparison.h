@@ -43,7 +43,7 @@ namespace diptych::coupling
 
   struct PanelRecord
   {
-    double                       stress_ratio = 0, volumetric_strain = 0; // averaged over the last averaging_strain
+    double                       stress_ratio = 0, volumetric_strain = 0; // the former averaged over the last averaging_strain
     Eigen::Vector2d              lower_force, upper_force;                // on the sample, averaged likewise [pressure * length]
     double                       dynamic_share = 0;                       // grains: spin term / mean stress, over the stage
     std::vector<Eigen::Matrix2d> cell_stress;                             // on the continuum's mesh [pressure]

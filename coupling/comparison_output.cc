@@ -196,6 +196,13 @@ namespace diptych::coupling
       return summary;
     }
 
+    // The initial stress is isotropic: which principal stress lies between the others has no meaning there.
+    std::vector<double> loaded(const HistoryTable &history, const std::string &name)
+    {
+      const std::vector<double> &values = column(history, name);
+      return {values.begin() + (column(history, "axial_strain").front() == 0 ? 1 : 0), values.end()};
+    }
+
     json continuum_summary(const Scene &scene, const Comparison &c, const json &provenance)
     {
       const HistoryTable &h       = c.continuum_history;
@@ -207,7 +214,7 @@ namespace diptych::coupling
                                      {"peak_stress_ratio", peak.value},
                                      {"strain_at_peak", peak.axial_strain},
                                      {"final_volumetric_strain", column(h, "volumetric_strain").back()},
-                                     {"share_zz_not_intermediate", largest(column(h, "share_zz_not_intermediate"))},
+                                     {"share_zz_not_intermediate", largest(loaded(h, "share_zz_not_intermediate"))},
                                      {"max_equivalent_plastic_strain", column(h, "max_equivalent_plastic_strain").back()}};
       summary.update(provenance.value("continuum", json::object()));
       return summary;

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "continuum/panel.h"
+#include "coupling/band.h"
+#include "coupling/probes.h"
 #include "discrete/panel.h"
 
 namespace diptych::coupling
@@ -41,6 +43,8 @@ namespace diptych::coupling
     std::vector<double> window_edges        = {0, 0.01, 0.02, 0.04};
     double              coarse_element_size = 4;
     double              averaging_strain    = 0.005;
+    BandOptions         band;
+    ProbeOptions        probes;
   };
 
   template <class Visitor> void visit_parameters(ComparisonOptions &o, Visitor &&visitor)
@@ -51,6 +55,8 @@ namespace diptych::coupling
             "element size of the second continuum run that shows what the mesh does to the band");
     visitor("averaging_strain", o.averaging_strain, "axial strain", {1e-9, 0.5},
             "last part of a stage over which stress ratio and platen forces are averaged, in both panels");
+    visit_parameters(o.band, visitor);
+    visit_parameters(o.probes, visitor);
   }
 
   struct OutputOptions

@@ -132,7 +132,9 @@ namespace diptych::discrete
       out << "        <Attribute Name=\"" << name << "\" AttributeType=\"" << type
           << "\" Center=\"Node\"><DataItem Format=\"HDF\" "
           << (integer ? "NumberType=\"Int\"" : "NumberType=\"Float\" Precision=\"8\"") << " Dimensions=\"" << n;
-      if (components > 1)
+      if (components == 9)
+        out << " 3 3";
+      else if (components > 1)
         out << ' ' << components;
       out << "\">" << file << ":/" << path << "/" << name << "</DataItem></Attribute>\n";
       return out.str();

@@ -218,6 +218,59 @@ namespace diptych::discrete
         }
       state.walls[1].velocity = velocity;
     }
+
+    // A sample under way: its state, what has been summed up, and who listens.
+    struct Course
+    {
+      State             &state;
+      const StepSetting &setting;
+      const Reference    reference;
+      const Callbacks   &callbacks;
+      Report            &report;
+      HistoryRow         row    = {};
+      StepResult         last   = {}; // of the last accepted step
+      WindowForces       window = {};
+
+      // One step, or the reason in `report` why there is none.
+      void step(const double last_stage)
+      {
+        if (callbacks.stop_requested())
+          {
+            report.status = Status::stopped_by_user;
+            return;
+          }
+        const State before = state;
+        StepResult  result = advance(state, setting);
+        report.solver_cpu_s += result.solve.cpu_s;
+        report.sweeps += result.solve.sweeps;
+        report.updates += result.solve.sweeps * long(result.contacts.size());
+        if (result.solve.status != SolveStatus::converged)
+          {
+            report.status = Status::not_converged;
+            std::ostringstream text;
+            text << "step " << row.step + 1 << " at axial strain " << axial_strain(state, reference)
+                 << " did not converge: residual " << result.solve.residual << " after " << result.solve.sweeps
+                 << " sweeps, wanted " << setting.solver.tolerance;
+            report.message = text.str();
+            return;
+          }
+        ++report.steps;
+        row = next_row(row, before, state, result, reference, setting);
+        callbacks.on_step(row);
+        window.add(result, spin_terms(state.grains), setting.time.step);
+        callbacks.on_progress("loading the grains", row.axial_strain / last_stage);
+        last = std::move(result);
+      }
+
+      // Snapshot of the last accepted step, with the means since the one before; nothing where there was no step.
+      void hand_over()
+      {
+        if (window.time() == 0)
+          return;
+        callbacks.on_stage(make_snapshot(state, last, window, reference, setting));
+        window.reset();
+      }
+    };
   } // namespace
 
   Report run(const SampleOptions &sample, const Loading &loading, const Options &options, const Callbacks &callbacks)
@@ -253,55 +306,26 @@ namespace diptych::discrete
         return report;
       }
 
-    WindowForces window;
-    callbacks.on_stage(make_snapshot(state, prepared.last_step, window, make_reference(state, d), setting));
+    callbacks.on_stage(make_snapshot(state, prepared.last_step, WindowForces(), make_reference(state, d), setting));
     start_loading(state, {loading.horizontal_over_vertical * report.platen_speed, -report.platen_speed}, loading.affine_start);
     // Impulses scale with the step: those of the preparation become first guesses of the loading.
     for (PairImpulse &r : state.impulses)
       r.normal *= setting.time.step / sample.preparation_step, r.tangential *= setting.time.step / sample.preparation_step;
 
-    const Reference reference = make_reference(state, d);
-    HistoryRow      row;
-    double          from = 0;
+    Course course{state, setting, make_reference(state, d), callbacks, report};
+    double from = 0;
     for (const double stage : loading.stages)
       {
         const long n_steps = std::lround((stage - from) / (rate * setting.time.step));
-        for (long k = 0; k < n_steps; ++k)
-          {
-            if (callbacks.stop_requested())
-              {
-                report.status = Status::stopped_by_user;
-                break;
-              }
-            const State      before = state;
-            const StepResult result = advance(state, setting);
-            report.solver_cpu_s += result.solve.cpu_s;
-            report.sweeps += result.solve.sweeps;
-            report.updates += result.solve.sweeps * long(result.contacts.size());
-            if (result.solve.status != SolveStatus::converged)
-              {
-                report.status = Status::not_converged;
-                std::ostringstream text;
-                text << "step " << row.step + 1 << " at axial strain " << axial_strain(state, reference)
-                     << " did not converge: residual " << result.solve.residual << " after " << result.solve.sweeps
-                     << " sweeps, wanted " << setting.solver.tolerance;
-                report.message = text.str();
-                break;
-              }
-            ++report.steps;
-            row = next_row(row, before, state, result, reference, setting);
-            callbacks.on_step(row);
-            window.add(result, spin_terms(state.grains), setting.time.step);
-            callbacks.on_progress("loading the grains", row.axial_strain / loading.stages.back());
-            if (k + 1 == n_steps)
-              callbacks.on_stage(make_snapshot(state, result, window, reference, setting));
-          }
+        for (long k = 0; k < n_steps && report.status == Status::finished; ++k)
+          course.step(loading.stages.back());
+        // Where the run ends early, the last accepted step is kept as an instant of its own.
+        course.hand_over();
         if (report.status != Status::finished)
           break;
-        window.reset();
         from = stage;
       }
-    report.axial_strain  = row.axial_strain;
+    report.axial_strain  = course.row.axial_strain;
     report.loading_cpu_s = cpu_seconds() - start - report.preparation_cpu_s;
     return report;
   }

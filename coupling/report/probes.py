@@ -60,7 +60,11 @@ def _crosses(increment, box, panel, probes, unit):
                       solid_capstyle="butt")
         ratio = plain(probe.get("t_over_s"))
         text = probe.get("name", "") + ("" if ratio is None else f": t/s = {ratio:.3f}")
-        axes.text(corners[:, 0].mean(), corners[:, 1].max() + 0.6, text, fontsize=8.5, ha="center", va="bottom")
+        if probe.get("name") == "zone":  # oblique: below its lowest corner, where no other probe lies
+            low = corners[corners[:, 1].argmin()]
+            axes.text(low[0], low[1] - 0.6, text, fontsize=8.5, ha="center", va="top")
+        else:
+            axes.text(corners[:, 0].mean(), corners[:, 1].max() + 0.6, text, fontsize=8.5, ha="center", va="bottom")
     maps.draw_bands(axes, increment.bands(panel), increment.centre, on_colour=False)
     _key(axes, box, unit, panel)
     alt = f"{PANEL_NAMES[panel]}: principal stresses of {len(probes)} probes as crosses, {increment.title}."

@@ -26,7 +26,7 @@ WORDS = {
     "strain_at_peak": ("axial strain at the peak", "%", ""),
     "final_volumetric_strain": ("volumetric strain at the end", "%", ""),
     "max_equivalent_plastic_strain": ("largest equivalent plastic strain", "", ""),
-    "share_zz_not_intermediate": ("points where σ_zz is not intermediate", "%", "in-plane yield surface: small"),
+    "share_zz_not_intermediate": ("points where σ_zz is not intermediate", "%", "below 5 %: the in-plane yield surface is exact only where it is"),
     "steps": ("steps", "", ""),
     "step_length": ("step length", "", ""),
     "cut_backs": ("load steps cut back", "", ""),

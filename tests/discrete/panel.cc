@@ -95,9 +95,14 @@ namespace
     Callbacks callbacks;
     callbacks.on_step        = [&](const HistoryRow &) { ++steps; };
     callbacks.stop_requested = [&] { return steps >= 7; };
-    const Report report      = run(small_sample(150), short_loading(), quick_options(), callbacks);
+    std::vector<Snapshot> snapshots;
+    callbacks.on_stage  = [&](const Snapshot &s) { snapshots.push_back(s); };
+    const Report report = run(small_sample(150), short_loading(), quick_options(), callbacks);
     EXPECT_EQ(report.status, Status::stopped_by_user);
     EXPECT_EQ(steps, 7);
+    ASSERT_EQ(snapshots.size(), 2u) << "the prepared sample and the last accepted step";
+    EXPECT_NEAR(snapshots.back().axial_strain, report.axial_strain, 1e-12);
+    EXPECT_GT(report.axial_strain, 0);
   }
 
   TEST(Panel, StagesOutOfOrderAreRefused)

@@ -106,6 +106,30 @@ class QuickScene(unittest.TestCase):
         self.assertIn("report.html", self.process.stdout)
 
 
+class ReferenceScene(unittest.TestCase):
+    """moreau_1997 as it ships; the intervals are those of four seeds, see benchmarks/moreau_1997/README.md."""
+
+    def test_grains_and_continuum(self):
+        scene = os.path.join(SOURCE, "benchmarks", "moreau_1997", "scene.prm")
+        with tempfile.TemporaryDirectory() as folder:
+            result = diptych("run", scene, "--output", folder, "--quiet")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            with open(os.path.join(folder, "comparison.json")) as file:
+                comparison = json.load(file)
+        grains, continuum = comparison["discrete_summary"], comparison["continuum_summary"]
+        self.assertTrue(0.30 < grains["peak_stress_ratio"] < 0.38)
+        self.assertTrue(0.30 < continuum["peak_stress_ratio"] < 0.35)
+        self.assertLess(grains["kinetic_energy_ratio_median"], 2)
+        self.assertLess(grains["spin_term_share"], 1e-4)
+        self.assertGreater(grains["platen_difference_share_below_1_percent"], 0.98)
+        last = comparison["windows"][-1]
+        self.assertLess(abs(last["discrete"]["bands"][0]["angle_deg"] + 47), 5)
+        self.assertTrue(12 < last["discrete"]["bands"][0]["width_10_90_d"] < 25)
+        self.assertGreater(last["discrete"]["bands"][0]["r_squared_strips"], 0.97)
+        coarse = comparison["continuum_coarse"]["windows"][-1]["bands"][0]
+        self.assertGreater(coarse["width_10_90_d"], 1.5 * last["continuum"]["bands"][0]["width_10_90_d"])  # the mesh sets it
+
+
 class WrongInput(unittest.TestCase):
     def expect_wrong(self, words, *texts):
         result = diptych(*words)
