@@ -66,11 +66,16 @@ namespace diptych::coupling
       std::filesystem::create_directories(directory, error);
       if (error || access(directory.c_str(), W_OK) != 0)
         throw SceneError("output/directory = '" + directory + "' cannot be made or written to");
-      // Results of another sample must not be compared with what this run will make.
       std::ifstream      file(directory + "/scene.prm");
       std::ostringstream earlier;
       earlier << file.rdbuf();
-      if (sample_part(earlier.str()) != sample_part(echo(scene)))
+      // A run replaces files and folders by name: only where an earlier one of its own stands may it do so.
+      const bool is_result_folder = earlier.str().find(echo_title) != std::string::npos;
+      if (!is_result_folder && !std::filesystem::is_empty(directory))
+        throw SceneError("output/directory = '" + directory +
+                         "' holds other files and no result of diptych; name a new or an empty folder");
+      // Results of another sample must not be compared with what this run will make.
+      if (is_result_folder && sample_part(earlier.str()) != sample_part(echo(scene)))
         remove_results(directory, panel_files);
       write_file(directory + "/scene.prm", echo(scene));
     }

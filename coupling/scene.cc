@@ -291,7 +291,7 @@ namespace diptych::coupling
   std::string echo(const Scene &scene)
   {
     std::ostringstream out;
-    out << "# " << scene.name << ": every parameter, as it was used\n";
+    out << "# " << scene.name << ": " << echo_title << '\n';
     Scene copy = scene;
     for_each_section(copy, [&](const char *section, auto &options) {
       std::vector<KeyDescription> keys;

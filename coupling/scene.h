@@ -91,6 +91,9 @@ namespace diptych::coupling
   // Reads a .prm or .json file, then applies `overrides` of the form section/key=value. Throws SceneError.
   Scene read_scene(const std::string &file, const std::vector<std::string> &overrides);
 
+  // Stands in the first line of every echo, and so tells a result folder's scene.prm from one written by hand.
+  inline constexpr char echo_title[] = "every parameter, as it was used";
+
   // The whole scene with every default, in .prm format, each key with its meaning.
   std::string echo(const Scene &scene);
 

@@ -146,6 +146,19 @@ class WrongInput(unittest.TestCase):
             self.expect_wrong(["run", scene, "--output", out], "mine.prm", "line 2", "sample/grians", "sample/grains")
             self.assertFalse(os.path.exists(out))
 
+    def test_a_folder_that_is_no_result_is_left_alone(self):
+        with tempfile.TemporaryDirectory() as folder:
+            kept = os.path.join(folder, "continuum", "mine.txt")
+            os.mkdir(os.path.dirname(kept))
+            for path in [kept, os.path.join(folder, "scene.prm")]:
+                with open(path, "w") as file:
+                    file.write("# mine\n")
+            for command in ["run", "discrete", "continuum"]:
+                self.expect_wrong([command, QUICK, *SMALL, "--output", folder], "output/directory", folder)
+            self.assertEqual(listing(folder), [kept, os.path.join(folder, "scene.prm")])
+            with open(os.path.join(folder, "scene.prm")) as file:
+                self.assertEqual(file.read(), "# mine\n")
+
     def test_words_of_the_command_line(self):
         self.expect_wrong(["run"], "missing")
         self.expect_wrong(["rnu", QUICK], "rnu")
