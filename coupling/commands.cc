@@ -18,6 +18,7 @@
 #include "coupling/comparison_output.h"
 #include "coupling/progress.h"
 #include "coupling/provenance.h"
+#include "discrete/text_file.h"
 #include "coupling/stop_signal.h"
 #include "coupling/version.h"
 #include "discrete/outline.h"
@@ -77,7 +78,7 @@ namespace diptych::coupling
       // Results of another sample must not be compared with what this run will make.
       if (is_result_folder && sample_part(earlier.str()) != sample_part(echo(scene)))
         remove_results(directory, panel_files);
-      write_file(directory + "/scene.prm", echo(scene));
+      discrete::write_text(directory + "/scene.prm", echo(scene));
     }
 
     void say(const CommandLine &line, const std::string &text)

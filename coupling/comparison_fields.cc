@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "coupling/comparison_output.h"
-#include "coupling/provenance.h"
+#include "discrete/text_file.h"
 #include "discrete/hdf5_file.h"
 
 namespace diptych::coupling
@@ -157,6 +157,6 @@ namespace diptych::coupling
     vtu.scalar("grain_count", stage.increment.cover.grain_count);
     vtu.scalar("solid_fraction", stage.increment.cover.solid_fraction);
     vtu.scalar("relative_standard_error", relative_standard_error(stage.increment.mesh, c.grains.back()));
-    write_file(directory + "/fields.vtu", vtu.finish());
+    discrete::write_text(directory + "/fields.vtu", vtu.finish());
   }
 } // namespace diptych::coupling

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "coupling/provenance.h"
+#include "discrete/text_file.h"
 #include "discrete/hdf5_file.h"
 
 namespace diptych::coupling
@@ -274,7 +274,7 @@ namespace diptych::coupling
     root["discrete_summary"]  = discrete_summary(scene, c, provenance);
     root["continuum_summary"] = continuum_summary(scene, c, provenance);
     root["cost"]              = cost(provenance);
-    write_file(directory + "/comparison.json", root.dump(1) + "\n");
+    discrete::write_text(directory + "/comparison.json", root.dump(1) + "\n");
   }
 
   void write_comparison_csv(const std::string &directory, const Comparison &c)
@@ -314,6 +314,6 @@ namespace diptych::coupling
       }
     for (const Increment &window : c.windows)
       bands(window);
-    write_file(directory + "/comparison.csv", out.str());
+    discrete::write_text(directory + "/comparison.csv", out.str());
   }
 } // namespace diptych::coupling

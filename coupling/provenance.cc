@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/provenance.h"
 
-#include <cstdio>
 #include <fstream>
-#include <stdexcept>
 #include <thread>
 
 #include <sys/resource.h>
@@ -12,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "coupling/version.h"
+#include "discrete/text_file.h"
 
 namespace diptych::coupling
 {
@@ -71,15 +70,6 @@ namespace diptych::coupling
             double(usage(RUSAGE_SELF).ru_maxrss) / 1024};
   }
 
-  void write_file(const std::string &path, const std::string &text)
-  {
-    std::ofstream file(path + ".part");
-    file << text;
-    file.close();
-    if (!file || std::rename((path + ".part").c_str(), path.c_str()) != 0)
-      throw std::runtime_error("cannot write " + path);
-  }
-
   nlohmann::json read_provenance(const std::string &directory)
   {
     std::ifstream file(directory + "/provenance.json");
@@ -118,6 +108,6 @@ namespace diptych::coupling
           stored.push_back(row);
       }
     record.update(facts);
-    write_file(directory + "/provenance.json", record.dump(2) + "\n");
+    discrete::write_text(directory + "/provenance.json", record.dump(2) + "\n");
   }
 } // namespace diptych::coupling

@@ -44,6 +44,4 @@ namespace diptych::coupling
                          const nlohmann::json         &facts);
 
   nlohmann::json read_provenance(const std::string &directory); // empty object where there is none
-
-  void write_file(const std::string &path, const std::string &text); // temporary name, then renamed; throws std::runtime_error
 } // namespace diptych::coupling

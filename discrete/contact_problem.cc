@@ -36,13 +36,4 @@ namespace diptych::discrete
       return 0;
     return norm > 0 ? std::sqrt(difference / norm) : std::numeric_limits<double>::infinity();
   }
-
-  double largest_closing_velocity(const ContactProblem &problem, const std::vector<Impulse> &impulses)
-  {
-    const std::vector<BodyVelocity> v       = velocities(problem, impulses);
-    double                          closing = 0;
-    for (const ContactRow &c : problem.contacts)
-      closing = std::max(closing, -(relative_velocity(c, v[c.i], v[c.j]).normal + c.normal_term));
-    return closing;
-  }
 } // namespace diptych::discrete

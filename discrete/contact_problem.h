@@ -50,7 +50,4 @@ namespace diptych::discrete
   // Natural map ||r - P(r)||_2 / ||r||_2: P solves every contact for itself with its own W_nn and W_tt, all others held, v
   // computed afresh from r. Returns 0 where nothing acts and nothing should; infinity where r vanishes but P(r) does not.
   double natural_map_residual(const ContactProblem &problem, const std::vector<Impulse> &impulses);
-
-  // Largest remaining violation of u_n' + c_n >= 0 over the contacts [length/time].
-  double largest_closing_velocity(const ContactProblem &problem, const std::vector<Impulse> &impulses);
 } // namespace diptych::discrete

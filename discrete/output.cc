@@ -4,11 +4,11 @@
 
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
 #include "discrete/hdf5_file.h"
+#include "discrete/text_file.h"
 
 namespace diptych::discrete
 {
@@ -19,15 +19,6 @@ namespace diptych::discrete
       char name[32];
       std::snprintf(name, sizeof name, "stage_%04zu", stage);
       return name;
-    }
-
-    void write_text(const std::string &path, const std::string &text)
-    {
-      std::ofstream file(path + ".part");
-      file << text;
-      file.close();
-      if (!file || std::rename((path + ".part").c_str(), path.c_str()) != 0)
-        throw std::runtime_error("cannot write " + path);
     }
 
     template <class Byte> std::vector<int> integers(const std::vector<Byte> &values)
