@@ -7,20 +7,17 @@
 #include <iostream>
 #include <optional>
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <nlohmann/json.hpp>
 
 #include "continuum/mesh.h"
 #include "continuum/output.h"
 #include "coupling/comparison.h"
 #include "coupling/comparison_output.h"
+#include "coupling/discrete_command.h"
 #include "coupling/progress.h"
 #include "coupling/provenance.h"
-#include "discrete/text_file.h"
+#include "coupling/result_folder.h"
 #include "coupling/stop_signal.h"
-#include "coupling/version.h"
 #include "discrete/outline.h"
 #include "discrete/output.h"
 
@@ -30,121 +27,6 @@ namespace diptych::coupling
   {
     using nlohmann::json;
 
-    Scene scene_of(const CommandLine &line)
-    {
-      Scene scene = read_scene(line.target, line.overrides);
-      if (!line.output.empty())
-        scene.output.directory = line.output;
-      return scene;
-    }
-
-    // What was derived from other results of the folder must not outlive them.
-    void remove_results(const std::string &directory, const std::vector<std::string> &names)
-    {
-      for (const std::string &name : names)
-        std::filesystem::remove_all(directory + "/" + name);
-    }
-
-    const std::vector<std::string> comparison_files = {"comparison.json", "comparison.csv", "comparison.h5", "fields.vtu",
-                                                       "report.html"};
-
-    const std::vector<std::string> panel_files = {"discrete.h5",    "discrete.xdmf",  "discrete.csv",  "continuum.h5",
-                                                  "continuum.xdmf", "continuum.csv",  "continuum.pvd", "continuum",
-                                                  "coarse",         "provenance.json"};
-
-    // The sections sample, loading and discrete of an echoed scene: what decides which sample both panels show.
-    std::string sample_part(const std::string &echoed)
-    {
-      const std::size_t begin = echoed.find("subsection sample"), end = echoed.find("subsection continuum");
-      return begin == std::string::npos || end == std::string::npos ? "" : echoed.substr(begin, end - begin);
-    }
-
-    // The folder is made and the echo written only once the whole scene has been found good.
-    void open_result_folder(const Scene &scene)
-    {
-      const std::string &directory = scene.output.directory;
-      std::error_code    error;
-      std::filesystem::create_directories(directory, error);
-      if (error || access(directory.c_str(), W_OK) != 0)
-        throw SceneError("output/directory = '" + directory + "' cannot be made or written to");
-      std::ifstream      file(directory + "/scene.prm");
-      std::ostringstream earlier;
-      earlier << file.rdbuf();
-      // A run replaces files and folders by name: only where an earlier one of its own stands may it do so.
-      const bool is_result_folder = earlier.str().find(echo_title) != std::string::npos;
-      if (!is_result_folder && !std::filesystem::is_empty(directory))
-        throw SceneError("output/directory = '" + directory +
-                         "' holds other files and no result of diptych; name a new or an empty folder");
-      // Results of another sample must not be compared with what this run will make.
-      if (is_result_folder && sample_part(earlier.str()) != sample_part(echo(scene)))
-        remove_results(directory, panel_files);
-      discrete::write_text(directory + "/scene.prm", echo(scene));
-    }
-
-    void say(const CommandLine &line, const std::string &text)
-    {
-      if (!line.quiet)
-        std::cout << text << std::endl;
-    }
-
-    std::string reached(const double strain)
-    {
-      std::ostringstream out;
-      out.precision(4);
-      out << 100 * strain << " % axial strain";
-      return out.str();
-    }
-
-    json discrete_facts(const discrete::Report &report)
-    {
-      return {{"preparation_solid_fraction", report.preparation.solid_fraction},
-              {"preparation_steps", report.preparation.steps},
-              {"preparation_residual", report.preparation.residual},
-              {"preparation_unbalanced_force", report.preparation.unbalanced_force},
-              {"initial_height", report.initial_height},
-              {"platen_speed", report.platen_speed},
-              {"ns_per_update", report.updates > 0 ? 1e9 * report.solver_cpu_s / double(report.updates) : 0},
-              {"solver_share_of_cpu", report.loading_cpu_s > 0 ? report.solver_cpu_s / report.loading_cpu_s : 0},
-              {"reached_axial_strain", report.axial_strain},
-              {"message", report.message}};
-    }
-
-    int discrete_panel(const CommandLine &line, const Scene &scene)
-    {
-      const std::string &directory = scene.output.directory;
-      remove_results(directory, {"discrete.h5", "discrete.xdmf", "discrete.csv"});
-      remove_results(directory, comparison_files);
-
-      std::vector<discrete::Snapshot>   snapshots;
-      std::vector<discrete::HistoryRow> rows;
-      Progress                          progress(line.quiet);
-      discrete::Callbacks               callbacks;
-      callbacks.stop_requested = stop_requested;
-      callbacks.on_progress    = [&](const std::string &phase, const double fraction) { progress.update(phase, fraction); };
-      callbacks.on_step        = [&](const discrete::HistoryRow &row) { rows.push_back(row); };
-      callbacks.on_stage       = [&](const discrete::Snapshot &snapshot) {
-        snapshots.push_back(snapshot);
-        discrete::write_snapshots(directory + "/discrete", snapshots);
-        discrete::write_history(directory + "/discrete.csv", rows);
-      };
-      PhaseTimer             timer("discrete");
-      const discrete::Report report = discrete::run(scene.sample, discrete_loading(scene.loading), scene.discrete, callbacks);
-      progress.finish();
-      discrete::write_history(directory + "/discrete.csv", rows);
-      PhaseCost loading = timer.stop(), preparation = loading;
-      preparation.name  = "preparation";
-      preparation.cpu_s = preparation.wall_s = report.preparation_cpu_s;
-      loading.cpu_s -= report.preparation_cpu_s, loading.wall_s -= report.preparation_cpu_s;
-      update_provenance(directory, scene, line.text, {preparation, loading}, {{"discrete", discrete_facts(report)}});
-
-      if (report.status == discrete::Status::finished)
-        return done;
-      std::cerr << "discrete panel: "
-                << (report.status == discrete::Status::stopped_by_user ? "stopped on request" : report.message) << "; reached "
-                << reached(report.axial_strain) << ", kept in " << directory << std::endl;
-      return not_converged;
-    }
-
     // The outline that both meshes fill: of the prepared sample, kept as stage 0 of discrete.h5 or prepared again. Nothing
     // where the sample does not get quiet or the preparation is interrupted.
     std::optional<discrete::Outline> prepared_outline(const CommandLine &line, const Scene &scene, const bool from_file)
@@ -152,8 +34,9 @@ namespace diptych::coupling
       if (from_file)
         return discrete::read_snapshots(scene.output.directory + "/discrete.h5").front().outline;
       Progress   progress(line.quiet);
-      const auto sample = discrete::prepare_sample(scene.sample, scene.discrete.lateral, scene.discrete.solver,
-                                                   scene.loading.pressure, [&](const int step, const int expected) {
+      const auto sample = discrete::prepare_sample(scene.sample,
+                                                   discrete::preparation_setting(discrete_loading(scene.loading), scene.discrete),
+                                                   [&](const int step, const int expected) {
                                                      progress.update("preparing the sample", double(step) / expected);
                                                      return !stop_requested();
                                                    });
@@ -226,22 +109,12 @@ namespace diptych::coupling
       return done;
     }
 
-    // Runs the report script as a child of its own, no shell between.
-    int draw_report(const CommandLine &line, const std::string &directory)
+    void draw_report(const CommandLine &line, const std::string &directory)
     {
       Progress progress(line.quiet);
       progress.update("drawing the report", 0);
-      const pid_t child = fork();
-      if (child == 0)
-        {
-          execl(python, python, report_script, directory.c_str(), static_cast<char *>(nullptr));
-          _exit(127);
-        }
-      int status = 0;
-      if (child < 0 || waitpid(child, &status, 0) < 0 || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
-        throw std::runtime_error(std::string("the report could not be drawn: ") + python + " " + report_script + " " + directory);
+      run_script("report.py", {directory});
       progress.finish();
-      return done;
     }
 
     int comparison_of(const CommandLine &line, const Scene &scene)
@@ -298,7 +171,8 @@ namespace diptych::coupling
   int run_both(const CommandLine &line)
   {
     const Scene scene = scene_of(line);
-    open_result_folder(scene);
+    require_continuum(scene);
+    open_result_folder(scene, line.resume);
     if (const int code = discrete_panel(line, scene); code != done)
       return code;
     if (const int code = continuum_panel(line, scene, true); code != done)
@@ -311,14 +185,15 @@ namespace diptych::coupling
   int run_discrete(const CommandLine &line)
   {
     const Scene scene = scene_of(line);
-    open_result_folder(scene);
-    return discrete_panel(line, scene);
+    open_result_folder(scene, line.resume);
+    return line.study.empty() ? discrete_panel(line, scene) : step_study(line, scene);
   }
 
   int run_continuum(const CommandLine &line)
   {
     const Scene scene = scene_of(line);
-    open_result_folder(scene);
+    require_continuum(scene);
+    open_result_folder(scene, false);
     return continuum_panel(line, scene, false);
   }
 

@@ -9,12 +9,18 @@ namespace diptych::coupling
 {
   struct CommandLine
   {
-    std::string              command, target; // target: scene file, result folder or section
-    std::string              output;          // --output
-    std::vector<std::string> overrides;       // --set section/key=value
-    int                      threads = 1;     // --threads
-    bool                     quiet   = false; // --quiet
-    std::string              text;            // as it was typed
+    std::string              command, target;     // target: scene file, result folder or section
+    std::string              output;              // --output
+    std::vector<std::string> overrides;           // --set section/key=value
+    int                      threads = 1;         // --threads
+    bool                     resume  = false;     // --resume
+    std::string              study;               // --study: step
+    std::string              solver     = "psor"; // --solver, --tolerance, --max-sweeps, --form: of solve
+    double                   tolerance  = 1e-8;
+    int                      max_sweeps = 1000000;
+    std::string              form;
+    bool                     quiet = false; // --quiet
+    std::string              text;          // as it was typed
   };
 
   enum ExitCode

@@ -1,5 +1,6 @@
 // diptych: the program
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <cmath>
 #include <functional>
 #include <iostream>
 #include <map>
@@ -8,6 +9,7 @@
 
 #include "coupling/commands.h"
 #include "coupling/scene.h"
+#include "coupling/solve_command.h"
 #include "coupling/stop_signal.h"
 #include "coupling/version.h"
 
@@ -20,13 +22,20 @@ namespace
   diptych run SCENE        both panels, homogenisation, comparison, report
   diptych discrete SCENE   the grains alone
   diptych continuum SCENE  the continuum alone (prepares the sample for its outline)
+  diptych solve PROBLEM.h5 one stored contact problem (FCLIB layout): sweeps, residual, seconds
   diptych compare DIR      homogenise and compare again from a result folder
   diptych report DIR       draw report.html again
   diptych explain [SECTION] every key of a scene: default, unit, range, meaning
 
   --output DIR             result folder (default: results/<scene name>)
   --set section/key=value  change one key of the scene; may be repeated
-  --threads N              upper bound; the same bits for every N (this version computes on one)
+  --threads N              for the contact solver; the same bits for every N (default 1)
+  --resume                 go on from the checkpoint of an interrupted run
+  --study step             discrete: run with step h, h/2 and h/4 and compare energy and stress ratio
+  --solver NAME            solve: psor or nsgs (psor)
+  --tolerance T            solve: natural map relative to |r| (1e-8)
+  --max-sweeps N           solve: (1000000)
+  --form F                 solve: body or local (default: body where the file has one); --output names a file
   --quiet                  no progress
   --version, --help
 
@@ -40,11 +49,15 @@ Exit codes: 0 done, 1 a stated invariant failed, 2 wrong input, 3 did not conver
     bool                                    needs_target;
   };
 
-  const std::map<std::string, Command> commands = {
-    {"run", {run_both, true}},          {"discrete", {run_discrete, true}}, {"continuum", {run_continuum, true}},
-    {"compare", {compare_again, true}}, {"report", {report_again, true}},   {"explain", {explain_keys, false}}};
+  const std::map<std::string, Command> commands = {{"run", {run_both, true}},
+                                                   {"discrete", {run_discrete, true}},
+                                                   {"continuum", {run_continuum, true}},
+                                                   {"solve", {solve_stored_problem, true}},
+                                                   {"compare", {compare_again, true}},
+                                                   {"report", {report_again, true}},
+                                                   {"explain", {explain_keys, false}}};
 
-  int positive_number(const std::string &text)
+  int positive_number(const std::string &option, const std::string &text)
   {
     std::size_t end   = 0;
     int         value = 0;
@@ -55,7 +68,16 @@ Exit codes: 0 done, 1 a stated invariant failed, 2 wrong input, 3 did not conver
     catch (const std::exception &)
       {}
     if (end != text.size() || value < 1)
-      throw SceneError("--threads " + text + ": must be a whole number from 1 on");
+      throw SceneError(option + " " + text + ": must be a whole number from 1 on");
+    return value;
+  }
+
+  double positive_real(const std::string &option, const std::string &text)
+  {
+    char        *end   = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (end == text.c_str() || *end != '\0' || !(value > 0) || !std::isfinite(value))
+      throw SceneError(option + " " + text + ": must be a positive number");
     return value;
   }
 
@@ -77,7 +99,19 @@ Exit codes: 0 done, 1 a stated invariant failed, 2 wrong input, 3 did not conver
         else if (words[k] == "--set")
           line.overrides.push_back(argument());
         else if (words[k] == "--threads")
-          line.threads = positive_number(argument());
+          line.threads = positive_number("--threads", argument());
+        else if (words[k] == "--resume")
+          line.resume = true;
+        else if (words[k] == "--study")
+          line.study = argument();
+        else if (words[k] == "--solver")
+          line.solver = argument();
+        else if (words[k] == "--tolerance")
+          line.tolerance = positive_real("--tolerance", argument());
+        else if (words[k] == "--max-sweeps")
+          line.max_sweeps = positive_number("--max-sweeps", argument());
+        else if (words[k] == "--form")
+          line.form = argument();
         else if (words[k] == "--quiet")
           line.quiet = true;
         else if (words[k].rfind("--", 0) == 0)
@@ -87,13 +121,13 @@ Exit codes: 0 done, 1 a stated invariant failed, 2 wrong input, 3 did not conver
         else if (line.target.empty())
           line.target = words[k];
         else
-          throw SceneError("'" + words[k] + "': one scene, folder or section is enough");
+          throw SceneError("'" + words[k] + "': one scene, problem, folder or section is enough");
       }
     const auto found = commands.find(line.command);
     if (found == commands.end())
       throw SceneError("unknown command '" + line.command + "'; see diptych --help");
     if (found->second.needs_target && line.target.empty())
-      throw SceneError("diptych " + line.command + ": a scene file or result folder is missing");
+      throw SceneError("diptych " + line.command + ": a scene file, problem file or result folder is missing");
     return line;
   }
 

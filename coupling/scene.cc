@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <sstream>
 
@@ -226,14 +227,18 @@ namespace diptych::coupling
     Scene checked(Scene scene, const std::string &file)
     {
       const LoadingOptions &loading = scene.loading;
-      const double          count   = loading.axial_strain / loading.stage_strain;
-      if (std::abs(count - std::round(count)) > 1e-6 || count < 0.5)
+      const bool            time    = loading.mode == "time";
+      const double          count   = time ? loading.duration / loading.stage_time : loading.axial_strain / loading.stage_strain;
+      if (time && (std::abs(count - std::round(count)) > 1e-6 || count < 0.5))
+        throw SceneError(file + ": loading/duration = " + std::to_string(loading.duration) +
+                         " is not a whole number of loading/stage_time = " + std::to_string(loading.stage_time));
+      if (!time && (std::abs(count - std::round(count)) > 1e-6 || count < 0.5))
         throw SceneError(file + ": loading/axial_strain = " + std::to_string(loading.axial_strain) +
                          " is not a whole number of loading/stage_strain = " + std::to_string(loading.stage_strain));
       const std::vector<double> &edges = scene.comparison.window_edges;
       if (edges.size() < 2 || std::adjacent_find(edges.begin(), edges.end(), std::greater_equal<double>()) != edges.end())
         throw SceneError(file + ": comparison/window_edges must be at least two ascending axial strains");
-      for (const double edge : edges)
+      for (const double edge : loading.mode == "descent" ? edges : std::vector<double>())
         {
           const double k = edge / loading.stage_strain;
           if (std::abs(k - std::round(k)) > 1e-6 || edge > loading.axial_strain * (1 + 1e-9))
@@ -244,7 +249,7 @@ namespace diptych::coupling
         }
       try
         {
-          discrete::validate(scene.sample);
+          discrete::validate(scene.sample, discrete_loading(scene.loading), scene.discrete);
           continuum::validate(scene.continuum);
         }
       catch (const std::invalid_argument &error)
@@ -323,18 +328,48 @@ namespace diptych::coupling
     return out.str();
   }
 
+  void require_continuum(const Scene &scene)
+  {
+    const auto refuse = [](const std::string &key, const std::string &value, const std::string &only) {
+      throw SceneError(key + " = " + value + ": the continuum panel has no counterpart yet, only " + only +
+                       "; the grains alone run with `diptych discrete`");
+    };
+    if (scene.loading.mode != "descent")
+      refuse("loading/mode", scene.loading.mode, "descent");
+    if (scene.discrete.lateral.lateral != "end_grains")
+      refuse("discrete/lateral", scene.discrete.lateral.lateral, "end_grains");
+    for (const auto &[key, value] : {std::pair{"discrete/gravity_x", scene.discrete.time.gravity_x},
+                                     std::pair{"discrete/gravity_y", scene.discrete.time.gravity_y}})
+      if (value != 0)
+        refuse(key, std::to_string(value), "0");
+    const discrete::WallDriveOptions &d = scene.discrete.drives;
+    for (const std::string *drive : {&d.lower_x, &d.lower_y, &d.upper_x, &d.upper_y})
+      if (*drive != "auto")
+        refuse("discrete/drive_*", *drive, "auto");
+  }
+
   std::vector<double> stages(const LoadingOptions &loading)
   {
-    std::vector<double> strains;
-    const int           count = int(std::lround(loading.axial_strain / loading.stage_strain));
+    const bool   time     = loading.mode == "time";
+    const double end      = time ? loading.duration : loading.axial_strain,
+                 interval = time ? loading.stage_time : loading.stage_strain;
+    std::vector<double> values;
+    const int           count = int(std::lround(end / interval));
     for (int k = 1; k <= count; ++k)
-      strains.push_back(k * loading.stage_strain);
-    return strains;
+      values.push_back(k * interval);
+    return values;
   }
 
   discrete::Loading discrete_loading(const LoadingOptions &loading)
   {
-    return {loading.pressure, loading.inertial_number, loading.horizontal_over_vertical, stages(loading), loading.affine_start};
+    using discrete::LoadingMode;
+    const std::map<std::string, LoadingMode> modes = {{"descent", LoadingMode::descent},
+                                                      {"shear", LoadingMode::shear},
+                                                      {"plane_shear", LoadingMode::plane_shear},
+                                                      {"time", LoadingMode::time}};
+    return {loading.pressure,    loading.inertial_number, loading.horizontal_over_vertical,
+            stages(loading),     loading.affine_start,    modes.at(loading.mode),
+            loading.strain_rate, loading.normal_pressure};
   }
 
   continuum::Loading continuum_loading(const LoadingOptions &loading, const double height)

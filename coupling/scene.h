@@ -22,6 +22,12 @@ namespace diptych::coupling
     double axial_strain             = 0.04;
     double stage_strain             = 0.005;
     bool   affine_start             = true;
+
+    std::string mode            = "descent";
+    double      strain_rate     = 0;
+    double      normal_pressure = 1;
+    double      duration        = 10;
+    double      stage_time      = 1;
   };
 
   template <class Visitor> void visit_parameters(LoadingOptions &o, Visitor &&visitor)
@@ -31,11 +37,21 @@ namespace diptych::coupling
             "I = strain rate d sqrt(rho/P): fixes the speed of the upper platen in the discrete panel");
     visitor("horizontal_over_vertical", o.horizontal_over_vertical, "-", {-10., 10.},
             "travel of the upper platen to the right per descent: 1 is 45 degrees, 0 vertical");
-    visitor("axial_strain", o.axial_strain, "-", {1e-6, 0.5}, "descent of the upper platen / initial height at the end");
-    visitor("stage_strain", o.stage_strain, "-", {1e-6, 0.5},
+    visitor("axial_strain", o.axial_strain, "-", {1e-6, 5.},
+            "descent of the upper platen (modes shear and plane_shear: its travel) / initial height at the end");
+    visitor("stage_strain", o.stage_strain, "-", {1e-6, 5.},
             "axial strain between two stages, at which both panels are compared");
     visitor("affine_start", o.affine_start, "-", {},
-            "grains start with the affine velocity field between the platens, not at rest");
+            "grains start with the affine velocity field between the platens, not at rest (an impulsive start)");
+    visitor(
+      "mode", o.mode, "-", {"descent", "shear", "plane_shear", "time"},
+      "the upper platen descends and moves sideways; moves sideways at constant height; moves sideways under normal_pressure x "
+      "width; or the walls move as discrete/drive_* say, for `duration`");
+    visitor("strain_rate", o.strain_rate, "1/time", {0., 1e12}, "of the loading, if not 0, in the place of inertial_number's");
+    visitor("normal_pressure", o.normal_pressure, "pressure", {0., 1e15},
+            "plane_shear: on the upper platen, free to rise and sink");
+    visitor("duration", o.duration, "time", {1e-12, 1e12}, "mode time: of the loading");
+    visitor("stage_time", o.stage_time, "time", {1e-12, 1e12}, "mode time: between two snapshots");
   }
 
   struct ComparisonOptions
@@ -100,7 +116,10 @@ namespace diptych::coupling
   // Every key of a section (of all, if empty): default, unit, range, meaning. Throws SceneError on an unknown section.
   std::string explain(const std::string &section);
 
-  std::vector<double> stages(const LoadingOptions &loading); // axial strains, ascending, the first is stage_strain
+  // Throws SceneError naming a key that asks for what the continuum panel does not have.
+  void require_continuum(const Scene &scene);
+
+  std::vector<double> stages(const LoadingOptions &loading); // strains (mode time: times), ascending, from the first on
   discrete::Loading   discrete_loading(const LoadingOptions &loading);
   continuum::Loading  continuum_loading(const LoadingOptions &loading, double height);
 } // namespace diptych::coupling

@@ -4,6 +4,8 @@
 
 #include <array>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -46,6 +48,33 @@ namespace diptych::coupling
     return text;
   }
 
+  // "auto" or a number within a range.
+  class NumberOrAuto : public dealii::Patterns::PatternBase
+  {
+  public:
+    explicit NumberOrAuto(const Range &range)
+        : range_(range)
+    {}
+
+    bool match(const std::string &text) const override
+    {
+      return text == "auto" || dealii::Patterns::Double(range_[0], range_[1]).match(text);
+    }
+    std::string description(const OutputStyle style = Machine) const override
+    {
+      return "[auto or " + dealii::Patterns::Double(range_[0], range_[1]).description(style) + "]";
+    }
+    std::unique_ptr<dealii::Patterns::PatternBase> clone() const override { return std::make_unique<NumberOrAuto>(range_); }
+
+  private:
+    Range range_;
+  };
+
+  inline std::string text_of(const std::optional<double> &value)
+  {
+    return value ? text_of(*value) : "auto";
+  }
+
   // Declares each key with its pattern in the current subsection.
   struct DeclareVisitor
   {
@@ -54,6 +83,10 @@ namespace diptych::coupling
     void operator()(const char *name, double &value, const char *, const Range range, const char *meaning) const
     {
       prm.declare_entry(name, text_of(value), dealii::Patterns::Double(range[0], range[1]), meaning);
+    }
+    void operator()(const char *name, std::optional<double> &value, const char *, const Range range, const char *meaning) const
+    {
+      prm.declare_entry(name, text_of(value), NumberOrAuto(range), meaning);
     }
     void operator()(const char *name, int &value, const char *, const Range range, const char *meaning) const
     {
@@ -82,6 +115,11 @@ namespace diptych::coupling
     dealii::ParameterHandler &prm;
 
     void operator()(const char *name, double &value, const char *, Range, const char *) const { value = prm.get_double(name); }
+    void operator()(const char *name, std::optional<double> &value, const char *, Range, const char *) const
+    {
+      const std::string text = prm.get(name);
+      value                  = text == "auto" ? std::nullopt : std::optional<double>(dealii::Utilities::string_to_double(text));
+    }
     void operator()(const char *name, int &value, const char *, Range, const char *) const { value = int(prm.get_integer(name)); }
     void operator()(const char *name, bool &value, const char *, const Choices &, const char *) const
     {
@@ -114,6 +152,15 @@ namespace diptych::coupling
     {
       keys.push_back(
         {section, name, text_of(value), unit, "a number from " + text_of(range[0]) + " to " + text_of(range[1]), meaning});
+    }
+    void operator()(const char            *name,
+                    std::optional<double> &value,
+                    const char            *unit,
+                    const Range            range,
+                    const char            *meaning) const
+    {
+      keys.push_back({section, name, text_of(value), unit,
+                      "auto or a number from " + text_of(range[0]) + " to " + text_of(range[1]), meaning});
     }
     void operator()(const char *name, int &value, const char *unit, const Range range, const char *meaning) const
     {

@@ -5,37 +5,55 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace diptych::discrete
 {
   namespace
   {
-    // Grains sorted into square cells; cell (a, b) holds grains[start[b * columns + a]] up to the next start.
+    // Grains sorted into cells; cell (a, b) holds grains[start[b * columns + a]] up to the next start. With a period the
+    // columns wrap around.
     struct CellGrid
     {
-      Eigen::Vector2d  origin;
-      double           cell_size = 1;
+      Eigen::Vector2d  origin, cell_size;
       int              columns = 1, rows = 1;
+      double           period = 0; // 0: none
       std::vector<int> start, grains;
 
-      int column(const double x) const { return std::clamp(int((x - origin.x()) / cell_size), 0, columns - 1); }
-      int row(const double y) const { return std::clamp(int((y - origin.y()) / cell_size), 0, rows - 1); }
+      // Not clamped and, with a period, not wrapped.
+      int raw_column(const double x) const { return int(std::floor((x - origin.x()) / cell_size.x())); }
+      int column(const double x) const { return period > 0 ? wrapped(raw_column(x)) : std::clamp(raw_column(x), 0, columns - 1); }
+      int wrapped(const int c) const { return ((c % columns) + columns) % columns; }
+      int row(const double y) const { return std::clamp(int(std::floor((y - origin.y()) / cell_size.y())), 0, rows - 1); }
     };
 
-    CellGrid sort_into_cells(const Grains &grains, const double cell_size)
+    CellGrid sort_into_cells(const State &state, const double smallest_size)
     {
+      const Grains   &grains = state.grains;
       CellGrid        grid;
       Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity()), high = -low;
       for (const Eigen::Vector2d &x : grains.position)
         low = low.cwiseMin(x), high = high.cwiseMax(x);
       grid.origin    = low;
-      grid.cell_size = cell_size;
+      grid.cell_size = Eigen::Vector2d::Constant(smallest_size);
+      if (state.cell)
+        {
+          grid.period        = state.cell->width;
+          grid.columns       = std::max(1, int(grid.period / smallest_size));
+          grid.cell_size.x() = grid.period / grid.columns;
+          high.x()           = low.x() + grid.period;
+        }
       // A grain that has flown far away must not blow the grid up: cells grow instead.
       const double most_cells = 16. * grains.size() + 64.;
-      while ((high.x() - low.x()) / grid.cell_size * ((high.y() - low.y()) / grid.cell_size) > most_cells)
-        grid.cell_size *= 2;
-      grid.columns = int((high.x() - low.x()) / grid.cell_size) + 1;
-      grid.rows    = int((high.y() - low.y()) / grid.cell_size) + 1;
+      while (((high.x() - low.x()) / grid.cell_size.x() + 1) * ((high.y() - low.y()) / grid.cell_size.y() + 1) > most_cells)
+        {
+          grid.cell_size.y() *= 2;
+          if (!state.cell)
+            grid.cell_size.x() *= 2;
+        }
+      if (!state.cell)
+        grid.columns = int((high.x() - low.x()) / grid.cell_size.x()) + 1;
+      grid.rows = int((high.y() - low.y()) / grid.cell_size.y()) + 1;
 
       std::vector<int> cell(grains.size());
       grid.start.assign(std::size_t(grid.columns) * grid.rows + 1, 0);
@@ -53,31 +71,27 @@ namespace diptych::discrete
       return grid;
     }
 
-    // A pair is found from its member with the larger margin, whose search circle therefore needs to know only its own.
-    void pairs_of_grain(const int                  i,
-                        const State               &state,
-                        const std::vector<double> &margin,
-                        const CellGrid            &grid,
-                        const double               largest_radius,
-                        std::vector<Contact>      &contacts)
+    // Calls visit(j) for all grains in cells within `reach` of x, each once.
+    template <class Visit> void visit_around(const CellGrid &grid, const Eigen::Vector2d &x, const double reach, Visit &&visit)
     {
-      const Grains         &g     = state.grains;
-      const Eigen::Vector2d x     = g.position[i];
-      const double          reach = g.radius[i] + largest_radius + 2 * margin[i];
+      int from = grid.raw_column(x.x() - reach), to = grid.raw_column(x.x() + reach);
+      if (grid.period > 0 && to - from >= grid.columns)
+        from = 0, to = grid.columns - 1;
+      if (!(grid.period > 0))
+        from = std::max(0, std::min(from, grid.columns - 1)), to = std::max(0, std::min(to, grid.columns - 1));
       for (int b = grid.row(x.y() - reach); b <= grid.row(x.y() + reach); ++b)
-        {
-          const int first = grid.start[b * grid.columns + grid.column(x.x() - reach)];
-          const int last  = grid.start[b * grid.columns + grid.column(x.x() + reach) + 1];
-          for (int k = first; k < last; ++k)
-            {
-              const int j = grid.grains[k];
-              if (margin[j] > margin[i] || (margin[j] == margin[i] && j <= i))
-                continue;
-              const double alert = g.radius[i] + g.radius[j] + margin[i] + margin[j];
-              if ((x - g.position[j]).squaredNorm() < alert * alert)
-                contacts.push_back(make_contact(state, std::min(i, j), std::max(i, j)));
-            }
-        }
+        for (int a = from; a <= to; ++a)
+          {
+            const int cell = b * grid.columns + (grid.period > 0 ? grid.wrapped(a) : a);
+            for (int k = grid.start[cell]; k < grid.start[cell + 1]; ++k)
+              visit(grid.grains[k]);
+          }
+    }
+
+    bool moves(const State &state, const int body)
+    {
+      const int n = int(state.grains.size());
+      return body < n ? !state.grains.fixed[body] : state.walls[body - n].inverse_mass() != Eigen::Vector2d::Zero();
     }
   } // namespace
 
@@ -91,36 +105,107 @@ namespace diptych::discrete
         const double gap  = (g.position[i] - wall.point).dot(wall.normal) - g.radius[i];
         return {i, j, gap, wall.normal, g.position[i] - (g.radius[i] + 0.5 * gap) * wall.normal};
       }
-    const Eigen::Vector2d branch   = g.position[i] - g.position[j];
-    const double          distance = branch.norm();
+    const int       image  = nearest_image(state.cell, g.position[i].x(), g.position[j].x());
+    Eigen::Vector2d branch = g.position[i] - g.position[j];
+    if (image != 0)
+      branch.x() -= image * state.cell->width;
+    const double distance = branch.norm();
     // Coinciding centres have no normal; any fixed direction separates them.
     const Eigen::Vector2d normal = distance > 0 ? Eigen::Vector2d(branch / distance) : Eigen::Vector2d::UnitX();
     const double          gap    = distance - g.radius[i] - g.radius[j];
-    return {i, j, gap, normal, g.position[i] - (g.radius[i] + 0.5 * gap) * normal};
+    return {i, j, gap, normal, g.position[i] - (g.radius[i] + 0.5 * gap) * normal, image};
   }
 
-  std::vector<Contact> find_contacts(const State &state, const std::vector<double> &margin)
+  bool NeighbourList::covers(const State &state, const std::vector<double> &margin) const
+  {
+    const Grains &g = state.grains;
+    if (position_.size() != g.size() || wall_point_.size() != state.walls.size())
+      return false;
+    double wall_motion = 0;
+    for (std::size_t w = 0; w < wall_point_.size(); ++w)
+      wall_motion = std::max(wall_motion, (state.walls[w].point - wall_point_[w]).norm());
+    if (state.cell)
+      wall_motion = std::max(wall_motion, std::abs(state.cell->width - width_));
+    for (std::size_t i = 0; i < g.size(); ++i)
+      {
+        const double left = reach_[i] - margin[i] - wall_motion;
+        if (left < 0 || (g.position[i] - position_[i]).squaredNorm() > left * left)
+          return false;
+      }
+    return true;
+  }
+
+  void NeighbourList::build(const State &state, const std::vector<double> &margin)
+  {
+    const Grains &g              = state.grains;
+    const int     n              = int(g.size());
+    const double  largest_radius = *std::max_element(g.radius.begin(), g.radius.end());
+    // The list lasts while a grain moves by a quarter of the largest radius beyond its margin.
+    reach_ = margin;
+    for (double &reach : reach_)
+      reach = 1.5 * reach + 0.25 * largest_radius;
+    position_ = g.position;
+    wall_point_.clear();
+    for (const Wall &wall : state.walls)
+      wall_point_.push_back(wall.point);
+    width_ = state.cell ? state.cell->width : 0;
+    if (state.cell && width_ < 4 * (largest_radius + *std::max_element(reach_.begin(), reach_.end())))
+      throw std::invalid_argument("the periodic cell is " + std::to_string(width_) + " wide: too narrow for grains of radius " +
+                                  std::to_string(largest_radius) + " at their present speed");
+
+    pairs_.clear();
+    const CellGrid grid = sort_into_cells(state, 2 * largest_radius);
+    for (int i = 0; i < n; ++i)
+      {
+        // A pair is found from its member with the larger reach, whose search circle therefore needs to know only its own.
+        visit_around(grid, g.position[i], g.radius[i] + largest_radius + 2 * reach_[i], [&](const int j) {
+          if (reach_[j] > reach_[i] || (reach_[j] == reach_[i] && j <= i))
+            return;
+          const double    alert  = g.radius[i] + g.radius[j] + reach_[i] + reach_[j];
+          Eigen::Vector2d branch = g.position[i] - g.position[j];
+          branch.x() -= nearest_image(state.cell, g.position[i].x(), g.position[j].x()) * width_;
+          if (branch.squaredNorm() < alert * alert && (moves(state, i) || moves(state, j)))
+            pairs_.push_back({std::min(i, j), std::max(i, j)});
+        });
+        for (int w = 0; w < int(state.walls.size()); ++w)
+          if (make_contact(state, i, n + w).gap < reach_[i] && (moves(state, i) || moves(state, n + w)))
+            pairs_.push_back({i, n + w});
+      }
+    std::sort(pairs_.begin(), pairs_.end(), [](const Pair &a, const Pair &b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
+  }
+
+  std::vector<Contact> NeighbourList::find_contacts(const State &state, const std::vector<double> &margin)
   {
     const Grains        &g = state.grains;
     std::vector<Contact> contacts;
     if (g.size() == 0)
       return contacts;
-    contacts.reserve(4 * g.size());
-
-    const double   largest_radius = *std::max_element(g.radius.begin(), g.radius.end());
-    const CellGrid grid           = sort_into_cells(g, 2 * largest_radius);
-    for (std::size_t i = 0; i < g.size(); ++i)
+    if (!covers(state, margin))
+      build(state, margin);
+    contacts.reserve(pairs_.size());
+    const int n = int(g.size());
+    for (const Pair &pair : pairs_)
       {
-        pairs_of_grain(int(i), state, margin, grid, largest_radius, contacts);
-        for (std::size_t w = 0; w < state.walls.size(); ++w)
+        double alert = margin[pair.i];
+        if (pair.j < n)
           {
-            const Contact contact = make_contact(state, int(i), int(g.size() + w));
-            if (contact.gap < margin[i])
-              contacts.push_back(contact);
+            alert += margin[pair.j];
+            Eigen::Vector2d branch = g.position[pair.i] - g.position[pair.j];
+            if (state.cell)
+              branch.x() -= nearest_image(state.cell, g.position[pair.i].x(), g.position[pair.j].x()) * state.cell->width;
+            const double distance = g.radius[pair.i] + g.radius[pair.j] + alert;
+            if (branch.squaredNorm() >= distance * distance)
+              continue;
           }
+        const Contact contact = make_contact(state, pair.i, pair.j);
+        if (contact.gap < alert)
+          contacts.push_back(contact);
       }
-    std::sort(contacts.begin(), contacts.end(),
-              [](const Contact &a, const Contact &b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
     return contacts;
+  }
+
+  std::vector<Contact> find_contacts(const State &state, const std::vector<double> &margin)
+  {
+    return NeighbourList().find_contacts(state, margin);
   }
 } // namespace diptych::discrete

@@ -3,20 +3,26 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "discrete/contact_problem.h"
 
 namespace diptych::discrete
 {
+  // W_nn / W_tt of two discs, or of a disc and a body that nothing moves: r^2/I = 2/m adds twice each inverse mass.
+  constexpr double disc_wnn_over_wtt = 1. / 3;
+
   // u = H^T v of one contact.
   struct RelativeVelocity
   {
     double normal, tangential;
   };
 
-  inline RelativeVelocity relative_velocity(const ContactRow &c, const BodyVelocity &vi, const BodyVelocity &vj)
+  // `v` holds all bodies of the problem.
+  inline RelativeVelocity relative_velocity(const ContactRow &c, const std::vector<BodyVelocity> &v)
   {
-    const double dx = vi.x - vj.x, dy = vi.y - vj.y;
+    const BodyVelocity &vi = v[c.i], &vj = v[c.j];
+    const double        dx = vi.x - vj.x - (c.cell >= 0 ? c.image * v[c.cell].x : 0.), dy = vi.y - vj.y;
     return {c.nx * dx + c.ny * dy, c.nx * dy - c.ny * dx - vi.surface - vj.surface};
   }
 
@@ -32,15 +38,18 @@ namespace diptych::discrete
   }
 
   // Adds M^-1 H dr of one contact to the velocities of its bodies.
-  inline void apply_impulse(const ContactRow &c, const Impulse &dr, BodyVelocity &vi, BodyVelocity &vj)
+  inline void apply_impulse(const ContactRow &c, const Impulse &dr, std::vector<BodyVelocity> &v)
   {
-    const double px = c.nx * dr.normal - c.ny * dr.tangential, py = c.ny * dr.normal + c.nx * dr.tangential;
+    const double  px = c.nx * dr.normal - c.ny * dr.tangential, py = c.ny * dr.normal + c.nx * dr.tangential;
+    BodyVelocity &vi = v[c.i], &vj = v[c.j];
     vi.x += vi.inverse_mass * px;
     vi.y += vi.inverse_mass * py;
     vi.surface -= c.ki * dr.tangential;
-    vj.x -= vj.inverse_mass * px;
-    vj.y -= vj.inverse_mass * py;
+    vj.x -= c.jx * px;
+    vj.y -= c.jy * py;
     vj.surface -= c.kj * dr.tangential;
+    if (c.cell >= 0)
+      v[c.cell].x -= c.image * v[c.cell].inverse_mass * px;
   }
 
   // A contact at its Coulomb bound. The margin absorbs the rounding of mu r_n.

@@ -3,51 +3,26 @@
 #include "discrete/contact_order.h"
 
 #include <algorithm>
-#include <numeric>
+#include <limits>
 
 namespace diptych::discrete
 {
-  namespace
+  std::vector<int> sweep_order(const std::vector<Contact> &contacts, const double length)
   {
-    constexpr std::size_t batch_size = 4, window_size = 64;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Contact &c : contacts)
+      low = std::min(low, c.point.y()), high = std::max(high, c.point.y());
+    // Far flung grains must not ask for more layers than there are contacts to sort.
+    const double layer    = std::max(0.1 * length, (high - low) / (4. * contacts.size() + 1.));
+    const auto   layer_of = [&](const Contact &c) { return std::size_t((c.point.y() - low) / layer); };
 
-    bool share_a_grain(const Contact &a, const Contact &b, const int n_grains)
-    {
-      const auto same = [n_grains](const int p, const int q) { return p == q && p < n_grains; };
-      return same(a.i, b.i) || same(a.i, b.j) || same(a.j, b.i) || same(a.j, b.j);
-    }
-  } // namespace
-
-  std::vector<Contact> sweep_order(const std::vector<Contact> &contacts, const int n_grains)
-  {
-    std::vector<int> queue(contacts.size());
-    std::iota(queue.begin(), queue.end(), 0);
-    std::stable_sort(queue.begin(), queue.end(),
-                     [&](const int a, const int b) { return contacts[a].point.y() < contacts[b].point.y(); });
-
-    std::vector<Contact> ordered;
-    ordered.reserve(contacts.size());
-    std::vector<int> window; // contacts waiting, oldest first
-    std::size_t      next = 0;
-    while (ordered.size() < contacts.size())
-      {
-        while (window.size() < window_size && next < queue.size())
-          window.push_back(queue[next++]);
-        const std::size_t batch_begin = ordered.size();
-        for (auto w = window.begin(); w != window.end() && ordered.size() < batch_begin + batch_size;)
-          {
-            const Contact &candidate = contacts[*w];
-            const bool     free      = std::none_of(ordered.begin() + batch_begin, ordered.end(),
-                                                    [&](const Contact &c) { return share_a_grain(c, candidate, n_grains); });
-            if (free)
-              {
-                ordered.push_back(candidate);
-                w = window.erase(w);
-              }
-            else
-              ++w;
-          }
-      }
-    return ordered;
+    std::vector<int> start(contacts.empty() ? 1 : layer_of({0, 0, 0, {}, {0, high}}) + 2, 0), order(contacts.size());
+    for (const Contact &c : contacts)
+      ++start[layer_of(c) + 1];
+    for (std::size_t k = 1; k < start.size(); ++k)
+      start[k] += start[k - 1];
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+      order[start[layer_of(contacts[k])]++] = int(k);
+    return order;
   }
 } // namespace diptych::discrete

@@ -8,8 +8,8 @@
 
 namespace diptych::discrete
 {
-  // Contacts sorted along y (the direction in which the platens load the sample), then regrouped so that four consecutive
-  // ones share no grain as far as a window of 64 allows: the next update need not wait for the last one's velocities.
-  // The order is part of the definition of a result: it depends on nothing but the contacts.
-  std::vector<Contact> sweep_order(const std::vector<Contact> &contacts, int n_grains);
+  // Indices of the contacts sorted upward along y, the direction in which the platens load the sample, in layers a tenth of
+  // `length` thick; within a layer in the order given. The order is part of the definition of a result: it depends on nothing
+  // but the contacts. Cost O(n).
+  std::vector<int> sweep_order(const std::vector<Contact> &contacts, double length);
 } // namespace diptych::discrete

@@ -13,21 +13,24 @@ namespace diptych::discrete
   {
     std::vector<BodyVelocity> v = problem.free_velocity;
     for (std::size_t k = 0; k < problem.contacts.size(); ++k)
-      {
-        const ContactRow &c = problem.contacts[k];
-        apply_impulse(c, impulses[k], v[c.i], v[c.j]);
-      }
+      apply_impulse(problem.contacts[k], impulses[k], v);
     return v;
   }
 
   double natural_map_residual(const ContactProblem &problem, const std::vector<Impulse> &impulses)
   {
-    const std::vector<BodyVelocity> v          = velocities(problem, impulses);
-    double                          difference = 0, norm = 0;
+    return natural_map_residual(problem, velocities(problem, impulses), impulses);
+  }
+
+  double natural_map_residual(const ContactProblem            &problem,
+                              const std::vector<BodyVelocity> &v,
+                              const std::vector<Impulse>      &impulses)
+  {
+    double difference = 0, norm = 0;
     for (std::size_t k = 0; k < problem.contacts.size(); ++k)
       {
         const ContactRow &c = problem.contacts[k];
-        const Impulse     r = impulses[k], p = local_solution(c, relative_velocity(c, v[c.i], v[c.j]), r, 1.);
+        const Impulse     r = impulses[k], p = local_solution(c, relative_velocity(c, v), r, 1.);
         difference += (r.normal - p.normal) * (r.normal - p.normal) +
                       (r.tangential - p.tangential) * (r.tangential - p.tangential);
         norm += r.normal * r.normal + r.tangential * r.tangential;

@@ -7,12 +7,11 @@
 namespace diptych::discrete
 {
   // Velocity of a body in the form the contact kinematics needs, with the inverse mass beside it (32 bytes).
-  // Walls of prescribed motion have inverse mass 0.
-  struct BodyVelocity
+  struct alignas(32) BodyVelocity
   {
     double x, y;
     double surface;      // s = r omega: speed of the surface due to spin; 0 for walls
-    double inverse_mass; // [1/mass]
+    double inverse_mass; // of a grain or of the free cell; 0 for fixed grains and for walls, whose rows say jx, jy [1/mass]
   };
 
   // Impulses on body i of a contact (on j: the opposite).
@@ -32,16 +31,21 @@ namespace diptych::discrete
     double inverse_wnn;     // 1 / (1/m_i + 1/m_j)                      [mass]
     double inverse_wtt;     // 1 / (1/m_i + 1/m_j + k_i + k_j)          [mass]
     double ki, kj;          // r^2/I of each side, 2/m for a disc, 0 for a wall [1/mass]
-    int    i, j;
+    double jx, jy;          // inverse mass of body j along x and y; equal but for walls with one free component [1/mass]
+    double image = 0;       // j takes part as its image this many cell widths away, which moves with the width
+    int    i = 0, j = 0;    // i is a grain
+    int    cell = -1;       // body whose x is d width/dt, where the image moves
   };
 
   // Find impulses r and velocities v = v_free + M^-1 H r such that every contact obeys Signorini's condition and
-  // Coulomb's law (DESIGN: Moreau-Jean step). For discs the normal/tangential coupling of one contact vanishes, so that
-  // its own problem has a closed solution (contact_law.h). The order of the rows is the order of the sweeps.
+  // Coulomb's law (DESIGN: Moreau-Jean step). The normal/tangential coupling W_nt of one contact vanishes for discs and walls
+  // (not across the edge of a cell with free width, where it is small), so that its own problem has a closed solution
+  // (contact_law.h).
   struct ContactProblem
   {
-    std::vector<BodyVelocity> free_velocity; // all bodies, grains first
+    std::vector<BodyVelocity> free_velocity; // grains first, then walls, then the cell if its width changes (x = d width/dt)
     std::vector<ContactRow>   contacts;
+    std::vector<int>          order; // rows in the order of the sweeps; empty: as they stand
   };
 
   // v = v_free + M^-1 H r for all bodies.
@@ -50,4 +54,9 @@ namespace diptych::discrete
   // Natural map ||r - P(r)||_2 / ||r||_2: P solves every contact for itself with its own W_nn and W_tt, all others held, v
   // computed afresh from r. Returns 0 where nothing acts and nothing should; infinity where r vanishes but P(r) does not.
   double natural_map_residual(const ContactProblem &problem, const std::vector<Impulse> &impulses);
+
+  // The same with v = v_free + M^-1 H r at hand.
+  double natural_map_residual(const ContactProblem            &problem,
+                              const std::vector<BodyVelocity> &v,
+                              const std::vector<Impulse>      &impulses);
 } // namespace diptych::discrete

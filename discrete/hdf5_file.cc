@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/hdf5_file.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <numeric>
 #include <stdexcept>
@@ -50,6 +51,39 @@ namespace diptych::discrete
       H5Sclose(space);
       if (!good)
         fail("write", path, name);
+    }
+
+    // A string type of fixed length that holds `text` and its closing zero.
+    hid_t string_type(const std::string &text)
+    {
+      const hid_t type = H5Tcopy(H5T_C_S1);
+      H5Tset_size(type, text.size() + 1);
+      return type;
+    }
+
+    void make_group(const hid_t file, const std::string &group)
+    {
+      if (group != "/" && H5Lexists(file, group.c_str(), H5P_DEFAULT) <= 0)
+        H5Gclose(H5Gcreate2(file, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    }
+
+    bool write_attribute(const hid_t file, const std::string &group, const std::string &name, const hid_t type, const void *value)
+    {
+      make_group(file, group);
+      const hid_t space     = H5Screate(H5S_SCALAR);
+      const hid_t attribute = H5Acreate_by_name(file, group.c_str(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT,
+                                                H5P_DEFAULT);
+      const bool  good      = attribute >= 0 && H5Awrite(attribute, type, value) >= 0;
+      if (attribute >= 0)
+        H5Aclose(attribute);
+      H5Sclose(space);
+      return good;
+    }
+
+    // Up to the first closing zero, which null-padded strings lack.
+    std::string text_of(const std::vector<char> &characters)
+    {
+      return {characters.begin(), std::find(characters.begin(), characters.end(), '\0')};
     }
   } // namespace
 
@@ -109,19 +143,32 @@ namespace diptych::discrete
     write(name, flat, {values.size(), components, components});
   }
 
+  void Hdf5Writer::write_string(const std::string &name, const std::string &text)
+  {
+    const hid_t type = string_type(text);
+    write_array(file_, path_, name, type, text.c_str(), 1, {});
+    H5Tclose(type);
+  }
+
   void Hdf5Writer::attribute(const std::string &group, const std::string &name, const double value)
   {
-    if (group != "/" && H5Lexists(file_, group.c_str(), H5P_DEFAULT) <= 0)
-      H5Gclose(H5Gcreate2(file_, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
-    const hid_t space     = H5Screate(H5S_SCALAR);
-    const hid_t attribute = H5Acreate_by_name(file_, group.c_str(), name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT,
-                                              H5P_DEFAULT, H5P_DEFAULT);
-    const bool  good      = attribute >= 0 && H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value) >= 0;
-    if (attribute >= 0)
-      H5Aclose(attribute);
-    H5Sclose(space);
+    if (!write_attribute(file_, group, name, H5T_NATIVE_DOUBLE, &value))
+      fail("write attribute " + name + " of", path_, group);
+  }
+
+  void Hdf5Writer::attribute(const std::string &group, const std::string &name, const std::string &text)
+  {
+    const hid_t type = string_type(text);
+    const bool  good = write_attribute(file_, group, name, type, text.c_str());
+    H5Tclose(type);
     if (!good)
       fail("write attribute " + name + " of", path_, group);
+  }
+
+  void Hdf5Writer::copy(const Hdf5Reader &from, const std::string &name)
+  {
+    if (H5Ocopy(from.file_, name.c_str(), file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0)
+      fail("copy from " + from.path_ + " the object", path_, name);
   }
 
   void Hdf5Writer::finish()
@@ -205,6 +252,39 @@ namespace diptych::discrete
         for (std::size_t b = 0; b < 2; ++b)
           tensors[i](a, b) = flat[(i * shape[1] + a) * shape[1] + b];
     return tensors;
+  }
+
+  std::string Hdf5Reader::read_string(const std::string &name) const
+  {
+    const hid_t data = H5Dopen2(file_, name.c_str(), H5P_DEFAULT);
+    if (data < 0)
+      fail("find", path_, name);
+    const hid_t       type  = H5Dget_type(data);
+    const bool        fixed = H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) <= 0 && product(extents(name)) == 1;
+    std::vector<char> characters(H5Tget_size(type));
+    const bool        good = fixed && H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, characters.data()) >= 0;
+    H5Tclose(type);
+    H5Dclose(data);
+    if (!good)
+      fail("read one string of fixed length from", path_, name);
+    return text_of(characters);
+  }
+
+  std::vector<std::string> Hdf5Reader::members(const std::string &group) const
+  {
+    const hid_t id = H5Gopen2(file_, group.c_str(), H5P_DEFAULT);
+    if (id < 0)
+      fail("find the group", path_, group);
+    std::vector<std::string> names;
+    const auto               collect = [](hid_t, const char *name, const H5L_info_t *, void *to) -> herr_t {
+      static_cast<std::vector<std::string> *>(to)->push_back(name);
+      return 0;
+    };
+    const bool good = H5Literate(id, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names) >= 0;
+    H5Gclose(id);
+    if (!good)
+      fail("list the group", path_, group);
+    return names;
   }
 
   double Hdf5Reader::attribute(const std::string &group, const std::string &name) const

@@ -73,6 +73,17 @@ namespace diptych::discrete
 
   Outline make_outline(const State &state, const double mean_diameter)
   {
+    const double bottom = state.walls[0].point.y(), top = state.walls[1].point.y();
+    const auto   upright = [&](const double x) { return std::vector<Eigen::Vector2d>{{x, bottom}, {x, top}}; };
+    if (state.walls.size() >= 4)
+      return {upright(state.walls[2].point.x()), upright(state.walls[3].point.x())};
+    if (state.cell)
+      {
+        double mean = 0;
+        for (const Eigen::Vector2d &x : state.grains.position)
+          mean += x.x() / double(state.grains.size());
+        return {upright(mean - 0.5 * state.cell->width), upright(mean + 0.5 * state.cell->width)};
+      }
     return {side(state, mean_diameter, -1), side(state, mean_diameter, +1)};
   }
 

@@ -33,25 +33,28 @@ namespace diptych::discrete
     {
       std::vector<int>             body;
       std::vector<Eigen::Vector2d> point, normal, force;
+      std::vector<double>          shift; // x of the image of the second body minus x of that body
       for (const ContactForce &c : forces)
         {
           body.insert(body.end(), {c.i, c.j});
-          point.push_back(c.point), normal.push_back(c.normal), force.push_back(c.force);
+          point.push_back(c.point), normal.push_back(c.normal), force.push_back(c.force), shift.push_back(c.shift);
         }
       file.write(group + "/body", body, {forces.size(), 2});
       file.write(group + "/point", point, 3);
       file.write(group + "/normal", normal, 3);
       file.write(group + "/force", force, 3);
+      file.write(group + "/image_shift", shift);
     }
 
     std::vector<ContactForce> read_forces(const Hdf5Reader &file, const std::string &group)
     {
       const std::vector<int> body  = file.read_int(group + "/body");
       const auto             point = file.read_vectors(group + "/point"), normal = file.read_vectors(group + "/normal"),
-                 force = file.read_vectors(group + "/force");
+                 force                = file.read_vectors(group + "/force");
+      const std::vector<double> shift = file.read(group + "/image_shift");
       std::vector<ContactForce> forces(point.size());
       for (std::size_t k = 0; k < forces.size(); ++k)
-        forces[k] = {body[2 * k], body[2 * k + 1], point[k], normal[k], force[k]};
+        forces[k] = {body[2 * k], body[2 * k + 1], point[k], normal[k], force[k], shift[k]};
       return forces;
     }
 
@@ -69,6 +72,12 @@ namespace diptych::discrete
     void write_attributes(Hdf5Writer &file, const std::string &group, const Snapshot &s)
     {
       file.attribute(group, "axial_strain", s.axial_strain);
+      file.attribute(group, "shear_strain", s.shear_strain);
+      file.attribute(group, "stress_error", s.stress_error);
+      file.attribute(group, "error_over_residual", s.error_over_residual);
+      file.attribute(group, "left_x", s.left_x);
+      file.attribute(group, "right_x", s.right_x);
+      file.attribute(group, "cell_width", s.cell_width);
       file.attribute(group, "time", s.time);
       file.attribute(group, "step", s.step);
       file.attribute(group, "residual", s.residual);
@@ -99,6 +108,7 @@ namespace diptych::discrete
       file.write(grains + "/mean_internal_moment", s.mean_internal_moment, 3);
       file.write(grains + "/mean_spin_term", s.mean_spin_term);
       file.write(grains + "/rattler", integers(s.rattler));
+      file.write(grains + "/fixed", integers(s.fixed));
       file.write(grains + "/applied_force", s.applied_force, 3);
       write_forces(file, contacts, s.contacts);
       write_impulses(file, contacts, s);
@@ -166,7 +176,8 @@ namespace diptych::discrete
             grains += xdmf_attribute(file, g, name, "Scalar", n, 1, false);
           for (const char *name : {"internal_moment", "mean_internal_moment"})
             grains += xdmf_attribute(file, g, name, "Tensor", n, 9, false);
-          grains += xdmf_attribute(file, g, "rattler", "Scalar", n, 1, true) + "      </Grid>\n";
+          grains += xdmf_attribute(file, g, "rattler", "Scalar", n, 1, true);
+          grains += xdmf_attribute(file, g, "fixed", "Scalar", n, 1, true) + "      </Grid>\n";
           contacts += xdmf_points(file, c, "point", m, s.axial_strain);
           contacts += xdmf_attribute(file, c, "normal", "Vector", m, 3, false);
           contacts += xdmf_attribute(file, c, "force", "Vector", m, 3, false);
@@ -197,6 +208,12 @@ namespace diptych::discrete
         const auto        number = [&](const char *name) { return file.attribute(group, name); };
         Snapshot          s;
         s.axial_strain              = number("axial_strain");
+        s.shear_strain              = number("shear_strain");
+        s.stress_error              = number("stress_error");
+        s.error_over_residual       = number("error_over_residual");
+        s.left_x                    = number("left_x");
+        s.right_x                   = number("right_x");
+        s.cell_width                = number("cell_width");
         s.time                      = number("time");
         s.step                      = number("step");
         s.residual                  = number("residual");
@@ -221,6 +238,8 @@ namespace diptych::discrete
         s.applied_force             = file.read_vectors(grains + "/applied_force");
         for (const int r : file.read_int(grains + "/rattler"))
           s.rattler.push_back(std::uint8_t(r));
+        for (const int f : file.read_int(grains + "/fixed"))
+          s.fixed.push_back(std::uint8_t(f));
         s.contacts = read_forces(file, group + "/contacts");
         s.gap      = file.read(group + "/contacts/gap");
         for (const int status : file.read_int(group + "/contacts/status"))
@@ -232,24 +251,5 @@ namespace diptych::discrete
     if (snapshots.empty())
       throw std::runtime_error(h5_path + " holds no stage");
     return snapshots;
-  }
-
-  void write_history(const std::string &csv_path, const std::vector<HistoryRow> &rows)
-  {
-    std::ostringstream out;
-    out.precision(10);
-    out << "step,time,axial_strain,stress_ratio,volumetric_strain,sxx,sxy,syx,syy,lower_fx,lower_fy,upper_fx,upper_fy,contacts,"
-           "sweeps,residual,kinetic_energy,kinetic_energy_ratio,friction_dissipation,impact_dissipation,external_work,"
-           "correction_work,energy_residual,inertial_number,max_penetration,rattlers,spin_term_share,momentum_residual,"
-           "unbalanced_force\n";
-    for (const HistoryRow &r : rows)
-      out << r.step << ',' << r.time << ',' << r.axial_strain << ',' << r.stress_ratio << ',' << r.volumetric_strain << ','
-          << r.stress(0, 0) << ',' << r.stress(0, 1) << ',' << r.stress(1, 0) << ',' << r.stress(1, 1) << ',' << r.lower_force.x()
-          << ',' << r.lower_force.y() << ',' << r.upper_force.x() << ',' << r.upper_force.y() << ',' << r.contacts << ','
-          << r.sweeps << ',' << r.residual << ',' << r.kinetic_energy << ',' << r.kinetic_energy_ratio << ','
-          << r.friction_dissipation << ',' << r.impact_dissipation << ',' << r.external_work << ',' << r.correction_work << ','
-          << r.energy_residual << ',' << r.inertial_number << ',' << r.max_penetration << ',' << r.rattlers << ','
-          << r.spin_term_share << ',' << r.momentum_residual << ',' << r.unbalanced_force << '\n';
-    write_text(csv_path, out.str());
   }
 } // namespace diptych::discrete

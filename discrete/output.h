@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "discrete/panel.h"
+#include "discrete/snapshot.h"
 
 namespace diptych::discrete
 {
@@ -17,7 +17,4 @@ namespace diptych::discrete
 
   // Throws std::runtime_error naming file and group. Window forces and all that the comparison needs are restored.
   std::vector<Snapshot> read_snapshots(const std::string &h5_path);
-
-  // discrete.csv: one row a step, columns named in the first line.
-  void write_history(const std::string &csv_path, const std::vector<HistoryRow> &rows);
 } // namespace diptych::discrete

@@ -8,10 +8,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "discrete/contact_law.h"
 #include "discrete/internal_moment.h"
-#include "discrete/outline.h"
-#include "discrete/window_forces.h"
+#include "discrete/make_snapshot.h"
+#include "discrete/step_rule.h"
 
 namespace diptych::discrete
 {
@@ -22,311 +21,274 @@ namespace diptych::discrete
       return double(std::clock()) / CLOCKS_PER_SEC;
     }
 
-    // What stays constant while the sample is loaded.
-    struct Reference
+    void scale_impulses(State &state, const double factor)
     {
-      std::vector<Eigen::Vector2d> position;
-      Eigen::Vector2d              platen;
-      double                       height = 0, area = 0, kinetic_energy = 0, platen_kinetic_energy = 0;
-      double                       strain_rate = 0, mean_density = 0;
-    };
-
-    Reference make_reference(const State &state, const double mean_diameter)
-    {
-      Reference reference;
-      reference.position       = state.grains.position;
-      reference.platen         = state.walls[1].point;
-      reference.height         = state.walls[1].point.y() - state.walls[0].point.y();
-      reference.area           = outline_area(make_outline(state, mean_diameter));
-      reference.kinetic_energy = kinetic_energy(state.grains);
-      double mass = 0, grain_area = 0;
-      for (std::size_t i = 0; i < state.grains.size(); ++i)
-        {
-          mass += state.grains.mass[i];
-          grain_area += M_PI * state.grains.radius[i] * state.grains.radius[i];
-        }
-      reference.mean_density          = mass / grain_area;
-      reference.platen_kinetic_energy = 0.25 * mass * state.walls[1].velocity.squaredNorm();
-      reference.strain_rate           = -state.walls[1].velocity.y() / reference.height;
-      return reference;
+      if (factor == 1)
+        return;
+      for (PairImpulse &r : state.impulses)
+        r.normal *= factor, r.tangential *= factor;
     }
 
-    double axial_strain(const State &state, const Reference &reference)
+    // A sample under way: what changes is in `now`, the rest stays.
+    class Course
     {
-      return (reference.platen.y() - state.walls[1].point.y()) / reference.height;
-    }
-
-    std::vector<ContactForce> contact_forces(const State &state, const StepResult &result, const double step)
-    {
-      std::vector<ContactForce> forces;
-      forces.reserve(result.contacts.size());
-      for (std::size_t k = 0; k < result.contacts.size(); ++k)
-        {
-          const Contact c = make_contact(state, result.contacts[k].i, result.contacts[k].j);
-          forces.push_back({c.i, c.j, c.point, c.normal, impulse_vector(result.contacts[k], result.impulses[k]) / step});
-        }
-      return forces;
-    }
-
-    ContactStatus contact_status(const Contact &c, const Impulse &r, const int n_grains, const ContactLawOptions &law)
-    {
-      if (r.normal == 0)
-        return ContactStatus::open;
-      ContactRow row{};
-      row.friction = c.j >= n_grains ? law.platen_friction : law.friction;
-      return is_slipping(row, r) ? ContactStatus::slipping : ContactStatus::sticking;
-    }
-
-    std::vector<std::uint8_t> rattlers(const StepResult &result, const std::size_t n_grains)
-    {
-      std::vector<std::uint8_t> free(n_grains, 1);
-      for (std::size_t k = 0; k < result.contacts.size(); ++k)
-        if (result.impulses[k].normal > 0)
-          {
-            free[result.contacts[k].i] = 0;
-            if (std::size_t(result.contacts[k].j) < n_grains)
-              free[result.contacts[k].j] = 0;
-          }
-      return free;
-    }
-
-    Snapshot make_snapshot(const State        &state,
-                           const StepResult   &result,
-                           const WindowForces &window,
-                           const Reference    &reference,
-                           const StepSetting  &setting)
-    {
-      const Grains &g = state.grains;
-      Snapshot      s;
-      s.axial_strain  = axial_strain(state, reference);
-      s.time          = state.time;
-      s.step          = setting.time.step;
-      s.residual      = result.solve.residual;
-      s.mean_diameter = setting.mean_diameter;
-      s.position      = g.position;
-      s.velocity      = g.velocity;
-      s.rotation      = g.rotation;
-      s.spin          = g.spin;
-      s.radius        = g.radius;
-      s.mass          = g.mass;
-      for (std::size_t i = 0; i < g.size(); ++i)
-        s.displacement.push_back(g.position[i] - reference.position[i]);
-      s.contacts             = contact_forces(state, result, s.step);
-      s.internal_moment      = internal_moments(g.position, s.contacts, spin_terms(g));
-      s.window_forces        = window.time() > 0 ? window.mean_forces(state) : s.contacts;
-      s.mean_spin_term       = window.time() > 0 ? window.mean_spin_term() : spin_terms(g);
-      s.window_time          = window.time();
-      s.mean_internal_moment = internal_moments(g.position, s.window_forces, s.mean_spin_term);
-      s.rattler              = rattlers(result, g.size());
-      s.applied_force        = result.applied_force;
-      for (std::size_t k = 0; k < s.contacts.size(); ++k)
-        {
-          s.gap.push_back(make_contact(state, s.contacts[k].i, s.contacts[k].j).gap);
-          s.status.push_back(contact_status(result.contacts[k], result.impulses[k], int(g.size()), setting.law));
-        }
-      s.lower_y                   = state.walls[0].point.y();
-      s.upper_y                   = state.walls[1].point.y();
-      s.upper_platen_displacement = state.walls[1].point - reference.platen;
-      s.lower_platen_force        = result.wall_force[0];
-      s.upper_platen_force        = result.wall_force[1];
-      s.outline                   = make_outline(state, setting.mean_diameter);
-      s.area                      = outline_area(s.outline);
-      return s;
-    }
-
-    // Adds one step to the ledger and says where the sample stands. `total` is the row of the preceding step.
-    HistoryRow next_row(const HistoryRow  &last,
-                        const State       &before,
-                        const State       &state,
-                        const StepResult  &result,
-                        const Reference   &reference,
-                        const StepSetting &setting)
-    {
-      const Grains             &g      = state.grains;
-      const std::vector<double> spin   = spin_terms(g);
-      const double              area   = outline_area(make_outline(state, setting.mean_diameter));
-      Eigen::Matrix2d           moment = Eigen::Matrix2d::Zero();
-      for (const Eigen::Matrix2d &m : internal_moments(g.position, contact_forces(state, result, setting.time.step), spin))
-        moment += m;
-
-      HistoryRow row        = last;
-      row.step              = last.step + 1;
-      row.time              = state.time;
-      row.axial_strain      = axial_strain(state, reference);
-      row.stress            = moment / area;
-      row.stress_ratio      = stress_ratio(row.stress);
-      row.volumetric_strain = 1 - area / reference.area;
-      row.lower_force       = result.wall_force[0];
-      row.upper_force       = result.wall_force[1];
-      row.contacts          = int(
-        std::count_if(result.impulses.begin(), result.impulses.end(), [](const Impulse &r) { return r.normal > 0; }));
-      row.sweeps               = result.solve.sweeps;
-      row.residual             = result.solve.residual;
-      row.kinetic_energy       = result.energies.kinetic;
-      row.kinetic_energy_ratio = reference.platen_kinetic_energy > 0 ? row.kinetic_energy / reference.platen_kinetic_energy : 0;
-      row.friction_dissipation += result.energies.friction_dissipation;
-      row.impact_dissipation += result.energies.impact_dissipation;
-      row.external_work += result.energies.external_work;
-      row.correction_work += result.energies.correction_work;
-      row.energy_residual = (row.kinetic_energy - reference.kinetic_energy - row.external_work + row.friction_dissipation +
-                             row.impact_dissipation) /
-                            std::abs(row.external_work);
-      const double s      = 0.5 * row.stress.trace();
-      row.inertial_number = s > 0 ? reference.strain_rate * setting.mean_diameter * std::sqrt(reference.mean_density / s) : 0;
-      row.max_penetration = result.largest_penetration / setting.mean_diameter;
-      const std::vector<std::uint8_t> free = rattlers(result, g.size());
-      row.rattlers                         = int(std::count(free.begin(), free.end(), 1));
-      double spin_sum                      = 0;
-      for (const double x : spin)
-        spin_sum += x;
-      row.spin_term_share   = s > 0 ? spin_sum / area / s : 0;
-      row.momentum_residual = result.momentum_residual;
-      row.unbalanced_force  = unbalanced_force(before, state, result, setting.time.step);
-      return row;
-    }
-
-    // Whole numbers of steps between stages; the step is shortened where they do not fit.
-    double fitted_step(const Loading &loading, const double step, const double strain_rate)
-    {
-      double fitted = step, from = 0;
-      for (const double stage : loading.stages)
-        {
-          const double time = (stage - from) / strain_rate;
-          fitted            = std::min(fitted, time / std::ceil(time / step - 1e-9));
-          from              = stage;
-        }
-      return fitted;
-    }
-
-    void check(const Loading &loading)
-    {
-      if (loading.stages.empty() || loading.stages.front() <= 0 ||
-          std::adjacent_find(loading.stages.begin(), loading.stages.end(), std::greater_equal<double>()) != loading.stages.end())
-        throw std::invalid_argument("the stages of the loading must be positive axial strains in ascending order");
-    }
-
-    // v = V y/H between a fixed lower platen and an upper one moving with V; the spin is that of the field.
-    void start_loading(State &state, const Eigen::Vector2d &velocity, const bool affine)
-    {
-      const double bottom = state.walls[0].point.y(), height = state.walls[1].point.y() - bottom;
-      for (std::size_t i = 0; i < state.grains.size(); ++i)
-        {
-          state.grains.rotation[i] = 0;
-          state.grains.velocity[i] = affine ? Eigen::Vector2d(velocity * (state.grains.position[i].y() - bottom) / height)
-                                            : Eigen::Vector2d::Zero();
-          state.grains.spin[i]     = affine ? -0.5 * velocity.x() / height : 0.;
-        }
-      state.walls[1].velocity = velocity;
-    }
-
-    // A sample under way: its state, what has been summed up, and who listens.
-    struct Course
-    {
-      State             &state;
-      const StepSetting &setting;
-      const Reference    reference;
-      const Callbacks   &callbacks;
-      Report            &report;
-      HistoryRow         row    = {};
-      StepResult         last   = {}; // of the last accepted step
-      WindowForces       window = {};
-
-      // One step, or the reason in `report` why there is none.
-      void step(const double last_stage)
+    public:
+      Course(const SampleOptions &sample,
+             const Loading       &loading,
+             const Options       &options,
+             const Callbacks     &callbacks,
+             Progress             progress)
+          : now(std::move(progress)),
+            loading_(loading),
+            options_(options),
+            callbacks_(callbacks),
+            rate_(strain_rate(loading, sample.mean_diameter, sample.density))
       {
-        if (callbacks.stop_requested())
+        setting_.time          = options.time;
+        setting_.law           = options.law;
+        setting_.solver        = options.solver;
+        setting_.lateral       = lateral_condition(options.lateral);
+        setting_.pressure      = loading.pressure;
+        setting_.mean_diameter = sample.mean_diameter;
+        setting_.step          = now.step;
+        cache_.team            = std::make_shared<ThreadTeam>(options.threads);
+      }
+
+      Progress now;
+
+      const StepSetting &setting() const { return setting_; }
+      double             rate() const { return rate_; }
+
+      // Chooses the step of the next stage, in whole numbers.
+      void plan_stage()
+      {
+        const double from     = now.stage == 0 ? 0. : loading_.stages[now.stage - 1];
+        const double duration = (loading_.stages[now.stage] - from) / rate_;
+        const double wanted   = wanted_step();
+        now.steps_left        = std::max(1L, long(std::ceil(duration / wanted - 1e-9)));
+        const double fitted   = duration / double(now.steps_left);
+        if (now.step > 0)
+          scale_impulses(now.state, fitted / now.step);
+        now.step = setting_.step = now.report.step = fitted;
+        now.interval                               = options_.method.history_interval > 0 ? options_.method.history_interval
+                                                     : penalty()                          ? std::max(1L, now.steps_left / 1000)
+                                                                                          : 1;
+      }
+
+      void load_to_stage()
+      {
+        while (now.steps_left > 0 && now.report.status == Status::finished)
           {
-            report.status = Status::stopped_by_user;
-            return;
+            const bool stop = callbacks_.stop_requested();
+            if (stop)
+              now.report.status = Status::stopped_by_user;
+            if (stop || callbacks_.checkpoint_due())
+              hand_checkpoint();
+            if (!stop)
+              step();
           }
-        const State before = state;
-        StepResult  result = advance(state, setting);
-        report.solver_cpu_s += result.solve.cpu_s;
-        report.sweeps += result.solve.sweeps;
-        report.updates += result.solve.sweeps * long(result.contacts.size());
-        if (result.solve.status != SolveStatus::converged)
-          {
-            report.status = Status::not_converged;
-            std::ostringstream text;
-            text << "step " << row.step + 1 << " at axial strain " << axial_strain(state, reference)
-                 << " did not converge: residual " << result.solve.residual << " after " << result.solve.sweeps
-                 << " sweeps, wanted " << setting.solver.tolerance;
-            report.message = text.str();
-            return;
-          }
-        ++report.steps;
-        row = next_row(row, before, state, result, reference, setting);
-        callbacks.on_step(row);
-        window.add(result, spin_terms(state.grains), setting.time.step);
-        callbacks.on_progress("loading the grains", row.axial_strain / last_stage);
-        last = std::move(result);
       }
 
       // Snapshot of the last accepted step, with the means since the one before; nothing where there was no step.
       void hand_over()
       {
-        if (window.time() == 0)
+        if (now.window.time == 0 || last_.contacts.empty())
           return;
-        callbacks.on_stage(make_snapshot(state, last, window, reference, setting));
-        window.reset();
+        Snapshot snapshot            = make_snapshot(now.state, last_, now.window, now.reference, setting_);
+        snapshot.error_over_residual = now.report.error_over_residual;
+        callbacks_.on_stage(snapshot);
       }
+
+    private:
+      bool penalty() const { return options_.method.method == "penalty"; }
+
+      double wanted_step()
+      {
+        if (penalty())
+          return penalty_step(now.state.grains, options_.penalty.stiffness * loading_.pressure, options_.penalty.step_fraction);
+        if (options_.time.step)
+          return *options_.time.step;
+        const double     rate   = loading_.mode == LoadingMode::time ? 0 : rate_;
+        const double     stress = now.row.step > 0 ? 0.5 * now.row.stress.trace() : loading_.pressure;
+        const StepChoice choice = choose_step(now.state, setting_, stress, rate);
+        if (!std::isfinite(choice.step))
+          throw std::invalid_argument("discrete/step = auto: nothing moves and nothing presses, so no step follows; give one");
+        now.report.step_bound = choice.bound;
+        return choice.step;
+      }
+
+      void hand_checkpoint()
+      {
+        Progress copy      = now;
+        copy.report.status = Status::finished;
+        callbacks_.on_checkpoint(copy);
+      }
+
+      StepResult next()
+      {
+        if (penalty())
+          return advance_penalty(now.state, springs_, setting_, options_.penalty);
+        SampleRequest request{options_.sampling, std::isnan(now.report.reference_residual)};
+        return advance(now.state, setting_, cache_, now.steps_left == 1 ? &request : nullptr);
+      }
+
+      void note_accuracy(const SampledAccuracy &accuracy)
+      {
+        ++now.report.snapshots_sampled;
+        now.report.snapshots_accurate += accuracy.reached;
+        if (std::isnan(accuracy.reference_residual))
+          return;
+        now.report.error_over_residual = accuracy.error_over_residual;
+        now.report.reference_residual  = accuracy.reference_residual;
+        now.report.reference_error     = accuracy.true_error;
+        now.report.estimated_error     = accuracy.stress_error;
+      }
+
+      // One step, or the reason in the report why there is none.
+      void step()
+      {
+        const double begin  = cpu_seconds();
+        StepResult   result = next();
+        now.report.solver_cpu_s += result.solve.cpu_s;
+        now.report.sweeps += result.solve.sweeps;
+        now.report.updates += result.solve.sweeps * long(result.contacts.size());
+        if (result.solve.status != SolveStatus::converged)
+          {
+            now.report.status = Status::not_converged;
+            std::ostringstream text;
+            text << "step " << now.row.step + 1 << " at axial strain " << now.report.axial_strain;
+            if (penalty())
+              text << " blew up: a grain went further than its radius in one step, penalty_step_fraction is "
+                   << options_.penalty.step_fraction;
+            else
+              text << " did not converge: residual " << result.solve.residual << " after " << result.solve.sweeps
+                   << " sweeps, wanted " << setting_.solver.tolerance;
+            now.report.message = text.str();
+            return;
+          }
+        ++now.report.steps;
+        --now.steps_left;
+        add_step(result, setting_, now.row);
+        now.window.add(result, spin_terms(now.state.grains), setting_.step);
+        if (result.accuracy)
+          note_accuracy(*result.accuracy);
+        if (now.steps_left % now.interval == 0)
+          {
+            describe_state(now.state, result, now.reference, setting_, now.row);
+            callbacks_.on_step(now.row);
+            now.row.max_penetration = now.row.momentum_residual = 0;
+          }
+        const Eigen::Vector2d travel = now.state.walls[1].point - now.reference.platen;
+        now.report.axial_strain      = -travel.y() / now.reference.height;
+        callbacks_.on_progress("loading the grains",
+                               loading_progress(now.state, loading_.mode, now.reference.platen, now.reference.height) /
+                                 loading_.stages.back());
+        last_ = std::move(result);
+        now.report.loading_cpu_s += cpu_seconds() - begin;
+      }
+
+      const Loading    loading_;
+      const Options    options_;
+      const Callbacks &callbacks_;
+      const double     rate_;
+      StepSetting      setting_;
+      StepCache        cache_;
+      PenaltyState     springs_;
+      StepResult       last_;
     };
+
+    // The sample as it will be loaded; stage 0 is handed over. False where it did not get ready.
+    bool prepare(const SampleOptions &sample,
+                 const Loading       &loading,
+                 const Options       &options,
+                 const Callbacks     &callbacks,
+                 Progress            &now)
+    {
+      const double   start    = cpu_seconds();
+      Report        &report   = now.report;
+      PreparedSample prepared = prepare_sample(
+        sample, preparation_setting(loading, options), [&](const int step, const int expected) {
+          callbacks.on_progress("preparing the sample", std::min(1., double(step) / expected));
+          return !callbacks.stop_requested();
+        });
+      const double d = sample.mean_diameter, rate = strain_rate(loading, d, sample.density);
+      now.state                = std::move(prepared.state);
+      now.step                 = prepared.step; // that of the impulses
+      report.preparation       = prepared.report;
+      report.preparation_cpu_s = cpu_seconds() - start;
+      report.initial_height    = sample_height(now.state);
+      report.platen_speed      = loading.mode == LoadingMode::time ? 0 : rate * report.initial_height;
+      if (!prepared.report.quiet)
+        {
+          report.status = callbacks.stop_requested() ? Status::stopped_by_user : Status::not_converged;
+          std::ostringstream text;
+          text << "the sample was not quiet after " << prepared.report.steps << " preparation steps: residual "
+               << prepared.report.residual << ", unbalanced force " << prepared.report.unbalanced_force;
+          report.message = text.str();
+          return false;
+        }
+      StepSetting setting;
+      setting.step          = prepared.step;
+      setting.law           = {prepared.report.friction, prepared.report.friction, 0, 0, prepared.report.friction};
+      setting.mean_diameter = d;
+      callbacks.on_stage(make_snapshot(now.state, prepared.last_step, {}, make_reference(now.state, d, 0.), setting));
+      start_loading(now.state, {loading, options.lateral, options.drives, rate});
+      now.reference = make_reference(now.state, d, loading.mode == LoadingMode::time ? 0. : rate);
+      return true;
+    }
   } // namespace
 
-  Report run(const SampleOptions &sample, const Loading &loading, const Options &options, const Callbacks &callbacks)
+  void validate(const SampleOptions &sample, const Loading &loading, const Options &options)
   {
-    check(loading);
-    Report         report;
-    const double   start    = cpu_seconds();
-    PreparedSample prepared = prepare_sample(
-      sample, options.lateral, options.solver, loading.pressure, [&](const int step, const int expected) {
-        callbacks.on_progress("preparing the sample", std::min(1., double(step) / expected));
-        return !callbacks.stop_requested();
-      });
-    report.preparation       = prepared.report;
-    report.preparation_cpu_s = cpu_seconds() - start;
-    State &state             = prepared.state;
+    validate(sample);
+    validate(options.drives);
+    if (loading.stages.empty() || loading.stages.front() <= 0 ||
+        std::adjacent_find(loading.stages.begin(), loading.stages.end(), std::greater_equal<double>()) != loading.stages.end())
+      throw std::invalid_argument("the stages of the loading must be positive and in ascending order");
+    if (loading.mode == LoadingMode::plane_shear && options.lateral.lateral != "periodic" &&
+        options.lateral.lateral != "rigid_walls")
+      throw std::invalid_argument("loading/mode = plane_shear: the normal force is normal_pressure x width, so discrete/lateral "
+                                  "must be periodic or rigid_walls, not " +
+                                  options.lateral.lateral);
+    if (options.method.method == "penalty" && !(loading.pressure > 0))
+      throw std::invalid_argument(
+        "discrete/method = penalty: the stiffness is penalty_stiffness x loading/pressure, which must be positive");
+  }
 
-    const double d        = sample.mean_diameter;
-    const double height   = state.walls[1].point.y() - state.walls[0].point.y();
-    const double rate     = loading.inertial_number / d * std::sqrt(loading.pressure / sample.density);
-    report.initial_height = height;
-    report.platen_speed   = rate * height;
+  PreparationSetting preparation_setting(const Loading &loading, const Options &options)
+  {
+    return {
+      lateral_condition(options.lateral), options.solver, loading.pressure, {options.time.gravity_x, options.time.gravity_y}};
+  }
 
-    StepSetting setting{options.time, options.law, options.solver, options.lateral, loading.pressure, d};
-    setting.time.step = fitted_step(loading, options.time.step, rate);
-    report.step       = setting.time.step;
-    if (!prepared.report.quiet)
+  Report run(const SampleOptions &sample,
+             const Loading       &loading,
+             const Options       &options,
+             const Callbacks     &callbacks,
+             const Progress      *resume)
+  {
+    validate(sample, loading, options);
+    Progress now;
+    if (resume)
       {
-        report.status = callbacks.stop_requested() ? Status::stopped_by_user : Status::not_converged;
-        std::ostringstream text;
-        text << "the sample was not quiet after " << prepared.report.steps << " preparation steps: residual "
-             << prepared.report.residual << ", unbalanced force " << prepared.report.unbalanced_force;
-        report.message = text.str();
-        return report;
+        now = *resume;
+        set_drives(now.state,
+                   {loading, options.lateral, options.drives, strain_rate(loading, sample.mean_diameter, sample.density)});
       }
+    else if (!prepare(sample, loading, options, callbacks, now))
+      return now.report;
 
-    callbacks.on_stage(make_snapshot(state, prepared.last_step, WindowForces(), make_reference(state, d), setting));
-    start_loading(state, {loading.horizontal_over_vertical * report.platen_speed, -report.platen_speed}, loading.affine_start);
-    // Impulses scale with the step: those of the preparation become first guesses of the loading.
-    for (PairImpulse &r : state.impulses)
-      r.normal *= setting.time.step / sample.preparation_step, r.tangential *= setting.time.step / sample.preparation_step;
-
-    Course course{state, setting, make_reference(state, d), callbacks, report};
-    double from = 0;
-    for (const double stage : loading.stages)
+    Course course(sample, loading, options, callbacks, std::move(now));
+    while (course.now.stage < int(loading.stages.size()) && course.now.report.status == Status::finished)
       {
-        const long n_steps = std::lround((stage - from) / (rate * setting.time.step));
-        for (long k = 0; k < n_steps && report.status == Status::finished; ++k)
-          course.step(loading.stages.back());
+        if (course.now.steps_left == 0)
+          course.plan_stage();
+        course.load_to_stage();
         // Where the run ends early, the last accepted step is kept as an instant of its own.
         course.hand_over();
-        if (report.status != Status::finished)
-          break;
-        from = stage;
+        if (course.now.report.status == Status::finished)
+          course.now.window.reset(), ++course.now.stage;
       }
-    report.axial_strain  = course.row.axial_strain;
-    report.loading_cpu_s = cpu_seconds() - start - report.preparation_cpu_s;
-    return report;
+    return course.now.report;
   }
 } // namespace diptych::discrete

@@ -1,4 +1,4 @@
-// diptych: a dense grain sample between two platens, ready to be loaded
+// diptych: a grain sample between two platens, ready to be loaded
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/sample_preparation.h"
 
@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "discrete/outline.h"
+#include "discrete/sample_file.h"
 #include "discrete/soft_relaxation.h"
 
 namespace diptych::discrete
@@ -21,27 +22,76 @@ namespace diptych::discrete
       return double(random() >> 11) * 0x1.0p-53;
     }
 
-    // Quantiles of the uniform distribution in random order: the mean diameter is exact for every seed.
-    std::vector<double> radii(const SampleOptions &o, std::mt19937_64 &random)
+    RadiusDistribution distribution(const SampleOptions &o)
     {
-      std::vector<double> radius(o.grains);
-      for (int k = 0; k < o.grains; ++k)
-        radius[k] = o.mean_diameter * (o.radius_min + (o.radius_max - o.radius_min) * (k + 0.5) / o.grains);
-      for (int k = o.grains - 1; k > 0; --k)
+      if (o.radius_distribution == "uniform_by_mass")
+        return UniformByMass{o.radius_min, o.radius_max};
+      if (o.radius_distribution == "table")
+        return read_radius_table(o.radius_table);
+      return UniformByNumber{o.radius_min, o.radius_max};
+    }
+
+    // Quantiles in random order: the mean diameter is exact for every seed. [length]
+    std::vector<double> radii(const SampleOptions &o, const int n, std::mt19937_64 &random)
+    {
+      std::vector<double> radius = radius_quantiles(distribution(o), n, RadiusScale::mean_diameter_one);
+      for (double &r : radius)
+        r *= o.mean_diameter;
+      for (int k = n - 1; k > 0; --k)
         std::swap(radius[k], radius[int(uniform(random) * (k + 1))]);
       return radius;
     }
 
-    // Random centres in the box; walls: below, above, left, right.
-    State random_box(const SampleOptions &o)
+    double disc_area(const std::vector<double> &radius)
     {
-      std::mt19937_64           random(o.seed);
-      const std::vector<double> radius = radii(o, random);
-      double                    area   = 0;
+      double area = 0;
       for (const double r : radius)
         area += M_PI * r * r;
-      const double height = std::sqrt(area / (o.solid_fraction * o.width_over_height));
-      const double width  = area / (o.box_solid_fraction * height);
+      return area;
+    }
+
+    // Number of grains that fill width x height.
+    int count(const SampleOptions &o)
+    {
+      if (o.width <= 0 || o.height <= 0)
+        return o.grains;
+      const int           trial  = 1000;
+      std::vector<double> radius = radius_quantiles(distribution(o), trial, RadiusScale::mean_diameter_one);
+      const double        mean   = disc_area(radius) / trial * o.mean_diameter * o.mean_diameter;
+      return std::max(1, int(std::lround(o.width * o.height * o.solid_fraction / mean)));
+    }
+
+    // Width and height of the sample, from grain area and what the user gave.
+    Eigen::Vector2d sample_size(const SampleOptions &o, const double area)
+    {
+      const double whole = area / o.solid_fraction;
+      if (o.width > 0)
+        return {o.width, o.height > 0 ? o.height : whole / o.width};
+      if (o.height > 0)
+        return {whole / o.height, o.height};
+      const double height = std::sqrt(whole / o.width_over_height);
+      return {whole / height, height};
+    }
+
+    std::vector<Wall> box_walls(const double width, const double height)
+    {
+      std::vector<Wall> walls = {{{0, 0}, {0, 1}}, {{0, height}, {0, -1}}, {{0, 0}, {1, 0}}, {{width, 0}, {-1, 0}}};
+      walls[2].kind = walls[3].kind = WallKind::side;
+      return walls;
+    }
+
+    // Random centres in a box of the sample's height that is as wide as box_solid_fraction asks (a cell of fixed width: as
+    // high); periodic sides: a cell instead of side walls.
+    State random_box(const SampleOptions &o, const LateralCondition &lateral)
+    {
+      std::mt19937_64           random(o.seed);
+      const std::vector<double> radius   = radii(o, count(o), random);
+      const double              area     = disc_area(radius);
+      const Eigen::Vector2d     size     = sample_size(o, area);
+      const auto               *periodic = std::get_if<PeriodicSides>(&lateral);
+      const bool                is_fixed = periodic && !periodic->free_width;
+      const double              width    = is_fixed ? size.x() : area / (o.box_solid_fraction * size.y());
+      const double              height   = is_fixed ? area / (o.box_solid_fraction * size.x()) : size.y();
 
       State state;
       for (const double r : radius)
@@ -49,7 +99,12 @@ namespace diptych::discrete
           const double x = r + uniform(random) * (width - 2 * r), y = r + uniform(random) * (height - 2 * r);
           add_grain(state.grains, {x, y}, r, o.density);
         }
-      state.walls = {{{0, 0}, {0, 1}}, {{0, height}, {0, -1}}, {{0, 0}, {1, 0}}, {{width, 0}, {-1, 0}}};
+      state.walls = box_walls(width, height);
+      if (periodic)
+        {
+          state.walls.resize(2);
+          state.cell = PeriodicCell{width};
+        }
       return state;
     }
 
@@ -61,89 +116,246 @@ namespace diptych::discrete
       std::sort(order.begin(), order.end(), [&](const int a, const int b) {
         return g.position[a].y() != g.position[b].y() ? g.position[a].y() < g.position[b].y() : a < b;
       });
-      State sorted;
-      sorted.walls = state.walls;
+      State sorted  = state;
+      sorted.grains = {};
       for (const int i : order)
         add_grain(sorted.grains, g.position[i], g.radius[i], g.mass[i] / (M_PI * g.radius[i] * g.radius[i]));
       return sorted;
     }
 
-    double solid_fraction(const State &state, const double mean_diameter)
+    // Sides as the lateral condition wants them during the preparation: what is free is free under the pressure.
+    void set_sides(State &state, const PreparationSetting &setting)
     {
-      double area = 0;
-      for (const double r : state.grains.radius)
-        area += M_PI * r * r;
-      return area / outline_area(make_outline(state, mean_diameter));
+      const double mass = default_wall_mass(state.grains);
+      if (const auto *sides = std::get_if<RigidSides>(&setting.lateral))
+        {
+          state.walls[3].drive_x = AppliedPressure{setting.pressure};
+          state.walls[3].mass    = sides->mass > 0 ? sides->mass : mass;
+        }
+      else if (const auto *periodic = std::get_if<PeriodicSides>(&setting.lateral))
+        {
+          state.cell->mass = periodic->mass > 0 ? periodic->mass : mass;
+          if (periodic->free_width)
+            state.cell->pressure = setting.pressure;
+          else
+            {
+              state.walls[1].drive_y = AppliedPressure{setting.pressure};
+              state.walls[1].mass    = state.cell->mass;
+            }
+        }
+      else
+        state.walls.resize(2);
     }
 
-    StepSetting compaction_setting(const SampleOptions  &options,
-                                   const LateralOptions &lateral,
-                                   const SolverOptions  &solver,
-                                   const double          pressure)
+    // Everything stands still, nothing is free under a force any more.
+    void bring_to_rest(State &state)
+    {
+      for (Eigen::Vector2d &v : state.grains.velocity)
+        v.setZero();
+      std::fill(state.grains.spin.begin(), state.grains.spin.end(), 0.);
+      for (Wall &wall : state.walls)
+        wall.velocity.setZero(), wall.drive_x = wall.drive_y = KeptVelocity{};
+      if (state.cell)
+        state.cell->velocity = 0, state.cell->pressure.reset();
+      state.time = 0;
+    }
+
+    StepSetting compaction_setting(const SampleOptions &options, const PreparationSetting &preparation, const double friction)
     {
       StepSetting setting;
-      setting.time.step          = options.preparation_step;
-      setting.law                = {0., 0., 0., 0.};
-      setting.solver             = solver;
+      setting.step               = options.preparation_step;
+      setting.time.gravity_x     = preparation.gravity.x();
+      setting.time.gravity_y     = preparation.gravity.y();
+      setting.law                = {friction, friction, 0., 0., friction};
+      setting.solver             = preparation.solver;
       setting.solver.tolerance   = options.preparation_tolerance;
       setting.solver.max_sweeps  = options.preparation_max_sweeps;
-      setting.lateral            = lateral;
-      setting.pressure           = pressure;
+      setting.lateral            = preparation.lateral;
+      setting.pressure           = preparation.pressure;
       setting.mean_diameter      = options.mean_diameter;
       setting.accept_unconverged = true;
       return setting;
+    }
+
+    double solid_fraction(const State &state, const double mean_diameter)
+    {
+      return disc_area(state.grains.radius) / outline_area(make_outline(state, mean_diameter));
+    }
+
+    // Steps until quiet.
+    PreparedSample compact(State                                start,
+                           const SampleOptions                 &options,
+                           const StepSetting                   &setting,
+                           const std::function<bool(int, int)> &progress)
+    {
+      PreparedSample sample;
+      sample.state              = std::move(start);
+      sample.step               = setting.step;
+      PreparationReport &report = sample.report;
+      report.friction           = setting.law.friction;
+      StepCache cache;
+      while (!report.quiet && report.steps < 10 * options.preparation_steps && progress(report.steps, options.preparation_steps))
+        {
+          sample.last_step        = advance(sample.state, setting, cache);
+          report.residual         = sample.last_step.solve.residual;
+          report.unbalanced_force = sample.last_step.unbalanced_force;
+          ++report.steps;
+          report.quiet = report.steps >= options.preparation_steps && report.residual <= options.preparation_tolerance &&
+                         report.unbalanced_force <= options.quiet_unbalanced_force;
+        }
+      report.solid_fraction = solid_fraction(sample.state, options.mean_diameter);
+      return sample;
+    }
+
+    PreparedSample relaxed_and_compacted(const SampleOptions                 &options,
+                                         const PreparationSetting            &preparation,
+                                         const double                         friction,
+                                         const std::function<bool(int, int)> &progress)
+    {
+      State        state   = random_box(options, preparation.lateral);
+      const double overlap = relax_soft_discs(state, 1e-3 * options.mean_diameter, 4000).largest_overlap;
+      state                = numbered_upward(state);
+      set_sides(state, preparation);
+      PreparedSample sample      = compact(state, options, compaction_setting(options, preparation, friction), progress);
+      sample.report.soft_overlap = overlap;
+      return sample;
+    }
+
+    std::string three_digits(const double value)
+    {
+      char text[32];
+      std::snprintf(text, sizeof text, "%.3f", value);
+      return text;
+    }
+
+    // The more friction, the looser the sample: bisection.
+    PreparedSample at_solid_fraction(SampleOptions                        options,
+                                     const PreparationSetting            &preparation,
+                                     const std::function<bool(int, int)> &progress)
+    {
+      constexpr double tolerance = 0.002, loosest_friction = 1;
+      constexpr int    most_tries = 12;
+      const double     target     = options.target_solid_fraction;
+      // The box must be looser than what is wanted; below 0.75 soft discs carry nothing and compaction takes long.
+      options.box_solid_fraction = std::min(options.box_solid_fraction, std::max(0.6, target - 0.04));
+      double         low = 0, high = loosest_friction;
+      PreparedSample dense = relaxed_and_compacted(options, preparation, low, progress);
+      if (std::abs(dense.report.solid_fraction - target) <= tolerance || !dense.report.quiet)
+        return dense;
+      PreparedSample loose = relaxed_and_compacted(options, preparation, high, progress);
+      if (std::abs(loose.report.solid_fraction - target) <= tolerance || !loose.report.quiet)
+        return loose;
+      if (target > dense.report.solid_fraction || target < loose.report.solid_fraction)
+        throw std::invalid_argument("sample/target_solid_fraction = " + three_digits(target) + " is out of reach: " +
+                                    three_digits(loose.report.solid_fraction) + " (friction " + three_digits(loosest_friction) +
+                                    ") to " + three_digits(dense.report.solid_fraction) + " (frictionless) are");
+      for (int k = 0; k < most_tries; ++k)
+        {
+          const double   middle = k == 0 ? 0.2 : 0.5 * (low + high); // half of the range lies below 0.2
+          PreparedSample sample = relaxed_and_compacted(options, preparation, middle, progress);
+          if (std::abs(sample.report.solid_fraction - target) <= tolerance || !sample.report.quiet)
+            return sample;
+          (sample.report.solid_fraction > target ? low : high) = middle;
+        }
+      throw std::invalid_argument("sample/target_solid_fraction = " + three_digits(target) +
+                                  ": no preparation friction between " + three_digits(low) + " and " + three_digits(high) +
+                                  " gives it within " + three_digits(tolerance));
+    }
+
+    GrainFile grains_of(const SampleOptions &o)
+    {
+      const bool snapshots = o.file.size() > 3 && o.file.compare(o.file.size() - 3, 3, ".h5") == 0;
+      return snapshots ? read_grains_hdf5(o.file) : read_grains_csv(o.file, o.density);
+    }
+
+    PreparedSample from_file(const SampleOptions                 &o,
+                             const PreparationSetting            &preparation,
+                             const std::function<bool(int, int)> &progress)
+    {
+      GrainFile       file = grains_of(o);
+      Grains         &g    = file.grains;
+      Eigen::Vector2d low = g.position[0], high = low;
+      for (std::size_t i = 0; i < g.size(); ++i)
+        {
+          const Eigen::Vector2d r = Eigen::Vector2d::Constant(g.fixed[i] ? 0. : g.radius[i]);
+          low = low.cwiseMin(g.position[i] - r), high = high.cwiseMax(g.position[i] + r);
+        }
+      low.y()  = o.lower_platen.value_or(file.stage ? file.stage->lower_y : low.y());
+      high.y() = o.upper_platen.value_or(file.stage ? file.stage->upper_y : high.y());
+      State state;
+      state.walls          = box_walls(0, 0);
+      state.walls[0].point = state.walls[2].point = low;
+      state.walls[1].point = state.walls[3].point = high;
+      SampleBox box{low.y(), high.y(), {}, {}, {}};
+      if (std::holds_alternative<PeriodicSides>(preparation.lateral))
+        {
+          if (o.width <= 0)
+            throw std::invalid_argument("sample/width = 0: a periodic sample from a file needs its period there");
+          state.cell     = PeriodicCell{o.width};
+          box.cell_width = o.width;
+          state.walls.resize(2);
+        }
+      check_grains(file, box, o.allowed_overlap);
+      state.grains = std::move(g);
+      set_sides(state, preparation);
+      validate_walls(state);
+
+      const StepSetting setting = compaction_setting(o, preparation, o.preparation_friction);
+      if (o.prepare_file)
+        return compact(std::move(state), o, setting, progress);
+      PreparedSample sample;
+      sample.step = setting.step;
+      if (file.stage)
+        {
+          state.impulses = file.stage->impulses;
+          sample.step    = file.stage->step;
+        }
+      sample.report.quiet          = true; // nobody asked
+      sample.report.solid_fraction = solid_fraction(state, o.mean_diameter);
+      sample.last_step.contacts    = find_contacts(state, std::vector<double>(state.grains.size(), 0.));
+      sample.last_step.impulses.resize(sample.last_step.contacts.size());
+      sample.last_step.wall_force.assign(state.walls.size(), Eigen::Vector2d::Zero());
+      sample.last_step.applied_force = applied_forces(state, setting);
+      sample.state                   = std::move(state);
+      return sample;
     }
   } // namespace
 
   void validate(const SampleOptions &o)
   {
-    if (std::abs(o.radius_min + o.radius_max - 1) > 1e-9)
+    if (o.radius_distribution == "uniform_by_number" && std::abs(o.radius_min + o.radius_max - 1) > 1e-9)
       throw std::invalid_argument("sample/radius_min + sample/radius_max is " + std::to_string(o.radius_min + o.radius_max) +
                                   " mean diameters; it must be 1, so that radii uniform by number have the mean diameter 1");
     if (o.box_solid_fraction > o.solid_fraction)
       throw std::invalid_argument("sample/box_solid_fraction " + std::to_string(o.box_solid_fraction) +
                                   " exceeds sample/solid_fraction " + std::to_string(o.solid_fraction));
+    if (o.radius_distribution == "table" && o.radius_table.empty())
+      throw std::invalid_argument("sample/radius_distribution = table: sample/radius_table must name the CSV file");
+    if (o.radius_distribution == "table")
+      (void)read_radius_table(o.radius_table);
+    if (o.lower_platen && o.upper_platen && *o.lower_platen >= *o.upper_platen)
+      throw std::invalid_argument("sample/lower_platen " + std::to_string(*o.lower_platen) +
+                                  " is not below sample/upper_platen " + std::to_string(*o.upper_platen));
+    if (!o.file.empty())
+      (void)grains_of(o);
   }
 
-  double unbalanced_force(const State &before, const State &after, const StepResult &result, const double step)
+  double default_wall_mass(const Grains &grains)
   {
-    double unbalanced = 0, contact = 0;
-    int    closed = 0;
-    for (std::size_t i = 0; i < after.grains.size(); ++i)
-      unbalanced += after.grains.mass[i] * (after.grains.velocity[i] - before.grains.velocity[i]).norm() / step;
-    for (const Impulse &r : result.impulses)
-      if (r.normal > 0)
-        contact += r.normal / step, ++closed;
-    return closed > 0 ? (unbalanced / after.grains.size()) / (contact / closed) : 0;
+    return std::accumulate(grains.mass.begin(), grains.mass.end(), 0.) / std::sqrt(double(grains.size()));
   }
 
   PreparedSample prepare_sample(const SampleOptions                 &options,
-                                const LateralOptions                &lateral,
-                                const SolverOptions                 &solver,
-                                const double                         pressure,
+                                const PreparationSetting            &setting,
                                 const std::function<bool(int, int)> &progress)
   {
     validate(options);
-    PreparedSample sample;
-    sample.state               = random_box(options);
-    sample.report.soft_overlap = relax_soft_discs(sample.state, 1e-3 * options.mean_diameter, 4000).largest_overlap;
-    sample.state.walls.resize(2);
-    sample.state = numbered_upward(sample.state);
-
-    const StepSetting  setting = compaction_setting(options, lateral, solver, pressure);
-    PreparationReport &report  = sample.report;
-    while (!report.quiet && report.steps < 10 * options.preparation_steps && progress(report.steps, options.preparation_steps))
-      {
-        const State before      = sample.state;
-        sample.last_step        = advance(sample.state, setting);
-        report.residual         = sample.last_step.solve.residual;
-        report.unbalanced_force = unbalanced_force(before, sample.state, sample.last_step, setting.time.step);
-        ++report.steps;
-        report.quiet = report.steps >= options.preparation_steps && report.residual <= options.preparation_tolerance &&
-                       report.unbalanced_force <= options.quiet_unbalanced_force;
-      }
-    report.solid_fraction = solid_fraction(sample.state, options.mean_diameter);
-    sample.state.time     = 0;
+    if (!options.file.empty())
+      return from_file(options, setting, progress);
+    PreparedSample sample = options.target_solid_fraction > 0
+                              ? at_solid_fraction(options, setting, progress)
+                              : relaxed_and_compacted(options, setting, options.preparation_friction, progress);
+    bring_to_rest(sample.state);
     return sample;
   }
 } // namespace diptych::discrete

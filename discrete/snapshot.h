@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -14,9 +15,10 @@ namespace diptych::discrete
   struct ContactForce
   {
     int             i, j;
-    Eigen::Vector2d point;  // contact point [length]
-    Eigen::Vector2d normal; // unit, from j to i
-    Eigen::Vector2d force;  // on i = impulse / step [pressure * length, unit thickness]
+    Eigen::Vector2d point;     // contact point [length]
+    Eigen::Vector2d normal;    // unit, from j to i
+    Eigen::Vector2d force;     // on i = impulse / step [pressure * length, unit thickness]
+    double          shift = 0; // x of the image of j that touches i minus x of j; not 0 only across the edge of a periodic cell
   };
 
   enum class ContactStatus : std::uint8_t
@@ -40,6 +42,11 @@ namespace diptych::discrete
     double step          = 0; // h of the last step
     double residual      = 0; // natural map relative to |r|, of the last step
     double mean_diameter = 1;
+    double shear_strain  = 0; // travel of the upper platen to the right / initial height
+
+    // Accuracy of the last step's grain stress: estimated rms error relative to its rms value (NaN: not estimated), and the
+    // ratio of error to residual measured once in the run on a step solved further (NaN: not measured)
+    double stress_error = std::numeric_limits<double>::quiet_NaN(), error_over_residual = stress_error;
 
     // grains, n_grains entries each
     std::vector<Eigen::Vector2d> position, displacement /* since the start of loading */, velocity;
@@ -48,6 +55,7 @@ namespace diptych::discrete
     std::vector<Eigen::Matrix2d> mean_internal_moment; // of window_forces, mean spin term included
     std::vector<double>          mean_spin_term;       // mean over the window of (1/2) omega^2 I >= 0 (enters M as -1 times it)
     std::vector<std::uint8_t>    rattler;              // 1 where the grain carries no contact force
+    std::vector<std::uint8_t>    fixed;                // 1 where nothing moves the grain
 
     // candidate contacts of the last step with their impulses / step; open ones carry zero force
     std::vector<ContactForce>    contacts;
@@ -64,6 +72,9 @@ namespace diptych::discrete
     double          lower_y = 0, upper_y = 0;
     Eigen::Vector2d upper_platen_displacement = Eigen::Vector2d::Zero();
     Eigen::Vector2d lower_platen_force = Eigen::Vector2d::Zero(), upper_platen_force = Eigen::Vector2d::Zero();
+
+    // side walls, NaN where there are none; width of a periodic cell, 0 where there is none
+    double left_x = std::numeric_limits<double>::quiet_NaN(), right_x = left_x, cell_width = 0;
 
     Outline outline;
     double  area = 0; // of the outline [length^2]

@@ -14,15 +14,12 @@ namespace diptych::discrete
     using Vectors = std::vector<Eigen::Vector2d>;
 
     // Unit stiffness: force = overlap. Returns the largest overlap.
-    double contact_forces(const State &state, const std::vector<Contact> &pairs, Vectors &force)
+    double contact_forces(const std::vector<Contact> &contacts, Vectors &force)
     {
       double largest = 0;
       std::fill(force.begin(), force.end(), Eigen::Vector2d::Zero());
-      for (const Contact &pair : pairs)
+      for (const Contact &c : contacts)
         {
-          const Contact c = make_contact(state, pair.i, pair.j);
-          if (c.gap >= 0)
-            continue;
           largest = std::max(largest, -c.gap);
           force[c.i] -= c.gap * c.normal;
           if (std::size_t(c.j) < force.size())
@@ -38,26 +35,6 @@ namespace diptych::discrete
         sum += a[i].dot(b[i]);
       return sum;
     }
-
-    // Neighbour list that is good while no grain has moved by more than half the skin.
-    struct NeighbourList
-    {
-      double               skin;
-      std::vector<Contact> pairs;
-      Vectors              position;
-
-      void update(const State &state)
-      {
-        const Vectors &x     = state.grains.position;
-        bool           stale = position.size() != x.size();
-        for (std::size_t i = 0; !stale && i < x.size(); ++i)
-          stale = (x[i] - position[i]).squaredNorm() > 0.25 * skin * skin;
-        if (!stale)
-          return;
-        pairs    = find_contacts(state, std::vector<double>(x.size(), 0.5 * skin));
-        position = x;
-      }
-    };
   } // namespace
 
   RelaxationReport relax_soft_discs(State &state, const double largest_overlap, const int max_iterations)
@@ -66,16 +43,17 @@ namespace diptych::discrete
     constexpr double largest_step = 0.4, shrink = 0.5, grow = 1.1, mixing_start = 0.1, mixing_decay = 0.99;
     constexpr int    patience = 5;
 
-    Grains          &g = state.grains;
-    Vectors          velocity(g.size(), Eigen::Vector2d::Zero()), force = velocity;
-    double           step = 0.1, mixing = mixing_start;
-    int              downhill = 0;
-    NeighbourList    neighbours{0.5 * *std::max_element(g.radius.begin(), g.radius.end()), {}, {}};
-    RelaxationReport report;
+    Grains       &g = state.grains;
+    Vectors       velocity(g.size(), Eigen::Vector2d::Zero()), force = velocity;
+    double        step = 0.1, mixing = mixing_start;
+    int           downhill = 0;
+    NeighbourList neighbours;
+
+    const std::vector<double> no_margin(g.size(), 0.);
+    RelaxationReport          report;
     for (; report.iterations < max_iterations; ++report.iterations)
       {
-        neighbours.update(state);
-        report.largest_overlap = contact_forces(state, neighbours.pairs, force);
+        report.largest_overlap = contact_forces(neighbours.find_contacts(state, no_margin), force);
         if (report.largest_overlap < largest_overlap)
           break;
         const double power = dot(force, velocity);

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <variant>
 #include <vector>
 
 #include <Eigen/Core>
@@ -17,11 +21,15 @@ namespace diptych::discrete
     std::vector<double>          spin;     // counter-clockwise [rad/time]
     std::vector<double>          radius;   // [length]
     std::vector<double>          mass;     // rho pi r^2, per unit thickness
+    std::vector<std::uint8_t>    fixed;    // 1: keeps its velocity and spin whatever acts on it (rough bottoms, obstacles)
 
     std::size_t size() const { return radius.size(); }
 
     // I = m r^2 / 2 of a disc about its centre.
     double moment_of_inertia(const std::size_t i) const { return 0.5 * mass[i] * radius[i] * radius[i]; }
+
+    // 1/m; 0 for a fixed grain, which no force can move.
+    double inverse_mass(const std::size_t i) const { return fixed[i] ? 0. : 1 / mass[i]; }
   };
 
   // Adds a grain at rest.
@@ -33,14 +41,74 @@ namespace diptych::discrete
     grains.spin.push_back(0.);
     grains.radius.push_back(radius);
     grains.mass.push_back(density * M_PI * radius * radius);
+    grains.fixed.push_back(0);
   }
 
-  // Straight rigid wall or platen: the half plane behind `point`, moving with a prescribed velocity.
+  // Values given at ascending times: linear between them, constant before the first and after the last.
+  struct TimeTable
+  {
+    std::vector<double> time, value;
+
+    double at(double t) const;
+  };
+
+  // What drives one component of a wall's motion. Forces act on the wall along the positive axis, per unit thickness.
+  struct KeptVelocity
+  {};
+  struct PrescribedVelocity
+  {
+    TimeTable velocity; // [length/time]
+  };
+  struct AppliedForce
+  {
+    TimeTable force; // [pressure x length]
+  };
+  // Force = pressure x length against the wall's normal reversed, i.e. towards the sample. length = 0: the present distance
+  // between the two walls beside it (between walls 0 and 1 for a side, 2 and 3 for a platen; the cell's width where periodic).
+  struct AppliedPressure
+  {
+    double pressure; // [pressure]
+    double length = 0;
+  };
+  using Drive = std::variant<KeptVelocity, PrescribedVelocity, AppliedForce, AppliedPressure>;
+
+  inline bool is_free(const Drive &drive)
+  {
+    return std::holds_alternative<AppliedForce>(drive) || std::holds_alternative<AppliedPressure>(drive);
+  }
+
+  enum class WallKind : std::uint8_t
+  {
+    platen,
+    side
+  };
+
+  // Straight rigid wall or platen: the half plane behind `point`; it does not turn. Each component of its motion is either
+  // prescribed or free under a force. Where just one is free, the normal must lie along an axis: only then has a contact no
+  // coupling between its normal and tangential parts.
   struct Wall
   {
     Eigen::Vector2d point;  // any point of its surface [length]
     Eigen::Vector2d normal; // unit, into the sample
     Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
+    Drive           drive_x = {}, drive_y = {};
+    double          mass = 1; // of a free component
+    WallKind        kind = WallKind::platen;
+
+    // 1/mass of each component, 0 where it is prescribed.
+    Eigen::Vector2d inverse_mass() const { return {is_free(drive_x) ? 1 / mass : 0., is_free(drive_y) ? 1 / mass : 0.}; }
+  };
+
+  // Periodicity along x. Grains keep their own abscissae; a pair meets at the nearest image, whole numbers of widths apart.
+  struct PeriodicCell
+  {
+    double                width;         // [length]
+    double                velocity = 0;  // d width / dt; constant unless the width is free
+    std::optional<double> pressure = {}; // free width under this pressure x height; none: prescribed
+    double                mass     = 1;  // inertia of a free width
+
+    bool   moves() const { return pressure || velocity != 0; }
+    double inverse_mass() const { return pressure ? 1 / mass : 0.; }
   };
 
   // Impulse of a pair, kept from one step to the next as first guess. Walls are bodies n_grains, n_grains + 1, ...
@@ -52,9 +120,16 @@ namespace diptych::discrete
 
   struct State
   {
-    Grains                   grains;
-    std::vector<Wall>        walls;    // a sample between platens has walls[0] below and walls[1] above
-    std::vector<PairImpulse> impulses; // of the last step, ascending in (i, j)
-    double                   time = 0;
+    Grains                      grains;
+    std::vector<Wall>           walls; // lower and upper platen, then left and right side where there are any
+    std::optional<PeriodicCell> cell;
+    std::vector<PairImpulse>    impulses; // of the last step, ascending in (i, j)
+    double                      time = 0;
   };
+
+  // Whole cell widths by which body j's image nearest to grain i lies beside it: x_j + image x width. 0 without a cell.
+  inline int nearest_image(const std::optional<PeriodicCell> &cell, const double xi, const double xj)
+  {
+    return cell ? int(std::lround((xi - xj) / cell->width)) : 0;
+  }
 } // namespace diptych::discrete

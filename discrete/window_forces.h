@@ -9,31 +9,22 @@ namespace diptych::discrete
 {
   // Sums the impulse of every pair that touches, and the spin term of every grain, over the steps since the last reset.
   // Contacts of rigid grains make and break within a few steps: single steps scatter, their mean is the stress.
-  class WindowForces
+  struct WindowForces
   {
-  public:
-    void add(const StepResult &result, const std::vector<double> &spin_term, double step);
-    void reset();
-
-    double              time() const { return time_; }
-    std::vector<double> mean_spin_term() const;
-    // Mean force of every pair, placed at its contact point in `state` (between the surfaces if they have parted).
-    std::vector<ContactForce> mean_forces(const State &state) const;
-
-  private:
     struct PairSum
     {
       int             i, j;
       Eigen::Vector2d impulse; // on i
     };
-    std::vector<PairSum> sums_; // ascending in (i, j)
-    std::vector<double>  spin_; // sum of step x spin term
-    double               time_ = 0;
-  };
+    std::vector<PairSum> sums;     // ascending in (i, j)
+    std::vector<double>  spin;     // sum of step x spin term, of each grain
+    double               time = 0; // of the steps
 
-  // Impulse of a contact as a vector on body i.
-  inline Eigen::Vector2d impulse_vector(const Contact &c, const Impulse &r)
-  {
-    return {c.normal.x() * r.normal - c.normal.y() * r.tangential, c.normal.y() * r.normal + c.normal.x() * r.tangential};
-  }
+    void add(const StepResult &result, const std::vector<double> &spin_term, double step);
+    void reset() { *this = WindowForces(); }
+
+    std::vector<double> mean_spin_term() const;
+    // Mean force of every pair, placed at its contact point in `state` (between the surfaces if they have parted).
+    std::vector<ContactForce> mean_forces(const State &state) const;
+  };
 } // namespace diptych::discrete

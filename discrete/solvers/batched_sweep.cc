@@ -1,21 +1,28 @@
-// diptych: over-relaxed sweeps, four independent contacts at a time
+// diptych: over-relaxed sweeps, four independent contacts at a time, on one thread or several
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/solvers/batched_sweep.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
 
-// A sweep is compiled for 128- and 256-bit registers and chosen when the program starts. Without contraction and
-// reassociation (see the build's flags) both give the same bits.
+#include "discrete/contact_law.h"
+
+// A sweep is compiled for 128-, 256- and 512-bit machines and chosen when the program starts. Without contraction and
+// reassociation (see the build's flags) all give the same bits.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define DIPTYCH_FOR_EACH_REGISTER_WIDTH __attribute__((target_clones("avx2", "default")))
+#define DIPTYCH_FOR_EACH_MACHINE __attribute__((target_clones("arch=skylake-avx512", "avx2", "default")))
 #else
-#define DIPTYCH_FOR_EACH_REGISTER_WIDTH
+#define DIPTYCH_FOR_EACH_MACHINE
 #endif
 
 namespace diptych::discrete
 {
   namespace
   {
+    constexpr int lanes = 4;
+
     typedef double    Four __attribute__((vector_size(32)));
     typedef long long Mask __attribute__((vector_size(32)));
 
@@ -63,102 +70,384 @@ namespace diptych::discrete
       write(v + index[0], b.x), write(v + index[1], b.y), write(v + index[2], b.surface), write(v + index[3], b.inverse_mass);
     }
 
-    // One batch: contact_law.h's local solution and update, line by line, on four contacts.
-    template <class Batch> DIPTYCH_INLINE void update(Batch &c, const double sticking, const double slipping, BodyVelocity *v)
+    struct FourImpulses
+    {
+      Four normal, tangential;
+    };
+
+    // contact_law.h's relative velocity and local solution, line by line, on four contacts.
+    DIPTYCH_INLINE FourImpulses local_solution(const ContactBatch &c,
+                                               const double       *tangential_term,
+                                               const Bodies       &bi,
+                                               const Bodies       &bj,
+                                               const double        sticking,
+                                               const double        slipping)
     {
       const Four zero{};
-      Bodies     bi = gather(v, c.i), bj = gather(v, c.j);
       const Four nx = read(c.nx), ny = read(c.ny), mu = read(c.friction), rn = read(c.normal), rt = read(c.tangential);
+      const Four inverse_wnn = read(c.inverse_wnn);
       const Four dx = bi.x - bj.x, dy = bi.y - bj.y;
-      const Four un = nx * dx + ny * dy, ut = nx * dy - ny * dx - bi.surface - bj.surface;
+      const Four un = nx * dx + ny * dy;
+      Four       ut = nx * dy - ny * dx - bi.surface - bj.surface;
+      if (tangential_term)
+        ut += read(tangential_term);
 
       const Four size_rt = rt < zero ? -rt : rt;
       const Four omega   = size_rt > 0.9999 * mu * rn ? zero + slipping : zero + sticking;
 
-      const Four pushed     = rn - omega * (un + read(c.normal_term)) * read(c.inverse_wnn);
+      const Four pushed     = rn - omega * (un + read(c.normal_term)) * inverse_wnn;
       const Four normal     = zero < pushed ? pushed : zero;
       const Four bound      = mu * normal;
-      const Four stick      = rt - omega * (ut + read(c.tangential_term)) * read(c.inverse_wtt);
+      const Four stick      = rt - omega * ut * (inverse_wnn * disc_wnn_over_wtt);
       const Four above      = -bound < stick ? stick : -bound;
       const Four tangential = above < bound ? above : bound;
-
-      const Four dn = normal - rn, dt = tangential - rt;
-      const Four px = nx * dn - ny * dt, py = ny * dn + nx * dt;
-      bi.x += bi.inverse_mass * px, bi.y += bi.inverse_mass * py, bi.surface -= read(c.ki) * dt;
-      bj.x -= bj.inverse_mass * px, bj.y -= bj.inverse_mass * py, bj.surface -= read(c.kj) * dt;
-      scatter(bi, v, c.i);
-      scatter(bj, v, c.j);
-      write(c.normal, normal), write(c.tangential, tangential);
+      return {normal, tangential};
     }
 
-    template <class Batch>
-    DIPTYCH_FOR_EACH_REGISTER_WIDTH void sweep_batches(Batch            *batches,
-                                                       const std::size_t n,
-                                                       const double      sticking,
-                                                       const double      slipping,
-                                                       BodyVelocity     *v)
+    // Adds M^-1 H dr to the velocities.
+    DIPTYCH_INLINE void apply(const ContactBatch &c, const Four &dn, const Four &dt, Bodies &bi, Bodies &bj)
+    {
+      const Four nx = read(c.nx), ny = read(c.ny);
+      const Four px = nx * dn - ny * dt, py = ny * dn + nx * dt;
+      bi.x += bi.inverse_mass * px, bi.y += bi.inverse_mass * py, bi.surface -= 2 * bi.inverse_mass * dt;
+      bj.x -= bj.inverse_mass * px, bj.y -= bj.inverse_mass * py, bj.surface -= 2 * bj.inverse_mass * dt;
+    }
+
+    DIPTYCH_INLINE void update(ContactBatch &c, const double *term, const double sticking, const double slipping, BodyVelocity *v)
+    {
+      Bodies             bi = gather(v, c.i), bj = gather(v, c.j);
+      const FourImpulses r = local_solution(c, term, bi, bj, sticking, slipping);
+      apply(c, r.normal - read(c.normal), r.tangential - read(c.tangential), bi, bj);
+      scatter(bi, v, c.i);
+      scatter(bj, v, c.j);
+      write(c.normal, r.normal), write(c.tangential, r.tangential);
+    }
+
+    DIPTYCH_FOR_EACH_MACHINE void sweep_batches(ContactBatch                *batches,
+                                                const std::array<double, 4> *terms,
+                                                const std::size_t            n,
+                                                const double                 sticking,
+                                                const double                 slipping,
+                                                BodyVelocity                *v)
+    {
+      if (terms)
+        for (std::size_t b = 0; b < n; ++b)
+          update(batches[b], terms[b].data(), sticking, slipping, v);
+      else
+        for (std::size_t b = 0; b < n; ++b)
+          update(batches[b], nullptr, sticking, slipping, v);
+    }
+
+    DIPTYCH_FOR_EACH_MACHINE void add_impulses(const ContactBatch *batches, const std::size_t n, BodyVelocity *v)
     {
       for (std::size_t b = 0; b < n; ++b)
-        update(batches[b], sticking, slipping, v);
+        {
+          const ContactBatch &c  = batches[b];
+          Bodies              bi = gather(v, c.i), bj = gather(v, c.j);
+          apply(c, read(c.normal), read(c.tangential), bi, bj);
+          scatter(bi, v, c.i);
+          scatter(bj, v, c.j);
+        }
+    }
+
+    // Sums over the batches, lane by lane, of |r - P(r)|^2 and |r|^2.
+    DIPTYCH_FOR_EACH_MACHINE void add_squares(const ContactBatch          *batches,
+                                              const std::array<double, 4> *terms,
+                                              const std::size_t            n,
+                                              const BodyVelocity          *v,
+                                              double                      *difference,
+                                              double                      *norm)
+    {
+      Four d{}, s{};
+      for (std::size_t b = 0; b < n; ++b)
+        {
+          const ContactBatch &c  = batches[b];
+          const Bodies        bi = gather(v, c.i), bj = gather(v, c.j);
+          const FourImpulses  p  = local_solution(c, terms ? terms[b].data() : nullptr, bi, bj, 1., 1.);
+          const Four          rn = read(c.normal), rt = read(c.tangential);
+          d += (rn - p.normal) * (rn - p.normal) + (rt - p.tangential) * (rt - p.tangential);
+          s += rn * rn + rt * rt;
+        }
+      for (int lane = 0; lane < lanes; ++lane)
+        *difference += d[lane], *norm += s[lane];
+    }
+
+    ContactBatch empty_batch(const int idle_body)
+    {
+      ContactBatch batch{};
+      std::fill_n(batch.i, lanes, idle_body), std::fill_n(batch.j, lanes, idle_body);
+      return batch;
+    }
+
+    bool moves(const ContactProblem &problem, const int body)
+    {
+      return problem.free_velocity[body].inverse_mass != 0;
     }
   } // namespace
 
-  BatchedContacts::BatchedContacts(const ContactProblem &problem)
-      : n_rows_(problem.contacts.size())
+  // Two discs, or a disc and a body whose motion is prescribed.
+  bool BatchedContacts::fits_a_batch(const ContactRow &c) const
   {
-    const int        rest = int(problem.free_velocity.size()); // the body that empty lanes act upon
-    std::vector<int> last_batch(rest, -1);                     // that touched a body
-    int              filled = lanes;
-    for (std::size_t k = 0; k < n_rows_; ++k)
+    const double wi = problem_.free_velocity[c.i].inverse_mass, wj = problem_.free_velocity[c.j].inverse_mass;
+    return c.cell < 0 && c.jx == wj && c.jy == wj && c.ki == 2 * wi && c.kj == 2 * wj &&
+           std::abs(c.inverse_wtt - c.inverse_wnn * disc_wnn_over_wtt) <= 1e-14 * c.inverse_wtt;
+  }
+
+  BatchedContacts::BatchedContacts(const ContactProblem &problem)
+      : problem_(problem),
+        v_(problem.free_velocity),
+        batch_of_(problem.free_velocity.size(), -2)
+  {
+    constexpr int    rows_of_a_block = 2000, most_blocks = 64;
+    std::vector<int> order = problem.order, rows;
+    if (order.empty())
       {
-        const ContactRow &c      = problem.contacts[k];
-        const auto        moves  = [&](const int body) { return problem.free_velocity[body].inverse_mass != 0; };
-        const int         newest = int(batches_.size()) - 1;
-        if (filled == lanes || (moves(c.i) && last_batch[c.i] == newest) || (moves(c.j) && last_batch[c.j] == newest))
-          {
-            batches_.push_back({});
-            std::fill_n(batches_.back().i, lanes, rest), std::fill_n(batches_.back().j, lanes, rest);
-            std::fill_n(batches_.back().row, lanes, -1);
-            filled = 0;
-          }
-        Batch &batch     = batches_.back();
-        batch.nx[filled] = c.nx, batch.ny[filled] = c.ny;
-        batch.normal_term[filled] = c.normal_term, batch.tangential_term[filled] = c.tangential_term;
-        batch.friction[filled]    = c.friction;
-        batch.inverse_wnn[filled] = c.inverse_wnn, batch.inverse_wtt[filled] = c.inverse_wtt;
-        batch.ki[filled] = c.ki, batch.kj[filled] = c.kj;
-        batch.i[filled] = c.i, batch.j[filled] = c.j;
-        batch.row[filled] = int(k);
-        last_batch[c.i] = last_batch[c.j] = int(batches_.size()) - 1;
-        ++filled;
+        order.resize(problem.contacts.size());
+        std::iota(order.begin(), order.end(), 0);
       }
+    for (const int row : order)
+      (fits_a_batch(problem.contacts[row]) ? rows : rest_).push_back(row);
+    rest_impulses_.resize(rest_.size());
+    int n_blocks = std::clamp(int(rows.size()) / rows_of_a_block, 1, most_blocks);
+    while (!cut(rows, n_blocks))
+      n_blocks /= 2;
+  }
+
+  // False where a contact would join blocks that are no neighbours, or a body contacts of two gaps between blocks.
+  bool BatchedContacts::cut(const std::vector<int> &rows, const int n_blocks)
+  {
+    const std::size_t n_bodies = problem_.free_velocity.size();
+    std::vector<int>  first(n_bodies, n_blocks), last(n_bodies, -1), gap_of(n_bodies, -1);
+    const auto        block_of = [&](const std::size_t k) { return int(k * n_blocks / rows.size()); };
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      for (const int body : {problem_.contacts[rows[k]].i, problem_.contacts[rows[k]].j})
+        if (moves(problem_, body))
+          first[body] = std::min(first[body], block_of(k)), last[body] = std::max(last[body], block_of(k));
+
+    std::vector<std::vector<int>> inside(n_blocks), gaps(n_blocks - 1);
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      {
+        const ContactRow &c    = problem_.contacts[rows[k]];
+        int               from = n_blocks, to = -1;
+        for (const int body : {c.i, c.j})
+          if (moves(problem_, body))
+            from = std::min(from, first[body]), to = std::max(to, last[body]);
+        if (from == to)
+          inside[from].push_back(rows[k]);
+        else if (to == from + 1)
+          gaps[from].push_back(rows[k]);
+        else
+          return false;
+        if (from != to)
+          for (const int body : {c.i, c.j})
+            if (moves(problem_, body))
+              {
+                if (gap_of[body] >= 0 && gap_of[body] != from)
+                  return false;
+                gap_of[body] = from;
+              }
+      }
+    for (const std::vector<int> &part : inside)
+      blocks_.push_back(make_part(part));
+    for (const std::vector<int> &part : gaps)
+      between_.push_back(make_part(part));
+    return true;
+  }
+
+  // First fit: a batch takes from a window of 64 waiting rows the oldest ones that share no moving body with each other,
+  // nor, as far as the window allows, with the batch before, whose velocities need not be waited for then.
+  BatchedContacts::Part BatchedContacts::make_part(const std::vector<int> &rows)
+  {
+    constexpr int      window_size = 64;
+    const int          n = int(rows.size()), idle = int(v_.size()), first_own = idle + 1;
+    std::vector<int>   own; // bodies that do not move, each with a private copy
+    Part               part;
+    const ContactBatch empty = empty_batch(idle);
+    v_.push_back({0, 0, 0, 0});
+    const auto place = [&](const int body) {
+      if (moves(problem_, body))
+        return body;
+      const auto known = std::find(own.begin(), own.end(), body);
+      if (known != own.end())
+        return first_own + int(known - own.begin());
+      own.push_back(body);
+      v_.push_back(problem_.free_velocity[body]);
+      return int(v_.size()) - 1;
+    };
+
+    // Waiting rows as a linked list: after[k + 1] follows row k, after[0] is the oldest.
+    std::vector<int> after(n + 1);
+    std::iota(after.begin(), after.end(), 0);
+    int waiting = 0, entered = 0, taken_rows = 0;
+    part.batches.reserve(n / 3 + 1), part.rows.reserve(n / 3 + 1), part.tangential_term.reserve(n / 3 + 1);
+    for (int batch = 0; taken_rows < n; ++batch)
+      {
+        entered = std::min(n, entered + window_size - waiting);
+        waiting = entered - taken_rows;
+        part.batches.push_back(empty);
+        part.rows.push_back({-1, -1, -1, -1});
+        part.tangential_term.push_back({});
+        int filled = 0;
+        for (const int distance : {1, 0})
+          for (int before = 0; after[before] < entered && filled < lanes;)
+            {
+              const int         k = after[before];
+              const ContactRow &c = problem_.contacts[rows[k]];
+              const auto taken    = [&](const int body) { return moves(problem_, body) && batch_of_[body] >= batch - distance; };
+              if (taken(c.i) || taken(c.j))
+                {
+                  before = k + 1;
+                  continue;
+                }
+              batch_of_[c.i] = batch_of_[c.j] = batch;
+              fill_lane(part, filled, rows[k]);
+              part.batches.back().i[filled] = place(c.i), part.batches.back().j[filled] = place(c.j);
+              after[before] = after[k + 1];
+              ++filled, ++taken_rows, --waiting;
+            }
+      }
+    for (const int row : rows)
+      batch_of_[problem_.contacts[row].i] = batch_of_[problem_.contacts[row].j] = -2;
+    if (std::all_of(rows.begin(), rows.end(), [&](const int row) { return problem_.contacts[row].tangential_term == 0; }))
+      part.tangential_term.clear();
+    return part;
+  }
+
+  void BatchedContacts::fill_lane(Part &part, const int lane, const int row) const
+  {
+    const ContactRow &c    = problem_.contacts[row];
+    ContactBatch     &data = part.batches.back();
+    data.nx[lane] = c.nx, data.ny[lane] = c.ny, data.normal_term[lane] = c.normal_term;
+    data.friction[lane] = c.friction, data.inverse_wnn[lane] = c.inverse_wnn;
+    part.tangential_term.back()[lane] = c.tangential_term;
+    part.rows.back()[lane]            = row;
+  }
+
+  template <class Function> void BatchedContacts::for_each_part(Function &&function)
+  {
+    for (Part &part : blocks_)
+      function(part);
+    for (Part &part : between_)
+      function(part);
   }
 
   void BatchedContacts::set_impulses(const std::vector<Impulse> &impulses)
   {
-    for (Batch &batch : batches_)
-      for (int lane = 0; lane < lanes; ++lane)
-        if (batch.row[lane] >= 0)
-          {
-            batch.normal[lane]     = impulses[batch.row[lane]].normal;
-            batch.tangential[lane] = impulses[batch.row[lane]].tangential;
-          }
+    for_each_part([&](Part &part) {
+      for (std::size_t b = 0; b < part.batches.size(); ++b)
+        for (int lane = 0; lane < lanes; ++lane)
+          if (const int row = part.rows[b][lane]; row >= 0)
+            part.batches[b].normal[lane] = impulses[row].normal, part.batches[b].tangential[lane] = impulses[row].tangential;
+    });
+    for (std::size_t k = 0; k < rest_.size(); ++k)
+      rest_impulses_[k] = impulses[rest_[k]];
+    refresh_velocities();
   }
 
   std::vector<Impulse> BatchedContacts::impulses() const
   {
-    std::vector<Impulse> result(n_rows_);
-    for (const Batch &batch : batches_)
-      for (int lane = 0; lane < lanes; ++lane)
-        if (batch.row[lane] >= 0)
-          result[batch.row[lane]] = {batch.normal[lane], batch.tangential[lane]};
+    std::vector<Impulse> result(problem_.contacts.size());
+    for (const std::vector<Part> *parts : {&blocks_, &between_})
+      for (const Part &part : *parts)
+        for (std::size_t b = 0; b < part.batches.size(); ++b)
+          for (int lane = 0; lane < lanes; ++lane)
+            if (const int row = part.rows[b][lane]; row >= 0)
+              result[row] = {part.batches[b].normal[lane], part.batches[b].tangential[lane]};
+    for (std::size_t k = 0; k < rest_.size(); ++k)
+      result[rest_[k]] = rest_impulses_[k];
     return result;
   }
 
-  void BatchedContacts::sweep(const double omega_sticking, const double omega_slipping, std::vector<BodyVelocity> &v)
+  void BatchedContacts::refresh_velocities()
   {
-    v.push_back({0, 0, 0, 0});
-    sweep_batches(batches_.data(), batches_.size(), omega_sticking, omega_slipping, v.data());
-    v.pop_back();
+    std::copy(problem_.free_velocity.begin(), problem_.free_velocity.end(), v_.begin());
+    for_each_part([&](Part &part) { add_impulses(part.batches.data(), part.batches.size(), v_.data()); });
+    for (std::size_t k = 0; k < rest_.size(); ++k)
+      apply_impulse(problem_.contacts[rest_[k]], rest_impulses_[k], v_);
+  }
+
+  void BatchedContacts::sweep(const double omega_sticking, const double omega_slipping, const int n, ThreadTeam &team)
+  {
+    const auto sweep_parts = [&](std::vector<Part> &parts, const int rank) {
+      for (std::size_t p = rank; p < parts.size(); p += team.size())
+        sweep_batches(parts[p].batches.data(), parts[p].tangential_term.empty() ? nullptr : parts[p].tangential_term.data(),
+                      parts[p].batches.size(), omega_sticking, omega_slipping, v_.data());
+    };
+    team.run([&](const int rank) {
+      for (int k = 0; k < n; ++k)
+        {
+          sweep_parts(blocks_, rank);
+          team.barrier();
+          sweep_parts(between_, rank);
+          team.barrier();
+          if (rest_.empty())
+            continue;
+          if (rank == 0)
+            for (std::size_t row = 0; row < rest_.size(); ++row)
+              {
+                const ContactRow &c     = problem_.contacts[rest_[row]];
+                Impulse          &r     = rest_impulses_[row];
+                const double      omega = is_slipping(c, r) ? omega_slipping : omega_sticking;
+                const Impulse     next  = local_solution(c, relative_velocity(c, v_), r, omega);
+                apply_impulse(c, {next.normal - r.normal, next.tangential - r.tangential}, v_);
+                r = next;
+              }
+          team.barrier();
+        }
+    });
+  }
+
+  Impulse BatchedContacts::residual_squares(const Part &part) const
+  {
+    Impulse squares; // of the difference, of the impulses
+    add_squares(part.batches.data(), part.tangential_term.empty() ? nullptr : part.tangential_term.data(), part.batches.size(),
+                v_.data(), &squares.normal, &squares.tangential);
+    return squares;
+  }
+
+  double BatchedContacts::residual(ThreadTeam &team) const
+  {
+    const std::size_t    n = blocks_.size() + between_.size();
+    std::vector<Impulse> squares(n);
+    team.run([&](const int rank) {
+      for (std::size_t p = rank; p < n; p += team.size())
+        squares[p] = residual_squares(p < blocks_.size() ? blocks_[p] : between_[p - blocks_.size()]);
+    });
+    double difference = 0, norm = 0; // summed in the order of the parts, whoever made them
+    for (const Impulse &s : squares)
+      difference += s.normal, norm += s.tangential;
+    for (std::size_t k = 0; k < rest_.size(); ++k)
+      {
+        const ContactRow &c = problem_.contacts[rest_[k]];
+        const Impulse     r = rest_impulses_[k], p = local_solution(c, relative_velocity(c, v_), r, 1.);
+        difference += (r.normal - p.normal) * (r.normal - p.normal) +
+                      (r.tangential - p.tangential) * (r.tangential - p.tangential);
+        norm += r.normal * r.normal + r.tangential * r.tangential;
+      }
+    if (difference == 0)
+      return 0;
+    return norm > 0 ? std::sqrt(difference / norm) : std::numeric_limits<double>::infinity();
+  }
+
+  std::size_t BatchedContacts::n_batches() const
+  {
+    std::size_t n = 0;
+    for (const std::vector<Part> *parts : {&blocks_, &between_})
+      for (const Part &part : *parts)
+        n += part.batches.size();
+    return n;
+  }
+
+  std::vector<int> BatchedContacts::order() const
+  {
+    std::vector<int> rows;
+    for (const std::vector<Part> *parts : {&blocks_, &between_})
+      for (const Part &part : *parts)
+        for (const std::array<int, 4> &members : part.rows)
+          for (const int row : members)
+            if (row >= 0)
+              rows.push_back(row);
+    rows.insert(rows.end(), rest_.begin(), rest_.end());
+    return rows;
   }
 } // namespace diptych::discrete

@@ -1,40 +1,72 @@
-// diptych: over-relaxed sweeps, four independent contacts at a time
+// diptych: over-relaxed sweeps, four independent contacts at a time, on one thread or several
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "discrete/contact_problem.h"
+#include "discrete/solvers/thread_team.h"
 
 namespace diptych::discrete
 {
-  // The contacts of a problem in batches of four that share no moving body, in the order of the rows; a batch ends early
-  // where the next row would share one. Within a batch the order does not matter, so a sweep has the same bits as
-  // sweep_psor() row by row, on every machine and instruction set.
+  // Four contacts that share no moving body (256 bytes). Their ki, kj and W_tt follow from the inverse masses of discs:
+  // k = 2/m, W_tt = 3 W_nn. Empty lanes act on a body that does not move.
+  struct alignas(64) ContactBatch
+  {
+    double nx[4], ny[4], normal_term[4], friction[4], inverse_wnn[4], normal[4], tangential[4];
+    int    i[4], j[4];
+  };
+
+  // The contacts of a problem cut, in the order of its sweeps, into blocks of about equal size that share no grain, and the
+  // contacts between neighbouring blocks. A sweep takes all blocks, then all contacts between blocks, then the rows that do
+  // not fit a batch (walls under a force, the edge of a free cell). Blocks depend on nothing but the problem, so every number
+  // of threads gives the same bits; and within a batch the order does not matter, so every instruction set does.
   class BatchedContacts
   {
   public:
+    // The problem must outlive this. One too small or too tangled to be cut is one block.
     explicit BatchedContacts(const ContactProblem &problem);
 
-    void                 set_impulses(const std::vector<Impulse> &impulses);
+    void                 set_impulses(const std::vector<Impulse> &impulses); // one per row; velocities are taken from them
     std::vector<Impulse> impulses() const;
 
-    // `v` as from velocities(); one more body, which does not move, is appended and used by empty lanes.
-    void sweep(double omega_sticking, double omega_slipping, std::vector<BodyVelocity> &v);
+    // `n` sweeps. Contacts at their Coulomb bound (judged on their old impulse) take omega_slipping.
+    void sweep(double omega_sticking, double omega_slipping, int n, ThreadTeam &team);
 
-    std::size_t n_batches() const { return batches_.size(); }
+    // Velocities taken afresh from the impulses, so that round-off does not pile up.
+    void refresh_velocities();
+
+    // Natural map of contact_problem.h, for the present velocities.
+    double residual(ThreadTeam &team) const;
+
+    std::size_t      n_blocks() const { return blocks_.size(); }
+    std::size_t      n_batches() const;
+    std::vector<int> order() const; // rows in the order in which a sweep takes them
 
   private:
-    static constexpr int lanes = 4;
-
-    struct alignas(32) Batch
+    // What one thread sweeps at a time.
+    struct Part
     {
-      double nx[lanes], ny[lanes], normal_term[lanes], tangential_term[lanes], friction[lanes], inverse_wnn[lanes],
-        inverse_wtt[lanes], ki[lanes], kj[lanes], normal[lanes], tangential[lanes];
-      int i[lanes], j[lanes], row[lanes]; // row: -1 in an empty lane
+      std::vector<ContactBatch>          batches;
+      std::vector<std::array<double, 4>> tangential_term; // one a batch; none: zero throughout
+      std::vector<std::array<int, 4>>    rows;            // -1 in an empty lane
     };
 
-    std::vector<Batch> batches_;
-    std::size_t        n_rows_;
+    bool                           fits_a_batch(const ContactRow &row) const;
+    bool                           cut(const std::vector<int> &rows, int n_blocks);
+    Part                           make_part(const std::vector<int> &rows);
+    void                           fill_lane(Part &part, int lane, int row) const;
+    Impulse                        residual_squares(const Part &part) const;
+    template <class Function> void for_each_part(Function &&function);
+
+    const ContactProblem &problem_;
+    std::vector<Part>     blocks_, between_; // between_[b] lies between blocks b and b + 1
+    std::vector<int>      rest_;             // rows taken one by one
+    std::vector<Impulse>  rest_impulses_;
+    // Velocities of all bodies of the problem, then for each part its own copies of the bodies that do not move, so that no
+    // two threads write to one.
+    std::vector<BodyVelocity> v_;
+    std::vector<int>          batch_of_; // last batch that took each body, while a part is made
   };
 } // namespace diptych::discrete

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "discrete/contact_problem.h"
+#include "discrete/solvers/thread_team.h"
 
 namespace diptych::discrete
 {
@@ -27,7 +29,8 @@ namespace diptych::discrete
     visitor("max_sweeps", o.max_sweeps, "-", {1, 100000000},
             "sweeps after which a step counts as not converged; the run then stops with exit code 3");
     visitor("omega_sticking", o.omega_sticking, "-", {0.1, 1.99},
-            "psor: relaxation of sticking and open contacts; lower to 1.7 above 10000 discs or below 1e-5");
+            "psor: relaxation of sticking and open contacts; other values between 1 and this are tried in turn where the "
+            "residual stagnates");
     visitor("omega_slipping", o.omega_slipping, "-", {0.1, 1.99},
             "psor: relaxation of contacts at their Coulomb bound; above 1 limit cycles were measured");
     visitor("sweeps_per_check", o.sweeps_per_check, "-", {1, 10000}, "sweeps between two evaluations of the residual");
@@ -44,10 +47,20 @@ namespace diptych::discrete
     SolveStatus status   = SolveStatus::converged;
     long        sweeps   = 0;
     double      residual = 0; // natural map, relative to |r|, measured outside the solver
-    double      cpu_s    = 0; // residual checks included
+    double      cpu_s    = 0; // of all threads, making of batches and residual checks included
   };
 
+  // A condition beside the residual, asked at checks where the residual is below the tolerance: sweeps and residual so far,
+  // and the present impulses for the asking.
+  using StopTest = std::function<bool(const SolveReport &, const std::function<std::vector<Impulse>()> &impulses)>;
+
   // Solves in place from the given first guess (one impulse per contact). A residual that is already below the tolerance
-  // costs one check and no sweep. Throws std::invalid_argument on an unknown solver.
+  // costs one check and no sweep. Throws std::invalid_argument on an unknown solver. psor gives the same bits for every size
+  // of the team; nsgs uses one thread.
+  SolveReport solve(const ContactProblem &problem,
+                    const SolverOptions  &options,
+                    std::vector<Impulse> &impulses,
+                    ThreadTeam           &team,
+                    const StopTest       &stop_test = {});
   SolveReport solve(const ContactProblem &problem, const SolverOptions &options, std::vector<Impulse> &impulses);
 } // namespace diptych::discrete

@@ -10,25 +10,29 @@ namespace diptych::discrete
   {
     inline void update(const ContactRow &c, const double omega, std::vector<BodyVelocity> &v, Impulse &r)
     {
-      const Impulse next = local_solution(c, relative_velocity(c, v[c.i], v[c.j]), r, omega);
-      apply_impulse(c, {next.normal - r.normal, next.tangential - r.tangential}, v[c.i], v[c.j]);
+      const Impulse next = local_solution(c, relative_velocity(c, v), r, omega);
+      apply_impulse(c, {next.normal - r.normal, next.tangential - r.tangential}, v);
       r = next;
     }
   } // namespace
 
   void sweep_nsgs(const ContactProblem &problem, std::vector<BodyVelocity> &v, std::vector<Impulse> &impulses)
   {
-    for (std::size_t k = 0; k < problem.contacts.size(); ++k)
+    if (problem.order.empty())
+      for (std::size_t k = 0; k < problem.contacts.size(); ++k)
+        update(problem.contacts[k], 1., v, impulses[k]);
+    for (const int k : problem.order)
       update(problem.contacts[k], 1., v, impulses[k]);
   }
 
   void sweep_psor(const ContactProblem      &problem,
+                  const std::vector<int>    &order,
                   const double               omega_sticking,
                   const double               omega_slipping,
                   std::vector<BodyVelocity> &v,
                   std::vector<Impulse>      &impulses)
   {
-    for (std::size_t k = 0; k < problem.contacts.size(); ++k)
+    for (const int k : order)
       {
         const ContactRow &c = problem.contacts[k];
         update(c, is_slipping(c, impulses[k]) ? omega_slipping : omega_sticking, v, impulses[k]);

@@ -6,12 +6,13 @@
 
 namespace diptych::discrete
 {
-  // One Gauss-Seidel pass in the order of the rows, omega = 1. The slow clear reference.
+  // One Gauss-Seidel pass in the order of the problem, omega = 1. The slow clear reference.
   void sweep_nsgs(const ContactProblem &problem, std::vector<BodyVelocity> &v, std::vector<Impulse> &impulses);
 
-  // One projected over-relaxed pass, the scalar reference of batched_sweep.h; a contact at its Coulomb bound (judged on its old
-  // impulse) takes omega_slipping.
+  // One projected over-relaxed pass over the rows of `order`, the scalar reference of batched_sweep.h; a contact at its Coulomb
+  // bound (judged on its old impulse) takes omega_slipping.
   void sweep_psor(const ContactProblem      &problem,
+                  const std::vector<int>    &order,
                   double                     omega_sticking,
                   double                     omega_slipping,
                   std::vector<BodyVelocity> &v,

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "discrete/internal_moment.h"
+#include "discrete/step_problem.h"
 #include "discrete/window_forces.h"
 #include "tests/discrete/small_scenes.h"
 
@@ -24,7 +25,7 @@ namespace
 
     Step()
     {
-      const double h = sheared.setting.time.step;
+      const double h = sheared.setting.step;
       for (std::size_t i = 0; i < sheared.before.grains.size(); ++i)
         position.push_back(sheared.before.grains.position[i] + 0.5 * h * sheared.before.grains.velocity[i]);
       for (std::size_t k = 0; k < sheared.result.contacts.size(); ++k)
@@ -37,7 +38,7 @@ namespace
     Eigen::Vector2d acceleration_force(const std::size_t i) const
     {
       return sheared.state.grains.mass[i] * (sheared.state.grains.velocity[i] - sheared.before.grains.velocity[i]) /
-             sheared.setting.time.step;
+             sheared.setting.step;
     }
   };
 
@@ -100,7 +101,7 @@ namespace
       {
         const double couple = step.sheared.state.grains.moment_of_inertia(i) *
                               (step.sheared.state.grains.spin[i] - step.sheared.before.grains.spin[i]) /
-                              step.sheared.setting.time.step;
+                              step.sheared.setting.step;
         // Contact points lie midway between the surfaces: off by half a gap times the tangential force.
         EXPECT_NEAR(-(raw[i](0, 1) - raw[i](1, 0)), couple, 0.02 * raw[i].norm() + 1e-12);
       }

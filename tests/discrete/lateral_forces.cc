@@ -11,11 +11,11 @@ namespace
 
   TEST(LateralForces, EachBandCarriesItsShareOfThePressureOnFiveGrainsASide)
   {
-    const PreparedSample         sample = prepare_sample(small_sample(500), {}, {}, 1., [](int, int) { return true; });
+    const PreparedSample         sample = prepare_sample(small_sample(500), {}, [](int, int) { return true; });
     const State                 &state  = sample.state;
     std::vector<Eigen::Vector2d> force(state.grains.size(), Eigen::Vector2d::Zero());
     const double                 pressure = 2.5;
-    add_lateral_forces(state, {"end_grains", 3., 5}, pressure, 1., force);
+    add_lateral_forces(state, EndGrains{3., 5}, pressure, 1., force);
 
     const double height  = state.walls[1].point.y();
     const int    n_bands = int(std::lround(height / 3));

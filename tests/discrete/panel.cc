@@ -67,7 +67,7 @@ namespace
     Options       options = quick_options();
     const Course  a       = loaded(sample, loading, options);
     loading.pressure      = 4;
-    options.time.step /= 2;
+    *options.time.step /= 2;
     sample.preparation_step /= 2;
     const Course b = loaded(sample, loading, options);
     ASSERT_EQ(a.rows.size(), b.rows.size());

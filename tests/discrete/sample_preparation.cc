@@ -16,7 +16,7 @@ namespace
   TEST(SamplePreparation, GivesADenseQuietSampleUnderPressure)
   {
     const SampleOptions  options = small_sample(800);
-    const PreparedSample sample  = prepare_sample(options, {}, {}, 1., [](int, int) { return true; });
+    const PreparedSample sample  = prepare_sample(options, {}, [](int, int) { return true; });
     EXPECT_TRUE(sample.report.quiet);
     // Frictionless packings of this size distribution jam near 0.845; free sides cost a small sample a little.
     EXPECT_GT(sample.report.solid_fraction, 0.83);

@@ -12,12 +12,12 @@ namespace diptych::tests
   inline StepSetting exact_setting(const double step)
   {
     StepSetting setting;
-    setting.time.step         = step;
-    setting.law               = {0., 0., 0., 0.};
+    setting.step              = step;
+    setting.law               = {0., 0., 0., 0., 0.};
     setting.solver.solver     = "nsgs";
     setting.solver.tolerance  = 1e-14;
     setting.solver.max_sweeps = 100000;
-    setting.lateral.lateral   = "none";
+    setting.lateral           = NoSides{};
     return setting;
   }
 
@@ -83,11 +83,11 @@ namespace diptych::tests
 
   inline ShearedSample sheared_sample()
   {
-    PreparedSample sample = prepare_sample(small_sample(), {}, {}, 1., [](int, int) { return true; });
+    PreparedSample sample = prepare_sample(small_sample(), {}, [](int, int) { return true; });
     ShearedSample  sheared;
-    sheared.setting                  = {{}, {}, {}, {}, 1., 1.};
-    sheared.setting.time.step        = 0.1;
-    sheared.setting.solver.tolerance = 1e-5;
+    sheared.setting.step              = 0.1;
+    sheared.setting.solver.tolerance  = 1e-5;
+    sheared.setting.solver.max_sweeps = 400000;
     // Affine start: an impulsive one on a packed sample is much harder to solve.
     const Eigen::Vector2d velocity(0.02, -0.02);
     sample.state.walls[1].velocity = velocity;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "discrete/contact_law.h"
+#include "discrete/contact_order.h"
 #include "discrete/solvers/batched_sweep.h"
 #include "discrete/solvers/solver.h"
 #include "discrete/solvers/sweeps.h"
@@ -20,7 +21,8 @@ namespace
     problem.free_velocity = {{0, -1, 0, 1}, {0, -1, 0, 1}, {0.1, -1, 0, 1}, {0, 0, 0, 0}}; // left, right, top, floor
     const auto row        = [&](const int i, const int j, const double nx, const double ny) {
       const double wi = problem.free_velocity[i].inverse_mass, wj = problem.free_velocity[j].inverse_mass;
-      problem.contacts.push_back({nx, ny, 0, 0, friction, 1 / (wi + wj), 1 / (3 * (wi + wj)), 2 * wi, 2 * wj, i, j});
+      problem.contacts.push_back(
+               {nx, ny, 0, 0, friction, 1 / (wi + wj), 1 / (wi + wj) * disc_wnn_over_wtt, 2 * wi, 2 * wj, wj, wj, 0, i, j, -1});
     };
     row(0, 3, 0, 1), row(1, 3, 0, 1), row(2, 0, c, s), row(2, 1, -c, s);
     return problem;
@@ -69,7 +71,7 @@ namespace
     for (std::size_t k = 0; k < impulses.size(); ++k)
       {
         const ContactRow      &c = problem.contacts[k];
-        const RelativeVelocity u = relative_velocity(c, v[c.i], v[c.j]);
+        const RelativeVelocity u = relative_velocity(c, v);
         EXPECT_GE(impulses[k].normal, 0);
         EXPECT_GE(u.normal, -1e-11);
         EXPECT_NEAR(impulses[k].normal * u.normal, 0, 1e-11);
@@ -81,42 +83,78 @@ namespace
       }
   }
 
-  // Four lanes at a time and one row after another are the same arithmetic in an order that does not matter.
-  TEST(Solvers, BatchedSweepsHaveTheBitsOfScalarOnes)
+  // A problem like that of a step, on a real packing, with the rows' terms made up.
+  ContactProblem packing_problem(const int grains, const double tangential_term)
   {
-    const ShearedSample sheared = sheared_sample();
-    ContactProblem      problem;
-    for (std::size_t i = 0; i < sheared.state.grains.size(); ++i)
+    const PreparedSample sample   = prepare_sample(small_sample(grains), {}, [](int, int) { return true; });
+    const auto           contacts = find_contacts(sample.state, std::vector<double>(sample.state.grains.size(), 0.05));
+    ContactProblem       problem;
+    for (std::size_t i = 0; i < sample.state.grains.size(); ++i)
       problem.free_velocity.push_back(
-        {0.01 * double(i % 7), -0.02 * double(i % 5), 0.003 * double(i % 3), 1 / sheared.state.grains.mass[i]});
+        {0.01 * double(i % 7), -0.02 * double(i % 5), 0.003 * double(i % 3), 1 / sample.state.grains.mass[i]});
     problem.free_velocity.insert(problem.free_velocity.end(), 2, {0, 0, 0, 0});
-    for (const Contact &c : sheared.result.contacts)
+    for (const Contact &c : contacts)
       {
         const double wi = problem.free_velocity[c.i].inverse_mass, wj = problem.free_velocity[c.j].inverse_mass;
-        problem.contacts.push_back(
-          {c.normal.x(), c.normal.y(), 0.001, 0, 0.4, 1 / (wi + wj), 1 / (3 * (wi + wj)), 2 * wi, 2 * wj, c.i, c.j});
+        const double wnn = 1 / (wi + wj);
+        problem.contacts.push_back({c.normal.x(), c.normal.y(), 0.001, tangential_term * double(c.i % 3), 0.4, wnn,
+                                    wnn * disc_wnn_over_wtt, 2 * wi, 2 * wj, wj, wj, 0, c.i, c.j, -1});
       }
-    std::vector<Impulse>      scalar(problem.contacts.size());
-    std::vector<BodyVelocity> v = problem.free_velocity, w = v;
-    BatchedContacts           batches(problem);
-    batches.set_impulses(scalar);
-    for (int sweep = 0; sweep < 30; ++sweep)
+    problem.order = sweep_order(contacts, 1.);
+    return problem;
+  }
+
+  // Four lanes at a time and one row after another are the same arithmetic in an order that does not matter, also where the
+  // problem is cut into blocks, and with a tangential restitution.
+  TEST(Solvers, BatchedSweepsHaveTheBitsOfScalarOnes)
+  {
+    for (const double tangential_term : {0., 0.002})
       {
-        sweep_psor(problem, 1.8, 1.0, v, scalar);
-        batches.sweep(1.8, 1.0, w);
+        const ContactProblem      problem = packing_problem(2000, tangential_term);
+        std::vector<Impulse>      scalar(problem.contacts.size());
+        std::vector<BodyVelocity> v = problem.free_velocity;
+        ThreadTeam                team(1);
+        BatchedContacts           batches(problem);
+        EXPECT_GT(batches.n_blocks(), 1u);
+        batches.set_impulses(scalar);
+        for (int sweep = 0; sweep < 30; ++sweep)
+          sweep_psor(problem, batches.order(), 1.8, 1.0, v, scalar);
+        batches.sweep(1.8, 1.0, 30, team);
+        const std::vector<Impulse> batched = batches.impulses();
+        double                     sum     = 0;
+        for (std::size_t k = 0; k < scalar.size(); ++k)
+          {
+            EXPECT_EQ(scalar[k].normal, batched[k].normal);
+            EXPECT_EQ(scalar[k].tangential, batched[k].tangential);
+            sum += scalar[k].normal;
+          }
+        EXPECT_GT(sum, 0);
+        EXPECT_LT(batches.n_batches(), 0.3 * double(scalar.size())) << "most batches should be full";
+        batches.refresh_velocities();
+        EXPECT_NEAR(batches.residual(team), natural_map_residual(problem, scalar), 1e-12);
       }
-    const std::vector<Impulse> batched = batches.impulses();
-    double                     sum     = 0;
-    for (std::size_t k = 0; k < scalar.size(); ++k)
+  }
+
+  TEST(Solvers, EveryNumberOfThreadsGivesTheSameBits)
+  {
+    const ContactProblem problem = packing_problem(2000, 0);
+    SolverOptions        options;
+    options.tolerance  = 1e-14;
+    options.max_sweeps = 1000;
+    std::vector<std::vector<Impulse>> results;
+    for (const int threads : {1, 2, 3, 4})
       {
-        EXPECT_EQ(scalar[k].normal, batched[k].normal);
-        EXPECT_EQ(scalar[k].tangential, batched[k].tangential);
-        sum += scalar[k].normal;
+        ThreadTeam           team(threads);
+        std::vector<Impulse> impulses(problem.contacts.size());
+        EXPECT_EQ(solve(problem, options, impulses, team).sweeps, 1000);
+        results.push_back(impulses);
       }
-    EXPECT_GT(sum, 0);
-    for (std::size_t i = 0; i < v.size(); ++i)
-      EXPECT_EQ(v[i].x, w[i].x);
-    EXPECT_LT(batches.n_batches(), 0.35 * double(scalar.size())) << "most batches should be full";
+    for (const std::vector<Impulse> &result : results)
+      for (std::size_t k = 0; k < result.size(); ++k)
+        {
+          EXPECT_EQ(result[k].normal, results[0][k].normal);
+          EXPECT_EQ(result[k].tangential, results[0][k].tangential);
+        }
   }
 
   // A converged first guess costs one check and no sweep (P7).

@@ -1,0 +1,98 @@
+// diptych: how far the grain stresses of an unfinished solve are from those of a finished one
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "discrete/contact_detection.h"
+#include "discrete/solvers/solver.h"
+
+namespace diptych::discrete
+{
+  struct SamplingOptions
+  {
+    double snapshot_accuracy   = 0.02;
+    int    snapshot_max_sweeps = 30000;
+    int    reference_sweeps    = 60000;
+  };
+
+  template <class Visitor> void visit_parameters(SamplingOptions &o, Visitor &&visitor)
+  {
+    visitor(
+      "snapshot_accuracy", o.snapshot_accuracy, "-", {1e-6, 1e3},
+      "the step of a snapshot is solved on until the estimated rms error of the grains' stress, relative to its rms value, is "
+      "below this");
+    visitor(
+      "snapshot_max_sweeps", o.snapshot_max_sweeps, "-", {0, 1000000000},
+      "sweeps such a step may take; where they do not suffice the run goes on and the estimate stands with the snapshot. 0: "
+      "snapshots are solved like all other steps, with no estimate");
+    visitor(
+      "reference_sweeps", o.reference_sweeps, "-", {0, 1000000000},
+      "further sweeps by which the first sampled step of a run is solved on towards a residual of 1e-9, to measure the ratio "
+      "of error to residual and check the estimate; 0: not measured");
+  }
+
+  // Contact moments (r_i + gap/2) n (x) r of all grains, as one list of numbers: what a difference of impulses does to grain
+  // stress. Differences of such lists are scale-free when divided by their norm.
+  std::vector<double> contact_moments(const std::vector<double>  &radius,
+                                      const std::vector<Contact> &contacts,
+                                      const std::vector<Impulse> &impulses);
+
+  // ||a - b||_2 / ||b||_2; 0 where both vanish, infinity where only b does.
+  double relative_difference(const std::vector<double> &a, const std::vector<double> &b);
+
+  // Estimate of the error from the iterates themselves. The residual does not tell it: where grains are pressed together and
+  // move slowly the sweeps come near one near-solution after another, and at the same residual of 1e-6 the grain stress may be
+  // wrong by 0.3 or by 15 %. Since the motion goes on in the logarithm of the number of sweeps, the error after s sweeps is
+  // taken as twice the change since s/4:  E(s) = 2 ||M(s) - M(s/4)|| / ||M(s)||.
+  // Checked against solutions at 1e-9 in tests/discrete/grain_stress_error.cc and benchmarks/contact_solver.
+  class GrainStressError
+  {
+  public:
+    // To be called with growing numbers of sweeps. Takes moments at 0, 100, 200, 400, ... sweeps.
+    bool wants(long sweeps) const { return sweeps >= next_; }
+    void observe(long sweeps, std::vector<double> moments);
+
+    double estimate() const { return estimate_; } // infinity before three samples are there
+
+  private:
+    std::vector<std::vector<double>> moments_; // of the last three samples
+    long                             next_     = 0;
+    double                           estimate_ = std::numeric_limits<double>::infinity();
+  };
+
+  // What a step that is sampled asks of its solve.
+  struct SampleRequest
+  {
+    SamplingOptions options;
+    bool            measure_factor = false; // solve a copy on towards 1e-9
+  };
+
+  struct SampledAccuracy
+  {
+    double stress_error = 0;     // estimate
+    bool   reached      = false; // below snapshot_accuracy
+    // Of the copy solved on, NaN where it was not asked for: its residual, the difference from it, and the ratio of that to
+    // the residual (NaN where the copy did not get below a tenth of that residual and so is no solution to measure against).
+    double reference_residual = std::numeric_limits<double>::quiet_NaN(), true_error = reference_residual;
+    double error_over_residual = reference_residual;
+  };
+
+  // A contact problem with the geometry that its moments need.
+  struct SampledProblem
+  {
+    const ContactProblem       &problem;
+    const std::vector<double>  &radius; // of the grains
+    const std::vector<Contact> &contacts;
+  };
+
+  // Solves to the tolerance of `solver`, then on until the estimate is below the accuracy wanted, the residual below 1e-9
+  // (estimate: 0) or the sweeps are used up. The report says whether the tolerance was met, `accuracy` the rest.
+  SolveReport solve_sampled(const SampledProblem &sampled,
+                            const SolverOptions  &solver,
+                            const SampleRequest  &request,
+                            ThreadTeam           &team,
+                            std::vector<Impulse> &impulses,
+                            SampledAccuracy      &accuracy);
+} // namespace diptych::discrete

@@ -1,0 +1,172 @@
+// diptych: how a prepared sample is loaded
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/loading.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "discrete/sample_file.h"
+#include "discrete/sample_preparation.h"
+
+namespace diptych::discrete
+{
+  namespace
+  {
+    // A number, or the CSV file of that name.
+    TimeTable table_of(const std::string &text, const std::string &column)
+    {
+      char        *end    = nullptr;
+      const double number = std::strtod(text.c_str(), &end);
+      if (end != text.c_str() && *end == '\0' && std::isfinite(number))
+        return {{0.}, {number}};
+      return read_time_table(text, column);
+    }
+
+    // Velocity of the upper platen in the modes that prescribe one.
+    Eigen::Vector2d platen_velocity(const Loading &loading, const double speed)
+    {
+      switch (loading.mode)
+        {
+        case LoadingMode::descent:
+          return {loading.horizontal_over_vertical * speed, -speed};
+        case LoadingMode::shear:
+        case LoadingMode::plane_shear:
+          return {speed, 0};
+        case LoadingMode::time:
+          break;
+        }
+      return {0, 0};
+    }
+
+    void set_lateral_drives(State &state, const LoadingStart &start)
+    {
+      const LateralCondition lateral = lateral_condition(start.lateral);
+      const double           mass    = start.lateral.wall_mass > 0 ? start.lateral.wall_mass : default_wall_mass(state.grains);
+      for (Wall &wall : state.walls)
+        wall.mass = mass;
+      if (const auto *sides = std::get_if<RigidSides>(&lateral))
+        {
+          if (sides->velocity)
+            state.walls[3].velocity.x() = *sides->velocity;
+          else
+            state.walls[3].drive_x = AppliedPressure{start.loading.pressure};
+        }
+      else if (const auto *periodic = std::get_if<PeriodicSides>(&lateral))
+        {
+          state.cell->mass = mass;
+          if (periodic->free_width)
+            state.cell->pressure = start.loading.pressure;
+          else
+            state.cell->velocity = periodic->velocity;
+        }
+    }
+
+    void set_wall_drives(State &state, const WallDriveOptions &o)
+    {
+      const std::string texts[4][2] = {
+        {o.lower_x, o.lower_y}, {o.upper_x, o.upper_y}, {o.left_x, o.left_y}, {o.right_x, o.right_y}};
+      const char *names[4] = {"lower", "upper", "left", "right"};
+      for (std::size_t w = 0; w < 4; ++w)
+        for (int axis = 0; axis < 2; ++axis)
+          {
+            if (texts[w][axis] == "auto")
+              continue;
+            const std::string key = std::string("discrete/drive_") + names[w] + (axis == 0 ? "_x" : "_y");
+            if (w >= state.walls.size())
+              throw std::invalid_argument(key + " = '" + texts[w][axis] +
+                                          "': there is no such wall unless lateral = rigid_walls");
+            (axis == 0 ? state.walls[w].drive_x : state.walls[w].drive_y) = read_drive(key, texts[w][axis]);
+          }
+    }
+  } // namespace
+
+  Drive read_drive(const std::string &key, const std::string &text)
+  {
+    const std::size_t blank = text.find(' ');
+    const std::string kind  = text.substr(0, blank),
+                      rest  = blank == std::string::npos ? "" : text.substr(text.find_first_not_of(' ', blank));
+    if (text == "auto")
+      return KeptVelocity{};
+    if (kind == "velocity" && !rest.empty())
+      return PrescribedVelocity{table_of(rest, "velocity")};
+    if (kind == "force" && !rest.empty())
+      return AppliedForce{table_of(rest, "force")};
+    throw std::invalid_argument(key + " = '" + text +
+                                "' is not allowed: auto, velocity V or force F is, V and F a number or a CSV file");
+  }
+
+  void validate(const WallDriveOptions &options)
+  {
+    struct Check
+    {
+      void operator()(const char *name, std::string &text, const char *, std::initializer_list<const char *>, const char *) const
+      {
+        (void)read_drive(std::string("discrete/") + name, text);
+      }
+    };
+    WallDriveOptions copy = options;
+    visit_parameters(copy, Check{});
+  }
+
+  double strain_rate(const Loading &loading, const double mean_diameter, const double density)
+  {
+    if (loading.mode == LoadingMode::time)
+      return 1;
+    if (loading.strain_rate > 0)
+      return loading.strain_rate;
+    return loading.inertial_number / mean_diameter * std::sqrt(loading.pressure / density);
+  }
+
+  void set_drives(State &state, const LoadingStart &start)
+  {
+    for (Wall &wall : state.walls)
+      wall.drive_x = wall.drive_y = KeptVelocity{};
+    if (state.cell)
+      state.cell->pressure.reset();
+    set_lateral_drives(state, start);
+    if (start.loading.mode == LoadingMode::plane_shear)
+      state.walls[1].drive_y = AppliedPressure{start.loading.normal_pressure};
+    set_wall_drives(state, start.drives);
+    validate_walls(state);
+  }
+
+  void start_loading(State &state, const LoadingStart &start)
+  {
+    const Loading         &loading = start.loading;
+    const double           bottom = state.walls[0].point.y(), height = sample_height(state);
+    const Eigen::Vector2d  velocity = platen_velocity(loading, start.rate * height);
+    const LateralCondition lateral  = lateral_condition(start.lateral);
+    Grains                &g        = state.grains;
+    state.time                      = 0;
+    for (std::size_t i = 0; i < g.size(); ++i)
+      {
+        g.rotation[i] = 0;
+        if (loading.mode == LoadingMode::time || g.fixed[i])
+          continue; // as they were read or prepared
+        g.velocity[i] = loading.affine_start ? Eigen::Vector2d(velocity * (g.position[i].y() - bottom) / height)
+                                             : Eigen::Vector2d::Zero();
+        g.spin[i]     = loading.affine_start ? -0.5 * velocity.x() / height : 0.; // that of the field
+      }
+    for (Wall &wall : state.walls)
+      wall.velocity.setZero();
+    state.walls[1].velocity = velocity;
+    if (const auto *sides = std::get_if<RigidSides>(&lateral); sides && sides->velocity)
+      state.walls[3].velocity.x() = *sides->velocity;
+    if (const auto *periodic = std::get_if<PeriodicSides>(&lateral))
+      state.cell->velocity = periodic->free_width ? 0. : periodic->velocity;
+    set_drives(state, start);
+    for (Wall &wall : state.walls)
+      wall.velocity = prescribed_wall_velocity(wall, 0.);
+  }
+
+  double loading_progress(const State           &state,
+                          const LoadingMode      mode,
+                          const Eigen::Vector2d &initial_platen,
+                          const double           initial_height)
+  {
+    const Eigen::Vector2d travel = state.walls[1].point - initial_platen;
+    if (mode == LoadingMode::time)
+      return state.time;
+    return (mode == LoadingMode::descent ? -travel.y() : travel.x()) / initial_height;
+  }
+} // namespace diptych::discrete

@@ -1,0 +1,67 @@
+// diptych: takes out what penetration a step has left
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/position_projection.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace diptych::discrete
+{
+  namespace
+  {
+    double gap_of(const State &state, const Contact &c)
+    {
+      const Grains &g = state.grains;
+      if (std::size_t(c.j) >= g.size())
+        {
+          const Wall &wall = state.walls[c.j - g.size()];
+          return (g.position[c.i] - wall.point).dot(wall.normal) - g.radius[c.i];
+        }
+      const double dx = g.position[c.i].x() - g.position[c.j].x() - (c.image != 0 ? c.image * state.cell->width : 0.);
+      const double dy = g.position[c.i].y() - g.position[c.j].y();
+      return std::sqrt(dx * dx + dy * dy) - g.radius[c.i] - g.radius[c.j];
+    }
+
+    // Returns the penetration found.
+    double part(State &state, const Contact &pair)
+    {
+      if (gap_of(state, pair) >= 0)
+        return 0;
+      Grains       &g     = state.grains;
+      const Contact c     = make_contact(state, pair.i, pair.j);
+      const bool    grain = std::size_t(c.j) < g.size();
+      const double  wi = g.inverse_mass(c.i), wj = grain ? g.inverse_mass(c.j) : 0.;
+      if (wi + wj == 0)
+        return 0;
+      g.position[c.i] -= c.gap * wi / (wi + wj) * c.normal;
+      if (grain)
+        g.position[c.j] += c.gap * wj / (wi + wj) * c.normal;
+      return -c.gap;
+    }
+  } // namespace
+
+  void project_positions(State &state, const std::vector<Contact> &contacts, const double enough)
+  {
+    constexpr int       sweeps = 10;
+    double              worst  = 0;
+    std::vector<double> gap(contacts.size());
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+      {
+        gap[k] = gap_of(state, contacts[k]);
+        worst  = std::max(worst, -gap[k]);
+      }
+    if (worst <= enough)
+      return;
+    // Parting one pair may close a neighbour that stands open by less.
+    std::vector<Contact> near;
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+      if (gap[k] < 2 * worst)
+        near.push_back(contacts[k]);
+    for (int sweep = 0; sweep < sweeps && worst > enough; ++sweep)
+      {
+        worst = 0;
+        for (const Contact &c : near)
+          worst = std::max(worst, part(state, c));
+      }
+  }
+} // namespace diptych::discrete

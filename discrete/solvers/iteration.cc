@@ -1,0 +1,91 @@
+// diptych: the loop around the sweeps of any solver
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/solvers/iteration.h"
+
+#include <algorithm>
+#include <ctime>
+#include <limits>
+#include <stdexcept>
+
+namespace diptych::discrete
+{
+  namespace
+  {
+    // Plain sweeps within every hundred over-relaxed ones: they take out what over-relaxation leaves at the Coulomb bound.
+    constexpr int plain_sweeps = 10, cycle = 100;
+
+    // Sheared rigid grains hang on just enough contacts, some of which slide without a stable balance: the sweeps then wander
+    // from one set of sliding contacts to the next before they find one on which they converge, and plain ones wander longest.
+    // Where the residual has not halved within `patience` sweeps, omega moves on to another of a few values, for ever: what
+    // one value circles around another leaves.
+    class StagnationControl
+    {
+    public:
+      explicit StagnationControl(const double omega)
+          : omega_(omega)
+      {}
+
+      double omega() const { return 1 + shares[turn_ % 4] * (omega_ - 1); }
+
+      void observe(const long sweeps, const double residual)
+      {
+        if (residual < 0.5 * reference_)
+          reference_ = residual, since_ = sweeps;
+        else if (sweeps - since_ >= patience)
+          ++turn_, reference_ = residual, since_ = sweeps;
+      }
+
+    private:
+      static constexpr long   patience  = 3000;
+      static constexpr double shares[4] = {1, 0.75, 0.875, 0.625};
+
+      double omega_, reference_ = std::numeric_limits<double>::infinity();
+      long   since_ = 0, turn_ = 0;
+    };
+  } // namespace
+
+  SolveReport iterate(const SolverOptions &options, const Iteration &iteration)
+  {
+    if (options.solver != "psor" && options.solver != "nsgs")
+      throw std::invalid_argument("unknown contact solver '" + options.solver + "': psor or nsgs");
+    const bool over_relaxed = options.solver == "psor";
+
+    constexpr long     sweeps_per_refresh = 1000; // round-off of the running velocities stays below 1e-13
+    const std::clock_t begin              = std::clock();
+    StagnationControl  control(options.omega_sticking);
+    SolveReport        report;
+    long               refreshed = 0;
+    const auto         measure   = [&](const bool fresh) {
+      if (fresh)
+        iteration.refresh(), refreshed = report.sweeps;
+      report.residual = iteration.residual();
+    };
+    const auto good = [&] {
+      return report.residual <= options.tolerance && (!iteration.good_enough || iteration.good_enough(report));
+    };
+    measure(true);
+    while (!good() && report.sweeps < options.max_sweeps)
+      {
+        const long until = std::min<long>(report.sweeps + options.sweeps_per_check, options.max_sweeps);
+        while (report.sweeps < until)
+          {
+            const long at   = report.sweeps % cycle;
+            const bool fast = over_relaxed && at < cycle - plain_sweeps;
+            const long end  = report.sweeps + (fast ? cycle - plain_sweeps : cycle) - at;
+            const int  n    = int(std::min(end, until) - report.sweeps);
+            iteration.sweep(fast ? control.omega() : 1., fast ? options.omega_slipping : 1., n);
+            report.sweeps += n;
+          }
+        measure(report.sweeps - refreshed >= sweeps_per_refresh);
+        if (report.residual <= options.tolerance && refreshed != report.sweeps)
+          measure(true);
+        control.observe(report.sweeps, report.residual);
+      }
+    if (refreshed != report.sweeps)
+      measure(true);
+    if (!good())
+      report.status = SolveStatus::max_sweeps_reached;
+    report.cpu_s = double(std::clock() - begin) / CLOCKS_PER_SEC;
+    return report;
+  }
+} // namespace diptych::discrete

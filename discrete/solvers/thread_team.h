@@ -1,0 +1,42 @@
+// diptych: a few threads that work in step
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace diptych::discrete
+{
+  // Threads 0 .. size()-1, of which 0 is the caller's own. Waiting threads spin a little, then yield, and sleep between runs.
+  class ThreadTeam
+  {
+  public:
+    explicit ThreadTeam(int size);
+    ~ThreadTeam();
+    ThreadTeam(const ThreadTeam &)            = delete;
+    ThreadTeam &operator=(const ThreadTeam &) = delete;
+
+    int size() const { return int(workers_.size()) + 1; }
+
+    // Calls work(0) here and work(k) on every other thread; returns when all are done.
+    void run(const std::function<void(int)> &work);
+
+    // To be called by every thread of a run: none goes on before all have come.
+    void barrier();
+
+  private:
+    void serve(int rank);
+
+    std::vector<std::thread>        workers_;
+    const std::function<void(int)> *work_ = nullptr;
+    std::mutex                      mutex_;
+    std::condition_variable         wake_;
+    std::atomic<long>               round_{0}, generation_{0};
+    std::atomic<int>                finished_{0}, arrived_{0};
+    std::atomic<bool>               ending_{false};
+  };
+} // namespace diptych::discrete

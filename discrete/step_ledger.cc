@@ -1,0 +1,162 @@
+// diptych: energy and momentum of one step
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/step_ledger.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "discrete/boundary.h"
+#include "discrete/contact_law.h"
+
+namespace diptych::discrete
+{
+  namespace
+  {
+    // m (v^2 + s^2/2)/2, since I omega^2 = m s^2/2.
+    double kinetic(const double mass, const BodyVelocity &v)
+    {
+      return 0.5 * mass * (v.x * v.x + v.y * v.y + 0.5 * v.surface * v.surface);
+    }
+
+    Eigen::Vector2d mean_velocity(const SolvedStep &s, const std::size_t body)
+    {
+      return {0.5 * (s.v[body].x + s.v_new[body].x), 0.5 * (s.v[body].y + s.v_new[body].y)};
+    }
+
+    void add_grains(const SolvedStep &s, StepEnergies &e)
+    {
+      const Grains &g = s.state.grains;
+      for (std::size_t i = 0; i < g.size(); ++i)
+        {
+          const double was = kinetic(g.mass[i], s.v[i]), is = kinetic(g.mass[i], s.v_new[i]);
+          e.kinetic += is;
+          e.kinetic_change += is - was;
+          if (!g.fixed[i])
+            e.external_work += s.step * s.applied_force[i].dot(mean_velocity(s, i));
+        }
+    }
+
+    // Work of the contacts, split by direction; of what holds fixed grains on their way.
+    void add_contacts(const SolvedStep &s, const bool corrects_by_velocity, StepEnergies &e)
+    {
+      for (std::size_t k = 0; k < s.contacts.size(); ++k)
+        {
+          const ContactRow &c = s.problem.contacts[k];
+          const Impulse    &r = s.impulses[k];
+          if (r.normal == 0)
+            continue;
+          const RelativeVelocity u    = relative_velocity(c, s.v);
+          const RelativeVelocity next = relative_velocity(c, s.v_new);
+          e.impact_dissipation -= 0.5 * r.normal * (u.normal + next.normal);
+          e.friction_dissipation -= 0.5 * r.tangential * (u.tangential + next.tangential);
+          if (corrects_by_velocity && s.contacts[k].gap < 0 && c.normal_term < 0)
+            e.correction_work -= 0.5 * r.normal * c.normal_term;
+        }
+    }
+
+    Eigen::Vector2d vector_of(const ContactRow &c, const Impulse &r)
+    {
+      return {c.nx * r.normal - c.ny * r.tangential, c.ny * r.normal + c.nx * r.tangential};
+    }
+
+    // A fixed grain takes contact impulses without moving otherwise: what holds it gives them back and works with them.
+    Eigen::Vector2d add_fixed_grains(const SolvedStep &s, StepEnergies &e)
+    {
+      const Grains   &g        = s.state.grains;
+      Eigen::Vector2d reaction = Eigen::Vector2d::Zero();
+      const auto      hold     = [&](const int body, const Eigen::Vector2d &impulse, const double tangential) {
+        if (std::size_t(body) >= g.size() || !g.fixed[body])
+          return;
+        reaction -= impulse;
+        e.external_work -= impulse.dot(mean_velocity(s, body)) - tangential * s.v[body].surface;
+      };
+      if (std::none_of(g.fixed.begin(), g.fixed.end(), [](const std::uint8_t fixed) { return fixed != 0; }))
+        return reaction;
+      for (std::size_t k = 0; k < s.contacts.size(); ++k)
+        {
+          const Eigen::Vector2d impulse = vector_of(s.problem.contacts[k], s.impulses[k]);
+          hold(s.contacts[k].i, impulse, s.impulses[k].tangential);
+          hold(s.contacts[k].j, -impulse, s.impulses[k].tangential);
+        }
+      return reaction;
+    }
+
+    // Free components gain kinetic energy from applied forces, prescribed ones do work on the sample.
+    void add_walls(const SolvedStep &s, const std::vector<Eigen::Vector2d> &wall_force, StepEnergies &e)
+    {
+      const std::size_t n = s.state.grains.size();
+      for (std::size_t w = 0; w < s.state.walls.size(); ++w)
+        {
+          const Eigen::Vector2d mean = mean_velocity(s, n + w), mobility = s.state.walls[w].inverse_mass();
+          const Eigen::Vector2d push   = applied_wall_force(s.state, w, s.state.time + 0.5 * s.step);
+          const double          was[2] = {s.v[n + w].x, s.v[n + w].y}, is[2] = {s.v_new[n + w].x, s.v_new[n + w].y};
+          for (int a = 0; a < 2; ++a)
+            {
+              e.external_work += s.step * (mobility[a] > 0 ? push[a] : wall_force[w][a]) * mean[a];
+              if (mobility[a] > 0)
+                {
+                  e.kinetic += 0.5 * is[a] * is[a] / mobility[a];
+                  e.kinetic_change += 0.5 * (is[a] * is[a] - was[a] * was[a]) / mobility[a];
+                }
+            }
+        }
+    }
+
+    // The width of the cell: a body under -pressure x height, or a prescribed motion that works against the impulses across
+    // the edge.
+    void add_cell(const SolvedStep &s, StepEnergies &e)
+    {
+      if (!s.state.cell || !s.state.cell->moves())
+        return;
+      const double was = s.v.back().x, is = s.v_new.back().x, mean = 0.5 * (was + is);
+      if (s.state.cell->pressure)
+        {
+          e.external_work -= s.step * *s.state.cell->pressure * sample_height(s.state) * mean;
+          e.kinetic += 0.5 * s.state.cell->mass * is * is;
+          e.kinetic_change += 0.5 * s.state.cell->mass * (is * is - was * was);
+          return;
+        }
+      for (std::size_t k = 0; k < s.contacts.size(); ++k)
+        if (const ContactRow &c = s.problem.contacts[k]; c.cell >= 0)
+          e.external_work += c.image * vector_of(c, s.impulses[k]).x() * mean;
+    }
+  } // namespace
+
+  StepLedger step_ledger(const SolvedStep &s, const bool corrects_by_velocity)
+  {
+    const Grains     &g = s.state.grains;
+    const std::size_t n = g.size();
+    StepLedger        ledger;
+    ledger.wall_force.assign(s.state.walls.size(), Eigen::Vector2d::Zero());
+    double impulse_sum = 0, normal_sum = 0, unbalanced = 0;
+    int    closed = 0;
+    for (std::size_t k = 0; k < s.contacts.size(); ++k)
+      {
+        const Impulse &r = s.impulses[k];
+        if (r.normal == 0)
+          continue;
+        impulse_sum += std::sqrt(r.normal * r.normal + r.tangential * r.tangential);
+        normal_sum += r.normal, ++closed;
+        if (std::size_t(s.contacts[k].j) >= n)
+          ledger.wall_force[s.contacts[k].j - n] += vector_of(s.problem.contacts[k], r) / s.step;
+      }
+    add_grains(s, ledger.energies);
+    add_contacts(s, corrects_by_velocity, ledger.energies);
+    add_walls(s, ledger.wall_force, ledger.energies);
+    add_cell(s, ledger.energies);
+
+    Eigen::Vector2d balance = -add_fixed_grains(s, ledger.energies);
+    for (std::size_t i = 0; i < n; ++i)
+      if (!g.fixed[i])
+        {
+          const Eigen::Vector2d change = g.mass[i] * Eigen::Vector2d(s.v_new[i].x - s.v[i].x, s.v_new[i].y - s.v[i].y);
+          unbalanced += change.norm();
+          balance += change - s.step * s.applied_force[i];
+        }
+    for (const Eigen::Vector2d &f : ledger.wall_force)
+      balance -= s.step * f;
+    ledger.unbalanced_force  = closed > 0 ? (unbalanced / double(n)) / (normal_sum / closed) : 0;
+    ledger.momentum_residual = impulse_sum > 0 ? balance.norm() / impulse_sum : 0;
+    return ledger;
+  }
+} // namespace diptych::discrete
