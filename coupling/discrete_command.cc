@@ -30,7 +30,16 @@ namespace diptych::coupling
       return std::isfinite(value) ? json(value) : json(nullptr);
     }
 
-    json discrete_facts(const discrete::Report &report)
+    // How often the kinetic energy rose above twice M |V|^2/4: dynamic crises of the slow deformation.
+    int bursts(const std::vector<discrete::HistoryRow> &rows)
+    {
+      int count = 0;
+      for (std::size_t k = 1; k < rows.size(); ++k)
+        count += rows[k].kinetic_energy_ratio > 2 && rows[k - 1].kinetic_energy_ratio <= 2;
+      return count;
+    }
+
+    json discrete_facts(const discrete::Report &report, const std::vector<discrete::HistoryRow> &rows)
     {
       return {{"preparation_solid_fraction", report.preparation.solid_fraction},
               {"preparation_friction", report.preparation.friction},
@@ -41,6 +50,7 @@ namespace diptych::coupling
               {"platen_speed", report.platen_speed},
               {"step", report.step},
               {"step_bound", report.step_bound},
+              {"kinetic_energy_bursts", bursts(rows)},
               {"ns_per_update", report.updates > 0 ? 1e9 * report.solver_cpu_s / double(report.updates) : 0},
               {"solver_share_of_cpu", report.loading_cpu_s > 0 ? report.solver_cpu_s / report.loading_cpu_s : 0},
               {"residual_factor", number(report.error_over_residual)},
@@ -51,6 +61,13 @@ namespace diptych::coupling
               {"snapshots_accurate", report.snapshots_accurate},
               {"reached_axial_strain", report.axial_strain},
               {"message", report.message}};
+    }
+
+    std::string problem_name(const int stage)
+    {
+      char name[32];
+      std::snprintf(name, sizeof name, "/problem_%04d.h5", stage);
+      return name;
     }
 
     // What an interrupted run left, or nothing where it left nothing of use.
@@ -83,11 +100,11 @@ namespace diptych::coupling
       if (std::isfinite(s.stress_error))
         out << 100 * s.stress_error << " % (estimated)";
       else
-        out << "an unknown error";
+        out << "an unknown error (it still changed by " << 100 * s.stress_change << " % in the last doubling of the sweeps)";
       if (!std::isnan(s.error_over_residual))
         out << ", error/residual " << s.error_over_residual;
       if (!(s.stress_error <= wanted))
-        out << "; snapshot_accuracy " << 100 * wanted << " % not reached in snapshot_max_sweeps";
+        out << "; not " << 100 * wanted << " %: snapshot_max_sweeps are used up";
       return out.str();
     }
 
@@ -166,7 +183,11 @@ namespace diptych::coupling
     if (checkpoint)
       recording.take_up(*checkpoint);
     else
-      remove_results(directory, {"discrete.h5", "discrete.xdmf", "discrete.csv", "checkpoint.h5"});
+      {
+        remove_results(directory, {"discrete.h5", "discrete.xdmf", "discrete.csv", "checkpoint.h5"});
+        for (std::size_t stage = 1; stage <= stages(scene.loading).size(); ++stage)
+          std::filesystem::remove(directory + problem_name(int(stage)));
+      }
 
     Progress            progress(line.quiet);
     discrete::Callbacks callbacks;
@@ -174,6 +195,11 @@ namespace diptych::coupling
     callbacks.on_progress    = [&](const std::string &phase, const double fraction) { progress.update(phase, fraction); };
     callbacks.on_step        = [&](const discrete::HistoryRow &row) { recording.rows.push_back(row); };
     callbacks.on_stage       = [&](const discrete::Snapshot &snapshot) { recording.add(snapshot); };
+    callbacks.on_problem = [&](const int stage, const discrete::ContactProblem &problem, const discrete::StoredGeometry &geometry,
+                               const std::vector<discrete::Impulse> &impulses) {
+      discrete::write_fclib(directory + problem_name(stage), problem,
+                            {scene.name + ", stage " + std::to_string(stage), line.text}, geometry, impulses);
+    };
     callbacks.checkpoint_due = [&] { return recording.checkpoint_due(); };
     callbacks.on_checkpoint  = [&](const discrete::Progress &now) { recording.save(now); };
     PhaseTimer             timer("discrete");
@@ -188,7 +214,8 @@ namespace diptych::coupling
     preparation.cpu_s = preparation.wall_s = report.preparation_cpu_s;
     if (!checkpoint)
       loading.cpu_s -= report.preparation_cpu_s, loading.wall_s -= report.preparation_cpu_s;
-    update_provenance(directory, scene, line.text, {preparation, loading}, {{"discrete", discrete_facts(report)}});
+    update_provenance(directory, scene, line.text, {preparation, loading},
+                      {{"discrete", discrete_facts(report, recording.rows)}});
     if (!recording.warnings.empty())
       say(line, recording.warnings.substr(0, recording.warnings.size() - 1));
     return say_how_it_ended(line, scene, report);

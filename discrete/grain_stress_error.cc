@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/grain_stress_error.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "discrete/step_problem.h"
@@ -43,15 +44,25 @@ namespace diptych::discrete
     return norm > 0 ? std::sqrt(difference / norm) : std::numeric_limits<double>::infinity();
   }
 
-  void GrainStressError::observe(const long sweeps, std::vector<double> moments)
+  void GrainStressError::observe(std::vector<double> moments)
   {
-    moments_.push_back(std::move(moments));
-    if (moments_.size() > 3)
-      moments_.erase(moments_.begin());
-    if (moments_.size() == 3)
-      estimate_ = 2 * relative_difference(moments_.front(), moments_.back());
-    while (next_ <= sweeps)
-      next_ = next_ == 0 ? 100 : 2 * next_;
+    if (!moments_.empty())
+      changes_.push_back(relative_difference(moments_, moments));
+    moments_ = std::move(moments);
+    next_ *= 2;
+  }
+
+  double GrainStressError::estimate() const
+  {
+    constexpr double  least = 0.7, most = 0.9;
+    const std::size_t n = changes_.size();
+    if (n < 3)
+      return std::numeric_limits<double>::infinity();
+    const double last = changes_[n - 1];
+    if (last == 0)
+      return 0;
+    const double q = std::max({least, last / changes_[n - 2], changes_[n - 2] / changes_[n - 3]});
+    return q < most ? last * q / (1 - q) : std::numeric_limits<double>::infinity();
   }
 
   SolveReport solve_sampled(const SampledProblem &sampled,
@@ -75,11 +86,12 @@ namespace diptych::discrete
                                        if (residual <= as_good_as_exact)
                                          return true;
                                        if (error.wants(now.sweeps))
-                                         error.observe(now.sweeps, moments(present()));
+                                         error.observe(moments(present()));
                                        const bool used_up = now.sweeps >= request.options.snapshot_max_sweeps;
                                        return residual <= solver.tolerance && (error.estimate() <= wanted || used_up);
                                      });
     accuracy.stress_error     = residual <= as_good_as_exact ? 0 : error.estimate();
+    accuracy.stress_change    = error.change();
     accuracy.reached          = accuracy.stress_error <= wanted;
 
     if (request.measure_factor && request.options.reference_sweeps > 0)

@@ -80,7 +80,7 @@ namespace diptych::discrete
     s.rattler              = rattlers(result, g.size());
     s.applied_force        = result.applied_force;
     if (result.accuracy)
-      s.stress_error = result.accuracy->stress_error;
+      s.stress_error = result.accuracy->stress_error, s.stress_change = result.accuracy->stress_change;
     add_boundary(state, result, reference, s);
     return s;
   }

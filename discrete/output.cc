@@ -74,6 +74,7 @@ namespace diptych::discrete
       file.attribute(group, "axial_strain", s.axial_strain);
       file.attribute(group, "shear_strain", s.shear_strain);
       file.attribute(group, "stress_error", s.stress_error);
+      file.attribute(group, "stress_change", s.stress_change);
       file.attribute(group, "error_over_residual", s.error_over_residual);
       file.attribute(group, "left_x", s.left_x);
       file.attribute(group, "right_x", s.right_x);
@@ -210,6 +211,7 @@ namespace diptych::discrete
         s.axial_strain              = number("axial_strain");
         s.shear_strain              = number("shear_strain");
         s.stress_error              = number("stress_error");
+        s.stress_change             = number("stress_change");
         s.error_over_residual       = number("error_over_residual");
         s.left_x                    = number("left_x");
         s.right_x                   = number("right_x");

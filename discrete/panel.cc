@@ -129,7 +129,22 @@ namespace diptych::discrete
         if (penalty())
           return advance_penalty(now.state, springs_, setting_, options_.penalty);
         SampleRequest request{options_.sampling, std::isnan(now.report.reference_residual)};
+        if (options_.method.store_problems && callbacks_.on_problem)
+          request.on_problem = [this](const ContactProblem &problem, const std::vector<Contact> &contacts,
+                                      const std::vector<Impulse> &r) { store(problem, contacts, r); };
         return advance(now.state, setting_, cache_, now.steps_left == 1 ? &request : nullptr);
+      }
+
+      void store(const ContactProblem &problem, const std::vector<Contact> &contacts, const std::vector<Impulse> &impulses) const
+      {
+        // Contacts were found at mid-step.
+        const Grains  &g = now.state.grains;
+        StoredGeometry geometry{setting_.step, {}, g.radius, g.position};
+        for (std::size_t i = 0; i < g.size(); ++i)
+          geometry.position[i] += 0.5 * setting_.step * g.velocity[i];
+        for (const Contact &c : contacts)
+          geometry.gap.push_back(c.gap);
+        callbacks_.on_problem(now.stage + 1, problem, geometry, impulses);
       }
 
       void note_accuracy(const SampledAccuracy &accuracy)
@@ -142,6 +157,18 @@ namespace diptych::discrete
         now.report.reference_residual  = accuracy.reference_residual;
         now.report.reference_error     = accuracy.true_error;
         now.report.estimated_error     = accuracy.stress_error;
+      }
+
+      // Impulses are given and taken in pairs: more than round-off means that the program is wrong.
+      void check_momentum(const double residual) const
+      {
+        constexpr double round_off = 1e-10;
+        if (residual <= round_off)
+          return;
+        std::ostringstream text;
+        text << "the balance of momentum is violated in step " << now.row.step + 1 << ": " << residual
+             << " of the contact impulses, more than round-off";
+        throw std::logic_error(text.str());
       }
 
       // One step, or the reason in the report why there is none.
@@ -166,6 +193,7 @@ namespace diptych::discrete
             now.report.message = text.str();
             return;
           }
+        check_momentum(result.momentum_residual);
         ++now.report.steps;
         --now.steps_left;
         add_step(result, setting_, now.row);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "discrete/fclib.h"
 #include "discrete/history.h"
 #include "discrete/loading.h"
 #include "discrete/penalty.h"
@@ -20,6 +21,7 @@ namespace diptych::discrete
     std::string method             = "nscd";
     int         history_interval   = 0;
     double      checkpoint_minutes = 10;
+    bool        store_problems     = false;
   };
 
   template <class Visitor> void visit_parameters(MethodOptions &o, Visitor &&visitor)
@@ -31,6 +33,9 @@ namespace diptych::discrete
             "between two rows of discrete.csv; 0: every step, penalty: about a thousand rows a stage");
     visitor("checkpoint_minutes", o.checkpoint_minutes, "min", {0., 1e6},
             "between two checkpoints of a run, from which --resume goes on; 0: at every step");
+    visitor("store_problems", o.store_problems, "-", {},
+            "write the contact problem of every snapshot's step with its solution to problem_NNNN.h5 (FCLIB layout, for "
+            "`diptych solve` and other solvers)");
   }
 
   // Everything of the scene's section `discrete`.
@@ -107,6 +112,8 @@ namespace diptych::discrete
     // Asked before every step; a checkpoint is handed over where it says yes, and when the run is stopped.
     std::function<bool()>                 checkpoint_due = [] { return false; };
     std::function<void(const Progress &)> on_checkpoint  = [](const Progress &) {};
+    // The contact problem of a stage's last step with its solution, where store_problems is set; stages count from 1.
+    std::function<void(int stage, const ContactProblem &, const StoredGeometry &, const std::vector<Impulse> &)> on_problem = {};
   };
 
   // Throws std::invalid_argument on options that contradict each other or name wrong files.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "discrete/body_motion.h"
 #include "discrete/contact_law.h"
 #include "discrete/step_problem.h"
 
@@ -45,20 +46,6 @@ namespace diptych::discrete
       return result;
     }
 
-    void drift(State &state, const double duration)
-    {
-      Grains &g = state.grains;
-      for (std::size_t i = 0; i < g.size(); ++i)
-        {
-          g.position[i] += duration * g.velocity[i];
-          g.rotation[i] += duration * g.spin[i];
-        }
-      for (Wall &wall : state.walls)
-        wall.point += duration * wall.velocity;
-      if (state.cell)
-        state.cell->width += duration * state.cell->velocity;
-    }
-
     struct SpringLaw
     {
       double kn, kt;        // [pressure]
@@ -83,22 +70,6 @@ namespace diptych::discrete
       return ft * (spring - ft) / law.kt;
     }
 
-    void take_velocities(const std::vector<BodyVelocity> &v, State &state)
-    {
-      Grains           &g = state.grains;
-      const std::size_t n = g.size();
-      for (std::size_t i = 0; i < n; ++i)
-        if (!g.fixed[i])
-          {
-            g.velocity[i] = {v[i].x, v[i].y};
-            g.spin[i]     = v[i].surface / g.radius[i];
-          }
-      for (std::size_t w = 0; w < state.walls.size(); ++w)
-        state.walls[w].velocity = {v[n + w].x, v[n + w].y};
-      if (state.cell && state.cell->moves())
-        state.cell->velocity = v.back().x;
-    }
-
     // The ledger of a step takes all tangential work for friction; here only sliding is, the rest is elastic.
     void take_ledger(StepLedger ledger, const double sliding, StepResult &result)
     {
@@ -107,15 +78,7 @@ namespace diptych::discrete
       result.energies.friction_dissipation = sliding;
       result.wall_force                    = std::move(ledger.wall_force);
       result.momentum_residual             = ledger.momentum_residual;
-    }
-
-    void keep_impulses(const StepResult &result, State &state)
-    {
-      state.impulses.clear();
-      for (std::size_t k = 0; k < result.contacts.size(); ++k)
-        if (result.impulses[k].normal != 0)
-          state.impulses.push_back(
-            {result.contacts[k].i, result.contacts[k].j, result.impulses[k].normal, result.impulses[k].tangential});
+      result.unbalanced_force              = ledger.unbalanced_force;
     }
   } // namespace
 
@@ -165,7 +128,7 @@ namespace diptych::discrete
     drift(trial, 0.5 * h);
     if (has_blown_up(trial, h))
       return blown_up();
-    keep_impulses(result, trial);
+    keep_impulses(result.contacts, result.impulses, trial);
     trial.time += h;
     state                = std::move(trial);
     penalty.impulse_step = h;

@@ -44,9 +44,10 @@ namespace diptych::discrete
     double mean_diameter = 1;
     double shear_strain  = 0; // travel of the upper platen to the right / initial height
 
-    // Accuracy of the last step's grain stress: estimated rms error relative to its rms value (NaN: not estimated), and the
-    // ratio of error to residual measured once in the run on a step solved further (NaN: not measured)
+    // Accuracy of the last step's grain stress: estimated rms error relative to its rms value (NaN: not estimated, infinity: not
+    // known), and the ratio of error to residual measured once in the run on a step solved further (NaN: not measured)
     double stress_error = std::numeric_limits<double>::quiet_NaN(), error_over_residual = stress_error;
+    double stress_change = stress_error; // of the same in the last doubling of the sweeps: what is known where the error is not
 
     // grains, n_grains entries each
     std::vector<Eigen::Vector2d> position, displacement /* since the start of loading */, velocity;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discrete/body_motion.h"
 #include "discrete/position_projection.h"
 #include "discrete/step_problem.h"
 
@@ -12,21 +13,6 @@ namespace diptych::discrete
 {
   namespace
   {
-    // q += duration v for grains, walls and the cell.
-    void drift(State &state, const double duration)
-    {
-      Grains &g = state.grains;
-      for (std::size_t i = 0; i < g.size(); ++i)
-        {
-          g.position[i] += duration * g.velocity[i];
-          g.rotation[i] += duration * g.spin[i];
-        }
-      for (Wall &wall : state.walls)
-        wall.point += duration * wall.velocity;
-      if (state.cell)
-        state.cell->width += duration * state.cell->velocity;
-    }
-
     std::vector<double> detection_margins(const State                        &state,
                                           const StepSetting                  &setting,
                                           const std::vector<Eigen::Vector2d> &force)
@@ -47,31 +33,6 @@ namespace diptych::discrete
       return margin;
     }
 
-    void take_velocities(const std::vector<BodyVelocity> &v, State &state)
-    {
-      Grains           &g = state.grains;
-      const std::size_t n = g.size();
-      for (std::size_t i = 0; i < n; ++i)
-        {
-          if (g.fixed[i])
-            continue;
-          g.velocity[i] = {v[i].x, v[i].y};
-          g.spin[i]     = v[i].surface / g.radius[i];
-        }
-      for (std::size_t w = 0; w < state.walls.size(); ++w)
-        state.walls[w].velocity = {v[n + w].x, v[n + w].y};
-      if (state.cell && state.cell->moves())
-        state.cell->velocity = v.back().x;
-    }
-
-    void keep_impulses(const StepResult &result, State &state)
-    {
-      state.impulses.clear();
-      for (std::size_t k = 0; k < result.contacts.size(); ++k)
-        if (result.impulses[k].normal != 0)
-          state.impulses.push_back(
-            {result.contacts[k].i, result.contacts[k].j, result.impulses[k].normal, result.impulses[k].tangential});
-    }
   } // namespace
 
   std::vector<Eigen::Vector2d> applied_forces(const State &state, const StepSetting &setting)
@@ -107,6 +68,8 @@ namespace diptych::discrete
                                    result.impulses, result.accuracy.emplace());
     else
       result.solve = solve(problem, setting.solver, result.impulses, *cache.team);
+    if (sample && sample->on_problem)
+      sample->on_problem(problem, result.contacts, result.impulses);
     if (result.solve.status != SolveStatus::converged && !setting.accept_unconverged)
       return result;
 
@@ -122,7 +85,7 @@ namespace diptych::discrete
     drift(trial, 0.5 * h);
     if (setting.time.penetration_correction == "projection")
       project_positions(trial, result.contacts, 1e-4 * setting.mean_diameter);
-    keep_impulses(result, trial);
+    keep_impulses(result.contacts, result.impulses, trial);
     trial.time += h;
     state = std::move(trial);
     return result;

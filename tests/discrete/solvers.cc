@@ -186,7 +186,7 @@ namespace
     SolverOptions options;
     options.solver = "lemke";
     std::vector<Impulse> none;
-    EXPECT_THROW((void)solve({}, options, none), std::invalid_argument);
+    EXPECT_THROW((void)solve(ContactProblem{}, options, none), std::invalid_argument);
   }
 
   // On a real sheared packing (300 discs) plain and over-relaxed sweeps may end at different exact
