@@ -62,9 +62,10 @@ namespace diptych::coupling
     for (const std::string &name : names)
       {
         StepComparison::Quantity q{name, {}, 0};
-        double                   scale = 0;
+        double                   scale     = 0;
+        const std::string        scaled_by = name == "stress_ratio" ? name : "external_work";
         for (const double strain : x)
-          scale = std::max(scale, std::abs(measured(runs.back().history, name, strain, averaging_strain)));
+          scale = std::max(scale, std::abs(measured(runs.back().history, scaled_by, strain, averaging_strain)));
         for (const StepRun &run : runs)
           {
             double largest = 0;

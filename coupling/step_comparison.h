@@ -23,8 +23,9 @@ namespace diptych::coupling
     struct Quantity
     {
       std::string         name;               // column of discrete.csv
-      std::vector<double> largest_difference; // of each run from the finest, relative to the finest's largest value
-      double              at_strain = 0;      // where the coarsest run differs most
+      std::vector<double> largest_difference; // of each run from the finest, relative to its largest stress ratio or,
+                                              // for energies, to its largest external work
+      double at_strain = 0;                   // where the coarsest run differs most
     };
     std::vector<Quantity> quantities;
     double                largest = 0; // of the coarsest run, over all quantities

@@ -13,7 +13,8 @@ namespace diptych::discrete
   {
     std::vector<BodyVelocity> v = problem.free_velocity;
     for (std::size_t k = 0; k < problem.contacts.size(); ++k)
-      apply_impulse(problem.contacts[k], impulses[k], v);
+      if (impulses[k].normal != 0 || impulses[k].tangential != 0)
+        apply_impulse(problem.contacts[k], impulses[k], v);
     return v;
   }
 

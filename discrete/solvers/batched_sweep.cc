@@ -189,8 +189,9 @@ namespace diptych::discrete
   bool BatchedContacts::fits_a_batch(const ContactRow &c) const
   {
     const double wi = problem_.free_velocity[c.i].inverse_mass, wj = problem_.free_velocity[c.j].inverse_mass;
-    return c.cell < 0 && c.jx == wj && c.jy == wj && c.ki == 2 * wi && c.kj == 2 * wj &&
-           std::abs(c.inverse_wtt - c.inverse_wnn * disc_wnn_over_wtt) <= 1e-14 * c.inverse_wtt;
+    const auto   same = [](const double a, const double b) { return std::abs(a - b) <= 1e-14 * std::abs(b); }; // files round
+    return c.cell < 0 && same(c.jx, wj) && same(c.jy, wj) && same(c.ki, 2 * wi) && same(c.kj, 2 * wj) &&
+           same(c.inverse_wtt, c.inverse_wnn * disc_wnn_over_wtt);
   }
 
   BatchedContacts::BatchedContacts(const ContactProblem &problem)
