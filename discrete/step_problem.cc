@@ -13,15 +13,20 @@ namespace diptych::discrete
 {
   namespace
   {
-    double normal_term(const Contact &c, const double un, const double en, const StepOptions &time, const double h)
+    // What a closed contact takes back of its penetration within the step.
+    double corrected_share(const StepOptions &time)
+    {
+      if (time.penetration_correction == "velocity")
+        return 1;
+      return time.penetration_correction == "soft_velocity" ? 0.2 : 0.;
+    }
+
+    // c_n; `share`: of corrected_share().
+    double normal_term(const Contact &c, const double un, const double en, const double share, const double h)
     {
       if (en > 0 && un < 0 && (c.gap <= 0 || c.gap + h * un < 0))
         return en * un;
-      if (c.gap < 0 && time.penetration_correction == "velocity")
-        return c.gap / h;
-      if (c.gap < 0 && time.penetration_correction == "soft_velocity")
-        return 0.2 * c.gap / h;
-      return std::max(c.gap, 0.) / h;
+      return c.gap < 0 ? share * c.gap / h : c.gap / h;
     }
 
     // Geometry and mobilities of a row: all but the terms of the law.
@@ -109,12 +114,13 @@ namespace diptych::discrete
     problem.free_velocity = std::move(free_velocity);
     problem.order         = sweep_order(contacts, setting.mean_diameter);
     problem.contacts.reserve(contacts.size());
+    const double share = corrected_share(setting.time);
     for (const Contact &c : contacts)
       {
         ContactRow             row = kinematic_row(state, c);
         const RelativeVelocity u   = relative_velocity(row, v);
         row.friction               = friction_of(state, setting, c.j);
-        row.normal_term            = normal_term(c, u.normal, setting.law.normal_restitution, setting.time, setting.step);
+        row.normal_term            = normal_term(c, u.normal, setting.law.normal_restitution, share, setting.step);
         row.tangential_term        = setting.law.tangential_restitution * u.tangential;
         problem.contacts.push_back(row);
       }

@@ -5,19 +5,11 @@
 #include <array>
 #include <vector>
 
-#include "discrete/contact_problem.h"
+#include "discrete/solvers/batch_kernel.h"
 #include "discrete/solvers/thread_team.h"
 
 namespace diptych::discrete
 {
-  // Four contacts that share no moving body (256 bytes). Their ki, kj and W_tt follow from the inverse masses of discs:
-  // k = 2/m, W_tt = 3 W_nn. Empty lanes act on a body that does not move.
-  struct alignas(64) ContactBatch
-  {
-    double nx[4], ny[4], normal_term[4], friction[4], inverse_wnn[4], normal[4], tangential[4];
-    int    i[4], j[4];
-  };
-
   // The contacts of a problem cut, in the order of its sweeps, into blocks of about equal size that share no grain, and the
   // contacts between neighbouring blocks. A sweep takes all blocks, then all contacts between blocks, then the rows that do
   // not fit a batch (walls under a force, the edge of a free cell). Blocks depend on nothing but the problem, so every number

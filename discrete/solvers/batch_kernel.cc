@@ -1,0 +1,168 @@
+// diptych: four independent contacts at a time in vector registers
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/solvers/batch_kernel.h"
+
+#include "discrete/contact_law.h"
+
+// A sweep is compiled for 128-, 256- and 512-bit machines and chosen when the program starts. Without contraction and
+// reassociation (see the build's flags) all give the same bits.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define DIPTYCH_FOR_EACH_MACHINE __attribute__((target_clones("arch=skylake-avx512", "avx2", "default")))
+#else
+#define DIPTYCH_FOR_EACH_MACHINE
+#endif
+
+namespace diptych::discrete
+{
+  namespace
+  {
+    typedef double    Four __attribute__((vector_size(32)));
+    typedef long long Mask __attribute__((vector_size(32)));
+
+    // Four body records as columns: x, y, surface, inverse mass of the four lanes.
+    struct Bodies
+    {
+      Four x, y, surface, inverse_mass;
+    };
+
+#define DIPTYCH_INLINE inline __attribute__((always_inline))
+
+    // Transposes a 4x4 block; its own inverse.
+    DIPTYCH_INLINE void transpose(Four &a, Four &b, Four &c, Four &d)
+    {
+      const Four ab_low = __builtin_shuffle(a, b, Mask{0, 4, 2, 6}), ab_high = __builtin_shuffle(a, b, Mask{1, 5, 3, 7});
+      const Four cd_low = __builtin_shuffle(c, d, Mask{0, 4, 2, 6}), cd_high = __builtin_shuffle(c, d, Mask{1, 5, 3, 7});
+      a = __builtin_shuffle(ab_low, cd_low, Mask{0, 1, 4, 5});
+      b = __builtin_shuffle(ab_high, cd_high, Mask{0, 1, 4, 5});
+      c = __builtin_shuffle(ab_low, cd_low, Mask{2, 3, 6, 7});
+      d = __builtin_shuffle(ab_high, cd_high, Mask{2, 3, 6, 7});
+    }
+
+    DIPTYCH_INLINE Four read(const void *p)
+    {
+      Four value;
+      __builtin_memcpy(&value, p, sizeof value);
+      return value;
+    }
+
+    DIPTYCH_INLINE void write(void *p, const Four &value)
+    {
+      __builtin_memcpy(p, &value, sizeof value);
+    }
+
+    DIPTYCH_INLINE Bodies gather(const BodyVelocity *v, const int *index)
+    {
+      Bodies b{read(v + index[0]), read(v + index[1]), read(v + index[2]), read(v + index[3])};
+      transpose(b.x, b.y, b.surface, b.inverse_mass);
+      return b;
+    }
+
+    DIPTYCH_INLINE void scatter(Bodies b, BodyVelocity *v, const int *index)
+    {
+      transpose(b.x, b.y, b.surface, b.inverse_mass);
+      write(v + index[0], b.x), write(v + index[1], b.y), write(v + index[2], b.surface), write(v + index[3], b.inverse_mass);
+    }
+
+    struct FourImpulses
+    {
+      Four normal, tangential;
+    };
+
+    // contact_law.h's relative velocity and local solution, line by line, on four contacts.
+    DIPTYCH_INLINE FourImpulses local_solution(const ContactBatch &c,
+                                               const double       *tangential_term,
+                                               const Bodies       &bi,
+                                               const Bodies       &bj,
+                                               const double        sticking,
+                                               const double        slipping)
+    {
+      const Four zero{};
+      const Four nx = read(c.nx), ny = read(c.ny), mu = read(c.friction), rn = read(c.normal), rt = read(c.tangential);
+      const Four inverse_wnn = read(c.inverse_wnn);
+      const Four dx = bi.x - bj.x, dy = bi.y - bj.y;
+      const Four un = nx * dx + ny * dy;
+      Four       ut = nx * dy - ny * dx - bi.surface - bj.surface;
+      if (tangential_term)
+        ut += read(tangential_term);
+
+      const Four size_rt = rt < zero ? -rt : rt;
+      const Four omega   = size_rt > 0.9999 * mu * rn ? zero + slipping : zero + sticking;
+
+      const Four pushed     = rn - omega * (un + read(c.normal_term)) * inverse_wnn;
+      const Four normal     = zero < pushed ? pushed : zero;
+      const Four bound      = mu * normal;
+      const Four stick      = rt - omega * ut * (inverse_wnn * disc_wnn_over_wtt);
+      const Four above      = -bound < stick ? stick : -bound;
+      const Four tangential = above < bound ? above : bound;
+      return {normal, tangential};
+    }
+
+    // Adds M^-1 H dr to the velocities.
+    DIPTYCH_INLINE void apply(const ContactBatch &c, const Four &dn, const Four &dt, Bodies &bi, Bodies &bj)
+    {
+      const Four nx = read(c.nx), ny = read(c.ny);
+      const Four px = nx * dn - ny * dt, py = ny * dn + nx * dt;
+      bi.x += bi.inverse_mass * px, bi.y += bi.inverse_mass * py, bi.surface -= 2 * bi.inverse_mass * dt;
+      bj.x -= bj.inverse_mass * px, bj.y -= bj.inverse_mass * py, bj.surface -= 2 * bj.inverse_mass * dt;
+    }
+
+    DIPTYCH_INLINE void update(ContactBatch &c, const double *term, const double sticking, const double slipping, BodyVelocity *v)
+    {
+      Bodies             bi = gather(v, c.i), bj = gather(v, c.j);
+      const FourImpulses r = local_solution(c, term, bi, bj, sticking, slipping);
+      apply(c, r.normal - read(c.normal), r.tangential - read(c.tangential), bi, bj);
+      scatter(bi, v, c.i);
+      scatter(bj, v, c.j);
+      write(c.normal, r.normal), write(c.tangential, r.tangential);
+    }
+  } // namespace
+
+  DIPTYCH_FOR_EACH_MACHINE void sweep_batches(ContactBatch                *batches,
+                                              const std::array<double, 4> *terms,
+                                              const std::size_t            n,
+                                              const double                 sticking,
+                                              const double                 slipping,
+                                              BodyVelocity                *v)
+  {
+    if (terms)
+      for (std::size_t b = 0; b < n; ++b)
+        update(batches[b], terms[b].data(), sticking, slipping, v);
+    else
+      for (std::size_t b = 0; b < n; ++b)
+        update(batches[b], nullptr, sticking, slipping, v);
+  }
+
+  DIPTYCH_FOR_EACH_MACHINE void add_impulses(const ContactBatch *batches, const std::size_t n, BodyVelocity *v)
+  {
+    for (std::size_t b = 0; b < n; ++b)
+      {
+        const ContactBatch &c  = batches[b];
+        Bodies              bi = gather(v, c.i), bj = gather(v, c.j);
+        apply(c, read(c.normal), read(c.tangential), bi, bj);
+        scatter(bi, v, c.i);
+        scatter(bj, v, c.j);
+      }
+  }
+
+  // Sums over the batches, lane by lane, of |r - P(r)|^2 and |r|^2.
+  DIPTYCH_FOR_EACH_MACHINE void add_squares(const ContactBatch          *batches,
+                                            const std::array<double, 4> *terms,
+                                            const std::size_t            n,
+                                            const BodyVelocity          *v,
+                                            double                      *difference,
+                                            double                      *norm)
+  {
+    Four d{}, s{};
+    for (std::size_t b = 0; b < n; ++b)
+      {
+        const ContactBatch &c  = batches[b];
+        const Bodies        bi = gather(v, c.i), bj = gather(v, c.j);
+        const FourImpulses  p  = local_solution(c, terms ? terms[b].data() : nullptr, bi, bj, 1., 1.);
+        const Four          rn = read(c.normal), rt = read(c.tangential);
+        d += (rn - p.normal) * (rn - p.normal) + (rt - p.tangential) * (rt - p.tangential);
+        s += rn * rn + rt * rt;
+      }
+    for (int lane = 0; lane < lanes; ++lane)
+      *difference += d[lane], *norm += s[lane];
+  }
+} // namespace diptych::discrete
