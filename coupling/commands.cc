@@ -172,6 +172,8 @@ namespace diptych::coupling
   {
     const Scene scene = scene_of(line);
     require_continuum(scene);
+    if (!line.study.empty())
+      throw SceneError("--study " + line.study + ": only `diptych discrete` has studies");
     open_result_folder(scene, line.resume);
     if (const int code = discrete_panel(line, scene); code != done)
       return code;
@@ -185,6 +187,8 @@ namespace diptych::coupling
   int run_discrete(const CommandLine &line)
   {
     const Scene scene = scene_of(line);
+    if (!line.study.empty())
+      check_study(line, scene);
     open_result_folder(scene, line.resume);
     return line.study.empty() ? discrete_panel(line, scene) : step_study(line, scene);
   }

@@ -59,6 +59,7 @@ namespace diptych::coupling
               {"residual_factor_estimate", number(report.estimated_error)},
               {"snapshots_sampled", report.snapshots_sampled},
               {"snapshots_accurate", report.snapshots_accurate},
+              {"finished", report.status == discrete::Status::finished},
               {"reached_axial_strain", report.axial_strain},
               {"message", report.message}};
     }
@@ -84,9 +85,8 @@ namespace diptych::coupling
 
     bool is_finished(const Scene &scene)
     {
-      const std::string path = scene.output.directory + "/discrete.h5";
-      return std::filesystem::exists(path) && !std::filesystem::exists(scene.output.directory + "/checkpoint.h5") &&
-             discrete::read_snapshots(path).size() == stages(scene.loading).size() + 1;
+      const json record = read_provenance(scene.output.directory).value("discrete", json::object());
+      return record.value("finished", false) && std::filesystem::exists(scene.output.directory + "/discrete.h5");
     }
 
     // Tells of every sampled snapshot how accurate its grain stress is.
@@ -221,12 +221,16 @@ namespace diptych::coupling
     return say_how_it_ended(line, scene, report);
   }
 
-  int step_study(const CommandLine &line, const Scene &scene)
+  void check_study(const CommandLine &line, const Scene &scene)
   {
     if (line.study != "step")
       throw SceneError("--study " + line.study + ": only step is known");
     if (!scene.discrete.time.step)
       throw SceneError("--study step: discrete/step must be a number to be halved, not auto");
+  }
+
+  int step_study(const CommandLine &line, const Scene &scene)
+  {
     std::vector<StepRun> runs;
     for (const int divisor : {1, 2, 4})
       {

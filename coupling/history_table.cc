@@ -68,7 +68,12 @@ namespace diptych::coupling
 
   double mean_over_strain(const HistoryTable &table, const std::string &name, const double from, const double to)
   {
-    const std::vector<double> &xs = column(table, "axial_strain"), &ys = column(table, name);
+    return mean_over(table, {"axial_strain", name}, from, to);
+  }
+
+  double mean_over(const HistoryTable &table, const ColumnPair &names, const double from, const double to)
+  {
+    const std::vector<double> &xs = column(table, names.abscissa), &ys = column(table, names.ordinate);
     double                     integral = 0, x = from, y = interpolate(xs, ys, from);
     for (std::size_t k = std::upper_bound(xs.begin(), xs.end(), from) - xs.begin(); x < to; ++k)
       {

@@ -20,6 +20,13 @@ namespace diptych::coupling
   // beyond the ends. So that rows at uneven strains count by the strain they stand for.
   double mean_over_strain(const HistoryTable &table, const std::string &name, double from, double to);
 
+  // The same over any ascending column.
+  struct ColumnPair
+  {
+    std::string abscissa, ordinate;
+  };
+  double mean_over(const HistoryTable &table, const ColumnPair &names, double from, double to);
+
   // Largest of the running means over `width` of axial strain that end at a row, and the strain at which its range ends.
   struct Peak
   {

@@ -17,9 +17,10 @@ namespace diptych::coupling
 {
   namespace
   {
-    const std::vector<std::string> panel_files = {"discrete.h5",     "discrete.xdmf", "discrete.csv",  "continuum.h5",
-                                                  "continuum.xdmf",  "continuum.csv", "continuum.pvd", "continuum",
-                                                  "provenance.json", "coarse",        "checkpoint.h5"};
+    const std::vector<std::string> panel_files = {
+      "discrete.h5",     "discrete.xdmf",  "discrete.csv",    "continuum.h5", "continuum.xdmf", "continuum.csv",
+      "continuum.pvd",   "continuum",      "provenance.json", "coarse",       "checkpoint.h5",  "study_step.csv",
+      "study_step.json", "study_step.png", "step_1",          "step_2",       "step_4"};
   }
 
   const std::vector<std::string> comparison_files = {"comparison.json", "comparison.csv", "comparison.h5", "fields.vtu",

@@ -17,36 +17,46 @@ namespace diptych::coupling
   {
     const std::vector<std::string> cumulated = {"external_work", "friction_dissipation", "impact_dissipation"};
 
-    constexpr int    n_strains = 200; // at which runs are compared
-    constexpr double margin    = 0.05;
+    constexpr int    n_instants = 200; // at which runs are compared
+    constexpr double margin     = 0.05;
 
-    // A cumulated column at a strain, along the broken line through its rows, from 0 at the start.
-    double value_at(const HistoryTable &table, const std::string &name, const double strain)
+    // A cumulated column at an instant, along the broken line through its rows, from 0 at the start.
+    double value_at(const HistoryTable &table, const std::string &name, const double time)
     {
-      const std::vector<double> &x = column(table, "axial_strain"), &y = column(table, name);
-      const std::size_t          k = std::size_t(std::lower_bound(x.begin(), x.end(), strain) - x.begin());
+      const std::vector<double> &x = column(table, "time"), &y = column(table, name);
+      const std::size_t          k = std::size_t(std::lower_bound(x.begin(), x.end(), time) - x.begin());
       if (k >= x.size())
         return y.back();
       const double x0 = k == 0 ? 0. : x[k - 1], y0 = k == 0 ? 0. : y[k - 1];
-      return x[k] > x0 ? y0 + (y[k] - y0) * (strain - x0) / (x[k] - x0) : y[k];
+      return x[k] > x0 ? y0 + (y[k] - y0) * (time - x0) / (x[k] - x0) : y[k];
     }
 
-    double measured(const HistoryTable &table, const std::string &name, const double strain, const double averaging_strain)
+    double measured(const HistoryTable &table, const std::string &name, const double time, const double window)
     {
       if (name == "stress_ratio")
-        return mean_over_strain(table, name, std::max(0., strain - averaging_strain), strain);
-      return value_at(table, name, strain);
+        return mean_over(table, {"time", name}, std::max(0., time - window), time);
+      return value_at(table, name, time);
     }
 
-    std::vector<double> strains(const std::vector<StepRun> &runs, const double averaging_strain)
+    // The strain that a loading drives: descent or travel of the upper platen; where neither advances, none.
+    std::string driven_strain(const HistoryTable &table)
     {
-      double end = column(runs.front().history, "axial_strain").back();
+      for (const std::string name : {"axial_strain", "shear_strain"})
+        if (table.count(name) > 0 && std::abs(column(table, name).back()) > 1e-12)
+          return name;
+      return "";
+    }
+
+    // Instants that all runs have reached, from one averaging window on.
+    std::vector<double> instants(const std::vector<StepRun> &runs, const double window)
+    {
+      double end = column(runs.front().history, "time").back();
       for (const StepRun &run : runs)
-        end = std::min(end, column(run.history, "axial_strain").back());
-      const double        from = std::min(averaging_strain, 0.5 * end); // a whole averaging window
+        end = std::min(end, column(run.history, "time").back());
+      const double        from = std::min(window, 0.5 * end);
       std::vector<double> x;
-      for (int k = 0; k <= n_strains; ++k)
-        x.push_back(from + (end - from) * k / n_strains);
+      for (int k = 0; k <= n_instants; ++k)
+        x.push_back(from + (end - from) * k / n_instants);
       return x;
     }
   } // namespace
@@ -55,7 +65,13 @@ namespace diptych::coupling
   {
     if (runs.size() < 2)
       throw std::invalid_argument("a study of the step needs at least two runs");
-    const std::vector<double> x = strains(runs, averaging_strain);
+    const HistoryTable &finest = runs.back().history;
+    const std::string   strain = driven_strain(finest);
+    const double        end    = column(finest, "time").back();
+    // Without a driven strain a tenth of the loading is averaged over.
+    const double              window = strain.empty() ? 0.1 * end
+                                                      : end * std::min(1., averaging_strain / std::abs(column(finest, strain).back()));
+    const std::vector<double> x      = instants(runs, window);
     std::vector<std::string>  names{"stress_ratio"};
     names.insert(names.end(), cumulated.begin(), cumulated.end());
     StepComparison comparison;
@@ -64,17 +80,17 @@ namespace diptych::coupling
         StepComparison::Quantity q{name, {}, 0};
         double                   scale     = 0;
         const std::string        scaled_by = name == "stress_ratio" ? name : "external_work";
-        for (const double strain : x)
-          scale = std::max(scale, std::abs(measured(runs.back().history, scaled_by, strain, averaging_strain)));
+        for (const double time : x)
+          scale = std::max(scale, std::abs(measured(finest, scaled_by, time, window)));
         for (const StepRun &run : runs)
           {
             double largest = 0;
-            for (const double strain : x)
+            for (const double time : x)
               {
-                const double difference = std::abs(measured(run.history, name, strain, averaging_strain) -
-                                                   measured(runs.back().history, name, strain, averaging_strain));
+                const double difference = std::abs(measured(run.history, name, time, window) -
+                                                   measured(finest, name, time, window));
                 if (difference > largest && &run == &runs.front())
-                  q.at_strain = strain;
+                  q.at_strain = strain.empty() ? time : value_at(finest, strain, time);
                 largest = std::max(largest, difference);
               }
             q.largest_difference.push_back(scale > 0 ? largest / scale : 0);

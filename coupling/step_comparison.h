@@ -17,7 +17,8 @@ namespace diptych::coupling
   };
 
   // What halving the step changes (Moreau 1997: compare energy against time). Energies are cumulated since the start of the
-  // loading; stress ratios are running means over `averaging_strain`, because single steps of rigid grains scatter.
+  // loading; stress ratios are running means over `averaging_strain`, because single steps of rigid grains scatter; all is
+  // compared at equal times.
   struct StepComparison
   {
     struct Quantity
@@ -25,7 +26,7 @@ namespace diptych::coupling
       std::string         name;               // column of discrete.csv
       std::vector<double> largest_difference; // of each run from the finest, relative to its largest stress ratio or,
                                               // for energies, to its largest external work
-      double at_strain = 0;                   // where the coarsest run differs most
+      double at_strain = 0;                   // driven strain (none: time) where the coarsest run differs most
     };
     std::vector<Quantity> quantities;
     double                largest = 0; // of the coarsest run, over all quantities

@@ -21,7 +21,8 @@ namespace diptych::discrete
       visit("reference_platen_kinetic_energy", p.reference.platen_kinetic_energy);
       visit("reference_strain_rate", p.reference.strain_rate), visit("reference_mean_density", p.reference.mean_density);
       visit("reference_platen_x", p.reference.platen.x()), visit("reference_platen_y", p.reference.platen.y());
-      visit("axial_strain", r.axial_strain), visit("steps", r.steps), visit("sweeps", r.sweeps), visit("updates", r.updates);
+      visit("axial_strain", r.axial_strain), visit("report_step", r.step), visit("steps", r.steps), visit("sweeps", r.sweeps),
+        visit("updates", r.updates);
       visit("preparation_cpu_s", r.preparation_cpu_s), visit("loading_cpu_s", r.loading_cpu_s);
       visit("solver_cpu_s", r.solver_cpu_s), visit("initial_height", r.initial_height), visit("platen_speed", r.platen_speed);
       visit("error_over_residual", r.error_over_residual), visit("reference_residual", r.reference_residual);
@@ -150,29 +151,34 @@ namespace diptych::discrete
   }
 
   Checkpoint read_checkpoint(const std::string &path)
-  {
-    const Hdf5Reader file(path);
-    Checkpoint       checkpoint;
-    Progress        &p = checkpoint.progress;
-    p.state.grains     = read_grains(file);
-    p.state.walls      = walls_of(file.read("walls"));
-    if (const std::vector<double> cell = file.read("cell"); cell.size() == 3)
-      p.state.cell = PeriodicCell{cell[0], cell[1], {}, cell[2]};
-    read_pairs(file, p);
-    p.reference.position          = file.read_vectors("reference/position");
-    const std::vector<double> row = file.read("row"), rows = file.read("rows");
-    const std::size_t         width = numbers({}).size();
-    if (row.size() != width || rows.size() % width != 0 || p.state.walls.size() < 2 ||
-        p.reference.position.size() != p.state.grains.size())
-      throw std::runtime_error(path + " is no checkpoint of this version");
-    p.row = row_of(row.data());
-    for (std::size_t k = 0; k < rows.size(); k += width)
-      checkpoint.rows.push_back(row_of(rows.data() + k));
-    visit_scalars(p, [&](const char *name, auto &value) {
-      value = std::decay_t<decltype(value)>(file.read(std::string("scalars/") + name).at(0));
-    });
-    checkpoint.scene    = file.read_string("scene");
-    p.report.step_bound = file.read_string("step_bound");
-    return checkpoint;
-  }
+  try
+    {
+      const Hdf5Reader file(path);
+      Checkpoint       checkpoint;
+      Progress        &p = checkpoint.progress;
+      p.state.grains     = read_grains(file);
+      p.state.walls      = walls_of(file.read("walls"));
+      if (const std::vector<double> cell = file.read("cell"); cell.size() == 3)
+        p.state.cell = PeriodicCell{cell[0], cell[1], {}, cell[2]};
+      read_pairs(file, p);
+      p.reference.position          = file.read_vectors("reference/position");
+      const std::vector<double> row = file.read("row"), rows = file.read("rows");
+      const std::size_t         width = numbers({}).size();
+      if (row.size() != width || rows.size() % width != 0 || p.state.walls.size() < 2 ||
+          p.reference.position.size() != p.state.grains.size())
+        throw std::runtime_error(path + " is no checkpoint of this version");
+      p.row = row_of(row.data());
+      for (std::size_t k = 0; k < rows.size(); k += width)
+        checkpoint.rows.push_back(row_of(rows.data() + k));
+      visit_scalars(p, [&](const char *name, auto &value) {
+        value = std::decay_t<decltype(value)>(file.read(std::string("scalars/") + name).at(0));
+      });
+      checkpoint.scene    = file.read_string("scene");
+      p.report.step_bound = file.read_string("step_bound");
+      return checkpoint;
+    }
+  catch (const std::out_of_range &)
+    {
+      throw std::runtime_error(path + " is no checkpoint of this version: an array is shorter than it must be");
+    }
 } // namespace diptych::discrete

@@ -62,7 +62,7 @@ namespace diptych::discrete
     if (last == 0)
       return 0;
     const double q = std::max({least, last / changes_[n - 2], changes_[n - 2] / changes_[n - 3]});
-    return q < most ? last * q / (1 - q) : std::numeric_limits<double>::infinity();
+    return q < most ? 2 * last * q / (1 - q) : std::numeric_limits<double>::infinity();
   }
 
   SolveReport solve_sampled(const SampledProblem &sampled,
@@ -83,7 +83,7 @@ namespace diptych::discrete
     const SolveReport report  = solve(sampled.problem, on, impulses, team,
                                       [&](const SolveReport &now, const std::function<std::vector<Impulse>()> &present) {
                                        residual = now.residual;
-                                       if (residual <= as_good_as_exact)
+                                       if (residual <= std::min(as_good_as_exact, solver.tolerance))
                                          return true;
                                        if (error.wants(now.sweeps))
                                          error.observe(moments(present()));

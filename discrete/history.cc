@@ -130,7 +130,7 @@ namespace diptych::discrete
     const Eigen::Vector2d travel = state.walls[1].point - reference.platen;
 
     row.time              = state.time;
-    row.axial_strain      = -travel.y() / reference.height;
+    row.axial_strain      = (0. - travel.y()) / reference.height;
     row.shear_strain      = travel.x() / reference.height;
     row.stress            = (sums.total - spin * Eigen::Matrix2d::Identity()) / area;
     row.stress_ratio      = stress_ratio(row.stress);

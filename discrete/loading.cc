@@ -13,13 +13,20 @@ namespace diptych::discrete
   namespace
   {
     // A number, or the CSV file of that name.
-    TimeTable table_of(const std::string &text, const std::string &column)
+    TimeTable table_of(const std::string &key, const std::string &text, const std::string &column)
     {
       char        *end    = nullptr;
       const double number = std::strtod(text.c_str(), &end);
       if (end != text.c_str() && *end == '\0' && std::isfinite(number))
         return {{0.}, {number}};
-      return read_time_table(text, column);
+      try
+        {
+          return read_time_table(text, column);
+        }
+      catch (const std::exception &error)
+        {
+          throw std::invalid_argument(key + " = '" + column + " " + text + "': " + error.what());
+        }
     }
 
     // Velocity of the upper platen in the modes that prescribe one.
@@ -82,15 +89,14 @@ namespace diptych::discrete
 
   Drive read_drive(const std::string &key, const std::string &text)
   {
-    const std::size_t blank = text.find(' ');
-    const std::string kind  = text.substr(0, blank),
-                      rest  = blank == std::string::npos ? "" : text.substr(text.find_first_not_of(' ', blank));
+    const std::size_t blank = text.find(' '), begin = text.find_first_not_of(' ', blank);
+    const std::string kind = text.substr(0, blank), rest = begin == std::string::npos ? "" : text.substr(begin);
     if (text == "auto")
       return KeptVelocity{};
     if (kind == "velocity" && !rest.empty())
-      return PrescribedVelocity{table_of(rest, "velocity")};
+      return PrescribedVelocity{table_of(key, rest, "velocity")};
     if (kind == "force" && !rest.empty())
-      return AppliedForce{table_of(rest, "force")};
+      return AppliedForce{table_of(key, rest, "force")};
     throw std::invalid_argument(key + " = '" + text +
                                 "' is not allowed: auto, velocity V or force F is, V and F a number or a CSV file");
   }

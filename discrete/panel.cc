@@ -69,6 +69,7 @@ namespace diptych::discrete
         const double fitted   = duration / double(now.steps_left);
         if (now.step > 0)
           scale_impulses(now.state, fitted / now.step);
+        springs_.impulse_step = fitted;
         now.step = setting_.step = now.report.step = fitted;
         now.interval                               = options_.method.history_interval > 0 ? options_.method.history_interval
                                                      : penalty()                          ? std::max(1L, now.steps_left / 1000)
@@ -92,7 +93,7 @@ namespace diptych::discrete
       // Snapshot of the last accepted step, with the means since the one before; nothing where there was no step.
       void hand_over()
       {
-        if (now.window.time == 0 || last_.contacts.empty())
+        if (now.window.time == 0 || last_.wall_force.empty())
           return;
         Snapshot snapshot            = make_snapshot(now.state, last_, now.window, now.reference, setting_);
         snapshot.error_over_residual = now.report.error_over_residual;
@@ -207,7 +208,7 @@ namespace diptych::discrete
             now.row.max_penetration = now.row.momentum_residual = 0;
           }
         const Eigen::Vector2d travel = now.state.walls[1].point - now.reference.platen;
-        now.report.axial_strain      = -travel.y() / now.reference.height;
+        now.report.axial_strain      = (0. - travel.y()) / now.reference.height;
         callbacks_.on_progress("loading the grains",
                                loading_progress(now.state, loading_.mode, now.reference.platen, now.reference.height) /
                                  loading_.stages.back());
@@ -268,8 +269,14 @@ namespace diptych::discrete
 
   void validate(const SampleOptions &sample, const Loading &loading, const Options &options)
   {
-    validate(sample);
+    validate(sample, preparation_setting(loading, options));
     validate(options.drives);
+    const WallDriveOptions &d = options.drives;
+    for (const auto &[key, text] : {std::pair{"left_x", &d.left_x}, std::pair{"left_y", &d.left_y},
+                                    std::pair{"right_x", &d.right_x}, std::pair{"right_y", &d.right_y}})
+      if (*text != "auto" && options.lateral.lateral != "rigid_walls")
+        throw std::invalid_argument(std::string("discrete/drive_") + key + " = '" + *text +
+                                    "': there is no such wall unless discrete/lateral = rigid_walls");
     if (loading.stages.empty() || loading.stages.front() <= 0 ||
         std::adjacent_find(loading.stages.begin(), loading.stages.end(), std::greater_equal<double>()) != loading.stages.end())
       throw std::invalid_argument("the stages of the loading must be positive and in ascending order");

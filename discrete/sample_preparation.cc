@@ -262,18 +262,31 @@ namespace diptych::discrete
                                   " gives it within " + three_digits(tolerance));
     }
 
-    GrainFile grains_of(const SampleOptions &o)
+    // Whatever is wrong with the file of a key is told together with the key.
+    template <class Read> auto read_for(const std::string &key, const std::string &file, Read &&read)
     {
-      const bool snapshots = o.file.size() > 3 && o.file.compare(o.file.size() - 3, 3, ".h5") == 0;
-      return snapshots ? read_grains_hdf5(o.file) : read_grains_csv(o.file, o.density);
+      try
+        {
+          return read(file);
+        }
+      catch (const std::exception &error)
+        {
+          throw std::invalid_argument("sample/" + key + " = '" + file + "': " + error.what());
+        }
     }
 
-    PreparedSample from_file(const SampleOptions                 &o,
-                             const PreparationSetting            &preparation,
-                             const std::function<bool(int, int)> &progress)
+    // The grains of a file between platens and sides where they touch them, checked.
+    struct FileSample
     {
-      GrainFile       file = grains_of(o);
-      Grains         &g    = file.grains;
+      State                      state;
+      std::optional<StoredStage> stage;
+    };
+
+    FileSample place_grains(const SampleOptions &o, const PreparationSetting &preparation, const std::string &path)
+    {
+      const bool      snapshots = path.size() > 3 && path.compare(path.size() - 3, 3, ".h5") == 0;
+      GrainFile       file      = snapshots ? read_grains_hdf5(path) : read_grains_csv(path, o.density);
+      Grains         &g         = file.grains;
       Eigen::Vector2d low = g.position[0], high = low;
       for (std::size_t i = 0; i < g.size(); ++i)
         {
@@ -282,7 +295,8 @@ namespace diptych::discrete
         }
       low.y()  = o.lower_platen.value_or(file.stage ? file.stage->lower_y : low.y());
       high.y() = o.upper_platen.value_or(file.stage ? file.stage->upper_y : high.y());
-      State state;
+      FileSample sample{{}, file.stage};
+      State     &state     = sample.state;
       state.walls          = box_walls(0, 0);
       state.walls[0].point = state.walls[2].point = low;
       state.walls[1].point = state.walls[3].point = high;
@@ -299,6 +313,20 @@ namespace diptych::discrete
       state.grains = std::move(g);
       set_sides(state, preparation);
       validate_walls(state);
+      return sample;
+    }
+
+    FileSample file_sample(const SampleOptions &o, const PreparationSetting &preparation)
+    {
+      return read_for("file", o.file, [&](const std::string &path) { return place_grains(o, preparation, path); });
+    }
+
+    PreparedSample from_file(const SampleOptions                 &o,
+                             const PreparationSetting            &preparation,
+                             const std::function<bool(int, int)> &progress)
+    {
+      FileSample file  = file_sample(o, preparation);
+      State     &state = file.state;
 
       const StepSetting setting = compaction_setting(o, preparation, o.preparation_friction);
       if (o.prepare_file)
@@ -321,7 +349,7 @@ namespace diptych::discrete
     }
   } // namespace
 
-  void validate(const SampleOptions &o)
+  void validate(const SampleOptions &o, const PreparationSetting &preparation)
   {
     if (o.radius_distribution == "uniform_by_number" && std::abs(o.radius_min + o.radius_max - 1) > 1e-9)
       throw std::invalid_argument("sample/radius_min + sample/radius_max is " + std::to_string(o.radius_min + o.radius_max) +
@@ -331,13 +359,16 @@ namespace diptych::discrete
                                   " exceeds sample/solid_fraction " + std::to_string(o.solid_fraction));
     if (o.radius_distribution == "table" && o.radius_table.empty())
       throw std::invalid_argument("sample/radius_distribution = table: sample/radius_table must name the CSV file");
+    if (!o.radius_table.empty() && o.radius_distribution != "table")
+      throw std::invalid_argument("sample/radius_table = '" + o.radius_table +
+                                  "' is used only with sample/radius_distribution = table, not " + o.radius_distribution);
     if (o.radius_distribution == "table")
-      (void)read_radius_table(o.radius_table);
+      (void)read_for("radius_table", o.radius_table, read_radius_table);
     if (o.lower_platen && o.upper_platen && *o.lower_platen >= *o.upper_platen)
       throw std::invalid_argument("sample/lower_platen " + std::to_string(*o.lower_platen) +
                                   " is not below sample/upper_platen " + std::to_string(*o.upper_platen));
     if (!o.file.empty())
-      (void)grains_of(o);
+      (void)file_sample(o, preparation);
   }
 
   double default_wall_mass(const Grains &grains)
@@ -349,7 +380,7 @@ namespace diptych::discrete
                                 const PreparationSetting            &setting,
                                 const std::function<bool(int, int)> &progress)
   {
-    validate(options);
+    validate(options, setting);
     if (!options.file.empty())
       return from_file(options, setting, progress);
     PreparedSample sample = options.target_solid_fraction > 0

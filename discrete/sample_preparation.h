@@ -83,9 +83,6 @@ namespace diptych::discrete
             "of two grains of a file, relative to the smaller radius; more is an error");
   }
 
-  // Throws std::invalid_argument naming key and range where options contradict each other.
-  void validate(const SampleOptions &options);
-
   // Under what a sample is prepared: the lateral condition and pressure it will be loaded with.
   struct PreparationSetting
   {
@@ -94,6 +91,9 @@ namespace diptych::discrete
     double           pressure = 1;
     Eigen::Vector2d  gravity  = Eigen::Vector2d::Zero();
   };
+
+  // Throws std::invalid_argument naming key, file, place and range where options contradict each other or files are wrong.
+  void validate(const SampleOptions &options, const PreparationSetting &setting);
 
   struct PreparationReport
   {
