@@ -92,9 +92,12 @@ namespace diptych::discrete
     return reference;
   }
 
-  std::vector<std::uint8_t> rattlers(const StepResult &result, const std::size_t n_grains)
+  std::vector<std::uint8_t> rattlers(const StepResult &result, const Grains &grains)
   {
-    std::vector<std::uint8_t> free(n_grains, 1);
+    const std::size_t         n_grains = grains.size();
+    std::vector<std::uint8_t> free(n_grains);
+    for (std::size_t i = 0; i < n_grains; ++i)
+      free[i] = !grains.fixed[i];
     for (std::size_t k = 0; k < result.contacts.size(); ++k)
       if (result.impulses[k].normal > 0)
         {
@@ -151,7 +154,7 @@ namespace diptych::discrete
                                     : 0;
     const double s      = 0.5 * row.stress.trace();
     row.inertial_number = s > 0 ? reference.strain_rate * setting.mean_diameter * std::sqrt(reference.mean_density / s) : 0;
-    const std::vector<std::uint8_t> free = rattlers(result, state.grains.size());
+    const std::vector<std::uint8_t> free = rattlers(result, state.grains);
     row.rattlers                         = int(std::count(free.begin(), free.end(), 1));
     row.spin_term_share                  = s > 0 ? spin / area / s : 0;
     row.unbalanced_force                 = result.unbalanced_force;

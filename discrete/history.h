@@ -29,7 +29,7 @@ namespace diptych::discrete
     double          max_penetration   = 0; // at mid-step, largest since the row before [mean diameters]
     int             rattlers          = 0; // grains without a force-carrying contact
     double          spin_term_share   = 0; // sum (1/2) omega^2 I / area / mean stress
-    double          momentum_residual = 0; // largest since the row before, relative to the sum of contact impulses
+    double          momentum_residual = 0; // largest since the row before, relative to the sums of contact impulses and momenta
     double          unbalanced_force  = 0; // mean over grains of |m dv/h| / mean normal contact force
     double          platen_sliding    = 0; // share of the force-carrying platen contacts that are at their Coulomb bound
     double          skew_moment       = 0; // norm of the grains' skew moments / norm of the symmetric ones
@@ -75,8 +75,8 @@ namespace diptych::discrete
                       const StepSetting &setting,
                       HistoryRow        &row);
 
-  // 1 where a grain has no contact that carries force.
-  std::vector<std::uint8_t> rattlers(const StepResult &result, std::size_t n_grains);
+  // 1 where a grain that is not fixed has no contact that carries force.
+  std::vector<std::uint8_t> rattlers(const StepResult &result, const Grains &grains);
 
   // discrete.csv: columns named in the first line. Throws std::runtime_error naming the file.
   void write_history(const std::string &csv_path, const std::vector<HistoryRow> &rows);

@@ -77,7 +77,7 @@ namespace diptych::discrete
     s.mean_spin_term       = window.time > 0 ? window.mean_spin_term() : spin_terms(g);
     s.window_time          = window.time;
     s.mean_internal_moment = internal_moments(g.position, s.window_forces, s.mean_spin_term);
-    s.rattler              = rattlers(result, g.size());
+    s.rattler              = rattlers(result, g);
     s.applied_force        = result.applied_force;
     if (result.accuracy)
       s.stress_error = result.accuracy->stress_error, s.stress_change = result.accuracy->stress_change;

@@ -30,12 +30,20 @@ namespace diptych::discrete
       Grains       &g     = state.grains;
       const Contact c     = make_contact(state, pair.i, pair.j);
       const bool    grain = std::size_t(c.j) < g.size();
-      const double  wi = g.inverse_mass(c.i), wj = grain ? g.inverse_mass(c.j) : 0.;
-      if (wi + wj == 0)
+      // What is free to move gives way, too: between walls that stood still grains would only hand their overlap on.
+      const Eigen::Vector2d wall = grain ? Eigen::Vector2d::Zero() : state.walls[c.j - g.size()].inverse_mass();
+      const double wi = g.inverse_mass(c.i), wj = grain ? g.inverse_mass(c.j) : wall.dot(c.normal.cwiseProduct(c.normal));
+      const double across = c.image * c.normal.x(), wc = c.image != 0 ? state.cell->inverse_mass() : 0.;
+      const double sum = wi + wj + wc * across * across;
+      if (sum == 0)
         return 0;
-      g.position[c.i] -= c.gap * wi / (wi + wj) * c.normal;
+      g.position[c.i] -= c.gap * wi / sum * c.normal;
       if (grain)
-        g.position[c.j] += c.gap * wj / (wi + wj) * c.normal;
+        g.position[c.j] += c.gap * wj / sum * c.normal;
+      else
+        state.walls[c.j - g.size()].point += c.gap / sum * wall.cwiseProduct(c.normal);
+      if (wc > 0)
+        state.cell->width += c.gap / sum * wc * across;
       return -c.gap;
     }
   } // namespace

@@ -7,6 +7,7 @@
 namespace diptych::discrete
 {
   // Up to ten Gauss-Seidel sweeps on positions: each closed pair of `contacts` is parted by its penetration, in proportion to
-  // the inverse masses (walls stay). Adds no velocity. Ends as soon as no penetration exceeds `enough` [length].
+  // the inverse masses of grains, free walls and a free cell width. Adds no velocity. Ends as soon as no penetration exceeds
+  // `enough` [length].
   void project_positions(State &state, const std::vector<Contact> &contacts, double enough);
 } // namespace diptych::discrete

@@ -128,7 +128,7 @@ namespace diptych::discrete
     const std::size_t n = g.size();
     StepLedger        ledger;
     ledger.wall_force.assign(s.state.walls.size(), Eigen::Vector2d::Zero());
-    double impulse_sum = 0, normal_sum = 0, unbalanced = 0;
+    double impulse_sum = 0, normal_sum = 0, unbalanced = 0, momentum_sum = 0;
     int    closed = 0;
     for (std::size_t k = 0; k < s.contacts.size(); ++k)
       {
@@ -151,12 +151,13 @@ namespace diptych::discrete
         {
           const Eigen::Vector2d change = g.mass[i] * Eigen::Vector2d(s.v_new[i].x - s.v[i].x, s.v_new[i].y - s.v[i].y);
           unbalanced += change.norm();
+          momentum_sum += g.mass[i] * (std::abs(s.v_new[i].x) + std::abs(s.v_new[i].y));
           balance += change - s.step * s.applied_force[i];
         }
     for (const Eigen::Vector2d &f : ledger.wall_force)
       balance -= s.step * f;
     ledger.unbalanced_force  = closed > 0 ? (unbalanced / double(n)) / (normal_sum / closed) : 0;
-    ledger.momentum_residual = impulse_sum > 0 ? balance.norm() / impulse_sum : 0;
+    ledger.momentum_residual = impulse_sum > 0 ? balance.norm() / (impulse_sum + momentum_sum) : 0;
     return ledger;
   }
 } // namespace diptych::discrete

@@ -21,9 +21,9 @@ namespace diptych::discrete
   struct StepLedger
   {
     StepEnergies                 energies;
-    std::vector<Eigen::Vector2d> wall_force;            // of each wall on the sample = impulse / step
-    double                       unbalanced_force  = 0; // mean over grains of |m dv/h| / mean normal contact force
-    double                       momentum_residual = 0; // |sum m dv - h F - impulses of walls and fixed grains| / sum |r|
+    std::vector<Eigen::Vector2d> wall_force;           // of each wall on the sample = impulse / step
+    double                       unbalanced_force = 0; // mean over grains of |m dv/h| / mean normal contact force
+    double momentum_residual = 0; // |sum m dv - h F - impulses of walls and fixed grains| / (sum |r| + sum m |v|)
   };
 
   // A solved step: bodies as they were (positions at mid-step), velocities before and after, what acted.

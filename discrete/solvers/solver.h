@@ -14,7 +14,7 @@ namespace diptych::discrete
   {
     std::string solver           = "psor";
     double      tolerance        = 2e-5;
-    int         max_sweeps       = 20000;
+    int         max_sweeps       = 200000;
     double      omega_sticking   = 1.8;
     double      omega_slipping   = 1.0;
     int         sweeps_per_check = 20;
