@@ -96,16 +96,32 @@ namespace diptych::coupling
         return "";
       std::ostringstream out;
       out.precision(2);
-      out << "snapshot at " << 100 * s.axial_strain << " %: residual " << s.residual << ", grain stress within ";
+      out << "snapshot at " << 100 * s.axial_strain << " %: residual " << s.residual << ", error of grain stress ";
       if (std::isfinite(s.stress_error))
         out << 100 * s.stress_error << " % (estimated)";
       else
-        out << "an unknown error (it still changed by " << 100 * s.stress_change << " % in the last doubling of the sweeps)";
+        out << "not known (it still changed by " << 100 * s.stress_change << " % in the last doubling of the sweeps)";
       if (!std::isnan(s.error_over_residual))
         out << ", error/residual " << s.error_over_residual;
       if (!(s.stress_error <= wanted))
-        out << "; not " << 100 * wanted << " %: snapshot_max_sweeps are used up";
+        out << "; snapshot_accuracy " << 100 * wanted << " % not reached in snapshot_max_sweeps";
       return out.str();
+    }
+
+    // What came of the copy that was solved on to measure error against residual.
+    std::string reference_text(const discrete::Report &report)
+    {
+      if (std::isnan(report.reference_residual))
+        return "";
+      std::ostringstream out;
+      out.precision(2);
+      out << "first snapshot solved on for reference_sweeps: residual " << report.reference_residual
+          << ", grain stress differs by " << 100 * report.reference_error << " %; ";
+      if (std::isnan(report.error_over_residual))
+        out << "too far from a solution to measure error over residual against";
+      else
+        out << "error over residual " << report.error_over_residual;
+      return out.str() + "\n";
     }
 
     // What the panel's callbacks fill and write.
@@ -216,6 +232,7 @@ namespace diptych::coupling
       loading.cpu_s -= report.preparation_cpu_s, loading.wall_s -= report.preparation_cpu_s;
     update_provenance(directory, scene, line.text, {preparation, loading},
                       {{"discrete", discrete_facts(report, recording.rows)}});
+    recording.warnings += reference_text(report);
     if (!recording.warnings.empty())
       say(line, recording.warnings.substr(0, recording.warnings.size() - 1));
     return say_how_it_ended(line, scene, report);
