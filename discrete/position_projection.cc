@@ -50,21 +50,25 @@ namespace diptych::discrete
 
   void project_positions(State &state, const std::vector<Contact> &contacts, const double enough)
   {
-    constexpr int       sweeps = 10;
-    double              worst  = 0;
-    std::vector<double> gap(contacts.size());
+    constexpr int sweeps = 10;
+    // g + h u' >= 0 at mid-step leaves at least g/2 now: pairs that stood open by much cannot have closed.
+    const double        far   = 100 * enough;
+    double              worst = 0;
+    std::vector<int>    close;
+    std::vector<double> gap; // of these now
     for (std::size_t k = 0; k < contacts.size(); ++k)
-      {
-        gap[k] = gap_of(state, contacts[k]);
-        worst  = std::max(worst, -gap[k]);
-      }
+      if (contacts[k].gap < far)
+        {
+          close.push_back(int(k)), gap.push_back(gap_of(state, contacts[k]));
+          worst = std::max(worst, -gap.back());
+        }
     if (worst <= enough)
       return;
     // Parting one pair may close a neighbour that stands open by less.
     std::vector<Contact> near;
-    for (std::size_t k = 0; k < contacts.size(); ++k)
+    for (std::size_t k = 0; k < close.size(); ++k)
       if (gap[k] < 2 * worst)
-        near.push_back(contacts[k]);
+        near.push_back(contacts[close[k]]);
     for (int sweep = 0; sweep < sweeps && worst > enough; ++sweep)
       {
         worst = 0;

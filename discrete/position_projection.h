@@ -6,8 +6,8 @@
 
 namespace diptych::discrete
 {
-  // Up to ten Gauss-Seidel sweeps on positions: each closed pair of `contacts` is parted by its penetration, in proportion to
-  // the inverse masses of grains, free walls and a free cell width. Adds no velocity. Ends as soon as no penetration exceeds
-  // `enough` [length].
+  // Up to ten Gauss-Seidel sweeps on positions: each closed pair of `contacts` (found at mid-step) is parted by its penetration,
+  // in proportion to the inverse masses of grains, free walls and a free cell width. Adds no velocity. Ends as soon as no
+  // penetration exceeds `enough` [length].
   void project_positions(State &state, const std::vector<Contact> &contacts, double enough);
 } // namespace diptych::discrete
