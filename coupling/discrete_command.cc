@@ -50,6 +50,7 @@ namespace diptych::coupling
               {"platen_speed", report.platen_speed},
               {"step", report.step},
               {"step_bound", report.step_bound},
+              {"halved_steps", report.halved_steps},
               {"kinetic_energy_bursts", bursts(rows)},
               {"ns_per_update", report.updates > 0 ? 1e9 * report.solver_cpu_s / double(report.updates) : 0},
               {"solver_share_of_cpu", report.loading_cpu_s > 0 ? report.solver_cpu_s / report.loading_cpu_s : 0},

@@ -27,7 +27,8 @@ namespace diptych::discrete
       visit("solver_cpu_s", r.solver_cpu_s), visit("initial_height", r.initial_height), visit("platen_speed", r.platen_speed);
       visit("error_over_residual", r.error_over_residual), visit("reference_residual", r.reference_residual);
       visit("reference_error", r.reference_error), visit("estimated_error", r.estimated_error);
-      visit("snapshots_sampled", r.snapshots_sampled), visit("snapshots_accurate", r.snapshots_accurate);
+      visit("halved_steps", r.halved_steps), visit("snapshots_sampled", r.snapshots_sampled),
+        visit("snapshots_accurate", r.snapshots_accurate);
       visit("preparation_quiet", r.preparation.quiet), visit("preparation_steps", r.preparation.steps);
       visit("preparation_residual", r.preparation.residual), visit("preparation_unbalanced", r.preparation.unbalanced_force);
       visit("preparation_solid_fraction", r.preparation.solid_fraction), visit("preparation_overlap", r.preparation.soft_overlap);

@@ -38,7 +38,7 @@ namespace diptych::discrete
   };
 
   // Find impulses r and velocities v = v_free + M^-1 H r such that every contact obeys Signorini's condition and
-  // Coulomb's law (DESIGN: Moreau-Jean step). The normal/tangential coupling W_nt of one contact vanishes for discs and walls
+  // Coulomb's law (discrete/README.md: one step). The normal/tangential coupling W_nt of one contact vanishes for discs and walls
   // (not across the edge of a cell with free width, where it is small), so that its own problem has a closed solution
   // (contact_law.h).
   struct ContactProblem

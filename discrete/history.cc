@@ -111,7 +111,7 @@ namespace diptych::discrete
   void add_step(const StepResult &result, const StepSetting &setting, HistoryRow &row)
   {
     ++row.step;
-    row.sweeps            = result.solve.sweeps;
+    row.sweeps += result.solve.sweeps;
     row.residual          = result.solve.residual;
     row.max_penetration   = std::max(row.max_penetration, result.largest_penetration / setting.mean_diameter);
     row.momentum_residual = std::max(row.momentum_residual, result.momentum_residual);

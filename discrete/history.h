@@ -13,14 +13,14 @@ namespace diptych::discrete
   // the loading.
   struct HistoryRow
   {
-    int             step = 0;
+    int             step = 0;                                     // taken so far, halves of halved ones counted
     double          time = 0, axial_strain = 0, shear_strain = 0; // descent and travel of the upper platen / initial height
     double          stress_ratio = 0, volumetric_strain = 0, solid_fraction = 0;
     Eigen::Matrix2d stress      = Eigen::Matrix2d::Zero(); // sum of internal moments / sample area
     Eigen::Vector2d lower_force = Eigen::Vector2d::Zero(), upper_force = Eigen::Vector2d::Zero();
     Eigen::Vector2d left_force = Eigen::Vector2d::Zero(), right_force = Eigen::Vector2d::Zero(); // of side walls
     int             contacts       = 0;                                                          // that carry force
-    long            sweeps         = 0;                                                          // of this step
+    long            sweeps         = 0;                                                          // since the row before
     double          residual       = 0;
     double          kinetic_energy = 0, kinetic_energy_ratio = 0; // of grains, free walls and cell; ratio to M |V|^2 / 4
     double          friction_dissipation = 0, impact_dissipation = 0, external_work = 0, correction_work = 0;

@@ -95,7 +95,9 @@ namespace diptych::discrete
       {
         if (now.window.time == 0 || last_.wall_force.empty())
           return;
-        Snapshot snapshot            = make_snapshot(now.state, last_, now.window, now.reference, setting_);
+        StepSetting setting          = setting_;
+        setting.step                 = last_step_;
+        Snapshot snapshot            = make_snapshot(now.state, last_, now.window, now.reference, setting);
         snapshot.error_over_residual = now.report.error_over_residual;
         callbacks_.on_stage(snapshot);
       }
@@ -172,48 +174,74 @@ namespace diptych::discrete
         throw std::logic_error(text.str());
       }
 
-      // One step, or the reason in the report why there is none.
-      void step()
+      void note_failure(const SolveReport &solve)
       {
-        const double begin  = cpu_seconds();
-        StepResult   result = next();
+        now.report.status = Status::not_converged;
+        std::ostringstream text;
+        text << "step " << now.row.step + 1 << " at axial strain " << now.report.axial_strain;
+        if (penalty())
+          text << " blew up: a grain went further than its radius in one step, penalty_step_fraction is "
+               << options_.penalty.step_fraction;
+        else
+          text << " did not converge: residual " << solve.residual << " after " << solve.sweeps << " sweeps, wanted "
+               << setting_.solver.tolerance << ", nor did its halves, down to a step of " << setting_.step;
+        now.report.message = text.str();
+      }
+
+      // A step on which the sweeps stall is taken in two halves, these in halves again if need be: another problem, which
+      // they mostly solve. False, with the reason in the report, where the smallest does not converge either. On return the
+      // impulses of the state are those of a step of length h.
+      bool advance_by(const double h, const int halvings)
+      {
+        setting_.step     = h;
+        StepResult result = next();
         now.report.solver_cpu_s += result.solve.cpu_s;
         now.report.sweeps += result.solve.sweeps;
         now.report.updates += result.solve.sweeps * long(result.contacts.size());
-        if (result.solve.status != SolveStatus::converged)
+        if (result.solve.status == SolveStatus::converged)
           {
-            now.report.status = Status::not_converged;
-            std::ostringstream text;
-            text << "step " << now.row.step + 1 << " at axial strain " << now.report.axial_strain;
-            if (penalty())
-              text << " blew up: a grain went further than its radius in one step, penalty_step_fraction is "
-                   << options_.penalty.step_fraction;
-            else
-              text << " did not converge: residual " << result.solve.residual << " after " << result.solve.sweeps
-                   << " sweeps, wanted " << setting_.solver.tolerance;
-            now.report.message = text.str();
-            return;
+            check_momentum(result.momentum_residual);
+            add_step(result, setting_, now.row);
+            now.window.add(result, spin_terms(now.state.grains), h);
+            if (result.accuracy)
+              note_accuracy(*result.accuracy);
+            last_ = std::move(result), last_step_ = h;
+            return true;
           }
-        check_momentum(result.momentum_residual);
-        ++now.report.steps;
-        --now.steps_left;
-        add_step(result, setting_, now.row);
-        now.window.add(result, spin_terms(now.state.grains), setting_.step);
-        if (result.accuracy)
-          note_accuracy(*result.accuracy);
-        if (now.steps_left % now.interval == 0)
+        if (halvings == 0)
           {
-            describe_state(now.state, result, now.reference, setting_, now.row);
-            callbacks_.on_step(now.row);
-            now.row.max_penetration = now.row.momentum_residual = 0;
+            note_failure(result.solve);
+            return false;
           }
+        ++now.report.halved_steps;
+        scale_impulses(now.state, 0.5);
+        const bool done = advance_by(0.5 * h, halvings - 1) && advance_by(0.5 * h, halvings - 1);
+        scale_impulses(now.state, 2);
+        return done;
+      }
+
+      // One step, or the reason in the report why there is none.
+      void step()
+      {
+        constexpr int most_halvings = 3;
+        const double  begin         = cpu_seconds();
+        const bool    done          = advance_by(now.step, penalty() ? 0 : most_halvings);
+        now.report.loading_cpu_s += cpu_seconds() - begin;
         const Eigen::Vector2d travel = now.state.walls[1].point - now.reference.platen;
         now.report.axial_strain      = (0. - travel.y()) / now.reference.height;
+        if (!done)
+          return;
+        ++now.report.steps;
+        --now.steps_left;
+        if (now.steps_left % now.interval == 0)
+          {
+            describe_state(now.state, last_, now.reference, setting_, now.row);
+            callbacks_.on_step(now.row);
+            now.row.max_penetration = now.row.momentum_residual = 0, now.row.sweeps = 0;
+          }
         callbacks_.on_progress("loading the grains",
                                loading_progress(now.state, loading_.mode, now.reference.platen, now.reference.height) /
                                  loading_.stages.back());
-        last_ = std::move(result);
-        now.report.loading_cpu_s += cpu_seconds() - begin;
       }
 
       const Loading    loading_;
@@ -224,6 +252,7 @@ namespace diptych::discrete
       StepCache        cache_;
       PenaltyState     springs_;
       StepResult       last_;
+      double           last_step_ = 0; // its length
     };
 
     // The sample as it will be loaded; stage 0 is handed over. False where it did not get ready.

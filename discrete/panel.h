@@ -86,6 +86,7 @@ namespace diptych::discrete
     double            reference_residual  = error_over_residual;                      // of the solve it was measured against
     double            reference_error = error_over_residual, estimated_error = error_over_residual; // true and estimated, there
     int               snapshots_sampled = 0, snapshots_accurate = 0;
+    int               halved_steps = 0; // because the sweeps stalled
   };
 
   // Everything that changes while a sample is loaded: what a checkpoint keeps. A run that goes on from it gives the same bits as
@@ -122,8 +123,8 @@ namespace diptych::discrete
   PreparationSetting preparation_setting(const Loading &loading, const Options &options);
 
   // Prepares the sample and loads it through all stages, or goes on from `resume`. Snapshots are made of the prepared sample
-  // (stage 0) and at every stage. Throws std::invalid_argument on options that contradict each other. Stops at the first step
-  // that does not converge, with what was reached kept.
+  // (stage 0) and at every stage. Throws std::invalid_argument on options that contradict each other. A step that does not
+  // converge is halved, up to three times; where that does not help the run stops, with what was reached kept.
   Report run(const SampleOptions &sample,
              const Loading       &loading,
              const Options       &options,

@@ -88,7 +88,7 @@ namespace diptych::discrete
     std::optional<SampledAccuracy> accuracy;                // where the step was sampled
   };
 
-  // Advances the state by one step (DESIGN, discrete panel; Moreau 1988, Jean 1999, theta = 1/2):
+  // Advances the state by one step (Moreau 1988, Jean 1999, theta = 1/2):
   //   q_m = q + (h/2) v; contacts found there; v_f = v + h M^-1 F; impulses r solved; v' = v_f + M^-1 H r;
   //   q' = q_m + (h/2) v'; penetrations corrected.
   // Normal term: c_n = e_n u_n for an impact (u_n < 0 and the gap is or would be closed), max(g, 0)/h otherwise, so that

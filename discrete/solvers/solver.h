@@ -14,7 +14,7 @@ namespace diptych::discrete
   {
     std::string solver           = "psor";
     double      tolerance        = 2e-5;
-    int         max_sweeps       = 200000;
+    int         max_sweeps       = 50000;
     double      omega_sticking   = 1.8;
     double      omega_slipping   = 1.0;
     int         sweeps_per_check = 20;
@@ -27,7 +27,8 @@ namespace diptych::discrete
     visitor("tolerance", o.tolerance, "-", {1e-14, 1.},
             "stop of a step: natural map residual relative to |r|; keep tolerance x step / inertial number below 0.7");
     visitor("max_sweeps", o.max_sweeps, "-", {1, 100000000},
-            "sweeps after which a step counts as not converged; the run then stops with exit code 3");
+            "sweeps after which a step counts as not converged; it is then halved, up to three times, before the run stops with "
+            "exit code 3");
     visitor("omega_sticking", o.omega_sticking, "-", {0.1, 1.99},
             "psor: relaxation of sticking and open contacts; other values between 1 and this are tried in turn where the "
             "residual stagnates");
