@@ -109,6 +109,22 @@ namespace diptych::coupling
       return out.str();
     }
 
+    // What makes a finished run doubtful goes to standard error, quiet or not.
+    void warn(const std::vector<discrete::HistoryRow> &rows)
+    {
+      constexpr double doubtful_penetration = 0.02, doubtful_gain = 0.1;
+      double           penetration = 0;
+      for (const discrete::HistoryRow &row : rows)
+        penetration = std::max(penetration, row.max_penetration);
+      if (penetration > doubtful_penetration)
+        std::cerr << "discrete panel: warning: grains interpenetrate by up to " << penetration
+                  << " mean diameters; a shorter step or a smaller tolerance is needed" << std::endl;
+      if (!rows.empty() && rows.back().impact_dissipation < -doubtful_gain * std::abs(rows.back().external_work))
+        std::cerr << "discrete panel: warning: contacts gave " << -rows.back().impact_dissipation
+                  << " of energy against an external work of " << rows.back().external_work << "; the step is too long"
+                  << std::endl;
+    }
+
     // What came of the copy that was solved on to measure error against residual.
     std::string reference_text(const discrete::Report &report)
     {
@@ -234,7 +250,10 @@ namespace diptych::coupling
     update_provenance(directory, scene, line.text, {preparation, loading},
                       {{"discrete", discrete_facts(report, recording.rows)}});
     recording.warnings += reference_text(report);
-    if (!recording.warnings.empty())
+    warn(recording.rows);
+    if (!recording.warnings.empty() && report.snapshots_accurate < report.snapshots_sampled)
+      std::cerr << recording.warnings << std::flush;
+    else if (!recording.warnings.empty())
       say(line, recording.warnings.substr(0, recording.warnings.size() - 1));
     return say_how_it_ended(line, scene, report);
   }
@@ -243,6 +262,9 @@ namespace diptych::coupling
   {
     if (line.study != "step")
       throw SceneError("--study " + line.study + ": only step is known");
+    if (scene.discrete.method.method == "penalty")
+      throw SceneError(
+        "--study step: discrete/method = penalty takes its step from penalty_step_fraction, not from discrete/step");
     if (!scene.discrete.time.step)
       throw SceneError("--study step: discrete/step must be a number to be halved, not auto");
   }

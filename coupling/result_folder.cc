@@ -65,7 +65,7 @@ namespace diptych::coupling
 
   Scene scene_of(const CommandLine &line)
   {
-    Scene scene = read_scene(line.target, line.overrides);
+    Scene scene = read_scene(line.target, line.overrides, line.command != "discrete");
     if (!line.output.empty())
       scene.output.directory = line.output;
     scene.discrete.threads = line.threads;

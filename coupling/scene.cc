@@ -224,7 +224,7 @@ namespace diptych::coupling
       return entries;
     }
 
-    Scene checked(Scene scene, const std::string &file)
+    Scene checked(Scene scene, const std::string &file, const bool compares)
     {
       const LoadingOptions &loading = scene.loading;
       const bool            time    = loading.mode == "time";
@@ -238,7 +238,7 @@ namespace diptych::coupling
       const std::vector<double> &edges = scene.comparison.window_edges;
       if (edges.size() < 2 || std::adjacent_find(edges.begin(), edges.end(), std::greater_equal<double>()) != edges.end())
         throw SceneError(file + ": comparison/window_edges must be at least two ascending axial strains");
-      for (const double edge : loading.mode == "descent" ? edges : std::vector<double>())
+      for (const double edge : compares &&loading.mode == "descent" ? edges : std::vector<double>())
         {
           const double k = edge / loading.stage_strain;
           if (std::abs(k - std::round(k)) > 1e-6 || edge > loading.axial_strain * (1 + 1e-9))
@@ -267,7 +267,7 @@ namespace diptych::coupling
     }
   } // namespace
 
-  Scene read_scene(const std::string &file, const std::vector<std::string> &overrides)
+  Scene read_scene(const std::string &file, const std::vector<std::string> &overrides, const bool compares)
   {
     std::ifstream in(file);
     if (!in || std::filesystem::is_directory(file))
@@ -290,7 +290,7 @@ namespace diptych::coupling
     scene.name = scene_name(file);
     if (scene.output.directory.empty())
       scene.output.directory = "results/" + scene.name;
-    return checked(scene, file);
+    return checked(scene, file, compares);
   }
 
   std::string echo(const Scene &scene)

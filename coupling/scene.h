@@ -104,8 +104,9 @@ namespace diptych::coupling
     using std::invalid_argument::invalid_argument;
   };
 
-  // Reads a .prm or .json file, then applies `overrides` of the form section/key=value. Throws SceneError.
-  Scene read_scene(const std::string &file, const std::vector<std::string> &overrides);
+  // Reads a .prm or .json file, then applies `overrides` of the form section/key=value. Throws SceneError. `compares`: whether
+  // the windows of the comparison must be stages.
+  Scene read_scene(const std::string &file, const std::vector<std::string> &overrides, bool compares = true);
 
   // Stands in the first line of every echo, and so tells a result folder's scene.prm from one written by hand.
   inline constexpr char echo_title[] = "every parameter, as it was used";

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/solve_command.h"
 
+#include <filesystem>
 #include <algorithm>
 #include <iostream>
 #include <sstream>
 #include <stdexcept>
 
+#include "coupling/scene.h"
 #include "discrete/fclib.h"
 #include "discrete/solvers/solver.h"
 
@@ -75,6 +77,9 @@ namespace diptych::coupling
   int solve_stored_problem(const CommandLine &line)
   {
     const discrete::SolverOptions options = options_of(line);
+    std::error_code               error;
+    if (!line.output.empty() && std::filesystem::equivalent(line.target, line.output, error))
+      throw SceneError("--output " + line.output + " is the problem itself: name another file");
     const discrete::StoredProblem problem = discrete::read_fclib(line.target);
     const std::string             form    = form_of(line, problem);
 

@@ -184,8 +184,22 @@ namespace diptych::discrete
                << options_.penalty.step_fraction;
         else
           text << " did not converge: residual " << solve.residual << " after " << solve.sweeps << " sweeps, wanted "
-               << setting_.solver.tolerance << ", nor did its halves, down to a step of " << setting_.step;
+               << setting_.solver.tolerance << ", nor did its halves, down to a step of " << setting_.step
+               << "; a larger step, tolerance or max_sweeps may help";
         now.report.message = text.str();
+      }
+
+      // Where nothing gives way between prescribed walls, rigid grains end up within each other.
+      bool interpenetrate(const double penetration)
+      {
+        constexpr double limit = 0.3; // mean diameters
+        if (penetration <= limit || penalty())
+          return false;
+        now.report.status = Status::not_converged;
+        std::ostringstream text;
+        text << "step " << now.row.step << ": grains interpenetrate by " << penetration << " mean diameters";
+        now.report.message = text.str();
+        return true;
       }
 
       // A step on which the sweeps stall is taken in two halves, these in halves again if need be: another problem, which
@@ -205,8 +219,9 @@ namespace diptych::discrete
             now.window.add(result, spin_terms(now.state.grains), h);
             if (result.accuracy)
               note_accuracy(*result.accuracy);
+            const double penetration = result.largest_penetration / setting_.mean_diameter;
             last_ = std::move(result), last_step_ = h;
-            return true;
+            return !interpenetrate(penetration);
           }
         if (halvings == 0)
           {
@@ -281,7 +296,8 @@ namespace diptych::discrete
           report.status = callbacks.stop_requested() ? Status::stopped_by_user : Status::not_converged;
           std::ostringstream text;
           text << "the sample was not quiet after " << prepared.report.steps << " preparation steps: residual "
-               << prepared.report.residual << ", unbalanced force " << prepared.report.unbalanced_force;
+               << prepared.report.residual << ", unbalanced force " << prepared.report.unbalanced_force
+               << "; a little sample/preparation_friction quiets slender or tiny samples";
           report.message = text.str();
           return false;
         }

@@ -236,19 +236,27 @@ namespace diptych::discrete
       constexpr double tolerance = 0.002, loosest_friction = 1;
       constexpr int    most_tries = 12;
       const double     target     = options.target_solid_fraction;
-      // The box must be looser than what is wanted; below 0.75 soft discs carry nothing and compaction takes long.
-      options.box_solid_fraction = std::min(options.box_solid_fraction, std::max(0.6, target - 0.04));
-      double         low = 0, high = loosest_friction;
-      PreparedSample dense = relaxed_and_compacted(options, preparation, low, progress);
-      if (std::abs(dense.report.solid_fraction - target) <= tolerance || !dense.report.quiet)
-        return dense;
-      PreparedSample loose = relaxed_and_compacted(options, preparation, high, progress);
-      if (std::abs(loose.report.solid_fraction - target) <= tolerance || !loose.report.quiet)
-        return loose;
-      if (target > dense.report.solid_fraction || target < loose.report.solid_fraction)
-        throw std::invalid_argument("sample/target_solid_fraction = " + three_digits(target) + " is out of reach: " +
-                                    three_digits(loose.report.solid_fraction) + " (friction " + three_digits(loosest_friction) +
-                                    ") to " + three_digits(dense.report.solid_fraction) + " (frictionless) are");
+      // The box must be looser than what is wanted; below 0.6 soft discs carry nothing.
+      double low = 0, high = loosest_friction, densest = 0, loosest = 1;
+      bool   bracketed = false;
+      for (const double box : {std::max(0.6, target - 0.04), 0.6})
+        {
+          options.box_solid_fraction = std::min(options.box_solid_fraction, box);
+          for (const double friction : {low, high})
+            {
+              PreparedSample end = relaxed_and_compacted(options, preparation, friction, progress);
+              if (std::abs(end.report.solid_fraction - target) <= tolerance || !end.report.quiet)
+                return end;
+              densest = std::max(densest, end.report.solid_fraction), loosest = std::min(loosest, end.report.solid_fraction);
+            }
+          bracketed = loosest < target && target < densest;
+          if (bracketed || target > densest)
+            break;
+        }
+      if (!bracketed)
+        throw std::invalid_argument("sample/target_solid_fraction = " + three_digits(target) +
+                                    " is out of reach: " + three_digits(loosest) + " to " + three_digits(densest) +
+                                    " are what preparation friction between 0 and 1 gives");
       for (int k = 0; k < most_tries; ++k)
         {
           const double   middle = k == 0 ? 0.2 : 0.5 * (low + high); // half of the range lies below 0.2

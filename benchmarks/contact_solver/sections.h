@@ -1,0 +1,19 @@
+// diptych: the tables of the benchmark, each printed by one function
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+
+namespace diptych::benchmarks
+{
+  // `states`: folder in which sheared samples are kept; empty: they are made anew each time.
+  void update_cost(const std::string &states);     // ns per update, sweeps alone
+  void stored_problems(const std::string &states); // contact problems in files
+  void step_solve(const std::string &states);      // one step's solve, 4000 discs
+  void how_far(const std::string &states);         // smallest residuals
+  void sweep_orders(const std::string &states);    // order of the sweeps beside omega by status
+  void whole_step(const std::string &states);      // seconds a step and memory, 500 to 64000 discs
+  void threads(const std::string &states);         // two threads, wall clock
+  void accuracy(const std::string &states);        // grain-stress error against residual
+  void warm_start(const std::string &states);      // with and without the impulses of the preceding step
+} // namespace diptych::benchmarks

@@ -1,0 +1,108 @@
+// diptych: samples under way, whose next contact problem is what the benchmark solves
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "benchmarks/contact_solver/sheared_states.h"
+
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+
+#include "discrete/checkpoint.h"
+#include "discrete/grain_stress_error.h"
+#include "discrete/step_problem.h"
+
+namespace diptych::benchmarks
+{
+  using namespace diptych::discrete;
+
+  namespace
+  {
+    constexpr double axial_strain = 0.01;
+
+    StepSetting setting_of(const LoadCase &load)
+    {
+      StepSetting setting;
+      setting.step              = load.step;
+      setting.lateral           = EndGrains{};
+      setting.solver.tolerance  = load.tolerance;
+      setting.solver.max_sweeps = 100000;
+      return setting;
+    }
+  } // namespace
+
+  Sheared start_shear(const int grains, const LoadCase &load)
+  {
+    SampleOptions options;
+    options.grains          = grains;
+    PreparedSample prepared = prepare_sample(options, {}, [](int, int) { return true; });
+    Loading        loading;
+    loading.inertial_number = load.inertial_number;
+    start_loading(prepared.state, {loading, {}, {}, strain_rate(loading, options.mean_diameter, options.density)});
+    for (PairImpulse &r : prepared.state.impulses)
+      r.normal *= load.step / prepared.step, r.tangential *= load.step / prepared.step;
+    return {std::move(prepared.state), setting_of(load)};
+  }
+
+  double strain_of_a_step(const LoadCase &load)
+  {
+    return load.inertial_number * load.step; // mean diameter, density and pressure are 1
+  }
+
+  StepResult advance(Sheared &sheared)
+  {
+    StepResult result = discrete::advance(sheared.state, sheared.setting, sheared.cache);
+    if (result.solve.status != SolveStatus::converged)
+      throw std::runtime_error("a step on the way to the state did not converge");
+    return result;
+  }
+
+  Sheared sheared_state(const std::string &folder, const int grains, const LoadCase &load)
+  {
+    const std::string path = folder + "/" + load.name + "_" + std::to_string(grains) + ".h5";
+    if (!folder.empty() && std::filesystem::exists(path))
+      return {read_checkpoint(path).progress.state, setting_of(load)};
+    std::cerr << "preparing " << grains << " discs in state " << load.name << std::endl;
+    Sheared    sheared = start_shear(grains, load);
+    const long n_steps = std::lround(axial_strain / strain_of_a_step(load));
+    for (long k = 0; k < n_steps; ++k)
+      (void)advance(sheared);
+    if (!folder.empty())
+      {
+        std::filesystem::create_directories(folder);
+        Checkpoint checkpoint; // which wants one reference position a grain
+        checkpoint.progress.state              = sheared.state;
+        checkpoint.progress.reference.position = sheared.state.grains.position;
+        write_checkpoint(path, checkpoint);
+      }
+    return sheared;
+  }
+
+  NextStep next_step(const Sheared &sheared)
+  {
+    // The contacts of a step that is solved badly are those of one that is solved well.
+    StepSetting one_sweep        = sheared.setting;
+    one_sweep.solver.max_sweeps  = 1;
+    one_sweep.accept_unconverged = true;
+    State    trial               = sheared.state;
+    NextStep next;
+    next.contacts = discrete::advance(trial, one_sweep).contacts;
+
+    State middle = sheared.state;
+    for (std::size_t i = 0; i < middle.grains.size(); ++i)
+      middle.grains.position[i] += 0.5 * sheared.setting.step * middle.grains.velocity[i];
+    for (Wall &wall : middle.walls)
+      wall.point += 0.5 * sheared.setting.step * wall.velocity;
+    const std::vector<BodyVelocity>    v     = body_velocities(middle);
+    const std::vector<Eigen::Vector2d> force = applied_forces(middle, sheared.setting);
+    next.problem = make_problem(middle, sheared.setting, next.contacts, v, free_velocities(middle, v, force, sheared.setting));
+    next.radius  = middle.grains.radius;
+    next.guess   = first_guess(middle.impulses, next.contacts);
+    return next;
+  }
+
+  double stress_difference(const NextStep &step, const std::vector<Impulse> &impulses, const std::vector<Impulse> &exact)
+  {
+    return relative_difference(contact_moments(step.radius, step.contacts, impulses),
+                               contact_moments(step.radius, step.contacts, exact));
+  }
+} // namespace diptych::benchmarks

@@ -1,0 +1,104 @@
+// diptych: one step's solve of 4000 discs in shear, and how far down the solvers come
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <cstdio>
+
+#include "benchmarks/contact_solver/measuring.h"
+#include "benchmarks/contact_solver/sections.h"
+#include "benchmarks/contact_solver/sheared_states.h"
+
+namespace diptych::benchmarks
+{
+  using namespace diptych::discrete;
+
+  namespace
+  {
+    struct Target
+    {
+      double tolerance, seconds;
+    };
+
+    struct Measured
+    {
+      std::vector<double> seconds, sweeps;
+      int                 converged = 0;
+    };
+
+    // Of `n` consecutive steps, each solved to each tolerance from the impulses of the step before it.
+    std::vector<Measured> solve_steps(Sheared sheared, const std::vector<Target> &targets, const int n)
+    {
+      std::vector<Measured> measured(targets.size());
+      for (int step = 0; step < n; ++step)
+        {
+          const NextStep next = next_step(sheared);
+          for (std::size_t k = 0; k < targets.size(); ++k)
+            {
+              SolverOptions options;
+              options.tolerance           = targets[k].tolerance;
+              options.max_sweeps          = 200000;
+              std::vector<Impulse> r      = next.guess;
+              const double         begin  = cpu_seconds();
+              const SolveReport    report = solve(next.problem, options, r);
+              measured[k].seconds.push_back(cpu_seconds() - begin);
+              measured[k].sweeps.push_back(double(report.sweeps));
+              measured[k].converged += report.status == SolveStatus::converged;
+            }
+          (void)advance(sheared);
+        }
+      return measured;
+    }
+
+    void print_far(const std::string &states, const int grains, const double tolerance, const int budget)
+    {
+      for (const LoadCase &load : {state_a, state_b})
+        {
+          const NextStep next = next_step(sheared_state(states, grains, load));
+          for (const char *solver : {"psor", "nsgs"})
+            {
+              SolverOptions options;
+              options.solver              = solver;
+              options.tolerance           = tolerance;
+              options.max_sweeps          = budget;
+              std::vector<Impulse> r      = next.guess;
+              const double         begin  = cpu_seconds();
+              const SolveReport    report = solve(next.problem, options, r);
+              std::printf("%6d %-5s %-5s %9.0e %9.1e %9ld %9.2f  %s\n", grains, load.name, solver, tolerance, report.residual,
+                          report.sweeps, cpu_seconds() - begin,
+                          report.status == SolveStatus::converged ? "converged" : "NOT converged");
+              std::fflush(stdout);
+            }
+        }
+    }
+  } // namespace
+
+  void step_solve(const std::string &states)
+  {
+    constexpr int             n         = 11;
+    const std::vector<Target> targets[] = {{{1e-4, 0.02}, {1e-5, 0.12}, {1e-6, 0.3}}, {{1e-4, 0.03}, {1e-5, 0.3}, {1e-6, 2}}};
+    std::printf("4000 discs at 1 %% axial strain, %d consecutive steps, warm start, psor, CPU time with batching, at most 200000 "
+                "sweeps\n",
+                n);
+    std::printf("state tolerance   seconds: least median   most    sweeps: least median   most  converged  target\n");
+    for (const LoadCase &load : {state_a, state_b})
+      {
+        const std::vector<Target>  &wanted   = targets[load.name[0] == 'B'];
+        const std::vector<Measured> measured = solve_steps(sheared_state(states, 4000, load), wanted, n);
+        for (std::size_t k = 0; k < wanted.size(); ++k)
+          {
+            const Spread s = spread(measured[k].seconds), sweeps = spread(measured[k].sweeps);
+            std::printf("%-5s %9.0e         %7.3f %7.3f %7.3f        %6.0f %6.0f %6.0f   %2d of %d  %5.2f s %s\n", load.name,
+                        wanted[k].tolerance, s.least, s.median, s.most, sweeps.least, sweeps.median, sweeps.most,
+                        measured[k].converged, n, wanted[k].seconds, s.median <= wanted[k].seconds ? "met" : "NOT MET");
+          }
+        std::fflush(stdout);
+      }
+  }
+
+  void how_far(const std::string &states)
+  {
+    std::printf("one step, warm start, CPU time; at most 1e6 sweeps (16000 discs: 3e5)\n");
+    std::printf(" discs state solver  wanted   reached    sweeps   seconds\n");
+    print_far(states, 1000, 1e-8, 1000000);
+    print_far(states, 4000, 1e-8, 1000000);
+    print_far(states, 16000, 1e-6, 300000);
+  }
+} // namespace diptych::benchmarks
