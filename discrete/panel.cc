@@ -330,7 +330,13 @@ namespace diptych::discrete
       throw std::invalid_argument("loading/mode = plane_shear: the normal force is normal_pressure x width, so discrete/lateral "
                                   "must be periodic or rigid_walls, not " +
                                   options.lateral.lateral);
-    if (options.method.method == "penalty" && !(loading.pressure > 0))
+    const bool penalty = options.method.method == "penalty";
+    if (penalty && (options.law.normal_restitution != 0 || options.law.tangential_restitution != 0))
+      throw std::invalid_argument("discrete/method = penalty: discrete/normal_restitution and tangential_restitution must be 0; "
+                                  "what rebounds there follows from penalty_damping");
+    if (penalty && options.method.store_problems)
+      throw std::invalid_argument("discrete/method = penalty has no contact problems: discrete/store_problems must be false");
+    if (penalty && !(loading.pressure > 0))
       throw std::invalid_argument(
         "discrete/method = penalty: the stiffness is penalty_stiffness x loading/pressure, which must be positive");
   }

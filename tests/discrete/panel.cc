@@ -105,6 +105,18 @@ namespace
     EXPECT_GT(report.axial_strain, 0);
   }
 
+  // The penalty method rebounds by its dashpots and has no contact problems: keys that would be ignored are refused.
+  TEST(Panel, KeysThatThePenaltyMethodWouldIgnoreAreRefused)
+  {
+    Options options                = quick_options();
+    options.method.method          = "penalty";
+    options.law.normal_restitution = 0.5;
+    EXPECT_THROW((void)run(small_sample(150), short_loading(), options, {}), std::invalid_argument);
+    options.law.normal_restitution = 0;
+    options.method.store_problems  = true;
+    EXPECT_THROW((void)run(small_sample(150), short_loading(), options, {}), std::invalid_argument);
+  }
+
   TEST(Panel, StagesOutOfOrderAreRefused)
   {
     Loading loading = short_loading();
