@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "coupling/scene_visitors.h"
+#include "discrete/nearest_name.h"
 
 namespace diptych::coupling
 {
@@ -69,32 +70,6 @@ namespace diptych::coupling
       return names;
     }
 
-    std::size_t edit_distance(const std::string &a, const std::string &b)
-    {
-      std::vector<std::size_t> row(b.size() + 1);
-      for (std::size_t j = 0; j <= b.size(); ++j)
-        row[j] = j;
-      for (std::size_t i = 1; i <= a.size(); ++i)
-        {
-          std::size_t diagonal = row[0];
-          row[0]               = i;
-          for (std::size_t j = 1; j <= b.size(); ++j)
-            {
-              const std::size_t up = row[j];
-              row[j]               = std::min({up + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-              diagonal             = up;
-            }
-        }
-      return row[b.size()];
-    }
-
-    std::string nearest(const std::string &name, const std::vector<std::string> &known)
-    {
-      return *std::min_element(known.begin(), known.end(), [&](const std::string &a, const std::string &b) {
-        return edit_distance(name, a) < edit_distance(name, b);
-      });
-    }
-
     // One assignment with the place it was made at.
     struct Entry
     {
@@ -106,7 +81,7 @@ namespace diptych::coupling
       const std::vector<std::string> sections = section_names();
       if (std::find(sections.begin(), sections.end(), entry.section) == sections.end())
         throw SceneError(entry.place + ": unknown section '" + entry.section + "'; the nearest is '" +
-                         nearest(entry.section, sections) + "'");
+                         discrete::nearest_name(entry.section, sections) + "'");
       const std::vector<KeyDescription> keys = describe(entry.section);
       std::vector<std::string>          names;
       for (const KeyDescription &key : keys)
@@ -114,7 +89,7 @@ namespace diptych::coupling
       const auto found = std::find(names.begin(), names.end(), entry.key);
       if (found == names.end())
         throw SceneError(entry.place + ": unknown key '" + entry.section + "/" + entry.key + "'; the nearest is '" +
-                         entry.section + "/" + nearest(entry.key, names) + "'");
+                         entry.section + "/" + discrete::nearest_name(entry.key, names) + "'");
       const KeyDescription &key = keys[found - names.begin()];
       prm.enter_subsection(entry.section);
       try
@@ -250,6 +225,8 @@ namespace diptych::coupling
       try
         {
           discrete::validate(scene.sample, discrete_loading(scene.loading), scene.discrete);
+          discrete::check_sample_file(scene.sample,
+                                      discrete::preparation_setting(discrete_loading(scene.loading), scene.discrete));
           continuum::validate(scene.continuum);
         }
       catch (const std::invalid_argument &error)
@@ -314,7 +291,7 @@ namespace diptych::coupling
   {
     const std::vector<std::string> sections = section_names();
     if (!section.empty() && std::find(sections.begin(), sections.end(), section) == sections.end())
-      throw SceneError("unknown section '" + section + "'; the nearest is '" + nearest(section, sections) + "'");
+      throw SceneError("unknown section '" + section + "'; the nearest is '" + discrete::nearest_name(section, sections) + "'");
     std::ostringstream out;
     std::string        current;
     for (const KeyDescription &key : describe(section))

@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "discrete/contact_problem.h"
 
 namespace diptych::discrete
 {
   // W_nn / W_tt of two discs, or of a disc and a body that nothing moves: r^2/I = 2/m adds twice each inverse mass.
-  constexpr double disc_wnn_over_wtt = 1. / 3;
+  inline constexpr double disc_wnn_over_wtt = 1. / 3;
 
   // u = H^T v of one contact.
   struct RelativeVelocity
@@ -53,8 +54,32 @@ namespace diptych::discrete
   }
 
   // A contact at its Coulomb bound. The margin absorbs the rounding of mu r_n.
-  inline bool is_slipping(const ContactRow &c, const Impulse &r)
+  inline constexpr double coulomb_margin = 0.9999;
+
+  inline bool is_slipping(const double friction, const Impulse &r)
   {
-    return std::abs(r.tangential) > 0.9999 * c.friction * r.normal;
+    return std::abs(r.tangential) > coulomb_margin * friction * r.normal;
   }
+
+  // Norm of r - P(r) relative to that of r, from their squares: 0 where nothing acts and nothing should, infinity where only the
+  // difference does not vanish.
+  inline double relative_norm(const double difference_square, const double norm_square)
+  {
+    if (difference_square == 0)
+      return 0;
+    return norm_square > 0 ? std::sqrt(difference_square / norm_square) : std::numeric_limits<double>::infinity();
+  }
+
+  // |r - P(r)|^2 and |r|^2 of one contact for itself, summed.
+  struct NaturalMapSquares
+  {
+    double difference = 0, norm = 0;
+
+    void add(const ContactRow &c, const std::vector<BodyVelocity> &v, const Impulse &r)
+    {
+      const Impulse p = local_solution(c, relative_velocity(c, v), r, 1.);
+      difference += (r.normal - p.normal) * (r.normal - p.normal) + (r.tangential - p.tangential) * (r.tangential - p.tangential);
+      norm += r.normal * r.normal + r.tangential * r.tangential;
+    }
+  };
 } // namespace diptych::discrete

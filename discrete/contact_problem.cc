@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/contact_problem.h"
 
-#include <cmath>
-#include <limits>
-
 #include "discrete/contact_law.h"
 
 namespace diptych::discrete
@@ -27,17 +24,9 @@ namespace diptych::discrete
                               const std::vector<BodyVelocity> &v,
                               const std::vector<Impulse>      &impulses)
   {
-    double difference = 0, norm = 0;
+    NaturalMapSquares squares;
     for (std::size_t k = 0; k < problem.contacts.size(); ++k)
-      {
-        const ContactRow &c = problem.contacts[k];
-        const Impulse     r = impulses[k], p = local_solution(c, relative_velocity(c, v), r, 1.);
-        difference += (r.normal - p.normal) * (r.normal - p.normal) +
-                      (r.tangential - p.tangential) * (r.tangential - p.tangential);
-        norm += r.normal * r.normal + r.tangential * r.tangential;
-      }
-    if (difference == 0)
-      return 0;
-    return norm > 0 ? std::sqrt(difference / norm) : std::numeric_limits<double>::infinity();
+      squares.add(problem.contacts[k], v, impulses[k]);
+    return relative_norm(squares.difference, squares.norm);
   }
 } // namespace diptych::discrete

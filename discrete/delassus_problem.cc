@@ -238,7 +238,7 @@ namespace diptych::discrete
     {
       for (const int k : order)
         {
-          const bool slipping = std::abs(r[k].tangential) > 0.9999 * own[k].friction * r[k].normal;
+          const bool slipping = is_slipping(own[k].friction, r[k]);
           r[k] = relaxed(own[k], relative_velocity(problem, k, r.data()), r[k], slipping ? omega.slipping : omega.sticking);
         }
     }
@@ -255,9 +255,7 @@ namespace diptych::discrete
           difference += square({r.normal - normal, r.tangential - stick});
           norm += square(r);
         }
-      if (difference == 0)
-        return 0;
-      return norm > 0 ? std::sqrt(difference / norm) : std::numeric_limits<double>::infinity();
+      return relative_norm(difference, norm);
     }
 
     // The nearest point of |r_t| <= mu r_n.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discrete/contact_law.h"
 #include "discrete/step_problem.h"
 
 namespace diptych::discrete
@@ -39,9 +40,7 @@ namespace diptych::discrete
     double difference = 0, norm = 0;
     for (std::size_t k = 0; k < a.size(); ++k)
       difference += (a[k] - b[k]) * (a[k] - b[k]), norm += b[k] * b[k];
-    if (difference == 0)
-      return 0;
-    return norm > 0 ? std::sqrt(difference / norm) : std::numeric_limits<double>::infinity();
+    return relative_norm(difference, norm);
   }
 
   void GrainStressError::observe(std::vector<double> moments)

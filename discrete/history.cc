@@ -59,9 +59,7 @@ namespace diptych::discrete
           const int wall = result.contacts[k].j - n;
           if (wall < 0 || state.walls[wall].kind != WallKind::platen || result.impulses[k].normal <= 0)
             continue;
-          ContactRow row{};
-          row.friction = setting.law.platen_friction;
-          ++closed, sliding += is_slipping(row, result.impulses[k]);
+          ++closed, sliding += is_slipping(setting.law.platen_friction, result.impulses[k]);
         }
       return closed > 0 ? double(sliding) / closed : 0;
     }

@@ -15,9 +15,7 @@ namespace diptych::discrete
     {
       if (r.normal == 0)
         return ContactStatus::open;
-      ContactRow row{};
-      row.friction = friction;
-      return is_slipping(row, r) ? ContactStatus::slipping : ContactStatus::sticking;
+      return is_slipping(friction, r) ? ContactStatus::slipping : ContactStatus::sticking;
     }
 
     void add_contacts(const State &state, const StepResult &result, const StepSetting &setting, Snapshot &s)

@@ -93,7 +93,7 @@ namespace diptych::discrete
       // Snapshot of the last accepted step, with the means since the one before; nothing where there was no step.
       void hand_over()
       {
-        if (now.window.time == 0 || last_.wall_force.empty())
+        if (now.window.time == 0 || last_step_ == 0)
           return;
         StepSetting setting          = setting_;
         setting.step                 = last_step_;
@@ -314,7 +314,7 @@ namespace diptych::discrete
 
   void validate(const SampleOptions &sample, const Loading &loading, const Options &options)
   {
-    validate(sample, preparation_setting(loading, options));
+    validate(sample);
     validate(options.drives);
     const WallDriveOptions &d = options.drives;
     for (const auto &[key, text] : {std::pair{"left_x", &d.left_x}, std::pair{"left_y", &d.left_y},

@@ -357,7 +357,13 @@ namespace diptych::discrete
     }
   } // namespace
 
-  void validate(const SampleOptions &o, const PreparationSetting &preparation)
+  void check_sample_file(const SampleOptions &o, const PreparationSetting &preparation)
+  {
+    if (!o.file.empty())
+      (void)file_sample(o, preparation);
+  }
+
+  void validate(const SampleOptions &o)
   {
     if (o.radius_distribution == "uniform_by_number" && std::abs(o.radius_min + o.radius_max - 1) > 1e-9)
       throw std::invalid_argument("sample/radius_min + sample/radius_max is " + std::to_string(o.radius_min + o.radius_max) +
@@ -375,8 +381,6 @@ namespace diptych::discrete
     if (o.lower_platen && o.upper_platen && *o.lower_platen >= *o.upper_platen)
       throw std::invalid_argument("sample/lower_platen " + std::to_string(*o.lower_platen) +
                                   " is not below sample/upper_platen " + std::to_string(*o.upper_platen));
-    if (!o.file.empty())
-      (void)file_sample(o, preparation);
   }
 
   double default_wall_mass(const Grains &grains)
@@ -388,7 +392,7 @@ namespace diptych::discrete
                                 const PreparationSetting            &setting,
                                 const std::function<bool(int, int)> &progress)
   {
-    validate(options, setting);
+    validate(options);
     if (!options.file.empty())
       return from_file(options, setting, progress);
     PreparedSample sample = options.target_solid_fraction > 0

@@ -92,8 +92,11 @@ namespace diptych::discrete
     Eigen::Vector2d  gravity  = Eigen::Vector2d::Zero();
   };
 
-  // Throws std::invalid_argument naming key, file, place and range where options contradict each other or files are wrong.
-  void validate(const SampleOptions &options, const PreparationSetting &setting);
+  // Throws std::invalid_argument naming key and range where options contradict each other.
+  void validate(const SampleOptions &options);
+
+  // Throws std::invalid_argument naming key, file, place and range where the file of the sample is wrong. Reads it whole.
+  void check_sample_file(const SampleOptions &options, const PreparationSetting &setting);
 
   struct PreparationReport
   {

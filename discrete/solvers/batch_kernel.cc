@@ -86,7 +86,7 @@ namespace diptych::discrete
         ut += read(tangential_term);
 
       const Four size_rt = rt < zero ? -rt : rt;
-      const Four omega   = size_rt > 0.9999 * mu * rn ? zero + slipping : zero + sticking;
+      const Four omega   = size_rt > coulomb_margin * mu * rn ? zero + slipping : zero + sticking;
 
       const Four pushed     = rn - omega * (un + read(c.normal_term)) * inverse_wnn;
       const Four normal     = zero < pushed ? pushed : zero;

@@ -229,7 +229,7 @@ namespace diptych::discrete
               {
                 const ContactRow &c     = problem_.contacts[rest_[row]];
                 Impulse          &r     = rest_impulses_[row];
-                const double      omega = is_slipping(c, r) ? omega_slipping : omega_sticking;
+                const double      omega = is_slipping(c.friction, r) ? omega_slipping : omega_sticking;
                 const Impulse     next  = local_solution(c, relative_velocity(c, v_), r, omega);
                 apply_impulse(c, {next.normal - r.normal, next.tangential - r.tangential}, v_);
                 r = next;
@@ -239,36 +239,28 @@ namespace diptych::discrete
     });
   }
 
-  Impulse BatchedContacts::residual_squares(const Part &part) const
+  NaturalMapSquares BatchedContacts::residual_squares(const Part &part) const
   {
-    Impulse squares; // of the difference, of the impulses
+    NaturalMapSquares squares;
     add_squares(part.batches.data(), part.tangential_term.empty() ? nullptr : part.tangential_term.data(), part.batches.size(),
-                v_.data(), &squares.normal, &squares.tangential);
+                v_.data(), &squares.difference, &squares.norm);
     return squares;
   }
 
   double BatchedContacts::residual(ThreadTeam &team) const
   {
-    const std::size_t    n = blocks_.size() + between_.size();
-    std::vector<Impulse> squares(n);
+    const std::size_t              n = blocks_.size() + between_.size();
+    std::vector<NaturalMapSquares> squares(n);
     team.run([&](const int rank) {
       for (std::size_t p = rank; p < n; p += team.size())
         squares[p] = residual_squares(p < blocks_.size() ? blocks_[p] : between_[p - blocks_.size()]);
     });
-    double difference = 0, norm = 0; // summed in the order of the parts, whoever made them
-    for (const Impulse &s : squares)
-      difference += s.normal, norm += s.tangential;
+    NaturalMapSquares sum; // in the order of the parts, whoever made them
+    for (const NaturalMapSquares &s : squares)
+      sum.difference += s.difference, sum.norm += s.norm;
     for (std::size_t k = 0; k < rest_.size(); ++k)
-      {
-        const ContactRow &c = problem_.contacts[rest_[k]];
-        const Impulse     r = rest_impulses_[k], p = local_solution(c, relative_velocity(c, v_), r, 1.);
-        difference += (r.normal - p.normal) * (r.normal - p.normal) +
-                      (r.tangential - p.tangential) * (r.tangential - p.tangential);
-        norm += r.normal * r.normal + r.tangential * r.tangential;
-      }
-    if (difference == 0)
-      return 0;
-    return norm > 0 ? std::sqrt(difference / norm) : std::numeric_limits<double>::infinity();
+      sum.add(problem_.contacts[rest_[k]], v_, rest_impulses_[k]);
+    return relative_norm(sum.difference, sum.norm);
   }
 
   std::size_t BatchedContacts::n_batches() const

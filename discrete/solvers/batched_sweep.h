@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "discrete/contact_law.h"
 #include "discrete/solvers/batch_kernel.h"
 #include "discrete/solvers/thread_team.h"
 
@@ -49,7 +50,7 @@ namespace diptych::discrete
     bool                           cut(const std::vector<int> &rows, int n_blocks);
     Part                           make_part(const std::vector<int> &rows);
     void                           fill_lane(Part &part, int lane, int row) const;
-    Impulse                        residual_squares(const Part &part) const;
+    NaturalMapSquares              residual_squares(const Part &part) const;
     template <class Function> void for_each_part(Function &&function);
 
     const ContactProblem &problem_;

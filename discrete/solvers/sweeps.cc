@@ -35,7 +35,7 @@ namespace diptych::discrete
     for (const int k : order)
       {
         const ContactRow &c = problem.contacts[k];
-        update(c, is_slipping(c, impulses[k]) ? omega_slipping : omega_sticking, v, impulses[k]);
+        update(c, is_slipping(c.friction, impulses[k]) ? omega_slipping : omega_sticking, v, impulses[k]);
       }
   }
 } // namespace diptych::discrete

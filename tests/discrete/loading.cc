@@ -13,23 +13,6 @@ namespace
 {
   using namespace diptych::tests;
 
-  struct Course
-  {
-    Report                  report;
-    std::vector<Snapshot>   snapshots;
-    std::vector<HistoryRow> rows;
-  };
-
-  Course loaded(const SampleOptions &sample, const Loading &loading, const Options &options)
-  {
-    Course    course;
-    Callbacks callbacks;
-    callbacks.on_stage = [&](const Snapshot &s) { course.snapshots.push_back(s); };
-    callbacks.on_step  = [&](const HistoryRow &row) { course.rows.push_back(row); };
-    course.report      = run(sample, loading, options, callbacks);
-    return course;
-  }
-
   Loading one_percent(const LoadingMode mode = LoadingMode::descent)
   {
     Loading loading;

@@ -9,23 +9,6 @@ namespace
 {
   using namespace diptych::tests;
 
-  struct Course
-  {
-    Report                  report;
-    std::vector<Snapshot>   snapshots;
-    std::vector<HistoryRow> rows;
-  };
-
-  Course loaded(const SampleOptions &sample, const Loading &loading, const Options &options)
-  {
-    Course    result;
-    Callbacks callbacks;
-    callbacks.on_stage = [&](const Snapshot &s) { result.snapshots.push_back(s); };
-    callbacks.on_step  = [&](const HistoryRow &row) { result.rows.push_back(row); };
-    result.report      = run(sample, loading, options, callbacks);
-    return result;
-  }
-
   TEST(Panel, LandsOnItsStagesAndBalancesEnergyAndMomentum)
   {
     const Course r = loaded(small_sample(), short_loading(), quick_options());

@@ -46,7 +46,7 @@ namespace
     options.radius_max    = 0.8;
     try
       {
-        validate(options, {});
+        validate(options);
         FAIL() << "no error";
       }
     catch (const std::invalid_argument &error)

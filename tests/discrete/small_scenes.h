@@ -73,6 +73,24 @@ namespace diptych::tests
     return options;
   }
 
+  // A loading with all that it handed over.
+  struct Course
+  {
+    Report                  report;
+    std::vector<Snapshot>   snapshots;
+    std::vector<HistoryRow> rows;
+  };
+
+  inline Course loaded(const SampleOptions &sample, const Loading &loading, const Options &options)
+  {
+    Course    course;
+    Callbacks callbacks;
+    callbacks.on_stage = [&](const Snapshot &s) { course.snapshots.push_back(s); };
+    callbacks.on_step  = [&](const HistoryRow &row) { course.rows.push_back(row); };
+    course.report      = run(sample, loading, options, callbacks);
+    return course;
+  }
+
   // A sheared state and the result of the step that led to it, both for tests that need a real packing.
   struct ShearedSample
   {

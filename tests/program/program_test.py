@@ -14,17 +14,11 @@ import time
 import unittest
 import xml.etree.ElementTree
 
-PROGRAM, SOURCE = sys.argv[1], sys.argv[2]
-QUICK = os.path.join(SOURCE, "benchmarks", "moreau_quick", "scene.prm")
+from running import ENVIRONMENT, PROGRAM, QUICK, SOURCE, diptych
 
 # A sample that takes seconds: the physics of the quick scene on 300 grains to 1 % strain.
 SMALL = ["--set", "sample/grains=300", "--set", "loading/axial_strain=0.01", "--set", "loading/inertial_number=1e-3",
          "--set", "discrete/step=0.1", "--set", "comparison/window_edges=0,0.01"]
-
-
-def diptych(*words, **options):
-    environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
-    return subprocess.run([PROGRAM, *words], env=environment, capture_output=True, text=True, **options)
 
 
 def listing(folder):
@@ -192,9 +186,8 @@ class Help(unittest.TestCase):
 class Interruption(unittest.TestCase):
     def test_ctrl_c_keeps_what_was_done(self):
         with tempfile.TemporaryDirectory() as folder:
-            environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
             process = subprocess.Popen([PROGRAM, "discrete", QUICK, *SMALL, "--set", "loading/axial_strain=0.4", "--output", folder],
-                                       env=environment, stderr=subprocess.PIPE, text=True)
+                                       env=ENVIRONMENT, stderr=subprocess.PIPE, text=True)
             path = os.path.join(folder, "discrete.h5")
             while process.poll() is None and not os.path.exists(path):  # the prepared sample is the first thing kept
                 time.sleep(0.05)

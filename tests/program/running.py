@@ -1,0 +1,90 @@
+# diptych: the program run by tests, and what it leaves
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""For tests called as NAME_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
+
+import csv
+import json
+import os
+import subprocess
+import sys
+import unittest
+
+import h5py
+import numpy
+
+PROGRAM, SOURCE = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
+QUICK = os.path.join(SOURCE, "benchmarks", "moreau_quick", "scene.prm")
+PROBLEMS = os.path.join(SOURCE, "tests", "discrete", "contact_problems")
+ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+LOOSE = 0.845  # solid fraction of a loose sample of 300 grains
+
+
+def setting(**keys):
+    """Words for `--set`: sample_grains=300 is sample/grains=300."""
+    words = []
+    for name, value in keys.items():
+        words += ["--set", name.replace("_", "/", 1) + "=" + str(value)]
+    return words
+
+
+# A sample that takes a second: the physics of the quick scene on 300 grains, loosely solved.
+SMALL = setting(sample_grains=300, loading_inertial_number=1e-3, loading_axial_strain=0.01, discrete_step=0.1,
+                discrete_tolerance=1e-4, discrete_snapshot_max_sweeps=200, discrete_reference_sweeps=0,
+                comparison_window_edges="0,0.01")
+# The same long enough to be interrupted, with a snapshot every 20 steps.
+LONG = SMALL + setting(sample_grains=200, loading_axial_strain=0.04, loading_stage_strain=0.002,
+                       comparison_window_edges="0,0.04")
+
+
+def diptych(*words, **options):
+    return subprocess.run([PROGRAM, *words], env=ENVIRONMENT, capture_output=True, text=True, **options)
+
+
+def start(*words):
+    return subprocess.Popen([PROGRAM, *words], env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def listing(folder):
+    return sorted(os.path.relpath(os.path.join(root, name), folder) for root, _, names in os.walk(folder) for name in names)
+
+
+def write(path, text):
+    with open(path, "w") as file:
+        file.write(text)
+    return path
+
+
+def content(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def history(folder):
+    """Columns of discrete.csv."""
+    with open(os.path.join(folder, "discrete.csv")) as file:
+        rows = list(csv.DictReader(file))
+    return {name: numpy.array([float(row[name]) for row in rows]) for name in rows[0]}
+
+
+def facts(folder):
+    with open(os.path.join(folder, "provenance.json")) as file:
+        return json.load(file)["discrete"]
+
+
+def bits(path):
+    """Every dataset and attribute of an HDF5 file as (type, shape, bytes) by name."""
+    found = {}
+
+    def add(name, item):
+        if isinstance(item, h5py.Dataset):
+            found[name] = (str(item.dtype), item.shape, item[()].tobytes())
+        for key, value in item.attrs.items():
+            found[name + "@" + key] = numpy.asarray(value).tobytes()
+
+    with h5py.File(path, "r") as file:
+        file.visititems(add)
+    return found
+
+
+def main():
+    unittest.main(module="__main__", argv=[sys.argv[0], *sys.argv[3:]])
