@@ -37,9 +37,10 @@ namespace diptych::discrete
 
   void keep_impulses(const std::vector<Contact> &contacts, const std::vector<Impulse> &impulses, State &state)
   {
+    const std::vector<int> acting = acting_contacts(impulses);
     state.impulses.clear();
-    for (std::size_t k = 0; k < contacts.size(); ++k)
-      if (impulses[k].normal != 0)
-        state.impulses.push_back({contacts[k].i, contacts[k].j, impulses[k].normal, impulses[k].tangential});
+    state.impulses.reserve(acting.size());
+    for (const int k : acting)
+      state.impulses.push_back({contacts[k].i, contacts[k].j, impulses[k].normal, impulses[k].tangential});
   }
 } // namespace diptych::discrete

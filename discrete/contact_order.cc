@@ -14,15 +14,18 @@ namespace diptych::discrete
       low = std::min(low, c.point.y()), high = std::max(high, c.point.y());
     // Far flung grains must not ask for more layers than there are contacts to sort.
     const double layer    = std::max(0.1 * length, (high - low) / (4. * contacts.size() + 1.));
-    const auto   layer_of = [&](const Contact &c) { return std::size_t((c.point.y() - low) / layer); };
+    const auto   layer_of = [&](const double y) { return int((y - low) / layer); };
 
-    std::vector<int> start(contacts.empty() ? 1 : layer_of({0, 0, 0, {}, {0, high}}) + 2, 0), order(contacts.size());
-    for (const Contact &c : contacts)
-      ++start[layer_of(c) + 1];
+    std::vector<int> start(contacts.empty() ? 1 : layer_of(high) + 2, 0), layers(contacts.size()), order(contacts.size());
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+      {
+        layers[k] = layer_of(contacts[k].point.y());
+        ++start[layers[k] + 1];
+      }
     for (std::size_t k = 1; k < start.size(); ++k)
       start[k] += start[k - 1];
     for (std::size_t k = 0; k < contacts.size(); ++k)
-      order[start[layer_of(contacts[k])]++] = int(k);
+      order[start[layers[k]]++] = int(k);
     return order;
   }
 } // namespace diptych::discrete

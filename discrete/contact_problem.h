@@ -48,6 +48,9 @@ namespace diptych::discrete
     std::vector<int>          order; // rows in the order of the sweeps; empty: as they stand
   };
 
+  // Contacts whose impulse does not vanish, ascending.
+  std::vector<int> acting_contacts(const std::vector<Impulse> &impulses);
+
   // v = v_free + M^-1 H r for all bodies.
   std::vector<BodyVelocity> velocities(const ContactProblem &problem, const std::vector<Impulse> &impulses);
 

@@ -25,38 +25,56 @@ namespace diptych::discrete
 
     void add_grains(const SolvedStep &s, StepEnergies &e)
     {
-      const Grains &g = s.state.grains;
+      const Grains &g      = s.state.grains;
+      double        energy = e.kinetic, change = e.kinetic_change, work = e.external_work; // in registers
       for (std::size_t i = 0; i < g.size(); ++i)
         {
           const double was = kinetic(g.mass[i], s.v[i]), is = kinetic(g.mass[i], s.v_new[i]);
-          e.kinetic += is;
-          e.kinetic_change += is - was;
+          energy += is;
+          change += is - was;
           if (!g.fixed[i])
-            e.external_work += s.step * s.applied_force[i].dot(mean_velocity(s, i));
+            work += s.step * s.applied_force[i].dot(mean_velocity(s, i));
         }
-    }
-
-    // Work of the contacts, split by direction; of what holds fixed grains on their way.
-    void add_contacts(const SolvedStep &s, const bool corrects_by_velocity, StepEnergies &e)
-    {
-      for (std::size_t k = 0; k < s.contacts.size(); ++k)
-        {
-          const ContactRow &c = s.problem.contacts[k];
-          const Impulse    &r = s.impulses[k];
-          if (r.normal == 0)
-            continue;
-          const RelativeVelocity u    = relative_velocity(c, s.v);
-          const RelativeVelocity next = relative_velocity(c, s.v_new);
-          e.impact_dissipation -= 0.5 * r.normal * (u.normal + next.normal);
-          e.friction_dissipation -= 0.5 * r.tangential * (u.tangential + next.tangential);
-          if (corrects_by_velocity && s.contacts[k].gap < 0 && c.normal_term < 0)
-            e.correction_work -= 0.5 * r.normal * c.normal_term;
-        }
+      e.kinetic = energy, e.kinetic_change = change, e.external_work = work;
     }
 
     Eigen::Vector2d vector_of(const ContactRow &c, const Impulse &r)
     {
       return {c.nx * r.normal - c.ny * r.tangential, c.ny * r.normal + c.nx * r.tangential};
+    }
+
+    struct ContactSums
+    {
+      double impulse = 0, normal = 0;                  // |r| and r_n
+      double impact = 0, friction = 0, correction = 0; // work, split by direction
+    };
+
+    // Sums over the acting contacts, and the forces of the walls.
+    ContactSums sum_contacts(const SolvedStep             &s,
+                             const std::vector<int>       &acting,
+                             const bool                    corrects_by_velocity,
+                             std::vector<Eigen::Vector2d> &wall_force)
+    {
+      const std::size_t n = s.state.grains.size();
+      ContactSums       sum;
+      for (std::size_t a = 0; a < acting.size(); ++a)
+        {
+          fetch_ahead(s.problem.contacts, acting, a);
+          const int              k    = acting[a];
+          const ContactRow      &c    = s.problem.contacts[k];
+          const Impulse         &r    = s.impulses[k];
+          const RelativeVelocity u    = relative_velocity(c, s.v);
+          const RelativeVelocity next = relative_velocity(c, s.v_new);
+          sum.impulse += std::sqrt(r.normal * r.normal + r.tangential * r.tangential);
+          sum.normal += r.normal;
+          sum.impact += 0.5 * r.normal * (u.normal + next.normal);
+          sum.friction += 0.5 * r.tangential * (u.tangential + next.tangential);
+          if (corrects_by_velocity && c.normal_term < 0 && s.contacts[k].gap < 0)
+            sum.correction += 0.5 * r.normal * c.normal_term;
+          if (std::size_t(c.j) >= n)
+            wall_force[c.j - n] += vector_of(c, r) / s.step;
+        }
+      return sum;
     }
 
     // A fixed grain takes contact impulses without moving otherwise: what holds it gives them back and works with them.
@@ -128,23 +146,16 @@ namespace diptych::discrete
     const std::size_t n = g.size();
     StepLedger        ledger;
     ledger.wall_force.assign(s.state.walls.size(), Eigen::Vector2d::Zero());
-    double impulse_sum = 0, normal_sum = 0, unbalanced = 0, momentum_sum = 0;
-    int    closed = 0;
-    for (std::size_t k = 0; k < s.contacts.size(); ++k)
-      {
-        const Impulse &r = s.impulses[k];
-        if (r.normal == 0)
-          continue;
-        impulse_sum += std::sqrt(r.normal * r.normal + r.tangential * r.tangential);
-        normal_sum += r.normal, ++closed;
-        if (std::size_t(s.contacts[k].j) >= n)
-          ledger.wall_force[s.contacts[k].j - n] += vector_of(s.problem.contacts[k], r) / s.step;
-      }
+    const std::vector<int> acting        = acting_contacts(s.impulses);
+    const ContactSums      contacts      = sum_contacts(s, acting, corrects_by_velocity, ledger.wall_force);
+    ledger.energies.impact_dissipation   = 0 - contacts.impact;
+    ledger.energies.friction_dissipation = 0 - contacts.friction;
+    ledger.energies.correction_work      = 0 - contacts.correction;
     add_grains(s, ledger.energies);
-    add_contacts(s, corrects_by_velocity, ledger.energies);
     add_walls(s, ledger.wall_force, ledger.energies);
     add_cell(s, ledger.energies);
 
+    double          unbalanced = 0, momentum_sum = 0;
     Eigen::Vector2d balance = -add_fixed_grains(s, ledger.energies);
     for (std::size_t i = 0; i < n; ++i)
       if (!g.fixed[i])
@@ -156,8 +167,8 @@ namespace diptych::discrete
         }
     for (const Eigen::Vector2d &f : ledger.wall_force)
       balance -= s.step * f;
-    ledger.unbalanced_force  = closed > 0 ? (unbalanced / double(n)) / (normal_sum / closed) : 0;
-    ledger.momentum_residual = impulse_sum > 0 ? balance.norm() / (impulse_sum + momentum_sum) : 0;
+    ledger.unbalanced_force  = acting.empty() ? 0 : (unbalanced / double(n)) / (contacts.normal / double(acting.size()));
+    ledger.momentum_residual = contacts.impulse > 0 ? balance.norm() / (contacts.impulse + momentum_sum) : 0;
     return ledger;
   }
 } // namespace diptych::discrete

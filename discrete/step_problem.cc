@@ -26,21 +26,20 @@ namespace diptych::discrete
     {
       if (en > 0 && un < 0 && (c.gap <= 0 || c.gap + h * un < 0))
         return en * un;
-      return c.gap < 0 ? share * c.gap / h : c.gap / h;
+      return (c.gap < 0 ? share * c.gap : c.gap) / h;
     }
 
     // Geometry and mobilities of a row: all but the terms of the law.
-    ContactRow kinematic_row(const State &state, const Contact &c)
+    ContactRow kinematic_row(const State &state, const Contact &c, const std::vector<BodyVelocity> &v)
     {
-      const Grains &g = state.grains;
-      const int     n = int(g.size());
-      ContactRow    row{};
+      const int  n = int(state.grains.size());
+      ContactRow row{};
       row.nx = c.normal.x(), row.ny = c.normal.y(), row.i = c.i, row.j = c.j, row.cell = -1;
-      const double wi = g.inverse_mass(c.i);
+      const double wi = v[c.i].inverse_mass;
       row.ki          = 2 * wi; // r^2/I of a disc
       if (c.j < n)
         {
-          const double wj = g.inverse_mass(c.j);
+          const double wj = v[c.j].inverse_mass;
           row.jx = row.jy = wj;
           row.kj          = 2 * wj;
         }
@@ -117,7 +116,7 @@ namespace diptych::discrete
     const double share = corrected_share(setting.time);
     for (const Contact &c : contacts)
       {
-        ContactRow             row = kinematic_row(state, c);
+        ContactRow             row = kinematic_row(state, c, v);
         const RelativeVelocity u   = relative_velocity(row, v);
         row.friction               = friction_of(state, setting, c.j);
         row.normal_term            = normal_term(c, u.normal, setting.law.normal_restitution, share, setting.step);
@@ -134,10 +133,16 @@ namespace diptych::discrete
     for (std::size_t k = 0; k < contacts.size(); ++k)
       {
         const Contact &c = contacts[k];
-        while (pair != previous.end() && (pair->i != c.i ? pair->i < c.i : pair->j < c.j))
+        while (pair != previous.end() && (pair->i < c.i || (pair->i == c.i && pair->j < c.j)))
           ++pair;
-        if (pair != previous.end() && pair->i == c.i && pair->j == c.j)
-          guess[k] = {pair->normal, pair->tangential};
+        if (pair == previous.end())
+          break;
+        // Which contacts were there before follows no pattern: a choice without a branch.
+        const PairImpulse  none{c.i, c.j, 0, 0};
+        const bool         known = pair->i == c.i && pair->j == c.j;
+        const PairImpulse &r     = *(known ? &*pair : &none);
+        guess[k]                 = {r.normal, r.tangential};
+        pair += known;
       }
     return guess;
   }

@@ -51,8 +51,8 @@ namespace diptych::discrete
 
   StepResult advance(State &state, const StepSetting &setting, StepCache &cache, const SampleRequest *sample)
   {
-    const double h     = setting.step;
-    State        trial = state;
+    const double h = setting.step;
+    State        trial{state.grains, state.walls, state.cell, {}, state.time}; // gets impulses of its own
     drift(trial, 0.5 * h);
 
     StepResult result;
@@ -64,7 +64,7 @@ namespace diptych::discrete
     const std::vector<BodyVelocity> v       = body_velocities(trial);
     const ContactProblem            problem = make_problem(trial, setting, result.contacts, v,
                                                            free_velocities(trial, v, result.applied_force, setting));
-    result.impulses                         = first_guess(trial.impulses, result.contacts);
+    result.impulses                         = first_guess(state.impulses, result.contacts);
     if (sample && sample->options.snapshot_max_sweeps > 0)
       result.solve = solve_sampled({problem, trial.grains.radius, result.contacts}, setting.solver, *sample, *cache.team,
                                    result.impulses, result.accuracy.emplace());

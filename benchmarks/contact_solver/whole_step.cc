@@ -86,9 +86,9 @@ namespace diptych::benchmarks
 
   void whole_step(const std::string &)
   {
-    std::printf(
-      "I = 1e-3, step 0.02, tolerance 1e-4, steps %d to %d of the loading, medians, CPU time; solver without batching\n",
-      steps_before + 1, steps_before + steps_measured);
+    std::printf("I = 1e-3, step 0.02, tolerance 1e-4, steps %d to %d of the loading, medians, CPU time; solver with the making "
+                "of its batches\n",
+                steps_before + 1, steps_before + steps_measured);
     std::printf(" discs contacts  sweeps  s a step  solver s outside ms share  list kept ms  anew ms share  peak MB\n");
     for (const int grains : {500, 1000, 2000, 4000, 8000, 16000, 32000, 64000})
       print_in_child(grains);

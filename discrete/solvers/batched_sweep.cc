@@ -3,6 +3,7 @@
 #include "discrete/solvers/batched_sweep.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -23,6 +24,33 @@ namespace diptych::discrete
     bool moves(const ContactProblem &problem, const int body)
     {
       return problem.free_velocity[body].inverse_mass != 0;
+    }
+
+    // Sweeps that a part has behind it, where other threads can see it. A cache line each.
+    class alignas(64) Progress
+    {
+    public:
+      void advance_to(const int sweeps) { done_.store(sweeps, std::memory_order_release); }
+      void wait_for(const int sweeps) const
+      {
+        ThreadTeam::wait_until([&] { return done_.load(std::memory_order_acquire) >= sweeps; });
+      }
+
+    private:
+      std::atomic<int> done_{0};
+    };
+
+    // Neighbouring parts of `n` for each thread. Where they cannot be shared out evenly, the rounding changes with every sweep,
+    // so that it evens out.
+    struct Share
+    {
+      int begin, end;
+    };
+
+    Share share_of(const int n, const int rank, const int n_threads, const int sweep)
+    {
+      const int turn = sweep % n_threads;
+      return {(n * rank + turn) / n_threads, (n * (rank + 1) + turn) / n_threads};
     }
   } // namespace
 
@@ -208,32 +236,56 @@ namespace diptych::discrete
       apply_impulse(problem_.contacts[rest_[k]], rest_impulses_[k], v_);
   }
 
+  void BatchedContacts::sweep_part(Part &part, const double omega_sticking, const double omega_slipping)
+  {
+    sweep_batches(part.batches.data(), part.tangential_term.empty() ? nullptr : part.tangential_term.data(), part.batches.size(),
+                  omega_sticking, omega_slipping, v_.data());
+  }
+
+  void BatchedContacts::sweep_rest(const double omega_sticking, const double omega_slipping)
+  {
+    for (std::size_t row = 0; row < rest_.size(); ++row)
+      {
+        const ContactRow &c     = problem_.contacts[rest_[row]];
+        Impulse          &r     = rest_impulses_[row];
+        const double      omega = is_slipping(c.friction, r) ? omega_slipping : omega_sticking;
+        const Impulse     next  = local_solution(c, relative_velocity(c, v_), r, omega);
+        apply_impulse(c, {next.normal - r.normal, next.tangential - r.tangential}, v_);
+        r = next;
+      }
+  }
+
+  // No barrier between blocks and what lies between them: a block waits for the contacts at both its ends, these for the blocks
+  // at both their sides. A thread that has fewer blocks in this sweep thus goes on to the next one, where it has more.
   void BatchedContacts::sweep(const double omega_sticking, const double omega_slipping, const int n, ThreadTeam &team)
   {
-    const auto sweep_parts = [&](std::vector<Part> &parts, const int rank) {
-      for (std::size_t p = rank; p < parts.size(); p += team.size())
-        sweep_batches(parts[p].batches.data(), parts[p].tangential_term.empty() ? nullptr : parts[p].tangential_term.data(),
-                      parts[p].batches.size(), omega_sticking, omega_slipping, v_.data());
-    };
+    const int             n_blocks = int(blocks_.size()), n_between = int(between_.size());
+    std::vector<Progress> blocks(n_blocks), between(n_between);
     team.run([&](const int rank) {
       for (int k = 0; k < n; ++k)
         {
-          sweep_parts(blocks_, rank);
-          team.barrier();
-          sweep_parts(between_, rank);
-          team.barrier();
+          const Share mine = share_of(n_blocks, rank, team.size(), k), ends = share_of(n_between, rank, team.size(), k);
+          for (int b = mine.begin; b < mine.end; ++b)
+            {
+              blocks[b].wait_for(k); // another thread may have swept it; a single block has no ends to tell
+              if (b > 0)
+                between[b - 1].wait_for(k);
+              if (b < n_between)
+                between[b].wait_for(k);
+              sweep_part(blocks_[b], omega_sticking, omega_slipping);
+              blocks[b].advance_to(k + 1);
+            }
+          for (int b = ends.begin; b < ends.end; ++b)
+            {
+              blocks[b].wait_for(k + 1), blocks[b + 1].wait_for(k + 1);
+              sweep_part(between_[b], omega_sticking, omega_slipping);
+              between[b].advance_to(k + 1);
+            }
           if (rest_.empty())
             continue;
+          team.barrier();
           if (rank == 0)
-            for (std::size_t row = 0; row < rest_.size(); ++row)
-              {
-                const ContactRow &c     = problem_.contacts[rest_[row]];
-                Impulse          &r     = rest_impulses_[row];
-                const double      omega = is_slipping(c.friction, r) ? omega_slipping : omega_sticking;
-                const Impulse     next  = local_solution(c, relative_velocity(c, v_), r, omega);
-                apply_impulse(c, {next.normal - r.normal, next.tangential - r.tangential}, v_);
-                r = next;
-              }
+            sweep_rest(omega_sticking, omega_slipping);
           team.barrier();
         }
     });
@@ -252,8 +304,13 @@ namespace diptych::discrete
     const std::size_t              n = blocks_.size() + between_.size();
     std::vector<NaturalMapSquares> squares(n);
     team.run([&](const int rank) {
-      for (std::size_t p = rank; p < n; p += team.size())
-        squares[p] = residual_squares(p < blocks_.size() ? blocks_[p] : between_[p - blocks_.size()]);
+      // The blocks that this thread sweeps, which its cache knows; then what lies between.
+      const Share mine = share_of(int(blocks_.size()), rank, team.size(), 0);
+      const Share ends = share_of(int(between_.size()), rank, team.size(), 0);
+      for (int b = mine.begin; b < mine.end; ++b)
+        squares[b] = residual_squares(blocks_[b]);
+      for (int b = ends.begin; b < ends.end; ++b)
+        squares[blocks_.size() + b] = residual_squares(between_[b]);
     });
     NaturalMapSquares sum; // in the order of the parts, whoever made them
     for (const NaturalMapSquares &s : squares)

@@ -51,6 +51,8 @@ namespace diptych::discrete
     Part                           make_part(const std::vector<int> &rows);
     void                           fill_lane(Part &part, int lane, int row) const;
     NaturalMapSquares              residual_squares(const Part &part) const;
+    void                           sweep_part(Part &part, double omega_sticking, double omega_slipping);
+    void                           sweep_rest(double omega_sticking, double omega_slipping);
     template <class Function> void for_each_part(Function &&function);
 
     const ContactProblem &problem_;

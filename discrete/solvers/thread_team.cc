@@ -6,21 +6,7 @@ namespace diptych::discrete
 {
   namespace
   {
-    // Spins, then yields, until done() holds or `patience` rounds are over. Returns done().
-    template <class Done> bool wait_awake(const Done &done, const long patience)
-    {
-      constexpr long spins = 200;
-      for (long k = 0; k < patience; ++k)
-        {
-          if (done())
-            return true;
-          if (k >= spins)
-            std::this_thread::yield();
-        }
-      return done();
-    }
-
-    constexpr long for_ever = 1L << 62, before_sleep = 2000;
+    constexpr long before_sleep = 2000;
   } // namespace
 
   ThreadTeam::ThreadTeam(const int size)

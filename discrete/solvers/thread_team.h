@@ -28,8 +28,27 @@ namespace diptych::discrete
     // To be called by every thread of a run: none goes on before all have come.
     void barrier();
 
+    // Waits, within a run, until another thread has made done() true.
+    template <class Done> static void wait_until(const Done &done) { (void)wait_awake(done, for_ever); }
+
   private:
+    static constexpr long for_ever = 1L << 62;
+
     void serve(int rank);
+
+    // Spins, then yields, until done() holds or `patience` rounds are over. Returns done().
+    template <class Done> static bool wait_awake(const Done &done, const long patience)
+    {
+      constexpr long spins = 200;
+      for (long k = 0; k < patience; ++k)
+        {
+          if (done())
+            return true;
+          if (k >= spins)
+            std::this_thread::yield();
+        }
+      return done();
+    }
 
     std::vector<std::thread>        workers_;
     const std::function<void(int)> *work_ = nullptr;
