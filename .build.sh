@@ -2,7 +2,7 @@
 
 packages=(
   g++ cmake ninja-build ccache git ca-certificates
-  libdeal.ii-dev libgmsh-dev libeigen3-dev libhdf5-openmpi-dev nlohmann-json3-dev libgtest-dev
+  libdeal.ii-dev libsuitesparse-dev libgmsh-dev libeigen3-dev libhdf5-openmpi-dev openmpi-bin nlohmann-json3-dev libgtest-dev
   python3 python3-h5py python3-matplotlib python3-jinja2
 )
 

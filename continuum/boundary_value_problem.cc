@@ -4,10 +4,11 @@
 
 #include <cmath>
 #include <ctime>
+#include <type_traits>
 
-#include <deal.II/dofs/dof_tools.h>
-#include <deal.II/lac/full_matrix.h>
-#include <deal.II/lac/trilinos_sparsity_pattern.h>
+#include "continuum/element_kernels.h"
+#include "continuum/laws/plastic_flow.h"
+#include "continuum/loads.h"
 
 namespace diptych::continuum
 {
@@ -15,140 +16,163 @@ namespace diptych::continuum
 
   namespace
   {
-    double cpu_seconds()
+    // Adds the CPU time of its life to a counter.
+    struct Stopwatch
     {
-      return double(std::clock()) / CLOCKS_PER_SEC;
+      double      &seconds;
+      std::clock_t start = std::clock();
+      ~Stopwatch() { seconds += double(std::clock() - start) / CLOCKS_PER_SEC; }
+    };
+
+    ElementKind element_kind(const Options &options)
+    {
+      if (options.law.rfind("cosserat", 0) == 0)
+        return ElementKind::q2_cosserat;
+      return options.element == "q1_bbar" ? ElementKind::q1_mean_dilation : ElementKind::q2;
     }
 
-    // Symmetric gradient of nodal values at one point of a cell.
-    SymmetricTensor<2, 2> strain_at(const CellGeometry &cell, const unsigned int q, const std::array<double, dofs_per_cell> &u)
+    template <class Element> ElementVector<Element> gather(const Cell &cell, const std::vector<double> &values)
     {
-      double xx = 0, yy = 0, xy = 0;
-      for (unsigned int node = 0; node < nodes_per_cell; ++node)
-        {
-          const auto &g = cell.gradients[q][node];
-          xx += g[0] * u[2 * node];
-          yy += g[1] * u[2 * node + 1];
-          xy += g[1] * u[2 * node] + g[0] * u[2 * node + 1];
-        }
-      SymmetricTensor<2, 2> strain;
-      strain[0][0] = xx;
-      strain[1][1] = yy;
-      strain[0][1] = xy / 2;
-      return strain;
-    }
-
-    std::array<double, dofs_per_cell> gather(const CellGeometry &cell, const std::vector<double> &values)
-    {
-      std::array<double, dofs_per_cell> u;
-      for (unsigned int i = 0; i < dofs_per_cell; ++i)
-        u[i] = values[cell.local_dofs[i]];
+      ElementVector<Element> u;
+      for (unsigned int i = 0; i < Element::n_dofs; ++i)
+        u[i] = values[cell.local[i]];
       return u;
     }
 
-    // force += B^T stress weight
-    void add_stress(const CellGeometry          &cell,
-                    const unsigned int           q,
-                    const SymmetricTensor<2, 2> &stress,
-                    std::vector<double>         &force)
+    template <class Element> void scatter(const Cell &cell, const ElementVector<Element> &force, std::vector<double> &values)
     {
-      for (unsigned int node = 0; node < nodes_per_cell; ++node)
-        {
-          const auto f = stress * cell.gradients[q][node] * cell.weights[q];
-          force[cell.local_dofs[2 * node]] += f[0];
-          force[cell.local_dofs[2 * node + 1]] += f[1];
-        }
+      for (unsigned int i = 0; i < Element::n_dofs; ++i)
+        values[cell.local[i]] += force[i];
     }
 
-    // K += B^T D B weight, D acting on (xx, yy, 2 xy).
-    void add_stiffness(const CellGeometry &cell, const unsigned int q, const SymmetricTensor<4, 2> &c, FullMatrix<double> &K)
+    // Stress and couple stress turned by the angle that the material turned by; the skew part does not depend on the frame.
+    void turn(MaterialState &point, const double angle)
     {
-      const double w       = cell.weights[q];
-      const double D[3][3] = {{w * c[0][0][0][0], w * c[0][0][1][1], w * c[0][0][0][1]},
-                              {w * c[1][1][0][0], w * c[1][1][1][1], w * c[1][1][0][1]},
-                              {w * c[0][1][0][0], w * c[0][1][1][1], w * c[0][1][0][1]}};
-      double       DB[3][dofs_per_cell];
-      for (unsigned int b = 0; b < nodes_per_cell; ++b)
-        for (unsigned int k = 0; k < 3; ++k)
-          {
-            const auto &g    = cell.gradients[q][b];
-            DB[k][2 * b]     = D[k][0] * g[0] + D[k][2] * g[1];
-            DB[k][2 * b + 1] = D[k][1] * g[1] + D[k][2] * g[0];
-          }
-      for (unsigned int a = 0; a < nodes_per_cell; ++a)
-        {
-          const double gx = cell.gradients[q][a][0], gy = cell.gradients[q][a][1];
-          double      *row_x = &K(2 * a, 0), *row_y = &K(2 * a + 1, 0);
-          for (unsigned int j = 0; j < dofs_per_cell; ++j)
-            {
-              row_x[j] += gx * DB[0][j] + gy * DB[2][j];
-              row_y[j] += gy * DB[1][j] + gx * DB[2][j];
-            }
-        }
+      const double c = std::cos(angle), s = std::sin(angle);
+      Stress      &t    = point.stress;
+      const double mean = (t[xx] + t[yy]) / 2, a = (t[xx] - t[yy]) / 2, b = t[xy];
+      const double cos2 = c * c - s * s, sin2 = 2 * c * s;
+      t[xx]           = mean + a * cos2 - b * sin2;
+      t[yy]           = mean - a * cos2 + b * sin2;
+      t[xy]           = a * sin2 + b * cos2;
+      const double mx = t[curvature_x], my = t[curvature_y];
+      t[curvature_x] = c * mx - s * my;
+      t[curvature_y] = s * mx + c * my;
+    }
+
+    // Half the curl of the increment: anticlockwise.
+    template <class Element> double spin_at(const PointGeometry &point, const ElementVector<Element> &u)
+    {
+      double spin = 0;
+      for (unsigned int node = 0; node < Element::n_nodes; ++node)
+        spin += 0.5 * (point.gradient[node][0] * u[2 * node + 1] - point.gradient[node][1] * u[2 * node]);
+      return spin;
     }
   } // namespace
 
-  BoundaryValueProblem::BoundaryValueProblem(const std::string &msh_file, const Loading &loading, const Law &law)
-      : mesh(msh_file, loading.platens == "rough"),
-        law(law),
-        pressure(loading.pressure),
-        platen_travel(loading.upper_platen_travel),
-        committed(mesh.cells.size() * points_per_cell),
-        trial(committed.size()),
-        committed_displacement(mesh.relevant.n_elements(), 0.),
-        trial_increment(committed_displacement),
-        external(committed_displacement)
+  BoundaryValueProblem::BoundaryValueProblem(const std::string &msh_file,
+                                             const double       mean_diameter,
+                                             const Loading     &loading,
+                                             const Options     &options)
+      : options(options),
+        loading(loading),
+        mean_diameter(mean_diameter),
+        material(make_law(options.law, options.material)),
+        mesh(msh_file, element_kind(options))
   {
-    for (auto &point : committed)
-      {
-        point.stress    = -pressure * unit_symmetric_tensor<2>();
-        point.stress_zz = -pressure;
-      }
-    TrilinosWrappers::SparsityPattern pattern(mesh.owned, mesh.owned, mesh.relevant, MPI_COMM_WORLD);
-    DoFTools::make_sparsity_pattern(mesh.dof_handler, pattern, mesh.constraints, false,
-                                    Utilities::MPI::this_mpi_process(MPI_COMM_WORLD));
-    pattern.compress();
-    matrix.reinit(pattern);
-
+    rebuild();
+    area_at_start = Utilities::MPI::sum(current.area, MPI_COMM_WORLD);
+    reset_points();
+    begin_step(0);
     (void)evaluate(zero_vector());
-    initial_internal_force = internal_force();
+    reset_balance();
+  }
+
+  void BoundaryValueProblem::rebuild()
+  {
+    state.displacement.assign(mesh.relevant.n_elements(), 0.);
+    set_conditions();
+    const std::size_t n_points = mesh.cells.size() * mesh.reference.n_points;
+    trial.assign(n_points, {});
+    trial_increment.assign(mesh.relevant.n_elements(), 0.);
+    external = balanced_force = state.displacement = trial_increment;
+    state.points.assign(n_points, {});
+    state.localisation.assign(n_points, {});
+    flow.assign(n_points, 0.);
+    current = geometry_at(mesh, positions(mesh, state.displacement));
+  }
+
+  void BoundaryValueProblem::set_conditions()
+  {
+    SideContact contact;
+    if (options.geometry == "updated" &&
+        (std::holds_alternative<SidePressure>(loading.lateral) || std::holds_alternative<FreeSides>(loading.lateral)))
+      contact = side_contact(mesh, state.displacement);
+    n_in_side_contact = {contact[0].size(), contact[1].size()};
+    conditions        = std::make_unique<BoundaryConditions>(
+      mesh, loading, PlatenGrip{options.platens == "rough", options.platen_rotation == "held"}, contact);
+    tangent.reinit(mesh, conditions->correction());
+    ++structure_version;
+  }
+
+  // Nodes of the sides that the accepted step has brought to a platen's plane belong to it from now on.
+  void BoundaryValueProblem::take_up_side_contact()
+  {
+    const auto contact = side_contact(mesh, state.displacement);
+    if (contact[0].size() != n_in_side_contact[0] || contact[1].size() != n_in_side_contact[1])
+      set_conditions();
+  }
+
+  void BoundaryValueProblem::adopt(CommittedState new_state)
+  {
+    state = std::move(new_state);
+    if (options.geometry == "updated")
+      {
+        set_conditions();
+        current = geometry_at(mesh, positions(mesh, state.displacement));
+      }
+    begin_step(state.progress);
+    (void)evaluate(zero_vector());
+    reset_balance();
+  }
+
+  void BoundaryValueProblem::reset_points()
+  {
+    const Eigen::Vector2d spot = mesh.origin +
+                                 Eigen::Vector2d(options.weak_spot_x, options.weak_spot_y).cwiseProduct(mesh.extent);
+    const double radius = options.weak_spot_radius * mean_diameter;
+    for (std::size_t i = 0; i < state.points.size(); ++i)
+      {
+        auto &point          = state.points[i];
+        point.stress[xx]     = -loading.pressure;
+        point.stress[yy]     = -loading.pressure;
+        point.stress_zz      = -loading.pressure;
+        const auto     &cell = mesh.cells[i / mesh.reference.n_points];
+        Eigen::Vector2d at   = Eigen::Vector2d::Zero();
+        for (unsigned int node = 0; node < mesh.reference.n_nodes; ++node)
+          at += mesh.reference.shape[i % mesh.reference.n_points][node] * mesh.nodes[cell.nodes[node]].initial;
+        point.equivalent_plastic_strain = options.weak_spot_strain * std::exp(-(at - spot).squaredNorm() / (2 * radius * radius));
+      }
+  }
+
+  void BoundaryValueProblem::set_initial_stress(const std::vector<Eigen::Matrix2d> &stress)
+  {
+    for (std::size_t i = 0; i < state.points.size(); ++i)
+      {
+        const auto &cell  = stress[i / mesh.reference.n_points];
+        auto       &point = state.points[i];
+        point.stress[xx]  = -cell(0, 0);
+        point.stress[yy]  = -cell(1, 1);
+        point.stress[xy]  = -(cell(0, 1) + cell(1, 0)) / 2;
+        point.stress_zz   = -(cell(0, 0) + cell(1, 1)) / 2; // discs have none: the mean of the plane
+      }
+    (void)evaluate(zero_vector());
+    reset_balance();
   }
 
   DistributedVector BoundaryValueProblem::zero_vector() const
   {
     return DistributedVector(mesh.owned, MPI_COMM_WORLD);
-  }
-
-  DistributedVector BoundaryValueProblem::platen_increment(const double d_axial_strain) const
-  {
-    auto increment = zero_vector();
-    for (const auto &entry : mesh.platen_dofs)
-      if (entry.upper && entry.moves && mesh.owned.is_element(entry.dof))
-        increment[entry.dof] = d_axial_strain * platen_travel[entry.component];
-    increment.compress(VectorOperation::insert);
-    return increment;
-  }
-
-  // f_a = +-P (1 - eps_axial) int N_a dy along the edge, y of the initial mesh: the total is the pressure times the current
-  // height, spread as on the initial side. The moved y of the edge itself would be wrong in small strain: where a band
-  // leaves the sample it folds over as soon as the jump exceeds an element, and the pressure would pull there. The integrand
-  // is cubic in the edge's own coordinate, so that two Gauss points are exact.
-  void BoundaryValueProblem::set_lateral_load(const double axial_strain, const double share)
-  {
-    for (std::size_t i = 0; i < external.size(); ++i)
-      external[i] = (1 - share) * initial_internal_force[i];
-    for (const auto &edge : mesh.sides)
-      for (const double xi : {-1 / std::sqrt(3.), 1 / std::sqrt(3.)})
-        {
-          const std::array<double, 3> value{xi * (xi - 1) / 2, xi * (xi + 1) / 2, 1 - xi * xi},
-            slope{xi - 0.5, xi + 0.5, -2 * xi};
-          double dy = 0;
-          for (unsigned int k = 0; k < 3; ++k)
-            dy += slope[k] * mesh.node_position[edge.nodes[k]].y();
-          for (unsigned int k = 0; k < 3; ++k)
-            external[mesh.node_local_dofs[edge.nodes[k]][0]] += share * edge.inward * pressure * (1 - axial_strain) * value[k] *
-                                                                dy;
-        }
   }
 
   std::vector<double> BoundaryValueProblem::relevant_values(const DistributedVector &vector) const
@@ -162,6 +186,15 @@ namespace diptych::continuum
     return values;
   }
 
+  DistributedVector BoundaryValueProblem::owned_values(const std::vector<double> &relevant) const
+  {
+    auto vector = zero_vector();
+    for (const auto dof : mesh.owned)
+      vector[dof] = relevant[mesh.relevant.index_within_set(dof)];
+    vector.compress(VectorOperation::insert);
+    return vector;
+  }
+
   DistributedVector BoundaryValueProblem::assembled(const std::vector<double> &local) const
   {
     auto                                 vector = zero_vector();
@@ -172,15 +205,81 @@ namespace diptych::continuum
     return vector;
   }
 
-  template <class L> void BoundaryValueProblem::update_points(const L &chosen_law, const std::vector<double> &increment)
+  // Forces on dofs that follow others go to those; on prescribed ones they vanish.
+  void BoundaryValueProblem::condense(std::vector<double> &local) const
   {
+    const auto &constraints = conditions->correction();
+    for (const auto &line : constraints.get_lines())
+      if (mesh.relevant.is_element(line.index))
+        {
+          const auto   from  = mesh.relevant.index_within_set(line.index);
+          const double force = local[from];
+          local[from]        = 0;
+          if (force != 0)
+            for (const auto &[master, weight] : line.entries)
+              local[mesh.relevant.index_within_set(master)] += weight * force;
+        }
+  }
+
+  double BoundaryValueProblem::present_height() const
+  {
+    double travel[2] = {0, 0};
+    for (const unsigned int platen : {0u, 1u})
+      {
+        const auto dof = conditions->platens()[platen].front().dofs[1];
+        if (mesh.owned.is_element(dof))
+          travel[platen] = state.displacement[mesh.relevant.index_within_set(dof)];
+      }
+    return mesh.extent.y() + Utilities::MPI::sum(travel[1] - travel[0], MPI_COMM_WORLD);
+  }
+
+  // Side pressure follows the current height: along the moved sides where nodes move, brought from the step's beginning to its
+  // end; in small strain along the initial ones. There the moved y would be wrong: where a band leaves the sample the side
+  // folds over as soon as the jump exceeds an element, and the pressure would pull.
+  std::vector<double> BoundaryValueProblem::loads(const double to) const
+  {
+    std::vector<double> force(external.size(), 0.);
+    const bool          moves  = options.geometry == "updated";
+    const double        before = present_height(), after = conditions->height(to, before);
+    if (std::holds_alternative<SidePressure>(loading.lateral))
+      add_side_pressure(mesh, positions(mesh, moves ? state.displacement : std::vector<double>(force.size(), 0.)),
+                        loading.pressure * after / (moves ? before : mesh.extent.y()), force);
+    if (loading.body_force.norm() > 0)
+      add_body_force(mesh, current, loading.body_force, force);
+    return force;
+  }
+
+  void BoundaryValueProblem::begin_step(const double to, const double share)
+  {
+    step_end = to;
+    step_constraints.clear();
+    step_constraints.copy_from(conditions->increment(state.progress, to));
+    external = loads(to);
+    for (std::size_t i = 0; i < external.size(); ++i)
+      external[i] = share * external[i] + (1 - share) * balanced_force[i];
+    const double before = present_height();
+    applied             = zero_vector();
+    for (const auto &[dof, force] : conditions->applied_forces(to, conditions->height(to, before)))
+      if (mesh.owned.is_element(dof))
+        applied[dof] += share * force;
+    applied.compress(VectorOperation::add);
+  }
+
+  void BoundaryValueProblem::impose(DistributedVector &increment) const
+  {
+    step_constraints.distribute(increment);
+  }
+
+  template <class L, class Element> void BoundaryValueProblem::update_points(const L &law, Element)
+  {
+    const double d_time = step_end - state.progress;
     for (std::size_t c = 0; c < mesh.cells.size(); ++c)
       {
-        const auto u = gather(mesh.cells[c], increment);
-        for (unsigned int q = 0; q < points_per_cell; ++q)
+        const auto u = gather<Element>(mesh.cells[c], trial_increment);
+        for (unsigned int q = 0; q < Element::n_points; ++q)
           {
-            const std::size_t point = c * points_per_cell + q;
-            trial[point]            = chosen_law.update(committed[point], strain_at(mesh.cells[c], q, u));
+            const std::size_t point = c * Element::n_points + q;
+            trial[point] = law.update(state.points[point], strain_at<Element>(mesh.reference, current.cells[c], q, u), d_time);
           }
       }
   }
@@ -188,34 +287,46 @@ namespace diptych::continuum
   std::vector<double> BoundaryValueProblem::internal_force() const
   {
     std::vector<double> force(external.size(), 0.);
-    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-      for (unsigned int q = 0; q < points_per_cell; ++q)
-        add_stress(mesh.cells[c], q, trial[c * points_per_cell + q].state.stress, force);
+    with_element(mesh.kind, [&](const auto chosen) {
+      using Element = std::decay_t<decltype(chosen)>;
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        {
+          ElementVector<Element> f{};
+          for (unsigned int q = 0; q < Element::n_points; ++q)
+            add_stress<Element>(mesh.reference, current.cells[c], q, trial[c * Element::n_points + q].state.stress, f);
+          scatter<Element>(mesh.cells[c], f, force);
+        }
+    });
     return force;
+  }
+
+  void BoundaryValueProblem::reset_balance()
+  {
+    balanced_force = internal_force();
   }
 
   Imbalance BoundaryValueProblem::evaluate(const DistributedVector &increment)
   {
-    const double start = cpu_seconds();
-    trial_increment    = relevant_values(increment);
-    std::visit([&](const auto &chosen) { update_points(chosen, trial_increment); }, law);
+    const Stopwatch watch{phase.points};
+    trial_increment = relevant_values(increment);
+    std::visit([&](const auto &law) { with_element(mesh.kind, [&](const auto chosen) { update_points(law, chosen); }); },
+               material);
 
     auto force = internal_force();
     for (std::size_t i = 0; i < force.size(); ++i)
       force[i] -= external[i];
     nodal_force = assembled(force);
-    rhs         = nodal_force;
+    condense(force);
+    rhs = assembled(force);
+    rhs -= applied;
     rhs *= -1;
-    mesh.constraints.set_zero(rhs);
-    rhs.compress(VectorOperation::insert);
 
     Imbalance imbalance;
     imbalance.residual = rhs.l2_norm();
-    imbalance.scale    = std::sqrt(std::max(0., std::pow(nodal_force.l2_norm(), 2) - std::pow(imbalance.residual, 2)));
+    imbalance.scale    = platen_scale();
     for (const auto &point : trial)
       imbalance.n_failed += point.verdict == Verdict::failed;
     imbalance.n_failed = Utilities::MPI::sum(imbalance.n_failed, MPI_COMM_WORLD);
-    cpu_s += cpu_seconds() - start;
     return imbalance;
   }
 
@@ -223,74 +334,122 @@ namespace diptych::continuum
   {
     const auto          values = relevant_values(increment);
     std::vector<double> force(external.size(), 0.);
-    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-      {
-        const auto u = gather(mesh.cells[c], values);
-        for (unsigned int q = 0; q < points_per_cell; ++q)
-          add_stress(mesh.cells[c], q, trial[c * points_per_cell + q].tangent * strain_at(mesh.cells[c], q, u), force);
-      }
+    with_element(mesh.kind, [&](const auto chosen) {
+      using Element = std::decay_t<decltype(chosen)>;
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        {
+          const auto             u = gather<Element>(mesh.cells[c], values);
+          ElementVector<Element> f{};
+          for (unsigned int q = 0; q < Element::n_points; ++q)
+            {
+              const auto &cell   = current.cells[c];
+              const auto  strain = strain_at<Element>(mesh.reference, cell, q, u);
+              add_stress<Element>(mesh.reference, cell, q, Stress(trial[c * Element::n_points + q].tangent * strain), f);
+            }
+          scatter<Element>(mesh.cells[c], f, force);
+        }
+    });
+    condense(force);
     auto result = assembled(force);
-    result += nodal_force;
     result *= -1;
-    mesh.constraints.set_zero(result);
-    result.compress(VectorOperation::insert);
+    result += rhs;
     return result;
   }
 
   const TrilinosWrappers::SparseMatrix &BoundaryValueProblem::assemble_tangent()
   {
+    const Stopwatch watch{phase.assembly};
     // A point at the apex has hardly any stiffness, and a patch of them would make the matrix singular. A thousandth of
     // the elastic one changes the way of the iterations, not where they end.
-    const SymmetricTensor<4, 2> floor =
-      1e-3 * std::visit([](const auto &chosen) { return chosen.update(MaterialState(), SymmetricTensor<2, 2>()).tangent; }, law);
-    const double                         start = cpu_seconds();
-    FullMatrix<double>                   K(dofs_per_cell, dofs_per_cell);
-    std::vector<types::global_dof_index> dofs(dofs_per_cell);
-    matrix = 0;
-    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-      {
-        K = 0;
-        for (unsigned int q = 0; q < points_per_cell; ++q)
-          {
-            const auto &point = trial[c * points_per_cell + q];
-            add_stiffness(mesh.cells[c], q, point.regime == Regime::apex ? point.tangent + floor : point.tangent, K);
-          }
-        dofs.assign(mesh.cells[c].dofs.begin(), mesh.cells[c].dofs.end());
-        mesh.constraints.distribute_local_to_global(K, dofs, matrix);
-      }
-    matrix.compress(VectorOperation::add);
-    cpu_s += cpu_seconds() - start;
-    return matrix;
+    const Tangent floor = 1e-3 * std::visit([](const auto &law) { return law.elastic_tangent(); }, material);
+    tangent.clear();
+    with_element(mesh.kind, [&](const auto chosen) {
+      using Element = std::decay_t<decltype(chosen)>;
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        {
+          ElementMatrix<Element> K{};
+          for (unsigned int q = 0; q < Element::n_points; ++q)
+            {
+              const auto &point = trial[c * Element::n_points + q];
+              add_stiffness<Element>(mesh.reference, current.cells[c], q,
+                                     point.regime == Regime::apex ? point.tangent + floor : point.tangent, K);
+            }
+          tangent.add<Element>(c, K);
+        }
+    });
+    tangent.finish();
+    return tangent.matrix();
   }
 
-  void BoundaryValueProblem::commit(const double axial_strain)
+  bool BoundaryValueProblem::is_folded() const
   {
-    for (std::size_t i = 0; i < committed.size(); ++i)
-      committed[i] = trial[i].state;
-    for (std::size_t i = 0; i < committed_displacement.size(); ++i)
-      committed_displacement[i] += trial_increment[i];
-    committed_axial_strain   = axial_strain;
-    committed_platen_force   = {trial_platen_force(false), trial_platen_force(true)};
-    committed_yielding_share = trial_yielding_share();
+    std::vector<double> moved = state.displacement;
+    for (std::size_t i = 0; i < moved.size(); ++i)
+      moved[i] += trial_increment[i];
+    const bool folded = !geometry_at(mesh, positions(mesh, moved)).is_regular;
+    return Utilities::MPI::max(int(folded), MPI_COMM_WORLD) == 1;
+  }
+
+  void BoundaryValueProblem::commit()
+  {
+    const Stopwatch watch{phase.geometry};
+    const bool      moves   = options.geometry == "updated";
+    const Tangent   elastic = std::visit([](const auto &law) { return law.elastic_tangent(); }, material);
+    const auto      moduli  = std::visit([](const auto &law) { return law.moduli(); }, material);
+    flow.resize(trial.size());
+    with_element(mesh.kind, [&](const auto chosen) {
+      using Element = std::decay_t<decltype(chosen)>;
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        {
+          const auto u = gather<Element>(mesh.cells[c], trial_increment);
+          for (unsigned int q = 0; q < Element::n_points; ++q)
+            {
+              const std::size_t point = c * Element::n_points + q;
+              MaterialState     next  = trial[point].state;
+              if (trial[point].regime != Regime::elastic)
+                add_plastic_flow(moduli, state.points[point], strain_at<Element>(mesh.reference, current.cells[c], q, u), next);
+              state.localisation[point] = trial[point].regime == Regime::elastic ? Localisation()
+                                                                                 : localisation(trial[point].tangent, elastic);
+              flow[point]               = next.equivalent_plastic_strain - state.points[point].equivalent_plastic_strain;
+              if (moves)
+                turn(next, spin_at<Element>(current.cells[c].points[q], u));
+              state.points[point] = next;
+            }
+        }
+    });
+    for (std::size_t i = 0; i < state.displacement.size(); ++i)
+      state.displacement[i] += trial_increment[i];
+    state.progress         = step_end;
+    committed_platen_force = {trial_platen_force(false), trial_platen_force(true)};
+    if (!moves)
+      return;
+    current = geometry_at(mesh, positions(mesh, state.displacement));
+    if (std::holds_alternative<SidePressure>(loading.lateral) || std::holds_alternative<FreeSides>(loading.lateral))
+      take_up_side_contact();
   }
 
   Eigen::Vector2d BoundaryValueProblem::trial_platen_force(const bool upper) const
   {
     Eigen::Vector2d force = Eigen::Vector2d::Zero();
-    for (const auto &entry : mesh.platen_dofs)
-      if (entry.upper == upper && mesh.owned.is_element(entry.dof))
-        force[entry.component] += nodal_force[entry.dof];
+    for (const auto &node : conditions->platens()[upper])
+      for (unsigned int c = 0; c < 2; ++c)
+        if (mesh.owned.is_element(node.dofs[c]))
+          force[c] += nodal_force[node.dofs[c]];
     for (unsigned int c = 0; c < 2; ++c)
       force[c] = Utilities::MPI::sum(force[c], MPI_COMM_WORLD);
     return force;
   }
 
-  double BoundaryValueProblem::trial_yielding_share() const
+  // Where nothing is loaded yet, a billionth of the elastic modulus on the sample's width stands in.
+  double BoundaryValueProblem::platen_scale() const
   {
-    double yielding = 0;
-    for (std::size_t i = 0; i < trial.size(); ++i)
-      if (trial[i].regime != Regime::elastic)
-        yielding += mesh.cells[i / points_per_cell].weights[i % points_per_cell];
-    return Utilities::MPI::sum(yielding, MPI_COMM_WORLD) / Utilities::MPI::sum(mesh.area, MPI_COMM_WORLD);
+    double sum = 0;
+    for (const auto &platen : conditions->platens())
+      for (const auto &node : platen)
+        for (unsigned int c = 0; c < 2; ++c)
+          if (mesh.owned.is_element(node.dofs[c]))
+            sum += nodal_force[node.dofs[c]] * nodal_force[node.dofs[c]];
+    const double floor = 1e-9 * options.material.elastic.youngs_modulus * mesh.extent.x();
+    return std::max(floor, std::sqrt(Utilities::MPI::sum(sum, MPI_COMM_WORLD)));
   }
 } // namespace diptych::continuum

@@ -2,15 +2,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <array>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
+#include "continuum/boundary_conditions.h"
 #include "continuum/discretisation.h"
 #include "continuum/laws/any_law.h"
+#include "continuum/localisation.h"
 #include "continuum/panel.h"
+#include "continuum/tangent_matrix.h"
 
 namespace diptych::continuum
 {
@@ -20,27 +25,47 @@ namespace diptych::continuum
   struct Imbalance
   {
     double       residual = 0; // free components
-    double       scale    = 0; // reactions of the prescribed components: what the residual is small against
+    double       scale    = 0; // forces of the platens on their nodes: what the residual is small against
     unsigned int n_failed = 0; // material points whose law gave up
 
-    double relative() const { return residual / scale; }
+    double relative() const { return residual > 0 ? residual / scale : 0.; }
   };
 
-  // sum over cells of int B^T sigma dA = lateral load + reactions, small strain. The committed state changes only in
-  // commit(); everything else works on one trial state, which any later evaluate() overwrites.
+  // CPU time by phase [s], of this process.
+  struct PhaseSeconds
+  {
+    double points = 0, assembly = 0, geometry = 0;
+  };
+
+  // What equilibrium starts from at the end of an accepted step. Vectors of displacement and rotation have an entry for each
+  // locally relevant dof, those of points one for each point of each cell of this process.
+  struct CommittedState
+  {
+    double                     progress = 0;
+    std::vector<double>        displacement; // and rotation
+    std::vector<MaterialState> points;
+    std::vector<Localisation>  localisation;
+  };
+
+  // sum over cells of int B^T sigma dA = side pressure + weight + reactions, on the initial shape or on that of the last
+  // accepted step. The committed state changes only in commit(); everything else works on one trial state, which any later
+  // evaluate() overwrites.
   class BoundaryValueProblem
   {
   public:
-    BoundaryValueProblem(const std::string &msh_file, const Loading &loading, const Law &law);
+    BoundaryValueProblem(const std::string &msh_file, double mean_diameter, const Loading &loading, const Options &options);
+
+    // In the place of the isotropic stress, one tensor per cell of this process, compression positive.
+    void set_initial_stress(const std::vector<Eigen::Matrix2d> &stress);
 
     DistributedVector zero_vector() const;
 
-    // Displacement increment that moves the platens by `d_axial_strain` and nothing else.
-    DistributedVector platen_increment(double d_axial_strain) const;
+    // Loads and platen motion of the step from the committed progress to `to`. `share` < 1 mixes the loads with those that the
+    // state at the last reset_balance() carries by itself, which lets it find equilibrium gradually.
+    void begin_step(double to, double share = 1);
 
-    // Lateral load at an axial strain; kept through the iterations of a step. `share` < 1 mixes it with the load that the
-    // initial stress balances by itself, which lets a wavy outline find equilibrium gradually.
-    void set_lateral_load(double axial_strain, double share = 1);
+    // Makes an increment move platens and ties as the step says.
+    void impose(DistributedVector &increment) const;
 
     // Trial state: committed + increment, the law called at every point.
     Imbalance evaluate(const DistributedVector &increment);
@@ -48,43 +73,79 @@ namespace diptych::continuum
     // Right-hand side -(residual + K * increment) with the tangents of the last evaluate(): first predictor.
     DistributedVector linearised_residual(const DistributedVector &increment) const;
 
-    // -(residual) of the trial state, zero on prescribed components.
+    // -(residual) of the trial state, zero on constrained components.
     const DistributedVector &negative_residual() const { return rhs; }
 
-    // Consistent tangent of the trial state.
+    // Consistent tangent of the trial state, in which prescribed components vanish.
     const dealii::TrilinosWrappers::SparseMatrix &assemble_tangent();
+    const dealii::AffineConstraints<double>      &correction_constraints() const { return conditions->correction(); }
 
-    // The trial state becomes the committed one.
-    void commit(double axial_strain);
+    // Whether the trial state turns an element over. Collective.
+    bool is_folded() const;
 
-    const Discretisation             &discretisation() const { return mesh; }
-    const std::vector<MaterialState> &points() const { return committed; }                    // points_per_cell per cell
-    const std::vector<double>        &displacement() const { return committed_displacement; } // relevant dofs
-    double                            axial_strain() const { return committed_axial_strain; }
-    Eigen::Vector2d                   platen_force(bool upper) const { return committed_platen_force[upper]; } // on the sample
-    double yielding_share() const { return committed_yielding_share; } // of the initial area, in the last step
-    double assembly_cpu_s() const { return cpu_s; }
+    // The trial state becomes the committed one: plastic flow is booked, stress turns with the material, nodes move.
+    void commit();
+
+    // The present state's own internal forces become the loads of share 0.
+    void reset_balance();
+
+    // After a change of the mesh: new unknowns, then the state carried over by the caller.
+    void rebuild();
+    void adopt(CommittedState state);
+
+    // Grows whenever the unknowns or their constraints change: matrices have another pattern then.
+    int version() const { return structure_version; }
+
+    const Discretisation              &discretisation() const { return mesh; }
+    Discretisation                    &discretisation() { return mesh; }
+    const Geometry                    &geometry() const { return current; }
+    const Law                         &law() const { return material; }
+    const CommittedState              &committed() const { return state; }
+    const std::vector<MaterialUpdate> &last_update() const { return trial; } // of the last evaluate()
+    const std::vector<double>         &last_flow() const { return flow; } // growth of the hardening variable in the accepted step
+    double                             progress() const { return state.progress; }
+    Eigen::Vector2d                    platen_force(bool upper) const { return committed_platen_force[upper]; } // on the sample
+    double                             initial_area() const { return area_at_start; } // of the whole sample [length^2]
+    const PhaseSeconds                &seconds() const { return phase; }
+    void                               go_on_counting(const PhaseSeconds &before) { phase = before; }
+
+    std::vector<double> relevant_values(const DistributedVector &vector) const;
+    DistributedVector   owned_values(const std::vector<double> &relevant) const; // its inverse
 
   private:
-    std::vector<double>     relevant_values(const DistributedVector &vector) const;
-    std::vector<double>     internal_force() const;
-    DistributedVector       assembled(const std::vector<double> &local) const;
-    Eigen::Vector2d         trial_platen_force(bool upper) const;
-    double                  trial_yielding_share() const;
-    template <class L> void update_points(const L &law, const std::vector<double> &increment);
+    void                                   set_conditions();
+    void                                   reset_points();
+    void                                   take_up_side_contact();
+    double                                 present_height() const;
+    std::vector<double>                    loads(double to) const;
+    std::vector<double>                    internal_force() const;
+    void                                   condense(std::vector<double> &local) const;
+    DistributedVector                      assembled(const std::vector<double> &local) const;
+    Eigen::Vector2d                        trial_platen_force(bool upper) const;
+    double                                 platen_scale() const;
+    template <class L, class Element> void update_points(const L &law, Element);
 
-    Discretisation                         mesh;
-    Law                                    law;
-    double                                 pressure;
-    Eigen::Vector2d                        platen_travel;
-    std::vector<MaterialState>             committed;
-    std::vector<MaterialUpdate>            trial;
-    std::vector<double>                    committed_displacement, trial_increment; // relevant dofs
-    std::vector<double>                    external, initial_internal_force;        // relevant dofs, this process's part
-    DistributedVector                      nodal_force, rhs; // internal - external; its negative on free dofs
-    dealii::TrilinosWrappers::SparseMatrix matrix;
-    double                                 committed_axial_strain = 0, committed_yielding_share = 0;
+    Options                             options;
+    Loading                             loading;
+    double                              mean_diameter;
+    double                              area_at_start = 0;
+    Law                                 material;
+    Discretisation                      mesh;
+    std::unique_ptr<BoundaryConditions> conditions;
+    std::array<std::size_t, 2>          n_in_side_contact{0, 0};
+    int                                 structure_version = 0;
+    dealii::AffineConstraints<double>   step_constraints;
+    Geometry                            current; // shape on which equilibrium is stated
+    TangentMatrix                       tangent;
+
+    CommittedState                 state;
+    double                         step_end = 0;
+    std::vector<MaterialUpdate>    trial;
+    std::vector<double>            trial_increment, external, balanced_force; // relevant dofs; forces: this process's part
+    DistributedVector              applied;          // forces on free platens and walls, in the present step
+    DistributedVector              nodal_force, rhs; // internal - external, uncondensed; negative residual
     std::array<Eigen::Vector2d, 2> committed_platen_force{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}; // lower, upper
-    double                         cpu_s = 0;
+    std::vector<double>            flow;                                                                     // per point
+    PhaseSeconds                   phase;
   };
 } // namespace diptych::continuum

@@ -1,78 +1,111 @@
-// diptych: Q2 displacement on a quadrilateral mesh, what assembly reads precomputed
+// diptych: unknowns, nodes and edges of a quadrilateral mesh that may be spread over processes and refined
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
 #include <array>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include <deal.II/base/index_set.h>
-#include <deal.II/base/mpi.h>
-#include <deal.II/base/tensor.h>
 #include <deal.II/distributed/tria.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_system.h>
-#include <deal.II/lac/affine_constraints.h>
 
-#include <Eigen/Core>
+#include "continuum/reference_element.h"
 
 namespace diptych::continuum
 {
-  constexpr unsigned int nodes_per_cell = 9, dofs_per_cell = 18, points_per_cell = 9;
-
-  // Geometry of one cell, computed once: gradients in the initial configuration and weights of its 3x3 Gauss points.
-  // Its dofs are ordered 2 * node + component; nodes in deal.II's order of FE_Q(2).
-  struct CellGeometry
+  // One locally owned cell. Its dofs are ordered 2 * node + component, then the rotations of the four corners; nodes as in
+  // ReferenceElement. `local`: index among the locally relevant dofs, where vectors of this process have their entries.
+  struct Cell
   {
-    std::array<unsigned int, nodes_per_cell>                                      nodes;
-    std::array<dealii::types::global_dof_index, dofs_per_cell>                    dofs;
-    std::array<unsigned int, dofs_per_cell>                                       local_dofs; // among the relevant ones
-    std::array<std::array<dealii::Tensor<1, 2>, nodes_per_cell>, points_per_cell> gradients;  // [point][node], 1/length
-    std::array<double, points_per_cell>                                           weights;    // JxW [length^2]
+    std::array<unsigned int, max_nodes>                   nodes;
+    std::array<dealii::types::global_dof_index, max_dofs> dofs;
+    std::array<unsigned int, max_dofs>                    local;
   };
 
-  // One element edge on a lateral side, from its lower to its upper end: nodes (lower, upper, middle).
-  struct SideEdge
+  // An element edge on the outer boundary.
+  struct BoundaryEdge
   {
-    std::array<unsigned int, 3> nodes;
-    double                      inward; // +1 on the left side, -1 on the right
+    unsigned int                id;    // BoundaryId
+    std::array<unsigned int, 3> nodes; // lower (or left) end, upper (or right) end, middle (unused by four-node elements)
   };
 
-  // One displacement component of a platen node.
-  struct PlatenDof
+  struct Node
   {
-    dealii::types::global_dof_index dof;
-    unsigned int                    local_dof, component;
-    bool                            upper;
-    bool                            prescribed; // by the platen's motion (or the pin that keeps a smooth sample in place)
-    bool                            moves;      // with the platen; a pin does not
+    Eigen::Vector2d                                initial; // position [length]
+    std::array<dealii::types::global_dof_index, 2> dofs;    // of its displacement; the first tells nodes apart on all processes
+    dealii::types::global_dof_index                rotation = dealii::numbers::invalid_dof_index; // dof, where the node has one
+    std::array<unsigned int, 2>                    local{}; // of its displacement among the relevant dofs
+    unsigned int                                   local_rotation = 0;
   };
 
-  struct Discretisation
+  class Discretisation
   {
-    // Reads the mesh, which check_mesh() must have accepted. `rough`: both components of the platens' nodes are
-    // prescribed; otherwise only the vertical one, and the lower platen's node nearest to its middle is pinned.
-    Discretisation(const std::string &msh_file, bool rough);
+  public:
+    // Reads a mesh that check_mesh() has accepted.
+    Discretisation(const std::string &msh_file, ElementKind kind);
+
+    // New unknowns, nodes and edges for the mesh as it now is: after a refinement.
+    void distribute();
+
+    // Adds dofs of other processes that this one reads; local indices change.
+    void add_relevant(const std::vector<dealii::types::global_dof_index> &dofs);
 
     dealii::parallel::distributed::Triangulation<2> triangulation;
+    ElementKind                                     kind;
+    ReferenceElement                                reference;
     dealii::FESystem<2>                             element;
     dealii::DoFHandler<2>                           dof_handler;
     dealii::IndexSet                                owned, relevant;
-    dealii::AffineConstraints<double> constraints; // homogeneous: Newton corrections vanish where motion is prescribed
 
-    std::vector<CellGeometry>                                       cells; // locally owned
-    std::vector<SideEdge>                                           sides;
-    std::vector<PlatenDof>                                          platen_dofs;
-    std::vector<Eigen::Vector2d>                                    node_position;   // initial
-    std::vector<std::array<unsigned int, 2>>                        node_local_dofs; // per component, among the relevant ones
-    double                                                          height = 0, area = 0; // initial
-    std::array<std::array<double, nodes_per_cell>, points_per_cell> shape_values;         // [point][node]
+    std::vector<Cell>         cells; // in the order of deal.II's locally owned active cells
+    std::vector<Node>         nodes; // of those cells
+    std::vector<BoundaryEdge> edges;
+
+    // Of the unloaded sample: lower left corner and extents of the box around it.
+    Eigen::Vector2d origin = Eigen::Vector2d::Zero(), extent = Eigen::Vector2d::Zero();
+
+    // All nodes of a boundary, of every process, ascending by their dofs. Collective.
+    std::vector<Node> boundary_nodes(unsigned int id) const;
+
+    // Those of them that a displacement (relevant dofs) has brought to where `is_there(position)` holds. Collective.
+    std::vector<Node> boundary_nodes(unsigned int                                        id,
+                                     const std::vector<double>                          &displacement,
+                                     const std::function<bool(const Eigen::Vector2d &)> &is_there) const;
 
   private:
-    void distribute_dofs(bool rough);
     void number_nodes();
-    void collect_platens(bool rough);
-    void collect_sides();
-    void compute_cell_geometry();
+    void number_locally();
+    void collect_edges();
+    void measure();
   };
+
+  // Positions of all nodes at a displacement given on the relevant dofs [length].
+  std::vector<Eigen::Vector2d> positions(const Discretisation &mesh, const std::vector<double> &displacement);
+
+  // What assembly reads of one cell at one geometry: gradients of the shape functions [1/length] and areas of the points.
+  struct PointGeometry
+  {
+    std::array<dealii::Tensor<1, 2>, max_nodes> gradient;
+    std::array<dealii::Tensor<1, 2>, 4>         rotation_gradient;
+    double                                      area = 0;
+  };
+  struct CellGeometry
+  {
+    std::array<PointGeometry, max_points>       points;
+    std::array<dealii::Tensor<1, 2>, max_nodes> mean_gradient; // over the element, for mean dilation
+  };
+
+  struct Geometry
+  {
+    std::vector<CellGeometry> cells;
+    double                    area       = 0;    // of this process's cells [length^2]
+    bool                      is_regular = true; // no element is turned over anywhere on this process
+  };
+  Geometry geometry_at(const Discretisation &mesh, const std::vector<Eigen::Vector2d> &node_position);
 } // namespace diptych::continuum

@@ -1,237 +1,202 @@
 // diptych: the stages of the continuum panel in HDF5
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
-#include <cstdio>
-#include <filesystem>
-#include <stdexcept>
 
-#include <hdf5.h>
-
+#include "continuum/hdf5_access.h"
+#include "continuum/hdf5_fields.h"
 #include "continuum/output.h"
 
 namespace diptych::continuum
 {
   namespace
   {
-    using Extents = std::vector<hsize_t>;
+    using hdf5::Id;
 
-    // An HDF5 id that is closed when it goes out of scope. Opening reports failure by a negative id.
-    class Id
+    // Calls visitor(name, value) for all that a snapshot holds besides its fields and cells.
+    template <class AnySnapshot, class Visitor> void visit_attributes(AnySnapshot &s, Visitor &&visitor)
     {
-    public:
-      Id(const hid_t id, herr_t (*close)(hid_t), const std::string &what)
-          : id(id),
-            close(close)
-      {
-        if (id < 0)
-          throw std::runtime_error("HDF5: cannot open or create " + what);
-      }
-      ~Id() { close(id); }
-      Id(const Id &)            = delete;
-      Id &operator=(const Id &) = delete;
-          operator hid_t() const { return id; }
-
-    private:
-      hid_t id;
-      herr_t (*close)(hid_t);
-    };
-
-    void require(const herr_t status, const std::string &what)
-    {
-      if (status < 0)
-        throw std::runtime_error("HDF5: cannot read or write " + what);
+      visitor("axial_strain", s.axial_strain);
+      visitor("time", s.time);
+      visitor("area", s.area);
+      visitor("lower_platen_force", s.lower_platen_force);
+      visitor("upper_platen_force", s.upper_platen_force);
+      visitor("mean_stress", s.mean_stress);
     }
 
-    hid_t type_of(const double *)
+    void write_field(const hid_t group, const Snapshot &s, const Field &field)
     {
-      return H5T_NATIVE_DOUBLE;
-    }
-    hid_t type_of(const unsigned int *)
-    {
-      return H5T_NATIVE_UINT;
+      const auto shape = extents(field, of_nodes(field) ? s.position.size() : s.cells.size());
+      hdf5::write(group, path_of(field), {shape.begin(), shape.end()}, values_of(s, field));
     }
 
-    template <class T>
-    void write(const hid_t parent, const std::string &name, const Extents &extents, const std::vector<T> &values)
+    void write_cells(const hid_t group, const std::vector<std::array<unsigned int, 9>> &cells)
     {
-      const Id space(H5Screate_simple(extents.size(), extents.data(), nullptr), H5Sclose, "space of " + name);
-      const Id links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "property list");
-      require(H5Pset_create_intermediate_group(links, 1), name);
-      const hid_t type = type_of(values.data());
-      const Id    set(H5Dcreate2(parent, name.c_str(), type, space, links, H5P_DEFAULT, H5P_DEFAULT), H5Dclose, name);
-      require(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
-    }
-
-    template <class T> std::vector<T> read(const hid_t parent, const std::string &name)
-    {
-      const Id       set(H5Dopen2(parent, name.c_str(), H5P_DEFAULT), H5Dclose, name);
-      const Id       space(H5Dget_space(set), H5Sclose, "space of " + name);
-      std::vector<T> values(H5Sget_simple_extent_npoints(space));
-      require(H5Dread(set, type_of(values.data()), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
-      return values;
-    }
-
-    void write_attribute(const hid_t group, const std::string &name, const std::vector<double> &values)
-    {
-      const hsize_t extent = values.size();
-      const Id      space(values.size() == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &extent, nullptr), H5Sclose,
-                     "space of " + name);
-      const Id attribute(H5Acreate2(group, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
-      require(H5Awrite(attribute, H5T_NATIVE_DOUBLE, values.data()), name);
-    }
-
-    std::vector<double> read_attribute(const hid_t group, const std::string &name)
-    {
-      const Id            attribute(H5Aopen(group, name.c_str(), H5P_DEFAULT), H5Aclose, name);
-      const Id            space(H5Aget_space(attribute), H5Sclose, "space of " + name);
-      std::vector<double> values(H5Sget_simple_extent_npoints(space));
-      require(H5Aread(attribute, H5T_NATIVE_DOUBLE, values.data()), name);
-      return values;
-    }
-
-    std::string stage_name(const unsigned int stage)
-    {
-      char name[32];
-      std::snprintf(name, sizeof name, "stage_%04u", stage);
-      return name;
-    }
-
-    // Two components per node, padded by z = 0 as ParaView wants them.
-    std::vector<double> padded(const std::vector<Eigen::Vector2d> &vectors)
-    {
-      std::vector<double> values;
-      for (const auto &v : vectors)
-        values.insert(values.end(), {v.x(), v.y(), 0.});
-      return values;
-    }
-
-    std::vector<Eigen::Vector2d> unpadded(const std::vector<double> &values)
-    {
-      std::vector<Eigen::Vector2d> vectors;
-      for (std::size_t i = 0; i + 2 < values.size(); i += 3)
-        vectors.emplace_back(values[i], values[i + 1]);
-      return vectors;
-    }
-
-    std::vector<double> row_major(const Eigen::Matrix3d &m)
-    {
-      return {m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2), m(2, 0), m(2, 1), m(2, 2)};
-    }
-
-    Eigen::Matrix3d from_row_major(const double *values)
-    {
-      return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values);
-    }
-
-    void write_attributes(const hid_t group, const Snapshot &s)
-    {
-      write_attribute(group, "axial_strain", {s.axial_strain});
-      write_attribute(group, "time", {s.time});
-      write_attribute(group, "area", {s.area});
-      write_attribute(group, "lower_platen_force", {s.lower_platen_force.x(), s.lower_platen_force.y()});
-      write_attribute(group, "upper_platen_force", {s.upper_platen_force.x(), s.upper_platen_force.y()});
-      write_attribute(group, "mean_stress", row_major(s.mean_stress));
-    }
-
-    void write_cells(const hid_t group, const Snapshot &s)
-    {
-      const hsize_t             n = s.cells.size();
       std::vector<unsigned int> nodes;
-      for (const auto &cell : s.cells)
+      for (const auto &cell : cells)
         nodes.insert(nodes.end(), cell.begin(), cell.end());
-      write(group, "cells/nodes", {n, 9}, nodes);
+      hdf5::write(group, "cells/nodes", {cells.size(), 9}, nodes);
+    }
 
-      std::vector<double> stress, strain, area, plastic, zz;
-      for (const auto &state : s.cell_state)
-        {
-          const auto a = row_major(state.stress), b = row_major(state.strain);
-          stress.insert(stress.end(), a.begin(), a.end());
-          strain.insert(strain.end(), b.begin(), b.end());
-          area.push_back(state.area);
-          plastic.push_back(state.equivalent_plastic_strain);
-          zz.push_back(state.share_zz_not_intermediate);
-        }
-      write(group, "cells/stress", {n, 3, 3}, stress);
-      write(group, "cells/strain", {n, 3, 3}, strain);
-      write(group, "cells/area", {n}, area);
-      write(group, "cells/equivalent_plastic_strain", {n}, plastic);
-      write(group, "cells/share_zz_not_intermediate", {n}, zz);
+    void write_stage(const hid_t group, const Snapshot &s)
+    {
+      visit_attributes(s, [&](const char *name, const auto &value) {
+        std::vector<double> values;
+        append(values, value);
+        hdf5::write_attribute(group, name, values);
+      });
+      write_cells(group, s.cells);
+      write_field(group, s, position_field);
+      for (const Field &field : fields)
+        if (is_carried(field, !s.rotation.empty()))
+          write_field(group, s, field);
+    }
+
+    std::size_t n_bytes(const Snapshot &s)
+    {
+      std::size_t n = s.cells.size() * sizeof(s.cells[0]) + s.position.size() * 3 * sizeof(double);
+      for (const Field &field : fields)
+        n += (of_nodes(field) ? s.position.size() : s.cells.size()) * n_components(field) * sizeof(double);
+      return n;
+    }
+
+    StageSummary read_summary(const hid_t group)
+    {
+      StageSummary summary;
+      summary.axial_strain = hdf5::read_attribute(group, "axial_strain").at(0);
+      summary.n_cells      = hdf5::extents_of(group, "cells/nodes").at(0);
+      summary.n_nodes      = hdf5::extents_of(group, path_of(position_field)).at(0);
+      summary.has_rotation = hdf5::exists(group, "nodes/rotation");
+      return summary;
+    }
+
+    void read_field(const hid_t group, Snapshot &s, const Field &field)
+    {
+      const std::size_t         n      = of_nodes(field) ? s.position.size() : s.cells.size();
+      const std::vector<double> values = hdf5::read<double>(group, path_of(field));
+      if (values.size() != n * n_components(field))
+        throw std::runtime_error(path_of(field) + " does not hold " + std::to_string(n_components(field)) +
+                                 " values for each of " + std::to_string(n));
+      if (const auto scalars = std::get_if<std::vector<double> Snapshot::*>(&field.member))
+        (s.**scalars).resize(n);
+      if (const auto vectors = std::get_if<std::vector<Eigen::Vector2d> Snapshot::*>(&field.member))
+        (s.**vectors).resize(n);
+      const double *next = values.data();
+      for_each_item(s, field, [&](auto &item) { next = take(next, item); });
     }
 
     void read_cells(const hid_t group, Snapshot &s)
     {
-      const auto nodes  = read<unsigned int>(group, "cells/nodes");
-      const auto stress = read<double>(group, "cells/stress"), strain = read<double>(group, "cells/strain");
-      const auto area = read<double>(group, "cells/area"), plastic = read<double>(group, "cells/equivalent_plastic_strain");
-      const auto zz = read<double>(group, "cells/share_zz_not_intermediate");
-      const auto n  = area.size();
-      if (nodes.size() != 9 * n || stress.size() != 9 * n || strain.size() != 9 * n || plastic.size() != n || zz.size() != n)
-        throw std::runtime_error("HDF5: the lists under cells/ differ in length");
-      s.cells.resize(n);
-      for (std::size_t c = 0; c < n; ++c)
-        {
-          std::copy_n(nodes.begin() + 9 * c, 9, s.cells[c].begin());
-          s.cell_state.push_back({from_row_major(&stress[9 * c]), from_row_major(&strain[9 * c]), area[c], plastic[c], zz[c]});
-        }
+      const auto nodes = hdf5::read<unsigned int>(group, "cells/nodes");
+      if (nodes.size() != 9 * s.cells.size())
+        throw std::runtime_error("cells/nodes does not hold nine nodes a cell");
+      for (std::size_t c = 0; c < s.cells.size(); ++c)
+        std::copy_n(nodes.begin() + 9 * c, 9, s.cells[c].begin());
+      if (std::any_of(nodes.begin(), nodes.end(), [&](const unsigned int node) { return node >= s.position.size(); }))
+        throw std::runtime_error("cells/nodes names a node that does not exist");
     }
 
     Snapshot read_stage(const hid_t group)
     {
-      Snapshot s;
-      s.axial_strain       = read_attribute(group, "axial_strain").at(0);
-      s.time               = read_attribute(group, "time").at(0);
-      s.area               = read_attribute(group, "area").at(0);
-      const auto lower     = read_attribute(group, "lower_platen_force");
-      const auto upper     = read_attribute(group, "upper_platen_force");
-      s.lower_platen_force = {lower.at(0), lower.at(1)};
-      s.upper_platen_force = {upper.at(0), upper.at(1)};
-      const auto stress    = read_attribute(group, "mean_stress");
-      s.mean_stress        = from_row_major(&stress.at(8) - 8);
-      s.position           = unpadded(read<double>(group, "nodes/position"));
-      s.displacement       = unpadded(read<double>(group, "nodes/displacement"));
-      s.weight             = read<double>(group, "nodes/weight");
+      Snapshot           s;
+      const StageSummary summary = read_summary(group);
+      visit_attributes(s, [&](const char *name, auto &value) {
+        std::vector<double> expected;
+        append(expected, value);
+        const std::vector<double> values = hdf5::read_attribute(group, name);
+        if (values.size() != expected.size())
+          throw std::runtime_error("attribute " + std::string(name) + " has another size");
+        take(values.data(), value);
+      });
+      s.position.resize(summary.n_nodes);
+      s.cells.resize(summary.n_cells);
+      s.cell_state.resize(summary.n_cells);
       read_cells(group, s);
+      read_field(group, s, position_field);
+      for (const Field &field : fields)
+        if (is_carried(field, summary.has_rotation))
+          read_field(group, s, field);
       return s;
+    }
+
+    // Returns action(group) for one stage; errors name the stage.
+    template <class Action> auto in_stage(const hid_t file, const unsigned int stage, Action &&action)
+    {
+      const std::string name = stage_name(stage);
+      try
+        {
+          const Id group(H5Gopen2(file, name.c_str(), H5P_DEFAULT), H5Gclose, "the group");
+          return action(hid_t(group));
+        }
+      catch (const std::exception &error)
+        {
+          throw std::runtime_error(name + ": " + error.what());
+        }
+    }
+
+    unsigned int count_stages(const hid_t file)
+    {
+      unsigned int n = 0;
+      while (hdf5::exists(file, stage_name(n)))
+        ++n;
+      if (n == 0)
+        throw std::runtime_error("holds no " + stage_name(0) + ": no result of the continuum panel");
+      return n;
+    }
+
+    template <class Action> auto for_all_stages(const std::string &h5_file, Action &&action)
+    {
+      return hdf5::read_file(h5_file, [&](const hid_t file) {
+        std::vector<std::invoke_result_t<Action, hid_t>> results;
+        const unsigned int                               n = count_stages(file);
+        for (unsigned int stage = 0; stage < n; ++stage)
+          results.push_back(in_stage(file, stage, action));
+        return results;
+      });
     }
   } // namespace
 
   void append_to_hdf5(const std::string &h5_file, const Snapshot &snapshot, const unsigned int stage)
   {
-    const std::string temporary = h5_file + ".part";
-    if (stage > 0)
-      std::filesystem::copy_file(h5_file, temporary, std::filesystem::copy_options::overwrite_existing);
-    {
-      const Id file(stage > 0 ? H5Fopen(temporary.c_str(), H5F_ACC_RDWR, H5P_DEFAULT)
-                              : H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
-                    H5Fclose, temporary);
-      const auto    name = stage_name(stage);
-      const Id      group(H5Gcreate2(file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name);
-      const hsize_t n = snapshot.position.size();
-      write_attributes(group, snapshot);
-      write(group, "nodes/position", {n, 3}, padded(snapshot.position));
-      write(group, "nodes/displacement", {n, 3}, padded(snapshot.displacement));
-      write(group, "nodes/weight", {n}, snapshot.weight);
-      write_cells(group, snapshot);
-    }
-    std::filesystem::rename(temporary, h5_file);
+    require_equal_lengths(snapshot);
+    const auto start = stage > 0 ? hdf5::Start::with_old_contents : hdf5::Start::empty;
+    hdf5::write_file(h5_file, start, hdf5::room_for(n_bytes(snapshot)), [&](const hid_t file) {
+      const auto name = stage_name(stage);
+      const Id   group(H5Gcreate2(file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name);
+      write_stage(group, snapshot);
+    });
   }
 
   std::vector<Snapshot> read_snapshots(const std::string &h5_file)
   {
-    if (!std::filesystem::exists(h5_file))
-      throw std::runtime_error(h5_file + " does not exist");
-    const Id              file(H5Fopen(h5_file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, h5_file);
-    std::vector<Snapshot> snapshots;
-    for (unsigned int stage = 0; H5Lexists(file, stage_name(stage).c_str(), H5P_DEFAULT) > 0; ++stage)
-      try
-        {
-          const Id group(H5Gopen2(file, stage_name(stage).c_str(), H5P_DEFAULT), H5Gclose, stage_name(stage));
-          snapshots.push_back(read_stage(group));
-        }
-      catch (const std::exception &error)
-        {
-          throw std::runtime_error(h5_file + ", " + stage_name(stage) + ": " + error.what());
-        }
-    return snapshots;
+    return for_all_stages(h5_file, read_stage);
+  }
+
+  std::vector<StageSummary> read_stage_summaries(const std::string &h5_file)
+  {
+    return for_all_stages(h5_file, read_summary);
+  }
+
+  Snapshot read_snapshot(const std::string &h5_file, const unsigned int stage)
+  {
+    return hdf5::read_file(h5_file, [&](const hid_t file) { return in_stage(file, stage, read_stage); });
+  }
+
+  void keep_stages(const std::string &h5_file, const std::vector<unsigned int> &kept)
+  {
+    if (kept.empty())
+      {
+        std::filesystem::remove(h5_file);
+        return;
+      }
+    hdf5::read_file(h5_file, [&](const hid_t from) {
+      const std::size_t room = hdf5::room_for(std::filesystem::file_size(h5_file));
+      hdf5::write_file(h5_file, hdf5::Start::empty, room, [&](const hid_t to) {
+        for (unsigned int k = 0; k < kept.size(); ++k)
+          {
+            const std::string name = stage_name(kept[k]);
+            hdf5::require(H5Ocopy(from, name.c_str(), to, stage_name(k).c_str(), H5P_DEFAULT, H5P_DEFAULT) >= 0, "copy " + name);
+          }
+      });
+    });
   }
 } // namespace diptych::continuum

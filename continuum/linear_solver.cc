@@ -1,4 +1,4 @@
-// diptych: linear solves with a factorisation that is kept while it still serves
+// diptych: linear solves with a preconditioner that is kept while it still serves
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/linear_solver.h"
 
@@ -7,48 +7,96 @@
 
 #include <deal.II/lac/solver_gmres.h>
 
+#include <Epetra_MultiVector.h>
+#include <Teuchos_ParameterList.hpp>
+
 namespace diptych::continuum
 {
   using namespace dealii;
 
   namespace
   {
-    constexpr unsigned int max_iterations = 12;
-    constexpr double       reduction      = 1e-3;
-
-    struct FactorsAsPreconditioner
+    constexpr double reduction = 1e-2; // of the residual, all that a Newton iteration needs
+    // Iterations allowed, and those from which on a new preconditioner pays: a multigrid hierarchy never comes down to few.
+    struct Patience
     {
-      TrilinosWrappers::SolverDirect &factors;
-      void vmult(KeptFactorisation::Vector &x, const KeptFactorisation::Vector &b) const { factors.solve(x, b); }
+      unsigned int longest, comfortable;
     };
+    Patience patience(const LinearMethod method)
+    {
+      return method == LinearMethod::amg ? Patience{200, 60} : Patience{25, 8};
+    }
   } // namespace
 
-  KeptFactorisation::KeptFactorisation()
-      : direct_control(1, 0.)
+  LinearMethod linear_method(const std::string &name, const std::size_t n_unknowns)
+  {
+    if (name == "amg" || (name == "auto" && n_unknowns >= 200000))
+      return LinearMethod::amg;
+    return Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1 ? LinearMethod::umfpack : LinearMethod::mumps;
+  }
+
+  LinearSolver::LinearSolver(const LinearMethod method)
+      : method(method),
+        direct_control(1, 0.)
   {}
 
-  bool KeptFactorisation::solve(const TrilinosWrappers::SparseMatrix &matrix, Vector &x, const Vector &rhs)
+  void LinearSolver::restart(const LinearMethod new_method, RigidModes modes)
+  {
+    method      = new_method;
+    rigid_modes = std::move(modes);
+    umfpack.forget_pattern();
+    forget();
+  }
+
+  void LinearSolver::forget()
+  {
+    umfpack.forget_factors();
+    mumps.reset();
+    amg.reset();
+    is_stale = true;
+  }
+
+  void LinearSolver::vmult(Vector &x, const Vector &b) const
+  {
+    if (method == LinearMethod::amg)
+      amg->vmult(x, b);
+    else if (method == LinearMethod::mumps)
+      mumps->solve(x, b);
+    else
+      umfpack.solve(x, b);
+  }
+
+  bool LinearSolver::solve(const TrilinosWrappers::SparseMatrix &matrix, Vector &x, const Vector &rhs)
   {
     const auto start = std::clock();
-    bool       done  = factors && solve_iteratively(matrix, x, rhs);
-    if (!done && factorise(matrix))
+    bool       done  = false;
+    is_fresh         = is_stale;
+    if (!is_stale || factorise(matrix))
+      done = solve_iteratively(matrix, x, rhs);
+    if (!done && !is_fresh && factorise(matrix))
       {
-        factors->solve(x, rhs);
-        done = std::isfinite(x.l2_norm());
+        is_fresh = true;
+        done     = solve_iteratively(matrix, x, rhs);
       }
     seconds += double(std::clock() - start) / CLOCKS_PER_SEC;
     return done;
   }
 
-  bool KeptFactorisation::solve_iteratively(const TrilinosWrappers::SparseMatrix &matrix, Vector &x, const Vector &rhs)
+  bool LinearSolver::solve_iteratively(const TrilinosWrappers::SparseMatrix &matrix, Vector &x, const Vector &rhs)
   {
-    SolverControl                       control(max_iterations, reduction * rhs.l2_norm(), false, false);
-    SolverGMRES<Vector>::AdditionalData settings(max_iterations + 3, true);
-    SolverGMRES<Vector>                 gmres(control, settings);
     x = 0;
+    if (is_fresh && method != LinearMethod::amg)
+      {
+        vmult(x, rhs);
+        return std::isfinite(x.l2_norm());
+      }
+    const auto                          limit = patience(method);
+    SolverControl                       control(limit.longest, reduction * rhs.l2_norm(), false, false);
+    SolverGMRES<Vector>::AdditionalData settings(std::min(limit.longest, 60u) + 3, true);
+    SolverGMRES<Vector>                 gmres(control, settings);
     try
       {
-        gmres.solve(matrix, x, rhs, FactorsAsPreconditioner{*factors});
+        gmres.solve(matrix, x, rhs, *this);
       }
     catch (const SolverControl::NoConvergence &)
       {
@@ -56,21 +104,58 @@ namespace diptych::continuum
         return false;
       }
     n_iterations += control.last_step();
+    is_stale = control.last_step() > limit.comfortable;
     return std::isfinite(x.l2_norm());
   }
 
-  bool KeptFactorisation::factorise(const TrilinosWrappers::SparseMatrix &matrix)
+  bool LinearSolver::factorise(const TrilinosWrappers::SparseMatrix &matrix)
   {
-    factors = std::make_unique<TrilinosWrappers::SolverDirect>(
-      direct_control, TrilinosWrappers::SolverDirect::AdditionalData(false, "Amesos_Klu"));
     ++n_factorisations;
+    is_stale = false;
+    if (method == LinearMethod::umfpack)
+      return umfpack.factorise(matrix);
+    if (method == LinearMethod::amg)
+      return build_amg(matrix);
+    mumps = std::make_unique<TrilinosWrappers::SolverDirect>(
+      direct_control, TrilinosWrappers::SolverDirect::AdditionalData(false, "Amesos_Mumps"));
     try
       {
-        factors->initialize(matrix);
+        mumps->initialize(matrix);
       }
     catch (const ExceptionBase &) // a singular tangent
       {
-        factors.reset();
+        forget();
+        return false;
+      }
+    return true;
+  }
+
+  // deal.II's interface takes constant modes per component only; the rotation of the whole is handed to ML directly.
+  bool LinearSolver::build_amg(const TrilinosWrappers::SparseMatrix &matrix)
+  {
+    TrilinosWrappers::PreconditionAMG::AdditionalData settings;
+    settings.elliptic              = false; // not symmetric
+    settings.higher_order_elements = true;
+    settings.smoother_sweeps       = 2;
+    settings.aggregation_threshold = 0.02;
+    Teuchos::ParameterList              parameters;
+    std::unique_ptr<Epetra_MultiVector> unused;
+    settings.set_parameters(parameters, unused, matrix.trilinos_matrix());
+    Epetra_MultiVector modes(matrix.trilinos_matrix().DomainMap(), int(rigid_modes.size()));
+    for (std::size_t k = 0; k < rigid_modes.size(); ++k)
+      std::copy(rigid_modes[k].begin(), rigid_modes[k].end(), modes[int(k)]);
+    parameters.set("PDE equations", 1);
+    parameters.set("null space: type", "pre-computed");
+    parameters.set("null space: dimension", int(rigid_modes.size()));
+    parameters.set("null space: vectors", modes.Values());
+    amg = std::make_unique<TrilinosWrappers::PreconditionAMG>();
+    try
+      {
+        amg->initialize(matrix, parameters);
+      }
+    catch (const ExceptionBase &)
+      {
+        forget();
         return false;
       }
     return true;

@@ -1,42 +1,81 @@
-// diptych: linear solves with a factorisation that is kept while it still serves
+// diptych: linear solves with a preconditioner that is kept while it still serves
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <deal.II/lac/solver_control.h>
+#include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_solver.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
+#include "continuum/umfpack.h"
+
 namespace diptych::continuum
 {
-  // The LU factors of an earlier tangent precondition GMRES on the present one. When that takes more than 12 iterations
-  // for a relative 1e-3, which is all Newton needs, the present tangent is factorised.
-  class KeptFactorisation
+  // Motions of the whole sample that cost no energy: columns of the near null space, for AMG.
+  using RigidModes = std::vector<dealii::TrilinosWrappers::MPI::Vector>;
+
+  enum class LinearMethod
+  {
+    umfpack, // one process
+    mumps,
+    amg // ML's smoothed aggregation
+  };
+
+  // `name`: direct, amg or auto, which takes AMG from `n_unknowns` = 200000 on.
+  LinearMethod linear_method(const std::string &name, std::size_t n_unknowns);
+
+  // The factors (or the multigrid hierarchy) of an earlier tangent precondition GMRES on the present one, from the right.
+  // Newton needs a relative 1e-2 only. When that took more than a few iterations, the next tangent is factorised anew; when it
+  // was not reached, the present one is.
+  class LinearSolver
   {
   public:
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
-    KeptFactorisation();
+    explicit LinearSolver(LinearMethod method);
 
-    // Solves matrix * x = rhs; x is overwritten. Returns false when the matrix could not be factorised.
+    // For a mesh that changed.
+    void restart(LinearMethod method, RigidModes modes);
+
+    // Solves matrix * x = rhs; x is overwritten. False: no solution could be found.
     [[nodiscard]] bool solve(const dealii::TrilinosWrappers::SparseMatrix &matrix, Vector &x, const Vector &rhs);
 
     // The next solve() factorises afresh.
-    void forget() { factors.reset(); }
+    void forget();
+
+    // From what an interrupted run had counted.
+    void go_on_counting(int iterations, int factorisations, double cpu_s)
+    {
+      n_iterations     = iterations;
+      n_factorisations = factorisations;
+      seconds          = cpu_s;
+    }
 
     int    linear_iterations() const { return n_iterations; }
     int    factorisations() const { return n_factorisations; }
     double cpu_s() const { return seconds; }
 
+    // The preconditioner as deal.II's solvers want it.
+    void vmult(Vector &x, const Vector &b) const;
+
   private:
     bool solve_iteratively(const dealii::TrilinosWrappers::SparseMatrix &matrix, Vector &x, const Vector &rhs);
     bool factorise(const dealii::TrilinosWrappers::SparseMatrix &matrix);
+    bool build_amg(const dealii::TrilinosWrappers::SparseMatrix &matrix);
 
-    dealii::SolverControl                                   direct_control;
-    std::unique_ptr<dealii::TrilinosWrappers::SolverDirect> factors;
-    int                                                     n_iterations = 0, n_factorisations = 0;
-    double                                                  seconds = 0;
+    LinearMethod                                               method;
+    RigidModes                                                 rigid_modes;
+    Umfpack                                                    umfpack;
+    dealii::SolverControl                                      direct_control;
+    std::unique_ptr<dealii::TrilinosWrappers::SolverDirect>    mumps;
+    std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> amg;
+    bool                                                       is_fresh = false, is_stale = true;
+    int                                                        n_iterations = 0, n_factorisations = 0;
+    double                                                     seconds = 0;
   };
 } // namespace diptych::continuum

@@ -1,59 +1,23 @@
-// diptych: all-quadrilateral mesh of a sample's outline
+// diptych: all-quadrilateral meshes: of a sample's outline, of a rectangle, or the user's own
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/mesh.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <map>
-#include <set>
-#include <sstream>
 #include <stdexcept>
 
 #include <gmsh.h>
+
+#include "continuum/mesh_file.h"
+#include "continuum/quad_mesh.h"
 
 namespace diptych::continuum
 {
   namespace
   {
     using Polyline = std::vector<Eigen::Vector2d>;
-
-    constexpr int gmsh_line = 1, gmsh_quadrilateral = 3; // element types of gmsh
-
-    // gmsh is a global: it lives as long as one call of ours, and is closed on every way out.
-    struct GmshSession
-    {
-      GmshSession()
-      {
-        gmsh::initialize(0, nullptr, false);
-        gmsh::option::setNumber("General.Terminal", 0);
-      }
-      ~GmshSession() { gmsh::finalize(); }
-      GmshSession(const GmshSession &)            = delete;
-      GmshSession &operator=(const GmshSession &) = delete;
-    };
-
-    // gmsh throws ints, strings or exceptions, depending on the place.
-    template <class Action> auto guarded(const std::string &what, Action &&action)
-    {
-      try
-        {
-          return action();
-        }
-      catch (const std::exception &error)
-        {
-          throw std::runtime_error(what + ": " + error.what());
-        }
-      catch (const std::string &error)
-        {
-          throw std::runtime_error(what + ": gmsh says " + error);
-        }
-      catch (const int code)
-        {
-          throw std::runtime_error(what + ": gmsh failed with code " + std::to_string(code));
-        }
-    }
 
     void check_side(const Polyline &side, const char *name)
     {
@@ -116,6 +80,22 @@ namespace diptych::continuum
       return std::max(1u, static_cast<unsigned int>(std::lround(length / element_size)));
     }
 
+    bool is_straight_and_vertical(const Polyline &side)
+    {
+      const double tolerance = 1e-9 * (side.back().y() - side.front().y());
+      return std::all_of(side.begin(), side.end(),
+                         [&](const Eigen::Vector2d &p) { return std::abs(p.x() - side.front().x()) <= tolerance; });
+    }
+
+    // A polygon with an odd number of edges has no all-quadrilateral mesh. Sides that may be periodic stay equal.
+    void make_even(std::map<unsigned int, unsigned int> &n, const bool equal_sides)
+    {
+      if (equal_sides)
+        n[right_side] = n[left_side];
+      if ((n[lower_platen] + n[upper_platen] + n[left_side] + n[right_side]) % 2 == 1)
+        ++n[equal_sides ? upper_platen : left_side];
+    }
+
     // The four edges of the sample, each from left to right or upward, cut into element edges.
     std::map<unsigned int, Polyline> boundary_of(const Outline &outline, const double element_size)
     {
@@ -124,12 +104,9 @@ namespace diptych::continuum
                                              {left_side, outline.left},
                                              {right_side, outline.right}};
       std::map<unsigned int, unsigned int> n;
-      unsigned int                         sum = 0;
       for (const auto &[id, line] : edges)
-        sum += n[id] = n_edges(line, element_size);
-      // A polygon with an odd number of edges has no all-quadrilateral mesh.
-      if (sum % 2 == 1)
-        ++n[left_side];
+        n[id] = n_edges(line, element_size);
+      make_even(n, is_straight_and_vertical(outline.left) && is_straight_and_vertical(outline.right));
       for (auto &[id, line] : edges)
         line = resampled(line, n[id]);
       return edges;
@@ -171,80 +148,11 @@ namespace diptych::continuum
       gmsh::model::geo::mesh::setRecombine(2, surface);
       gmsh::model::geo::synchronize();
 
-      for (const auto &[id, name] : {std::make_pair(lower_platen, "lower_platen"), std::make_pair(upper_platen, "upper_platen"),
-                                     std::make_pair(left_side, "left_side"), std::make_pair(right_side, "right_side")})
+      for (const auto &[id, entities] : lines)
         {
-          gmsh::model::addPhysicalGroup(1, lines[id], id);
-          gmsh::model::setPhysicalName(1, id, name);
+          gmsh::model::addPhysicalGroup(1, entities, id);
+          gmsh::model::setPhysicalName(1, id, name_of(static_cast<BoundaryId>(id)));
         }
-      gmsh::model::addPhysicalGroup(2, {surface}, 1);
-      gmsh::model::setPhysicalName(2, 1, "sample");
-    }
-
-    // Vertex lists of all elements of one type.
-    std::vector<std::size_t> element_vertices(const int type)
-    {
-      std::vector<std::size_t> tags, vertices;
-      gmsh::model::mesh::getElementsByType(type, tags, vertices);
-      return vertices;
-    }
-
-    // All two-dimensional elements of the open model are quadrilaterals, and there is one.
-    bool all_quadrilaterals()
-    {
-      std::vector<int> types;
-      gmsh::model::mesh::getElementTypes(types, 2);
-      return types == std::vector<int>{gmsh_quadrilateral};
-    }
-
-    std::map<std::size_t, Eigen::Vector2d> vertex_positions()
-    {
-      std::vector<std::size_t> tags;
-      std::vector<double>      coordinates, parameters;
-      gmsh::model::mesh::getNodes(tags, coordinates, parameters);
-      std::map<std::size_t, Eigen::Vector2d> positions;
-      for (std::size_t i = 0; i < tags.size(); ++i)
-        positions[tags[i]] = {coordinates[3 * i], coordinates[3 * i + 1]};
-      return positions;
-    }
-
-    MeshSummary summarise_open_mesh()
-    {
-      const auto  positions = vertex_positions();
-      const auto  vertices  = element_vertices(gmsh_quadrilateral);
-      MeshSummary summary;
-      summary.n_cells       = vertices.size() / 4;
-      summary.shortest_edge = std::numeric_limits<double>::max();
-      std::set<std::size_t> used;
-      for (std::size_t cell = 0; cell < vertices.size(); cell += 4)
-        for (std::size_t k = 0; k < 4; ++k)
-          {
-            const auto  &a = positions.at(vertices[cell + k]), &b = positions.at(vertices[cell + (k + 1) % 4]);
-            const double length = (b - a).norm();
-            summary.area += (a.x() * b.y() - a.y() * b.x()) / 2;
-            summary.shortest_edge = std::min(summary.shortest_edge, length);
-            summary.longest_edge  = std::max(summary.longest_edge, length);
-            used.insert(vertices[cell + k]);
-          }
-      summary.n_vertices = used.size();
-      return summary;
-    }
-
-    // Smallest corner angle's sine over all quadrilaterals; not positive where one is folded or a triangle in disguise.
-    double worst_corner()
-    {
-      const auto positions = vertex_positions();
-      const auto vertices  = element_vertices(gmsh_quadrilateral);
-      double     worst     = 1;
-      for (std::size_t cell = 0; cell < vertices.size(); cell += 4)
-        for (std::size_t k = 0; k < 4; ++k)
-          {
-            const Eigen::Vector2d p = positions.at(vertices[cell + k]);
-            const Eigen::Vector2d a = positions.at(vertices[cell + (k + 1) % 4]) - p,
-                                  b = positions.at(vertices[cell + (k + 3) % 4]) - p;
-            worst                   = std::min(worst, (a.x() * b.y() - a.y() * b.x()) / (a.norm() * b.norm()));
-          }
-      return worst;
     }
 
     // gmsh's two-dimensional algorithms, in the order in which they are tried. The first makes right-angled triangles,
@@ -256,7 +164,13 @@ namespace diptych::continuum
     };
     constexpr Algorithm algorithms[] = {{6, "frontal Delaunay"}, {5, "Delaunay"}};
 
-    const char *generate_quadrilaterals()
+    struct GeneratedMesh
+    {
+      QuadMesh    mesh;
+      const char *algorithm;
+    };
+
+    GeneratedMesh generate_quadrilaterals()
     {
       gmsh::option::setNumber("Mesh.RecombinationAlgorithm", 1); // Blossom
       gmsh::option::setNumber("Mesh.RandomSeed", 1);
@@ -265,82 +179,58 @@ namespace diptych::continuum
           gmsh::model::mesh::clear();
           gmsh::option::setNumber("Mesh.Algorithm", algorithm.code);
           gmsh::model::mesh::generate(2);
-          if (all_quadrilaterals() && worst_corner() > 0.1)
-            return algorithm.name;
+          if (!all_quadrilaterals())
+            continue;
+          QuadMesh mesh = mesh_of_open_model(LineNumbers::required);
+          if (worst_corner(mesh) > 0.1)
+            return {std::move(mesh), algorithm.name};
         }
       throw std::runtime_error(
         "no algorithm of gmsh meshes this outline with sound quadrilaterals only; smooth the outline or change element_size");
     }
 
-    std::map<std::pair<std::size_t, std::size_t>, int> outer_edges()
+    QuadMesh read_mesh(const std::string &file, const LineNumbers numbers)
     {
-      const auto                                         vertices = element_vertices(gmsh_quadrilateral);
-      std::map<std::pair<std::size_t, std::size_t>, int> count;
-      for (std::size_t cell = 0; cell < vertices.size(); cell += 4)
-        for (std::size_t k = 0; k < 4; ++k)
-          ++count[std::minmax(vertices[cell + k], vertices[cell + (k + 1) % 4])];
-      for (auto edge = count.begin(); edge != count.end();)
-        edge = edge->second == 1 ? std::next(edge) : count.erase(edge);
-      return count;
-    }
-
-    // Every outer edge lies on one physical line with an id of BoundaryId, and every id occurs.
-    void check_boundary()
-    {
-      auto edges = outer_edges();
-      for (const int id : {lower_platen, upper_platen, left_side, right_side})
-        {
-          std::vector<int> entities;
-          gmsh::model::getEntitiesForPhysicalGroup(1, id, entities);
-          std::size_t n_lines = 0;
-          for (const int entity : entities)
-            {
-              std::vector<std::size_t> tags, vertices;
-              gmsh::model::mesh::getElementsByType(gmsh_line, tags, vertices, entity);
-              for (std::size_t i = 0; i < vertices.size(); i += 2)
-                n_lines += edges.erase(std::minmax(vertices[i], vertices[i + 1]));
-            }
-          if (n_lines == 0)
-            throw std::runtime_error("no boundary edge has the physical id " + std::to_string(id) +
-                                     " (1 lower platen, 2 upper platen, 3 left side, 4 right side)");
-        }
-      if (!edges.empty())
-        throw std::runtime_error(std::to_string(edges.size()) + " boundary edges lie on none of the physical lines 1 to 4");
+      const std::string ending = std::filesystem::path(file).extension().string();
+      if (ending != ".msh" && ending != ".geo")
+        throw std::runtime_error("a mesh must be a .msh or .geo file");
+      if (!std::filesystem::is_regular_file(file))
+        throw std::runtime_error("there is no such mesh file");
+      const GmshSession session;
+      gmsh::open(file);
+      if (ending == ".geo")
+        gmsh::model::mesh::generate(2);
+      QuadMesh mesh = mesh_of_open_model(numbers);
+      check(mesh);
+      return mesh;
     }
   } // namespace
 
   MeshSummary make_mesh(const Outline &outline, const double element_size, const std::string &msh_file)
   {
     check_outline(outline, element_size);
-    return guarded("meshing the outline", [&] {
+    const GeneratedMesh generated = guarded("meshing the outline", [&] {
       const GmshSession session;
       build_geometry(outline, element_size);
-      const char *algorithm = generate_quadrilaterals();
-      check_boundary();
-      MeshSummary summary = summarise_open_mesh();
-      summary.algorithm   = algorithm;
-
-      gmsh::option::setNumber("Mesh.MshFileVersion", 2.2);
-      const std::string temporary = msh_file + ".part.msh"; // gmsh chooses the format by the ending
-      gmsh::write(temporary);
-      if (!std::filesystem::exists(temporary))
-        throw std::runtime_error("cannot write " + temporary);
-      std::filesystem::rename(temporary, msh_file);
-      return summary;
+      GeneratedMesh result = generate_quadrilaterals();
+      check(result.mesh);
+      return result;
     });
+    write_msh(generated.mesh, msh_file);
+    MeshSummary summary = summarise(generated.mesh);
+    summary.algorithm   = generated.algorithm;
+    return summary;
+  }
+
+  MeshSummary prepare_mesh(const std::string &user_file, const std::string &msh_file)
+  {
+    const QuadMesh mesh = guarded(user_file, [&] { return read_mesh(user_file, LineNumbers::any); });
+    write_msh(mesh, msh_file);
+    return summarise(mesh);
   }
 
   MeshSummary check_mesh(const std::string &msh_file)
   {
-    if (!std::filesystem::exists(msh_file))
-      throw std::runtime_error("mesh file " + msh_file + " does not exist");
-    return guarded(msh_file, [&] {
-      const GmshSession session;
-      gmsh::open(msh_file);
-      if (!all_quadrilaterals())
-        throw std::runtime_error("the mesh must consist of four-node quadrilaterals only, without triangles or higher order");
-      check_boundary();
-      return summarise_open_mesh();
-    });
+    return summarise(guarded(msh_file, [&] { return read_mesh(msh_file, LineNumbers::required); }));
   }
 } // namespace diptych::continuum

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/newton.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace diptych::continuum
@@ -46,31 +47,37 @@ namespace diptych::continuum
   } // namespace
 
   NewtonReport solve_step(BoundaryValueProblem &problem,
-                          KeptFactorisation    &solver,
+                          LinearSolver         &solver,
                           const NewtonOptions  &options,
                           DistributedVector    &increment)
   {
     NewtonReport report;
     Imbalance    imbalance  = problem.evaluate(increment);
-    const double first      = imbalance.residual;
+    double       best       = imbalance.residual;
     auto         correction = problem.zero_vector();
     while (true)
       {
         report.residual = imbalance.relative();
+        best            = std::min(best, imbalance.residual);
         if (!is_usable(imbalance))
           report.message = "the law failed at " + std::to_string(imbalance.n_failed) + " points";
         else if (report.residual <= options.tolerance)
-          report.converged = true;
-        else if (imbalance.residual > 100 * first)
+          {
+            report.converged = !problem.is_folded();
+            if (!report.converged)
+              report.message = "an element turns over";
+          }
+        else if (imbalance.residual > 100 * best)
           report.message = "the residual grew a hundredfold";
         else if (report.iterations == options.max_iterations)
           report.message = std::to_string(report.iterations) + " Newton iterations left a relative residual of " +
                            std::to_string(report.residual);
         else if (!solver.solve(problem.assemble_tangent(), correction, problem.negative_residual()))
-          report.message = "the tangent is singular";
+          report.message = "the linear system could not be solved";
         if (report.converged || !report.message.empty())
           return report;
         ++report.iterations;
+        problem.correction_constraints().distribute(correction);
         imbalance = add_with_line_search(problem, correction, imbalance.residual, increment);
       }
   }

@@ -26,7 +26,7 @@ namespace diptych::continuum
   // Brings the trial state to equilibrium from the first guess `increment`, which already moves the platens as it
   // should, and leaves the solution there. Commits nothing.
   [[nodiscard]] NewtonReport solve_step(BoundaryValueProblem &problem,
-                                        KeptFactorisation    &solver,
+                                        LinearSolver         &solver,
                                         const NewtonOptions  &options,
                                         DistributedVector    &increment);
 } // namespace diptych::continuum

@@ -3,101 +3,314 @@
 #include "continuum/sample_state.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+
+#include <Eigen/LU>
+
+#include <deal.II/base/mpi.h>
 
 namespace diptych::continuum
 {
+  using dealii::Utilities::MPI::sum;
+
   namespace
   {
-    Eigen::Matrix3d compression_positive(const dealii::SymmetricTensor<2, 2> &t, const double zz)
+    // Row: component of the force, column: normal of the face. A Cosserat stress has a skew part.
+    Eigen::Matrix3d compression_positive(const MaterialState &point)
+    {
+      const auto     &s    = point.stress;
+      const double    skew = s[relative_rotation];
+      Eigen::Matrix3d m;
+      m << s[xx], s[xy] - skew, 0, s[xy] + skew, s[yy], 0, 0, 0, point.stress_zz;
+      return -m;
+    }
+
+    Eigen::Matrix3d compression_positive(const PlasticStrain &e)
     {
       Eigen::Matrix3d m;
-      m << -t[0][0], -t[0][1], 0, -t[0][1], -t[1][1], 0, 0, 0, -zz;
-      return m;
+      m << e.xx, e.xy / 2, 0, e.xy / 2, e.yy, 0, 0, 0, e.zz;
+      return -m;
+    }
+
+    double shear_radius(const Stress &s)
+    {
+      return std::hypot((s[xx] - s[yy]) / 2, s[xy]);
     }
 
     bool zz_is_not_intermediate(const MaterialState &point)
     {
-      const double mean   = trace(point.stress) / 2;
-      const double radius = std::hypot((point.stress[0][0] - point.stress[1][1]) / 2, point.stress[0][1]);
-      return std::abs(point.stress_zz - mean) > radius * (1 + 1e-9) + 1e-12 * std::abs(mean);
+      const double mean = (point.stress[xx] + point.stress[yy]) / 2;
+      return std::abs(point.stress_zz - mean) > shear_radius(point.stress) * (1 + 1e-9) + 1e-12 * std::abs(mean);
     }
 
-    // F = 1 + grad u at one point of a cell.
-    dealii::Tensor<2, 2> deformation_gradient(const Discretisation      &mesh,
-                                              const CellGeometry        &cell,
-                                              const unsigned int         q,
-                                              const std::vector<double> &u)
+    // d x / d unit coordinates at a point of a cell whose nodes are at x.
+    Eigen::Matrix2d jacobian(const Discretisation               &mesh,
+                             const Cell                         &cell,
+                             const unsigned int                  q,
+                             const std::vector<Eigen::Vector2d> &x)
     {
-      dealii::Tensor<2, 2> F = dealii::unit_symmetric_tensor<2>();
-      for (unsigned int node = 0; node < nodes_per_cell; ++node)
-        for (unsigned int c = 0; c < 2; ++c)
-          F[c] += u[mesh.node_local_dofs[cell.nodes[node]][c]] * cell.gradients[q][node];
-      return F;
+      Eigen::Matrix2d J = Eigen::Matrix2d::Zero();
+      for (unsigned int node = 0; node < mesh.reference.n_nodes; ++node)
+        {
+          const auto &g = mesh.reference.gradient[q][node];
+          J += x[cell.nodes[node]] * Eigen::RowVector2d(g[0], g[1]);
+        }
+      return J;
     }
 
-    // Means over one cell: stress and strain by initial area, area and node weights in the current configuration.
-    CellState cell_state(const BoundaryValueProblem &problem, const std::size_t c, std::vector<double> &node_weight)
+    // Shape of the sample now and at the start: nodes' positions and the present geometry.
+    struct Shape
+    {
+      std::vector<Eigen::Vector2d> before, now;
+      Geometry                     geometry;
+    };
+
+    Shape shape_of(const BoundaryValueProblem &problem)
     {
       const auto &mesh = problem.discretisation();
-      const auto &cell = mesh.cells[c];
+      Shape       shape;
+      shape.before   = positions(mesh, std::vector<double>(problem.committed().displacement.size(), 0.));
+      shape.now      = positions(mesh, problem.committed().displacement);
+      shape.geometry = geometry_at(mesh, shape.now); // in small strain not the one that equilibrium is stated on
+      return shape;
+    }
+
+    // Means over one cell by current area.
+    CellState cell_state(const BoundaryValueProblem &problem, const Shape &shape, const std::size_t c)
+    {
+      const auto &mesh = problem.discretisation();
       CellState   state;
-      double      initial_area = 0;
-      for (unsigned int q = 0; q < points_per_cell; ++q)
+      for (unsigned int q = 0; q < mesh.reference.n_points; ++q)
         {
-          const auto  &point = problem.points()[c * points_per_cell + q];
-          const auto   F     = deformation_gradient(mesh, cell, q, problem.displacement());
-          const double w = cell.weights[q], current = w * determinant(F);
-          state.stress += w * compression_positive(point.stress, point.stress_zz);
-          state.strain += w * compression_positive(symmetrize(F) - dealii::unit_symmetric_tensor<2>(), 0);
+          const std::size_t     i     = c * mesh.reference.n_points + q;
+          const auto           &point = problem.committed().points[i];
+          const auto           &place = problem.committed().localisation[i];
+          const double          w     = shape.geometry.cells[c].points[q].area;
+          const Eigen::Matrix2d F     = jacobian(mesh, mesh.cells[c], q, shape.now) *
+                                    jacobian(mesh, mesh.cells[c], q, shape.before).inverse();
+          state.strain.topLeftCorner<2, 2>() -= w * ((F + F.transpose()) / 2 - Eigen::Matrix2d::Identity());
+          state.stress += w * compression_positive(point);
+          state.plastic_strain += w * compression_positive(point.plastic_strain);
+          state.couple_stress += w * Eigen::Vector2d(point.stress[curvature_x], point.stress[curvature_y]);
           state.equivalent_plastic_strain += w * point.equivalent_plastic_strain;
+          state.dissipation += w * point.dissipation;
+          state.overstress += w * point.overstress;
           state.share_zz_not_intermediate += w * zz_is_not_intermediate(point);
-          state.area += current;
-          initial_area += w;
-          for (unsigned int node = 0; node < nodes_per_cell; ++node)
-            node_weight[cell.nodes[node]] += current * mesh.shape_values[q][node];
+          state.area += w;
+          if (place.determinant < state.acoustic_determinant)
+            {
+              state.acoustic_determinant = place.determinant;
+              state.localisation_angle   = place.angle_deg;
+            }
         }
-      state.stress /= initial_area;
-      state.strain /= initial_area;
-      state.equivalent_plastic_strain /= initial_area;
-      state.share_zz_not_intermediate /= initial_area;
+      for (auto *tensor : {&state.stress, &state.strain, &state.plastic_strain})
+        *tensor /= state.area;
+      state.couple_stress /= state.area;
+      for (auto *value :
+           {&state.equivalent_plastic_strain, &state.dissipation, &state.overstress, &state.share_zz_not_intermediate})
+        *value /= state.area;
       return state;
     }
 
-    // deal.II's order of FE_Q(2) -> corners counter-clockwise, edge midpoints, centre.
-    std::array<unsigned int, nodes_per_cell> vtk_order(const std::array<unsigned int, nodes_per_cell> &n)
+    // A node of a snapshot. Two nodes of the mesh that it lies between tell it apart on all processes (twice the same, where
+    // it is one itself); a third number does for the centre of a four-node element.
+    struct NodeEntry
     {
-      return {n[0], n[1], n[3], n[2], n[6], n[5], n[7], n[4], n[8]};
+      std::array<double, 3> key;
+      Eigen::Vector2d       position, displacement;
+      double                rotation = 0, weight = 0;
+    };
+    constexpr unsigned int entry_length = 9, n_state = 36;
+
+    void append(std::vector<double> &message, const NodeEntry &n)
+    {
+      message.insert(message.end(), {n.key[0], n.key[1], n.key[2], n.position.x(), n.position.y(), n.displacement.x(),
+                                     n.displacement.y(), n.rotation, n.weight});
+    }
+
+    void append(std::vector<double> &message, const CellState &s)
+    {
+      for (const auto *tensor : {&s.stress, &s.strain, &s.plastic_strain})
+        message.insert(message.end(), tensor->data(), tensor->data() + 9);
+      message.insert(message.end(), {s.couple_stress.x(), s.couple_stress.y(), s.area, s.equivalent_plastic_strain, s.dissipation,
+                                     s.overstress, s.share_zz_not_intermediate, s.acoustic_determinant, s.localisation_angle});
+    }
+
+    CellState read_state(const double *m)
+    {
+      CellState s;
+      for (auto *tensor : {&s.stress, &s.strain, &s.plastic_strain})
+        {
+          std::copy(m, m + 9, tensor->data());
+          m += 9;
+        }
+      s.couple_stress             = {m[0], m[1]};
+      s.area                      = m[2];
+      s.equivalent_plastic_strain = m[3];
+      s.dissipation               = m[4];
+      s.overstress                = m[5];
+      s.share_zz_not_intermediate = m[6];
+      s.acoustic_determinant      = m[7];
+      s.localisation_angle        = m[8];
+      return s;
+    }
+
+    // deal.II's order of FE_Q(2) -> corners counter-clockwise, middles of the edges, centre.
+    constexpr unsigned int vtk_order[9] = {0, 1, 3, 2, 6, 5, 7, 4, 8};
+    // The corners that each of FE_Q(2)'s nodes lies between.
+    constexpr unsigned int between[9][2] = {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {0, 2}, {1, 3}, {0, 1}, {2, 3}, {0, 3}};
+
+    // The nine nodes of a cell in deal.II's order; those that a four-node element lacks by interpolation.
+    std::array<NodeEntry, 9> cell_nodes(const BoundaryValueProblem &problem, const Shape &shape, const std::size_t c)
+    {
+      const auto              &mesh  = problem.discretisation();
+      const auto              &cell  = mesh.cells[c];
+      const auto              &u     = problem.committed().displacement;
+      const bool               is_q2 = mesh.reference.n_nodes == 9;
+      std::array<NodeEntry, 9> result;
+      const auto               corner_rotation = [&](const unsigned int k) {
+        return mesh.reference.n_rotations > 0 ? u[cell.local[2 * mesh.reference.n_nodes + k]] : 0.;
+      };
+      for (unsigned int k = 0; k < 9; ++k)
+        {
+          const auto a = is_q2 ? cell.nodes[k] : cell.nodes[between[k][0]], b = is_q2 ? cell.nodes[k] : cell.nodes[between[k][1]];
+          auto      &entry  = result[k];
+          const double id_a = double(mesh.nodes[a].dofs[0]), id_b = double(mesh.nodes[b].dofs[0]);
+          entry.key          = {std::min(id_a, id_b), std::max(id_a, id_b), !is_q2 && k == 8 ? 1. : 0.};
+          entry.position     = (shape.now[a] + shape.now[b]) / 2;
+          entry.displacement = entry.position - (shape.before[a] + shape.before[b]) / 2;
+          entry.rotation     = (corner_rotation(between[k][0]) + corner_rotation(between[k][1])) / 2;
+        }
+      // The centre lies between all four.
+      const auto mean = [&](const auto member) {
+        return ((result[0].*member + result[1].*member + result[2].*member + result[3].*member) / 4.).eval();
+      };
+      result[8].rotation = (result[0].rotation + result[1].rotation + result[2].rotation + result[3].rotation) / 4;
+      if (!is_q2)
+        {
+          result[8].position     = mean(&NodeEntry::position);
+          result[8].displacement = mean(&NodeEntry::displacement);
+        }
+      for (unsigned int q = 0; q < mesh.reference.n_points; ++q)
+        for (unsigned int node = 0; node < mesh.reference.n_nodes; ++node)
+          result[node].weight += shape.geometry.cells[c].points[q].area * mesh.reference.shape[q][node];
+      return result;
+    }
+
+    // Adds one cell of a message to the snapshot.
+    void add_cell(Snapshot                                      &snapshot,
+                  std::map<std::array<double, 3>, unsigned int> &node_of_key,
+                  const double                                  *message,
+                  const bool                                     rotates)
+    {
+      std::array<unsigned int, 9> nodes;
+      for (unsigned int k = 0; k < 9; ++k, message += entry_length)
+        {
+          const auto [entry, is_new] = node_of_key.try_emplace({message[0], message[1], message[2]}, snapshot.position.size());
+          nodes[k]                   = entry->second;
+          if (is_new)
+            {
+              snapshot.position.emplace_back(message[3], message[4]);
+              snapshot.displacement.emplace_back(message[5], message[6]);
+              snapshot.weight.push_back(0);
+              if (rotates)
+                snapshot.rotation.push_back(message[7]);
+            }
+          snapshot.weight[nodes[k]] += message[8];
+        }
+      std::array<unsigned int, 9> ordered;
+      for (unsigned int k = 0; k < 9; ++k)
+        ordered[k] = nodes[vtk_order[k]];
+      snapshot.cells.push_back(ordered);
+      snapshot.cell_state.push_back(read_state(message));
+      const auto &state = snapshot.cell_state.back();
+      snapshot.mean_stress += state.area * state.stress;
+      snapshot.area += state.area;
     }
 
     double stress_ratio(const Eigen::Matrix3d &stress)
     {
       const double s = (stress(0, 0) + stress(1, 1)) / 2;
-      return std::hypot((stress(0, 0) - stress(1, 1)) / 2, stress(0, 1)) / s;
+      return std::hypot((stress(0, 0) - stress(1, 1)) / 2, (stress(0, 1) + stress(1, 0)) / 2) / s;
+    }
+
+    void sum_up(Eigen::Matrix3d &matrix)
+    {
+      for (int k = 0; k < 9; ++k)
+        matrix.data()[k] = sum(matrix.data()[k], MPI_COMM_WORLD);
+    }
+
+    // Sums over the points of all processes that a row of the history shows.
+    void add_point_sums(const BoundaryValueProblem &problem, const Geometry &geometry, HistoryRow &row)
+    {
+      const auto &mesh  = problem.discretisation();
+      const auto &state = problem.committed();
+      double      area = 0, yielding = 0, unreliable = 0, not_intermediate = 0, viscous = 0, dissipation = 0, largest = 0;
+      for (std::size_t i = 0; i < state.points.size(); ++i)
+        {
+          const auto  &point = state.points[i];
+          const double w     = geometry.cells[i / mesh.reference.n_points].points[i % mesh.reference.n_points].area;
+          area += w;
+          row.mean_stress += w * compression_positive(point);
+          not_intermediate += w * zz_is_not_intermediate(point);
+          dissipation += w * point.dissipation;
+          largest = std::max(largest, point.equivalent_plastic_strain);
+          unreliable += w * (problem.last_update()[i].verdict == Verdict::unreliable);
+          if (problem.last_update()[i].regime == Regime::elastic)
+            continue;
+          yielding += w;
+          const double strength = std::visit([&](const auto &law) { return law.shear_strength(point); }, problem.law());
+          viscous += strength > 0 ? w * point.overstress / strength : 0;
+        }
+      area = sum(area, MPI_COMM_WORLD);
+      sum_up(row.mean_stress);
+      row.mean_stress /= area;
+      yielding                          = sum(yielding, MPI_COMM_WORLD);
+      row.plastic_share                 = yielding / area;
+      row.viscous_share                 = sum(viscous, MPI_COMM_WORLD) / std::max(yielding, 1e-300);
+      row.unreliable_share              = sum(unreliable, MPI_COMM_WORLD) / area;
+      row.share_zz_not_intermediate     = sum(not_intermediate, MPI_COMM_WORLD) / area;
+      row.dissipation                   = sum(dissipation, MPI_COMM_WORLD);
+      row.max_equivalent_plastic_strain = dealii::Utilities::MPI::max(largest, MPI_COMM_WORLD);
+      row.volumetric_strain             = 1 - area / problem.initial_area();
+    }
+
+    void add_localisation(const BoundaryValueProblem &problem, HistoryRow &row)
+    {
+      Localisation least;
+      for (const auto &place : problem.committed().localisation)
+        if (place.determinant < least.determinant)
+          least = place;
+      for (const auto &other :
+           dealii::Utilities::MPI::all_gather(MPI_COMM_WORLD, std::vector<double>{least.determinant, least.angle_deg}))
+        if (other[0] < row.least_acoustic_determinant)
+          {
+            row.least_acoustic_determinant = other[0];
+            row.localisation_angle         = other[1];
+          }
     }
   } // namespace
 
   Snapshot make_snapshot(const BoundaryValueProblem &problem)
   {
-    const auto &mesh = problem.discretisation();
-    Snapshot    snapshot;
-    snapshot.axial_strain = snapshot.time = problem.axial_strain();
-    for (std::size_t node = 0; node < mesh.node_position.size(); ++node)
-      {
-        const auto &dofs = mesh.node_local_dofs[node];
-        snapshot.displacement.emplace_back(problem.displacement()[dofs[0]], problem.displacement()[dofs[1]]);
-        snapshot.position.push_back(mesh.node_position[node] + snapshot.displacement.back());
-      }
-    snapshot.weight.assign(mesh.node_position.size(), 0.);
+    const auto         &mesh  = problem.discretisation();
+    const Shape         shape = shape_of(problem);
+    std::vector<double> mine;
     for (std::size_t c = 0; c < mesh.cells.size(); ++c)
       {
-        snapshot.cells.push_back(vtk_order(mesh.cells[c].nodes));
-        snapshot.cell_state.push_back(cell_state(problem, c, snapshot.weight));
-        const auto &state = snapshot.cell_state.back();
-        snapshot.mean_stress += state.area * state.stress;
-        snapshot.area += state.area;
+        for (const auto &node : cell_nodes(problem, shape, c))
+          append(mine, node);
+        append(mine, cell_state(problem, shape, c));
       }
-    snapshot.mean_stress /= snapshot.area;
+    Snapshot snapshot;
+    snapshot.axial_strain = snapshot.time = problem.progress();
+    std::map<std::array<double, 3>, unsigned int> node_of_key;
+    for (const auto &part : dealii::Utilities::MPI::gather(MPI_COMM_WORLD, mine))
+      for (std::size_t at = 0; at < part.size(); at += 9 * entry_length + n_state)
+        add_cell(snapshot, node_of_key, &part[at], mesh.reference.n_rotations > 0);
+    snapshot.mean_stress /= std::max(snapshot.area, 1e-300);
     snapshot.lower_platen_force = problem.platen_force(false);
     snapshot.upper_platen_force = problem.platen_force(true);
     return snapshot;
@@ -105,26 +318,26 @@ namespace diptych::continuum
 
   HistoryRow make_history_row(const BoundaryValueProblem &problem, const LoadDriver &driver)
   {
-    const auto snapshot = make_snapshot(problem);
-    HistoryRow row;
-    row.step               = driver.counts().steps;
-    row.axial_strain       = snapshot.axial_strain;
-    row.mean_stress        = snapshot.mean_stress;
-    row.stress_ratio       = stress_ratio(snapshot.mean_stress);
-    row.volumetric_strain  = 1 - snapshot.area / problem.discretisation().area;
-    row.lower_platen_force = snapshot.lower_platen_force;
-    row.upper_platen_force = snapshot.upper_platen_force;
-    row.newton_iterations  = driver.counts().newton_iterations;
+    const auto &mesh  = problem.discretisation();
+    const auto &count = driver.state().count;
+    HistoryRow  row;
+    row.step         = count.steps;
+    row.axial_strain = problem.progress();
+    add_point_sums(problem, geometry_at(mesh, positions(mesh, problem.committed().displacement)), row);
+    add_localisation(problem, row);
+    row.stress_ratio       = stress_ratio(row.mean_stress);
+    row.lower_platen_force = problem.platen_force(false);
+    row.upper_platen_force = problem.platen_force(true);
+    row.n_cells            = int(mesh.triangulation.n_global_active_cells());
+    row.n_unknowns         = int(mesh.dof_handler.n_dofs());
+    row.newton_iterations  = count.newton_iterations;
     row.linear_iterations  = driver.linear_solver().linear_iterations();
     row.factorisations     = driver.linear_solver().factorisations();
-    row.cut_backs          = driver.counts().cut_backs;
-    row.plastic_share      = problem.yielding_share();
-    for (const auto &state : snapshot.cell_state)
-      row.share_zz_not_intermediate += state.area / snapshot.area * state.share_zz_not_intermediate;
-    for (const auto &point : problem.points())
-      row.max_equivalent_plastic_strain = std::max(row.max_equivalent_plastic_strain, point.equivalent_plastic_strain);
-    row.assembly_cpu_s = problem.assembly_cpu_s();
-    row.solve_cpu_s    = driver.linear_solver().cpu_s();
+    row.cut_backs          = count.cut_backs;
+    row.point_cpu_s        = problem.seconds().points;
+    row.assembly_cpu_s     = problem.seconds().assembly;
+    row.geometry_cpu_s     = problem.seconds().geometry;
+    row.solve_cpu_s        = driver.linear_solver().cpu_s();
     return row;
   }
 } // namespace diptych::continuum

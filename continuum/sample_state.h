@@ -4,13 +4,11 @@
 
 #include "continuum/boundary_value_problem.h"
 #include "continuum/driver.h"
-#include "continuum/panel.h"
+#include "continuum/snapshot.h"
 
 namespace diptych::continuum
 {
-  // Committed state of the problem. The one place where the mechanics sign of the material points is turned round.
-  Snapshot make_snapshot(const BoundaryValueProblem &problem);
-
-  // Committed state as a line of the history, with the driver's counters.
+  // The one place where the sign is turned. Both are collective; the first process gets all, the others nothing of use.
+  Snapshot   make_snapshot(const BoundaryValueProblem &problem);
   HistoryRow make_history_row(const BoundaryValueProblem &problem, const LoadDriver &driver);
 } // namespace diptych::continuum

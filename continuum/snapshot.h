@@ -17,28 +17,36 @@ namespace diptych::continuum
     std::vector<Eigen::Vector2d> left, right;
   };
 
-  // Means over one cell. Stress is positive in compression: row 0 = (xx, xy, 0), row 1 = (yx, yy, 0), row 2 = (0, 0, zz).
+  // Means over one cell, by area. Tensors are positive in compression: row 0 = (xx, xy, 0), row 1 = (yx, yy, 0), row 2 =
+  // (0, 0, zz); row = component of the force, column = normal of the face (a Cosserat stress is not symmetric).
   struct CellState
   {
     Eigen::Matrix3d stress                    = Eigen::Matrix3d::Zero(); // [pressure]
-    Eigen::Matrix3d strain                    = Eigen::Matrix3d::Zero(); // total, positive in compression [-]
+    Eigen::Matrix3d strain                    = Eigen::Matrix3d::Zero(); // total, linearised on the initial shape [-]
+    Eigen::Matrix3d plastic_strain            = Eigen::Matrix3d::Zero(); // sum of increments [-]
+    Eigen::Vector2d couple_stress             = Eigen::Vector2d::Zero(); // m_x, m_y, mechanics sign [pressure * length]
     double          area                      = 0;                       // current area [length^2]
     double          equivalent_plastic_strain = 0;                       // integral of d(eps_1 - eps_3) plastic [-]
+    double          dissipation               = 0;                       // plastic work per area since the start [pressure]
+    double          overstress                = 0; // part of the yield function that viscosity carries [pressure]
     double          share_zz_not_intermediate = 0; // share of its points where sigma_zz is an outer principal stress
+    double          acoustic_determinant      = 1; // least det(n C n) over all n and points, relative to the elastic one
+    double          localisation_angle        = 0; // of the line that could form, from the horizontal [degrees], (-90, 90]
   };
 
-  // One instant of the continuum panel, plain values. Nodes are all support points of the Q2 displacement.
+  // One instant of the continuum panel, plain values. Nodes are all support points of the displacement.
   struct Snapshot
   {
-    double axial_strain = 0; // platen descent / initial height
+    double axial_strain = 0; // progress of the loading: platen descent / initial height
     double time         = 0;
 
     std::vector<Eigen::Vector2d> position;     // current = initial + displacement [length], n_nodes
     std::vector<Eigen::Vector2d> displacement; // since the start [length], n_nodes
+    std::vector<double>          rotation;     // Cosserat: omega, anticlockwise since the start [radians], n_nodes; else empty
     std::vector<double>          weight;       // lumped area of a node (sums to the current area)
 
     // Node indices of a cell: four corners counter-clockwise, then the midpoints of edges 0-1, 1-2, 2-3, 3-0, then the centre
-    // (VTK's biquadratic quad).
+    // (VTK's biquadratic quad). Four-node elements get such nodes, too: by interpolation.
     std::vector<std::array<unsigned int, 9>> cells;
     std::vector<CellState>                   cell_state; // n_cells
 

@@ -5,109 +5,23 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <optional>
 
 #include <nlohmann/json.hpp>
 
-#include "continuum/mesh.h"
-#include "continuum/output.h"
 #include "coupling/comparison.h"
 #include "coupling/comparison_output.h"
+#include "coupling/continuum_command.h"
+#include "coupling/continuum_loading.h"
 #include "coupling/discrete_command.h"
 #include "coupling/progress.h"
 #include "coupling/provenance.h"
 #include "coupling/result_folder.h"
-#include "coupling/stop_signal.h"
-#include "discrete/outline.h"
-#include "discrete/output.h"
 
 namespace diptych::coupling
 {
   namespace
   {
     using nlohmann::json;
-
-    // The outline that both meshes fill: of the prepared sample, kept as stage 0 of discrete.h5 or prepared again. Nothing
-    // where the sample does not get quiet or the preparation is interrupted.
-    std::optional<discrete::Outline> prepared_outline(const CommandLine &line, const Scene &scene, const bool from_file)
-    {
-      if (from_file)
-        return discrete::read_snapshots(scene.output.directory + "/discrete.h5").front().outline;
-      Progress   progress(line.quiet);
-      const auto sample = discrete::prepare_sample(scene.sample,
-                                                   discrete::preparation_setting(discrete_loading(scene.loading), scene.discrete),
-                                                   [&](const int step, const int expected) {
-                                                     progress.update("preparing the sample", double(step) / expected);
-                                                     return !stop_requested();
-                                                   });
-      progress.finish();
-      if (sample.report.quiet)
-        return discrete::make_outline(sample.state, scene.sample.mean_diameter);
-      std::cerr << "preparing the sample: " << (stop_requested() ? "stopped on request" : "it did not get quiet") << " after "
-                << sample.report.steps << " steps (residual " << sample.report.residual << ", unbalanced force "
-                << sample.report.unbalanced_force << ")" << std::endl;
-      return std::nullopt;
-    }
-
-    continuum::Report continuum_run(const CommandLine        &line,
-                                    const Scene              &scene,
-                                    const continuum::Outline &outline,
-                                    const double              element_size,
-                                    const std::string        &directory)
-    {
-      std::filesystem::create_directories(directory);
-      remove_results(directory, {"continuum.h5", "continuum.xdmf", "continuum.csv", "continuum.pvd", "continuum"});
-      const double      height = outline.left.back().y() - outline.left.front().y();
-      const std::string mesh   = directory + "/sample.msh";
-      continuum::make_mesh(outline, element_size * scene.sample.mean_diameter, mesh);
-
-      continuum::ResultFiles files(directory);
-      Progress               progress(line.quiet);
-      std::ostringstream     phase;
-      phase << "continuum, elements of " << element_size << " d";
-      continuum::Callbacks callbacks;
-      callbacks.stop_requested = stop_requested;
-      callbacks.on_stage       = [&](const continuum::Snapshot &snapshot) { files.add(snapshot); };
-      callbacks.on_step        = [&](const continuum::HistoryRow &row) {
-        files.add(row);
-        progress.update(phase.str(), row.axial_strain / scene.loading.axial_strain);
-      };
-      const continuum::Report report = continuum::run(mesh, continuum_loading(scene.loading, height), scene.continuum, callbacks);
-      progress.finish();
-      files.finish();
-      return report;
-    }
-
-    int continuum_panel(const CommandLine &line, const Scene &scene, const bool outline_from_file)
-    {
-      const std::string &directory = scene.output.directory;
-      remove_results(directory, comparison_files);
-      const std::optional<discrete::Outline> grains = prepared_outline(line, scene, outline_from_file);
-      if (!grains)
-        return not_converged;
-      const continuum::Outline outline{grains->left, grains->right};
-      PhaseTimer               timer("continuum");
-      const continuum::Report  report = continuum_run(line, scene, outline, scene.continuum.element_size, directory);
-      const PhaseCost          fine   = timer.stop();
-      PhaseTimer               coarse_timer("continuum_coarse");
-      const continuum::Report  coarse = continuum_run(line, scene, outline, scene.comparison.coarse_element_size,
-                                                      directory + "/coarse");
-      update_provenance(directory, scene, line.text, {fine, coarse_timer.stop()},
-                        {{"continuum",
-                          {{"cells", report.n_cells},
-                           {"unknowns", report.n_unknowns},
-                           {"steps", report.steps},
-                           {"reached_axial_strain", report.axial_strain},
-                           {"message", report.message}}}});
-      for (const auto &[name, r] : {std::pair{"continuum panel", &report}, std::pair{"continuum panel, coarse mesh", &coarse}})
-        if (r->status != continuum::Status::finished)
-          {
-            std::cerr << name << ": " << r->message << "; reached " << reached(r->axial_strain) << ", kept in " << directory
-                      << std::endl;
-            return not_converged;
-          }
-      return done;
-    }
 
     void draw_report(const CommandLine &line, const std::string &directory)
     {
@@ -172,12 +86,17 @@ namespace diptych::coupling
   {
     const Scene scene = scene_of(line);
     require_continuum(scene);
+    if (scene.continuum.mesh != "outline")
+      throw SceneError("continuum/mesh = " + scene.continuum.mesh +
+                       ": `diptych run` compares both panels on one sample and needs outline; the continuum alone runs with "
+                       "`diptych continuum`");
     if (!line.study.empty())
       throw SceneError("--study " + line.study + ": only `diptych discrete` has studies");
+    const bool resume_continuum = line.resume && may_resume_continuum(scene);
     open_result_folder(scene, line.resume);
     if (const int code = discrete_panel(line, scene); code != done)
       return code;
-    if (const int code = continuum_panel(line, scene, true); code != done)
+    if (const int code = continuum_panel(line, scene, {true, resume_continuum}); code != done)
       return code;
     if (const int code = comparison_of(line, scene); code != done)
       return code;
@@ -191,14 +110,6 @@ namespace diptych::coupling
       check_study(line, scene);
     open_result_folder(scene, line.resume);
     return line.study.empty() ? discrete_panel(line, scene) : step_study(line, scene);
-  }
-
-  int run_continuum(const CommandLine &line)
-  {
-    const Scene scene = scene_of(line);
-    require_continuum(scene);
-    open_result_folder(scene, false);
-    return continuum_panel(line, scene, false);
   }
 
   int compare_again(const CommandLine &line)

@@ -33,10 +33,11 @@ namespace diptych::coupling
 
   // Each returns an ExitCode. Throw SceneError or std::invalid_argument on wrong input and std::runtime_error on trouble with
   // files.
-  int run_both(const CommandLine &line);      // run SCENE
-  int run_discrete(const CommandLine &line);  // discrete SCENE
-  int run_continuum(const CommandLine &line); // continuum SCENE
-  int compare_again(const CommandLine &line); // compare DIR
-  int report_again(const CommandLine &line);  // report DIR
-  int explain_keys(const CommandLine &line);  // explain [SECTION]
+  int run_both(const CommandLine &line);           // run SCENE
+  int run_discrete(const CommandLine &line);       // discrete SCENE
+  int run_continuum(const CommandLine &line);      // continuum SCENE; on all processes together
+  int run_material_point(const CommandLine &line); // material-point SCENE
+  int compare_again(const CommandLine &line);      // compare DIR
+  int report_again(const CommandLine &line);       // report DIR
+  int explain_keys(const CommandLine &line);       // explain [SECTION]
 } // namespace diptych::coupling

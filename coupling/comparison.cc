@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "continuum/output.h"
-#include "coupling/homogenisation/segments.h"
+#include "coupling/homogenisation/periodic.h"
 #include "discrete/output.h"
 
 namespace diptych::coupling
@@ -63,7 +63,7 @@ namespace diptych::coupling
       result.mesh            = quad_mesh(c.nodes[to]);
       result.discrete.field  = displacement_field(c.grains[from], c.grains[to]);
       result.continuum.field = displacement_field(c.nodes[from], c.nodes[to]);
-      result.cover           = cell_cover(result.mesh, TriangleSearch(result.mesh), c.grains[to].position, c.grains[to].radius);
+      result.cover           = grain_cover(result.mesh, c.grains[to]);
 
       const std::vector<Eigen::Vector2d> centres = cell_centres(result.mesh);
       for (PanelIncrement *panel : {&result.discrete, &result.continuum})
@@ -108,26 +108,13 @@ namespace diptych::coupling
       return norm > 0 ? std::sqrt(difference / norm) : NAN;
     }
 
-    double nodal_residual(const QuadMesh           &mesh,
-                          const TriangleSearch     &search,
-                          const discrete::Snapshot &s,
-                          const MappedMoment       &mapped)
-    {
-      const auto a = nodal_forces(mesh, mapped), b = nodal_contact_forces(mesh, search, s.position, s.window_forces);
-      double     difference = 0, norm = 0;
-      for (std::size_t k = 0; k < a.size(); ++k)
-        difference += (a[k] - b[k]).squaredNorm(), norm += b[k].squaredNorm();
-      return norm > 0 ? std::sqrt(difference / norm) : NAN;
-    }
-
     void map_stress(const discrete::Snapshot &grains, const continuum::Snapshot &nodes, StageRecord &stage)
     {
-      const QuadMesh      &mesh = stage.increment.mesh;
-      const TriangleSearch search(mesh);
-      MappedMoment         mapped = map_segments(mesh, search, grains.position, grains.window_forces);
-      stage.nodal_residual        = nodal_residual(mesh, search, grains, mapped);
-      stage.outside_share         = mapped.outside_share;
-      add_spin_term(search, grains.position, grains.mean_spin_term, mapped);
+      const QuadMesh     &mesh        = stage.increment.mesh;
+      const MappedGrains  by_segments = map_grains(mesh, grains);
+      const MappedMoment &mapped      = by_segments.moment;
+      stage.nodal_residual            = by_segments.nodal_residual;
+      stage.outside_share             = mapped.outside_share;
 
       Eigen::Matrix2d sum  = Eigen::Matrix2d::Zero();
       double          spin = 0;
@@ -157,13 +144,15 @@ namespace diptych::coupling
         }
     }
 
-    StageRecord make_stage(const Comparison &c, const std::size_t k, const ComparisonOptions &options)
+    StageRecord make_stage(const Comparison &c, const std::size_t k, const Scene &scene)
     {
-      StageRecord stage;
+      const ComparisonOptions &options = scene.comparison;
+      const double             width   = averaging_width(scene);
+      StageRecord              stage;
       stage.axial_strain = c.grains[k].axial_strain;
       stage.increment    = make_increment(c, k - 1, k, options.band);
-      stage.discrete     = averages(c.discrete_history, stage.axial_strain, options.averaging_strain);
-      stage.continuum    = averages(c.continuum_history, stage.axial_strain, options.averaging_strain);
+      stage.discrete     = averages(c.discrete_history, stage.axial_strain, width);
+      stage.continuum    = averages(c.continuum_history, stage.axial_strain, width);
       map_stress(c.grains[k], c.nodes[k], stage);
       take_probes(c.grains[k], options.probes, stage);
       return stage;
@@ -182,8 +171,7 @@ namespace diptych::coupling
     {
       CoarseRun result;
       result.element_size = scene.comparison.coarse_element_size;
-      result.peak         = peak_of_running_mean(read_history(directory + "/continuum.csv"), "stress_ratio",
-                                                 scene.comparison.averaging_strain);
+      result.peak = peak_of_running_mean(read_history(directory + "/continuum.csv"), "stress_ratio", averaging_width(scene));
       const std::vector<continuum::Snapshot> nodes = continuum::read_snapshots(directory + "/continuum.h5");
       for (const Increment &window : c.windows)
         {
@@ -200,6 +188,21 @@ namespace diptych::coupling
     }
   } // namespace
 
+  namespace
+  {
+    // In the place of the axial strain, where the stages of the loading are something else: grains and continuum are compared at
+    // the same progress.
+    void count_by_progress(const LoadingOptions &loading, Comparison &c)
+    {
+      if (loading.mode == "descent")
+        return;
+      const bool time                    = loading.mode == "time";
+      c.discrete_history["axial_strain"] = column(c.discrete_history, time ? "time" : "shear_strain");
+      for (discrete::Snapshot &grains : c.grains)
+        grains.axial_strain = time ? grains.time : grains.shear_strain;
+    }
+  } // namespace
+
   Comparison compare(const Scene &scene, const std::string &directory)
   {
     Comparison c;
@@ -207,6 +210,7 @@ namespace diptych::coupling
     c.continuum_history = read_history(directory + "/continuum.csv");
     c.grains            = discrete::read_snapshots(directory + "/discrete.h5");
     c.nodes             = continuum::read_snapshots(directory + "/continuum.h5");
+    count_by_progress(scene.loading, c);
     // A panel that ended early leaves its last instant behind, which is no stage of the other.
     std::size_t n = 0;
     while (n < std::min(c.grains.size(), c.nodes.size()) && std::abs(c.grains[n].axial_strain - c.nodes[n].axial_strain) < 1e-6)
@@ -216,7 +220,7 @@ namespace diptych::coupling
                                std::to_string(c.nodes.size()) + ") share no stage beyond the start");
     c.grains.resize(n), c.nodes.resize(n);
     for (std::size_t k = 1; k < n; ++k)
-      c.stages.push_back(make_stage(c, k, scene.comparison));
+      c.stages.push_back(make_stage(c, k, scene));
     const std::vector<double> &edges = scene.comparison.window_edges;
     for (std::size_t w = 0; w + 1 < edges.size(); ++w)
       if (const int from = stage_at(c, edges[w]), to = stage_at(c, edges[w + 1]); from >= 0 && to >= 0)

@@ -170,7 +170,7 @@ namespace diptych::coupling
       const HistoryTable       &h       = c.discrete_history;
       const auto                mean    = [&](const char *name) { return sum_of(column(h, name)) / column(h, name).size(); };
       const discrete::Snapshot &last    = c.grains.back();
-      const Peak                peak    = peak_of_running_mean(h, "stress_ratio", scene.comparison.averaging_strain);
+      const Peak                peak    = peak_of_running_mean(h, "stress_ratio", averaging_width(scene));
       const double              bodies  = double(last.position.size());
       json                      summary = {{"grains", last.position.size()},
                                            {"steps", column(h, "step").size()},
@@ -203,19 +203,29 @@ namespace diptych::coupling
       return {values.begin() + (column(history, "axial_strain").front() == 0 ? 1 : 0), values.end()};
     }
 
+    // The law, and what sets the thickness of its band: a length of its own, or (null) the mesh.
+    json law_json(const Scene &scene)
+    {
+      const bool cosserat = scene.continuum.law.rfind("cosserat", 0) == 0;
+      return {{"law", scene.continuum.law},
+              {"internal_length_d",
+               cosserat ? json(scene.continuum.material.internal_length / scene.sample.mean_diameter) : json(nullptr)}};
+    }
+
     json continuum_summary(const Scene &scene, const Comparison &c, const json &provenance)
     {
       const HistoryTable &h       = c.continuum_history;
-      const Peak          peak    = peak_of_running_mean(h, "stress_ratio", scene.comparison.averaging_strain);
-      json                summary = {{"law", scene.continuum.law},
-                                     {"element_size_d", scene.continuum.element_size},
+      const Peak          peak    = peak_of_running_mean(h, "stress_ratio", averaging_width(scene));
+      json                summary = {{"element_size_d", scene.continuum.element_size},
                                      {"newton_iterations", column(h, "newton_iterations").back()},
                                      {"cut_backs", column(h, "cut_backs").back()},
                                      {"peak_stress_ratio", peak.value},
                                      {"strain_at_peak", peak.axial_strain},
                                      {"final_volumetric_strain", column(h, "volumetric_strain").back()},
                                      {"share_zz_not_intermediate", largest(loaded(h, "share_zz_not_intermediate"))},
+                                     {"viscous_share", largest(column(h, "viscous_share"))},
                                      {"max_equivalent_plastic_strain", column(h, "max_equivalent_plastic_strain").back()}};
+      summary.update(law_json(scene));
       summary.update(provenance.value("continuum", json::object()));
       return summary;
     }

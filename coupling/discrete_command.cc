@@ -217,6 +217,7 @@ namespace diptych::coupling
       recording.take_up(*checkpoint);
     else
       {
+        forget_fact(directory, "discrete"); // of an earlier run: killed, this one is not finished
         remove_results(directory, {"discrete.h5", "discrete.xdmf", "discrete.csv", "checkpoint.h5"});
         for (std::size_t stage = 1; stage <= stages(scene.loading).size(); ++stage)
           std::filesystem::remove(directory + problem_name(int(stage)));

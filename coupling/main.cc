@@ -8,6 +8,7 @@
 #include <deal.II/base/mpi.h>
 
 #include "coupling/commands.h"
+#include "coupling/processes.h"
 #include "coupling/scene.h"
 #include "coupling/solve_command.h"
 #include "coupling/stop_signal.h"
@@ -21,7 +22,8 @@ namespace
 
   diptych run SCENE        both panels, homogenisation, comparison, report
   diptych discrete SCENE   the grains alone
-  diptych continuum SCENE  the continuum alone (prepares the sample for its outline)
+  diptych continuum SCENE  the continuum alone (continuum/mesh = outline prepares the grains); also under mpirun
+  diptych material-point SCENE  the continuum's law on one point along the biaxial path: material_point.csv
   diptych solve PROBLEM.h5 one stored contact problem (FCLIB layout): sweeps, residual, seconds
   diptych compare DIR      homogenise and compare again from a result folder
   diptych report DIR       draw report.html again
@@ -30,7 +32,7 @@ namespace
   --output DIR             result folder (default: results/<scene name>)
   --set section/key=value  change one key of the scene; may be repeated
   --threads N              for the contact solver; the same bits for every N (default 1)
-  --resume                 go on from the checkpoint of an interrupted run
+  --resume                 go on from the checkpoint of an interrupted run, grains or continuum
   --study step             discrete: run with step h, h/2 and h/4 and compare energy and stress ratio
   --solver NAME            solve: psor or nsgs (psor)
   --tolerance T            solve: natural map relative to |r| (1e-8)
@@ -47,11 +49,13 @@ Exit codes: 0 done, 1 a stated invariant failed, 2 wrong input, 3 did not conver
   {
     std::function<int(const CommandLine &)> execute;
     bool                                    needs_target;
+    bool                                    on_several_processes = false;
   };
 
   const std::map<std::string, Command> commands = {{"run", {run_both, true}},
                                                    {"discrete", {run_discrete, true}},
-                                                   {"continuum", {run_continuum, true}},
+                                                   {"continuum", {run_continuum, true, true}},
+                                                   {"material-point", {run_material_point, true}},
                                                    {"solve", {solve_stored_problem, true}},
                                                    {"compare", {compare_again, true}},
                                                    {"report", {report_again, true}},
@@ -144,35 +148,30 @@ Exit codes: 0 done, 1 a stated invariant failed, 2 wrong input, 3 did not conver
         std::cout << "diptych " << version << " (" << git_revision << ")\n";
         return done;
       }
-    const CommandLine line = parse(words);
+    CommandLine line = parse(words);
     // One thread: deal.II's pool would change nothing but the clock.
     dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-    if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
-      throw SceneError("mpirun: this version runs on one process");
+    const Command                           &command = commands.at(line.command);
+    line.quiet                                       = line.quiet || !is_first_process();
     install_stop_signals();
-    return commands.at(line.command).execute(line);
+    return answer_for([&] {
+      if (n_processes() > 1 && !command.on_several_processes)
+        throw SceneError("mpirun: diptych " + line.command + " runs on one process; several may run `diptych continuum` alone");
+      return command.execute(line);
+    });
   }
 } // namespace
 
 int main(int argc, char **argv)
 {
+  // Words of the command line, before there is any other process to answer to.
   try
     {
       return execute(argc, argv);
     }
-  catch (const std::invalid_argument &error)
-    {
-      std::cerr << "diptych: " << error.what() << std::endl;
-      return wrong_input;
-    }
-  catch (const std::runtime_error &error) // files that are missing, truncated or cannot be written
-    {
-      std::cerr << "diptych: " << error.what() << std::endl;
-      return wrong_input;
-    }
   catch (const std::exception &error)
     {
       std::cerr << "diptych: " << error.what() << std::endl;
-      return invariant;
+      return code_of(error);
     }
 }

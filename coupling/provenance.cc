@@ -76,6 +76,13 @@ namespace diptych::coupling
     return file ? nlohmann::json::parse(file) : nlohmann::json::object();
   }
 
+  void forget_fact(const std::string &directory, const std::string &name)
+  {
+    nlohmann::json record = read_provenance(directory);
+    if (record.erase(name) > 0)
+      discrete::write_text(directory + "/provenance.json", record.dump(2) + "\n");
+  }
+
   void update_provenance(const std::string            &directory,
                          const Scene                  &scene,
                          const std::string            &command,

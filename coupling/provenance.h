@@ -43,5 +43,8 @@ namespace diptych::coupling
                          const std::vector<PhaseCost> &phases,
                          const nlohmann::json         &facts);
 
+  // Takes a fact of an earlier run away, before a new one makes it untrue.
+  void forget_fact(const std::string &directory, const std::string &name);
+
   nlohmann::json read_provenance(const std::string &directory); // empty object where there is none
 } // namespace diptych::coupling

@@ -19,6 +19,12 @@ namespace diptych::coupling
   // The sections sample, loading and discrete of an echoed scene: what decides which sample both panels show.
   std::string sample_part(const std::string &echoed);
 
+  // Every key that decides what the continuum panel shows of that sample.
+  std::string continuum_part(const std::string &echoed);
+
+  // scene.prm of a folder; empty where there is none.
+  std::string earlier_echo(const std::string &directory);
+
   // Makes the folder and writes the echo, once the whole scene has been found good. Results of another sample are removed.
   // Throws SceneError where the folder cannot be made, holds foreign content, or (resume) belongs to another scene.
   void open_result_folder(const Scene &scene, bool resume);
@@ -26,8 +32,9 @@ namespace diptych::coupling
   // The scene of a command line, with its output folder.
   Scene scene_of(const CommandLine &line);
 
-  void        say(const CommandLine &line, const std::string &text); // unless --quiet
-  std::string reached(double strain);                                // "2.5 % axial strain"
+  void        say(const CommandLine &line, const std::string &text);   // unless --quiet
+  std::string reached(double strain);                                  // "2.5 % axial strain"
+  std::string reached(const LoadingOptions &loading, double progress); // "2.5 % shear strain", "time 3"
 
   // Runs a Python script of the program as a child of its own, no shell between. Throws std::runtime_error where it fails.
   void run_script(const std::string &script, const std::vector<std::string> &arguments);

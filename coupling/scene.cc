@@ -199,11 +199,28 @@ namespace diptych::coupling
       return entries;
     }
 
-    Scene checked(Scene scene, const std::string &file, const bool compares)
+    // `last`: the end in the unit of the stages.
+    void check_windows(const std::string &file, const Scene &scene, const double last)
+    {
+      const bool   time     = scene.loading.mode == "time";
+      const double interval = time ? scene.loading.stage_time : scene.loading.stage_strain;
+      for (const double edge : scene.comparison.window_edges)
+        {
+          const double k = edge / interval;
+          if (std::abs(k - std::round(k)) > 1e-6 || edge > last * (1 + 1e-9))
+            throw SceneError(file + ": comparison/window_edges holds " + std::to_string(edge) +
+                             ", which is no stage: stages are multiples of loading/" + (time ? "stage_time" : "stage_strain") +
+                             " = " + std::to_string(interval) + " up to loading/" + (time ? "duration" : "axial_strain") + " = " +
+                             std::to_string(last));
+        }
+    }
+
+    void check_stages(const std::string &file, const Scene &scene, const bool compares)
     {
       const LoadingOptions &loading = scene.loading;
       const bool            time    = loading.mode == "time";
-      const double          count   = time ? loading.duration / loading.stage_time : loading.axial_strain / loading.stage_strain;
+      const double          last    = time ? loading.duration : loading.axial_strain;
+      const double          count   = last / (time ? loading.stage_time : loading.stage_strain);
       if (time && (std::abs(count - std::round(count)) > 1e-6 || count < 0.5))
         throw SceneError(file + ": loading/duration = " + std::to_string(loading.duration) +
                          " is not a whole number of loading/stage_time = " + std::to_string(loading.stage_time));
@@ -213,25 +230,44 @@ namespace diptych::coupling
       const std::vector<double> &edges = scene.comparison.window_edges;
       if (edges.size() < 2 || std::adjacent_find(edges.begin(), edges.end(), std::greater_equal<double>()) != edges.end())
         throw SceneError(file + ": comparison/window_edges must be at least two ascending axial strains");
-      for (const double edge : compares &&loading.mode == "descent" ? edges : std::vector<double>())
-        {
-          const double k = edge / loading.stage_strain;
-          if (std::abs(k - std::round(k)) > 1e-6 || edge > loading.axial_strain * (1 + 1e-9))
-            throw SceneError(
-              file + ": comparison/window_edges holds " + std::to_string(edge) +
-              ", which is no stage: stages are multiples of loading/stage_strain = " + std::to_string(loading.stage_strain) +
-              " up to loading/axial_strain = " + std::to_string(loading.axial_strain));
-        }
+      if (compares)
+        check_windows(file, scene, last);
+    }
+
+    // "; FILE, line 12: continuum/cohesion = '3'" for every key of the section that a message speaks of, as it was set last.
+    std::string places_of(const std::string &message, const std::string &section, const std::vector<Entry> &entries)
+    {
+      std::map<std::string, Entry> last;
+      for (const Entry &entry : entries)
+        if (entry.section == section)
+          last[entry.key] = entry;
+      std::string text;
+      for (const auto &[key, entry] : last)
+        if (std::regex_search(message, std::regex("\\b" + key + "\\b")))
+          text += "; " + entry.place + ": " + section + "/" + key + " = '" + entry.value + "'";
+      return text;
+    }
+
+    Scene checked(Scene scene, const std::string &file, const std::vector<Entry> &entries, const bool compares)
+    {
+      check_stages(file, scene, compares);
       try
         {
           discrete::validate(scene.sample, discrete_loading(scene.loading), scene.discrete);
           discrete::check_sample_file(scene.sample,
                                       discrete::preparation_setting(discrete_loading(scene.loading), scene.discrete));
-          continuum::validate(scene.continuum);
         }
       catch (const std::invalid_argument &error)
         {
           throw SceneError(file + ": " + error.what());
+        }
+      try
+        {
+          continuum::validate(scene.continuum);
+        }
+      catch (const std::invalid_argument &error)
+        {
+          throw SceneError(file + ": section continuum: " + error.what() + places_of(error.what(), "continuum", entries));
         }
       return scene;
     }
@@ -252,22 +288,23 @@ namespace diptych::coupling
 
     dealii::ParameterHandler prm;
     declare(prm);
-    const bool json = std::filesystem::path(file).extension() == ".json";
-    for (const Entry &entry : json ? entries_of_json(file, in) : entries_of_prm(file, in))
-      check_and_set(prm, entry);
+    const bool         json    = std::filesystem::path(file).extension() == ".json";
+    std::vector<Entry> entries = json ? entries_of_json(file, in) : entries_of_prm(file, in);
     for (const std::string &text : overrides)
       {
         std::smatch match;
         if (!std::regex_match(text, match, std::regex("([^/=]+)/([^/=]+)=(.*)")))
           throw SceneError("--set " + text + ": not of the form section/key=value");
-        check_and_set(prm, {match[1], match[2], match[3], "--set " + text});
+        entries.push_back({match[1], match[2], match[3], "--set " + text});
       }
+    for (const Entry &entry : entries)
+      check_and_set(prm, entry);
     Scene scene;
     fetch(prm, scene);
     scene.name = scene_name(file);
     if (scene.output.directory.empty())
       scene.output.directory = "results/" + scene.name;
-    return checked(scene, file, compares);
+    return checked(scene, file, entries, compares);
   }
 
   std::string echo(const Scene &scene)
@@ -305,26 +342,6 @@ namespace diptych::coupling
     return out.str();
   }
 
-  void require_continuum(const Scene &scene)
-  {
-    const auto refuse = [](const std::string &key, const std::string &value, const std::string &only) {
-      throw SceneError(key + " = " + value + ": the continuum panel has no counterpart yet, only " + only +
-                       "; the grains alone run with `diptych discrete`");
-    };
-    if (scene.loading.mode != "descent")
-      refuse("loading/mode", scene.loading.mode, "descent");
-    if (scene.discrete.lateral.lateral != "end_grains")
-      refuse("discrete/lateral", scene.discrete.lateral.lateral, "end_grains");
-    for (const auto &[key, value] : {std::pair{"discrete/gravity_x", scene.discrete.time.gravity_x},
-                                     std::pair{"discrete/gravity_y", scene.discrete.time.gravity_y}})
-      if (value != 0)
-        refuse(key, std::to_string(value), "0");
-    const discrete::WallDriveOptions &d = scene.discrete.drives;
-    for (const std::string *drive : {&d.lower_x, &d.lower_y, &d.upper_x, &d.upper_y})
-      if (*drive != "auto")
-        refuse("discrete/drive_*", *drive, "auto");
-  }
-
   std::vector<double> stages(const LoadingOptions &loading)
   {
     const bool   time     = loading.mode == "time";
@@ -349,13 +366,8 @@ namespace diptych::coupling
             loading.strain_rate, loading.normal_pressure};
   }
 
-  continuum::Loading continuum_loading(const LoadingOptions &loading, const double height)
+  double averaging_width(const Scene &scene)
   {
-    continuum::Loading result;
-    result.pressure            = loading.pressure;
-    result.upper_platen_travel = {loading.horizontal_over_vertical * height, -height};
-    result.stages              = stages(loading);
-    result.stages.insert(result.stages.begin(), 0.);
-    return result;
+    return scene.loading.mode == "time" ? scene.loading.stage_time : scene.comparison.averaging_strain;
   }
 } // namespace diptych::coupling

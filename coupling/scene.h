@@ -65,12 +65,14 @@ namespace diptych::coupling
 
   template <class Visitor> void visit_parameters(ComparisonOptions &o, Visitor &&visitor)
   {
-    visitor("window_edges", o.window_edges, "axial strain", {0., 0.5},
-            "edges of the windows over which displacement increments are compared; each must be a stage or 0");
+    visitor(
+      "window_edges", o.window_edges, "axial strain", {0., 1e12},
+      "edges of the windows over which displacement increments are compared; each must be a stage (mode time: a time) or 0");
     visitor("coarse_element_size", o.coarse_element_size, "mean diameters", {0.1, 100.},
             "element size of the second continuum run that shows what the mesh does to the band");
     visitor("averaging_strain", o.averaging_strain, "axial strain", {1e-9, 0.5},
-            "last part of a stage over which stress ratio and platen forces are averaged, in both panels");
+            "last part of a stage over which stress ratio and platen forces are averaged, in both panels; mode time: the whole "
+            "stage");
     visit_parameters(o.band, visitor);
     visit_parameters(o.probes, visitor);
   }
@@ -105,7 +107,7 @@ namespace diptych::coupling
   };
 
   // Reads a .prm or .json file, then applies `overrides` of the form section/key=value. Throws SceneError. `compares`: whether
-  // the windows of the comparison must be stages.
+  // both panels will be compared, so that the windows must be stages.
   Scene read_scene(const std::string &file, const std::vector<std::string> &overrides, bool compares = true);
 
   // Stands in the first line of every echo, and so tells a result folder's scene.prm from one written by hand.
@@ -117,10 +119,9 @@ namespace diptych::coupling
   // Every key of a section (of all, if empty): default, unit, range, meaning. Throws SceneError on an unknown section.
   std::string explain(const std::string &section);
 
-  // Throws SceneError naming a key that asks for what the continuum panel does not have.
-  void require_continuum(const Scene &scene);
-
   std::vector<double> stages(const LoadingOptions &loading); // strains (mode time: times), ascending, from the first on
   discrete::Loading   discrete_loading(const LoadingOptions &loading);
-  continuum::Loading  continuum_loading(const LoadingOptions &loading, double height);
+
+  // The last part of a stage over which stress ratio and platen forces are averaged, in the unit of the stages.
+  double averaging_width(const Scene &scene);
 } // namespace diptych::coupling

@@ -8,6 +8,8 @@
 
 #include <Eigen/LU>
 
+#include "coupling/node_transfer.h"
+
 namespace diptych::coupling
 {
   namespace
@@ -100,10 +102,10 @@ namespace diptych::coupling
       return ux * xx.inverse();
     }
 
-    template <class Snapshot> DisplacementField increments(const Snapshot &from, const Snapshot &to)
+    DisplacementField increments(const discrete::Snapshot &from, const discrete::Snapshot &to)
     {
       if (from.displacement.size() != to.displacement.size())
-        throw std::invalid_argument("displacement increments need the same points at both instants");
+        throw std::invalid_argument("displacement increments need the same grains at both instants");
       DisplacementField field;
       field.position = to.position;
       field.increment.resize(to.displacement.size());
@@ -127,8 +129,12 @@ namespace diptych::coupling
 
   DisplacementField displacement_field(const continuum::Snapshot &from, const continuum::Snapshot &to)
   {
-    DisplacementField field = increments(from, to);
-    field.weight            = to.weight;
+    DisplacementField field;
+    field.position                             = to.position;
+    field.weight                               = to.weight;
+    const std::vector<Eigen::Vector2d> earlier = displacement_at_nodes_of(from, to);
+    for (std::size_t k = 0; k < earlier.size(); ++k)
+      field.increment.emplace_back(to.displacement[k] - earlier[k]);
     return field;
   }
 

@@ -20,7 +20,7 @@ namespace diptych::coupling
   };
 
   // Grains weigh their disc's area; rattlers of either instant weigh nothing. Throws std::invalid_argument when the numbers of
-  // grains or nodes differ.
+  // grains differ. The mesh of the continuum may have been refined between the instants (node_transfer.h).
   DisplacementField displacement_field(const discrete::Snapshot &from, const discrete::Snapshot &to);
   DisplacementField displacement_field(const continuum::Snapshot &from, const continuum::Snapshot &to);
 

@@ -2,10 +2,31 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/tensor.h>
 
 namespace diptych::continuum
 {
+  // Strain and stress of a point in plane strain, mechanics sign (tension positive), as work-conjugate vectors. A classical
+  // law reads and fills the first three components, a Cosserat law all six.
+  //   strain: e_xx, e_yy, gamma_xy = 2 e_xy, relative rotation chi = (du_y/dx - du_x/dy) - 2 omega, d omega/dx, d omega/dy
+  //   stress: s_xx, s_yy, symmetric part of s_xy, skew part a, couple stresses m_x, m_y [pressure * length]
+  // With row = component of the force and column = normal of the face, s_xy = symmetric - a and s_yx = symmetric + a.
+  enum Component : unsigned int
+  {
+    xx,
+    yy,
+    xy,
+    relative_rotation, // in a stress: its skew part
+    curvature_x,       // in a stress: couple stress
+    curvature_y,
+    n_components
+  };
+  constexpr unsigned int n_classical = 3; // components of a law without couple stress
+
+  using Strain  = dealii::Tensor<1, n_components>;
+  using Stress  = dealii::Tensor<1, n_components>;
+  using Tangent = dealii::Tensor<2, n_components>; // d stress / d strain increment; zero beyond the law's components
+
   // How far a law's answer can be trusted. `failed`: stress and tangent are meaningless, the step must be cut.
   // `unreliable`: the return converged, but softening was so fast that the answer may not be the only one.
   enum class Verdict
@@ -15,28 +36,38 @@ namespace diptych::continuum
     failed
   };
 
-  // Which branch of the law answered.
+  // Which branch of the law answered. `edge`: two yield planes, sigma_zz being an outer principal stress.
   enum class Regime
   {
     elastic,
     plastic,
+    edge,
     apex
   };
 
-  // Committed state of one material point in plane strain. Mechanics sign: tension positive.
-  struct MaterialState
+  // Plastic strain of a point; shear is the engineering one, 2 e_xy.
+  struct PlasticStrain
   {
-    dealii::SymmetricTensor<2, 2> stress;                        // in the plane [pressure]
-    double                        stress_zz                 = 0; // [pressure]
-    double                        equivalent_plastic_strain = 0; // integral of d(eps_1 - eps_3) plastic [-]
+    double xx = 0, yy = 0, zz = 0, xy = 0;
   };
 
-  // Answer of a law to a strain increment: the end state, d(stress)/d(strain increment) in the plane, and the verdict.
+  // Committed state of one material point.
+  struct MaterialState
+  {
+    Stress        stress;
+    double        stress_zz                 = 0; // [pressure]
+    double        equivalent_plastic_strain = 0; // hardening variable: integral of d(eps_1 - eps_3) plastic [-]
+    double        overstress                = 0; // excess of the yield function that viscosity carries [pressure]
+    PlasticStrain plastic_strain;                // kept by add_plastic_flow(), not by update()
+    double        dissipation = 0;               // plastic work per initial area [pressure]; by add_plastic_flow()
+  };
+
+  // Answer of a law to a strain increment.
   struct MaterialUpdate
   {
-    MaterialState                 state;
-    dealii::SymmetricTensor<4, 2> tangent;
-    Regime                        regime  = Regime::elastic;
-    Verdict                       verdict = Verdict::reliable;
+    MaterialState state;
+    Tangent       tangent;
+    Regime        regime  = Regime::elastic;
+    Verdict       verdict = Verdict::reliable;
   };
 } // namespace diptych::continuum

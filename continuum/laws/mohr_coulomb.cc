@@ -1,207 +1,118 @@
-// diptych: Mohr-Coulomb plasticity in the plane of deformation, softening, dilatancy that fades
+// diptych: Mohr-Coulomb plasticity in plane strain
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/laws/mohr_coulomb.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 
 namespace diptych::continuum
 {
-  using dealii::SymmetricTensor;
-
   namespace
   {
-    constexpr double pi     = 3.14159265358979323846;
-    constexpr double degree = pi / 180;
-
-    // Radius of Mohr's circle, t = sqrt(D:D/2) of the two-dimensional deviator D.
-    double radius(const SymmetricTensor<2, 2> &deviator)
+    // Outer two of the in-plane principal stresses -s + t, -s - t and sigma_zz.
+    struct Outer
     {
-      return std::hypot((deviator[0][0] - deviator[1][1]) / 2, deviator[0][1]);
+      double major, minor;
+
+      double shear() const { return (major - minor) / 2; }
+      double pressure() const { return -(major + minor) / 2; }
+    };
+
+    Outer outer(const double shear, const double pressure, const double stress_zz)
+    {
+      return {std::max(shear - pressure, stress_zz), std::min(-shear - pressure, stress_zz)};
+    }
+
+    Outer outer(const MaterialState &state)
+    {
+      const Stress &s = state.stress;
+      return outer(std::hypot((s[xx] - s[yy]) / 2, s[xy]), -(s[xx] + s[yy]) / 2, state.stress_zz);
+    }
+
+    // Places of the in-plane major, the in-plane minor stress and sigma_zz among the sorted three.
+    struct Places
+    {
+      unsigned int major, minor, zz;
+    };
+
+    Places places(const double shear, const double pressure, const double stress_zz)
+    {
+      if (stress_zz > shear - pressure)
+        return {1, 2, 0};
+      if (stress_zz < -shear - pressure)
+        return {0, 1, 2};
+      return {0, 2, 1};
     }
   } // namespace
 
-  void validate(const MohrCoulombOptions &o)
+  double MohrCoulomb::shear_strength(const MaterialState &state) const
   {
-    validate(o.elastic);
-    const auto require = [](const bool holds, const auto &...text) {
-      if (holds)
-        return;
-      std::ostringstream message;
-      (message << ... << text);
-      throw std::invalid_argument(message.str());
-    };
-    require(o.friction_angle_residual >= 0 && o.friction_angle_residual <= o.friction_angle_peak && o.friction_angle_peak < 90,
-            "friction_angle_residual = ", o.friction_angle_residual, " and friction_angle_peak = ", o.friction_angle_peak,
-            ": 0 <= residual <= peak < 90 degrees is needed");
-    require(o.dilatancy_angle_residual >= 0 && o.dilatancy_angle_residual <= o.dilatancy_angle_peak,
-            "dilatancy_angle_residual = ", o.dilatancy_angle_residual, " and dilatancy_angle_peak = ", o.dilatancy_angle_peak,
-            ": 0 <= residual <= peak is needed");
-    // Both angles decay alike, so that the two ends decide for all values between.
-    require(o.dilatancy_angle_peak <= o.friction_angle_peak && o.dilatancy_angle_residual <= o.friction_angle_residual,
-            "dilatancy angles ", o.dilatancy_angle_peak, " -> ", o.dilatancy_angle_residual,
-            " must not exceed the friction angles ", o.friction_angle_peak, " -> ", o.friction_angle_residual,
-            " (plastic work would be negative)");
-    require(o.cohesion >= 0, "cohesion = ", o.cohesion, " must not be negative");
-    require(o.cohesion == 0 || o.friction_angle_residual > 0, "friction_angle_residual = 0 with cohesion = ", o.cohesion,
-            " has no apex to return to; give a small angle");
-    require(o.softening_strain > 0, "softening_strain = ", o.softening_strain, " must be positive");
+    const Cone c = cone.at(state.equivalent_plastic_strain);
+    return outer(state).pressure() * c.slope + c.intercept;
   }
 
-  // Elastic predictor in the invariants of the plane; n = D/t has n:n = 2.
-  struct MohrCoulomb::Trial
+  double MohrCoulomb::yield_function(const MaterialState &state) const
   {
-    const MaterialState  &start;
-    SymmetricTensor<2, 2> direction; // n
-    double                s, t;      // pressure positive
-  };
-
-  struct MohrCoulomb::PlasticMultiplier
-  {
-    double value     = 0; // lambda, the increment of eps_1 - eps_3 plastic
-    double slope     = 0; // -dF/dlambda
-    bool   at_apex   = false;
-    bool   converged = true;
-  };
-
-  MohrCoulomb::MohrCoulomb(const MohrCoulombOptions &options)
-      : moduli(plane_moduli(options.elastic)),
-        elastic(elastic_tangent(moduli)),
-        friction_residual(options.friction_angle_residual * degree),
-        friction_excess((options.friction_angle_peak - options.friction_angle_residual) * degree),
-        dilatancy_residual(options.dilatancy_angle_residual * degree),
-        dilatancy_excess((options.dilatancy_angle_peak - options.dilatancy_angle_residual) * degree),
-        cohesion(options.cohesion),
-        softening_strain(options.softening_strain)
-  {
-    validate(options);
+    return outer(state).shear() - shear_strength(state);
   }
 
-  // phi(kappa) = phi_r + (phi_p - phi_r) exp(-kappa/kappa_s), and psi alike.
-  Angles MohrCoulomb::angles(const double equivalent_plastic_strain) const
+  MaterialUpdate MohrCoulomb::update(const MaterialState &s0, const Strain &d_strain, const double d_time) const
   {
-    const double decay = std::exp(-equivalent_plastic_strain / softening_strain);
-    return {friction_residual + friction_excess * decay, -friction_excess * decay / softening_strain,
-            dilatancy_residual + dilatancy_excess * decay, -dilatancy_excess * decay / softening_strain};
-  }
+    const Trial  trial = elastic_trial(s0, d_strain);
+    const Outer  o     = outer(trial.state);
+    const double scale = o.shear() + std::abs(o.pressure()) + cone.at(s0.equivalent_plastic_strain).intercept;
+    if (!std::isfinite(scale) || yield_function(trial.state) <= 1e-12 * scale)
+      return elastic_answer(trial);
 
-  double MohrCoulomb::yield_function(const SymmetricTensor<2, 2> &stress, const double equivalent_plastic_strain) const
-  {
-    const double phi = angles(equivalent_plastic_strain).friction;
-    return radius(deviator(stress)) + trace(stress) / 2 * std::sin(phi) - cohesion * std::cos(phi);
-  }
-
-  MaterialUpdate MohrCoulomb::update(const MaterialState &s0, const SymmetricTensor<2, 2> &d_strain) const
-  {
-    MaterialUpdate answer{s0, elastic};
-    answer.state.stress += elastic * d_strain;
-    answer.state.stress_zz += moduli.lateral * trace(d_strain);
-
-    const auto   trial_deviator = deviator(answer.state.stress);
-    const double t = radius(trial_deviator), s = -trace(answer.state.stress) / 2;
-    if (!std::isfinite(t) || !std::isfinite(s))
+    const double zz      = trial.state.stress_zz;
+    const Places p       = places(trial.shear, trial.pressure, zz);
+    const bool   between = p.zz == 1;
+    if (between)
       {
-        answer.verdict = Verdict::failed;
-        return answer;
+        const ConeReturn r = radial_return(trial, d_time);
+        if (r.verdict != Verdict::failed && r.regime == Regime::plastic)
+          {
+            const MaterialUpdate answer = plastic_answer(trial, r);
+            if (places(r.shear, r.pressure, answer.state.stress_zz).zz == 1)
+              return answer;
+          }
       }
-    const double kappa = s0.equivalent_plastic_strain;
-    if (yield_function(answer.state.stress, kappa) <= 1e-12 * (t + std::abs(s) + cohesion))
-      return answer;
-
-    const Trial trial{s0, t > 0 ? trial_deviator / t : SymmetricTensor<2, 2>(), s, t};
-    const auto  multiplier = solve_multiplier(trial);
-    answer                 = multiplier.at_apex ? return_to_apex(trial) : return_to_flank(trial, multiplier);
-    // Elastic everywhere but in the plane's plastic flow: d sigma_zz follows the elastic volume strain.
-    answer.state.stress_zz += moduli.lateral / moduli.bulk * (trace(answer.state.stress) - trace(s0.stress)) / 2;
-    if (!multiplier.converged)
-      answer.verdict = Verdict::failed;
+    Principal sorted;
+    sorted[p.major]          = trial.shear - trial.pressure;
+    sorted[p.minor]          = -trial.shear - trial.pressure;
+    sorted[p.zz]             = zz;
+    const auto     principal = return_in_principal_space(cone, moduli_, s0.equivalent_plastic_strain, sorted,
+                                                         viscous_modulus(d_time));
+    MaterialUpdate answer    = plastic_answer(trial, plane_part(trial, principal));
+    answer.state.stress_zz   = principal.stress[p.zz];
     return answer;
   }
 
-  // Root of F(lambda) = t_tr - G lambda - (s_tr + bulk lambda sin psi) sin phi - c cos phi with phi, psi at kappa_0 + lambda,
-  // between 0, where F > 0, and t_tr/G, where Mohr's circle has shrunk to a point: if F > 0 there too, the apex answers.
-  MohrCoulomb::PlasticMultiplier MohrCoulomb::solve_multiplier(const Trial &trial) const
+  // In-plane shear and pressure and their derivatives: a trial shear moves the in-plane trial stresses apart, a trial pressure
+  // lowers both, and sigma_zz by lateral/plane_bulk of that. Trial stresses equal in the plane end equal (sigma_zz is an outer
+  // stress then, and the plane, the edge or the apex keeps the order), so that ending shear / trial shear = 0 is the limit.
+  ConeReturn MohrCoulomb::plane_part(const Trial &trial, const PrincipalReturn &principal) const
   {
-    const double G = moduli.shear, bulk = moduli.bulk, kappa = trial.start.equivalent_plastic_strain;
-    const auto   residual_and_slope = [&](const double lambda) {
-      const Angles a       = angles(kappa + lambda);
-      const double sin_phi = std::sin(a.friction), cos_phi = std::cos(a.friction);
-      const double sin_psi = std::sin(a.dilatancy), cos_psi = std::cos(a.dilatancy);
-      const double s     = trial.s + bulk * lambda * sin_psi;
-      const double slope = G + bulk * (sin_psi + lambda * cos_psi * a.dilatancy_rate) * sin_phi +
-                           (s * cos_phi - cohesion * sin_phi) * a.friction_rate;
-      return std::array<double, 2>{trial.t - G * lambda - s * sin_phi - cohesion * cos_phi, slope};
-    };
-
-    PlasticMultiplier m;
-    double            low = 0, high = trial.t / G;
-    if (residual_and_slope(high)[0] > 0)
+    const Places    p = places(trial.shear, trial.pressure, trial.state.stress_zz);
+    const Principal a = principal.stress;
+    Principal       by_shear{}, by_pressure{};
+    for (unsigned int i = 0; i < 3; ++i)
       {
-        m.value   = high;
-        m.at_apex = true;
-        return m;
+        const Principal &row = principal.jacobian[i];
+        by_shear[i]          = row[p.major] - row[p.minor];
+        by_pressure[i]       = -row[p.major] - row[p.minor] - moduli_.lateral / moduli_.plane_bulk * row[p.zz];
       }
-    // The scale is the trial stress: an absolute tolerance would be met at once in a nearly unloaded corner.
-    const double tolerance = 1e-13 * (trial.t + std::abs(trial.s) + cohesion);
-    for (unsigned int iteration = 0; iteration < 60; ++iteration)
-      {
-        const auto [residual, slope] = residual_and_slope(m.value);
-        m.slope                      = slope;
-        if (std::abs(residual) <= tolerance)
-          return m;
-        (residual > 0 ? low : high) = m.value;
-        const double newton         = m.value + residual / slope;
-        m.value                     = (slope > 0 && newton > low && newton < high) ? newton : (low + high) / 2;
-        if (high - low <= 1e-16 * trial.t / G)
-          return m;
-      }
-    m.converged = false;
-    return m;
-  }
-
-  // sigma = -s 1 + t n with t = t_tr - G lambda, s = s_tr + bulk lambda sin psi. With A = -dF/dlambda the consistency
-  // condition gives d lambda = (G n + bulk sin phi 1) : d eps / A, and dn = (2 G dev(d eps) - G n (n : d eps)) / t_tr.
-  MaterialUpdate MohrCoulomb::return_to_flank(const Trial &trial, const PlasticMultiplier &multiplier) const
-  {
-    const double G = moduli.shear, bulk = moduli.bulk, lambda = multiplier.value;
-    const auto   one = dealii::unit_symmetric_tensor<2>();
-    const auto  &n   = trial.direction;
-
-    MaterialUpdate answer{trial.start, elastic, Regime::plastic};
-    answer.state.equivalent_plastic_strain += lambda;
-    const Angles a       = angles(answer.state.equivalent_plastic_strain);
-    const double sin_psi = std::sin(a.dilatancy), t = trial.t - G * lambda;
-    answer.state.stress = t * n - (trial.s + bulk * lambda * sin_psi) * one;
-
-    const auto   d_lambda = (G * n + bulk * std::sin(a.friction) * one) / multiplier.slope;
-    const double dilation = bulk * (sin_psi + lambda * std::cos(a.dilatancy) * a.dilatancy_rate);
-    answer.tangent        = bulk * outer_product(one, one) - dilation * outer_product(one, d_lambda) + G * outer_product(n, n) -
-                     G * outer_product(n, d_lambda) +
-                     t / trial.t * (2 * G * dealii::deviator_tensor<2>() - G * outer_product(n, n));
-    // Less than a tenth of the elastic slope left: the point is close to snapping back by itself.
-    if (multiplier.slope < 0.1 * G)
-      answer.verdict = Verdict::unreliable;
-    return answer;
-  }
-
-  // t = 0, s = -c cot(phi). The deviatoric trial strain is plastic as a whole, d lambda = n : d eps; opening does not harden.
-  MaterialUpdate MohrCoulomb::return_to_apex(const Trial &trial) const
-  {
-    const auto     one = dealii::unit_symmetric_tensor<2>();
-    MaterialUpdate answer{trial.start, elastic, Regime::apex};
-    answer.state.equivalent_plastic_strain += trial.t / moduli.shear;
-    const Angles a       = angles(answer.state.equivalent_plastic_strain);
-    const double sin_phi = std::sin(a.friction);
-    if (cohesion == 0)
-      {
-        answer.state.stress = 0;
-        answer.tangent      = 0;
-        return answer;
-      }
-    answer.state.stress = cohesion * std::cos(a.friction) / sin_phi * one;
-    answer.tangent      = -cohesion / (sin_phi * sin_phi) * a.friction_rate * outer_product(one, trial.direction);
-    return answer;
+    ConeReturn r;
+    r.multiplier           = principal.multiplier;
+    r.overstress           = principal.overstress;
+    r.regime               = principal.regime;
+    r.verdict              = principal.verdict;
+    r.shear                = (a[p.major] - a[p.minor]) / 2;
+    r.shear_by_shear       = (by_shear[p.major] - by_shear[p.minor]) / 2;
+    r.shear_by_pressure    = (by_pressure[p.major] - by_pressure[p.minor]) / 2;
+    r.pressure             = -(a[p.major] + a[p.minor]) / 2;
+    r.pressure_by_shear    = -(by_shear[p.major] + by_shear[p.minor]) / 2;
+    r.pressure_by_pressure = -(by_pressure[p.major] + by_pressure[p.minor]) / 2;
+    return r;
   }
 } // namespace diptych::continuum

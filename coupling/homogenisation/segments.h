@@ -21,8 +21,9 @@ namespace diptych::coupling
   };
 
   // |K| sigma_K = -sum_c f (x) (segment in K): the branch x_i - contact point - x_j of each contact cut by the triangles, f the
-  // force on i, segment directed from x_i to x_j. A body j >= position.size() is a platen: only x_i - contact point. What lies
-  // outside the mesh goes to the nearest boundary cell, so that sum_K |K| sigma_K = total to round-off.
+  // force on i, segment directed from x_i to x_j, or to the image of it that touches i. A body j >= position.size() is a
+  // platen: only x_i - contact point. What lies outside the mesh goes to the nearest boundary cell, so that
+  // sum_K |K| sigma_K = total to round-off.
   // position: grain centres [length].
   MappedMoment map_segments(const QuadMesh                            &mesh,
                             const TriangleSearch                      &search,

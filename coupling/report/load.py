@@ -65,9 +65,11 @@ class Result:
 
     @property
     def averaging_strain(self):
-        """Axial strain over which the stages' stress ratio is a mean; the histories draw the same mean."""
-        values = [value for name, value, _ in scene_section(self.scene_text, "comparison") if name == "averaging_strain"]
-        return _number(values[0]) if values and _number(values[0]) > 0 else 0.005
+        """Axial strain over which the stages' stress ratio is a mean; the histories draw the same mean. Mode time: a stage."""
+        loading = _keys(self.scene_text, "loading")
+        text = loading.get("stage_time") if loading.get("mode") == "time" else _keys(self.scene_text, "comparison").get(
+            "averaging_strain")
+        return _number(text) if text and _number(text) > 0 else 0.005
 
     @property
     def windows(self):
@@ -96,6 +98,7 @@ def load(folder):
     if os.path.isfile(scene_path):
         with open(scene_path, encoding="utf-8", errors="replace") as stream:
             scene_text = stream.read()
+    _count_by_progress(histories["discrete"], _keys(scene_text, "loading").get("mode", "descent"))
     path = os.path.join(folder, "comparison.h5")
     try:
         with h5py.File(path, "r") as file:
@@ -150,6 +153,17 @@ def scene_section(text, section):
             rows.append(("/".join(path[1:] + [entry[1]]), entry[2], comment))
         comment = ""
     return rows
+
+
+def _keys(text, section):
+    return {name: value for name, value, _ in scene_section(text, section)}
+
+
+def _count_by_progress(history, mode):
+    """The grains' history against what the stages count: descent, travel of the upper platen or time, as in comparison.json."""
+    column = {"shear": "shear_strain", "plane_shear": "shear_strain", "time": "time"}.get(mode)
+    if column in history:
+        history["axial_strain"] = history[column]
 
 
 def _number(text):

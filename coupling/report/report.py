@@ -72,7 +72,8 @@ def page(result):
         coarse=comparison.get("continuum_coarse") or {}, cost=accounts.cost(result),
         provenance=accounts.provenance(result),
         law=accounts.law_parameters(result), scene_text=result.scene_text, number=wording.number,
-        fitted=wording.FITTED, mesh_set=wording.MESH_SET, absent=wording.ABSENT,
+        fitted=wording.FITTED, absent=wording.ABSENT, thickness_note=tables.thickness_note(result),
+        thickness_reason=wording.MESH_SET_REASON if tables.internal_length(result) is None else wording.LENGTH_SET_REASON,
         averaging=percent(result.averaging_strain))
 
 

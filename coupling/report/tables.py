@@ -3,7 +3,7 @@
 """A table is {"head": [...], "rows": [[...]]}; a row's first entry names it."""
 
 from style import DIFFUSE, PANEL_NAMES
-from wording import ABSENT, MESH_SET, WORDS, number, rounded
+from wording import ABSENT, MESH_SET, NULLS, WORDS, number, rounded
 
 LAW_KEYS = ("law", "law_parameters")
 
@@ -25,12 +25,12 @@ def bands(result, increment):
         columns.append(("Continuum, coarse mesh", f"elements of {number(coarse.get('element_size_d'), ' d')}",
                         same[0].get("bands") if same else None))
     flat = []
-    for heading, note, found in columns:
+    for heading, elements, found in columns:
         if not found:
-            flat.append((heading, note, DIFFUSE if found is not None else ABSENT))
+            flat.append((heading, elements, DIFFUSE if found is not None else ABSENT))
         for k, band in enumerate(found or []):
-            flat.append((heading + (f", band {k + 1}" if len(found) > 1 else ""), note, band))
-    local = not _has_internal_length(result)
+            flat.append((heading + (f", band {k + 1}" if len(found) > 1 else ""), elements, band))
+    note = thickness_note(result)
     rows = []
     for words, key, unit in BAND_ROWS:
         cells = []
@@ -39,11 +39,11 @@ def bands(result, increment):
                 cells.append(band if key == BAND_ROWS[0][1] else "–")
                 continue
             text = rounded(band.get(key), unit)
-            if key == "width_10_90_d" and heading.startswith("Continuum") and local:
-                text += f" – {MESH_SET}"
+            if key == "width_10_90_d" and heading.startswith("Continuum"):
+                text += f" – {note}"
             cells.append(text)
         rows.append([words] + cells)
-    head = [("", "")] + [(heading, note) for heading, note, _ in flat]
+    head = [("", "")] + [(heading, elements) for heading, elements, _ in flat]
     difference = {k: v for k, v in (increment.record.get("difference") or {}).items() if v is not None}
     if any(key in difference for _, key, _ in BAND_ROWS):
         at = 1 + sum(not heading.startswith("Continuum, coarse") for heading, _, _ in flat)
@@ -59,11 +59,18 @@ def verdicts(increment):
     return "; ".join(f"{words.lower()}: {verdict}" for words, verdict in said if verdict)
 
 
-def _has_internal_length(result):
+def internal_length(result):
+    """Of the continuum's law [d]; None where it has none."""
     summary = result.comparison.get("continuum_summary") or {}
     values = [summary.get("internal_length_d")] + [(summary.get(k) or {}).get("internal_length") for k in LAW_KEYS
                                                     if isinstance(summary.get(k), dict)]
-    return any(isinstance(v, (int, float)) and v > 0 for v in values)
+    return next((v for v in values if isinstance(v, (int, float)) and v > 0), None)
+
+
+def thickness_note(result):
+    """What sets the thickness of the continuum's band."""
+    length = internal_length(result)
+    return MESH_SET if length is None else f"internal length {number(length, ' d')}"
 
 
 def stages(result):
@@ -74,8 +81,7 @@ def stages(result):
     bands = {"head": ["axial strain", "inclination, grains", "inclination, continuum", "angle between",
                       "10–90 % width, grains", "10–90 % width, continuum", "difference", "R², grains",
                       "R², continuum"], "rows": []}
-    if not _has_internal_length(result):
-        bands["head"][5] = (bands["head"][5], MESH_SET)
+    bands["head"][5] = (bands["head"][5], thickness_note(result))
     for stage in result.stages:
         panels = stage.panel("discrete"), stage.panel("continuum")
         difference, mapping = stage.record.get("difference") or {}, stage.record.get("mapping") or {}
@@ -146,5 +152,5 @@ def summary(values):
         if key in LAW_KEYS or value == "" or (isinstance(value, (dict, list)) and "value" not in value):
             continue
         words, unit, expected = WORDS.get(key, (key.replace("_", " "), "", ""))
-        rows.append([words, number(value, unit), expected])
+        rows.append([words, NULLS[key] if value is None and key in NULLS else number(value, unit), expected])
     return {"head": ["", "value", "hold against"], "rows": rows}

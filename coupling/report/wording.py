@@ -6,6 +6,8 @@ import math
 
 ABSENT = "not computed"
 MESH_SET = "set by the mesh (local law)"
+MESH_SET_REASON = "It is no property of the material unless it stays the same on two meshes."
+LENGTH_SET_REASON = "It depends on that length, the size of the sample and the softening, all of them chosen or fitted."
 FITTED = "fitted, not predicted"
 
 # key of a summary -> (words, unit, what to hold it against), in the order of the page
@@ -26,6 +28,11 @@ WORDS = {
     "strain_at_peak": ("axial strain at the peak", "%", ""),
     "final_volumetric_strain": ("volumetric strain at the end", "%", ""),
     "max_equivalent_plastic_strain": ("largest equivalent plastic strain", "", ""),
+    "internal_length_d": ("internal length of the law", " d", "a local law has none: its band is set by the mesh"),
+    "localisation_strain": ("axial strain at the first loss of ellipticity", "%", ""),
+    "localisation_angle_deg": ("angle of the line that could form there", "°", ""),
+    "viscous_share": ("largest share of the strength that viscosity carries", "%", "rate independent: 0"),
+    "processes": ("processes", "", ""),
     "share_zz_not_intermediate": ("points where σ_zz is not intermediate", "%", "below 5 %: the in-plane yield surface is exact only where it is"),
     "steps": ("steps", "", ""),
     "step_length": ("step length", "", ""),
@@ -55,6 +62,10 @@ WORDS = {
     "comparison_cpu_s": ("homogenisation and comparison", " s", ""),
     "peak_memory_mb": ("peak memory", " MB", ""),
 }
+
+
+# key -> what null says, where it does say something
+NULLS = {"internal_length_d": "none", "localisation_strain": "never", "localisation_angle_deg": "–"}
 
 
 def number(value, unit="", digits=4):

@@ -1,213 +1,210 @@
-// diptych: the in-plane Mohr-Coulomb law on single points
+// diptych: Mohr-Coulomb in principal space, against independent answers
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
+#include <map>
 #include <random>
+#include <set>
 
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "continuum/laws/mohr_coulomb.h"
+#include "continuum/laws/plastic_flow.h"
+#include "tests/continuum/law_states.h"
 
 namespace
 {
   using namespace diptych::continuum;
-  using Strain = dealii::SymmetricTensor<2, 2>;
+  using namespace diptych::continuum::tests;
 
-  Strain tensor(const double xx, const double yy, const double xy)
+  // Principal stresses along the axes: plane (i, j) is (s_i - s_j)/2 + (s_i + s_j)/2 sin phi - c cos phi = 0, six of them.
+  struct Plane
   {
-    Strain e;
-    e[0][0] = xx, e[1][1] = yy, e[0][1] = xy;
-    return e;
-  }
-
-  // Isotropic compression by `pressure`; mechanics sign inside the law.
-  MaterialState compressed(const double pressure, const double equivalent_plastic_strain = 0)
-  {
-    MaterialState state;
-    state.stress                    = tensor(-pressure, -pressure, 0);
-    state.stress_zz                 = -pressure;
-    state.equivalent_plastic_strain = equivalent_plastic_strain;
-    return state;
-  }
-
-  double sine(const double degrees)
-  {
-    return std::sin(degrees * M_PI / 180);
-  }
-
-  MohrCoulombOptions softening_law()
-  {
-    MohrCoulombOptions options;
-    options.cohesion         = 0.1;
-    options.softening_strain = 0.05;
-    return options;
-  }
-
-  // Directions spread over the circle, each scaled to the given size; the generator is seeded.
-  std::vector<Strain> random_strains(const int n, const double size)
-  {
-    std::mt19937        random(11);
-    std::vector<Strain> strains;
-    for (int k = 0; k < n; ++k)
-      {
-        const auto   number = [&] { return 2. * double(random()) / double(random.max()) - 1; };
-        const Strain e      = tensor(number(), number(), number());
-        strains.push_back(size / e.norm() * e);
-      }
-    return strains;
-  }
-
-  // Central differences with a step of 1e-6 of the strain; relative to the elastic modulus.
-  double tangent_error(const MohrCoulomb &law, const MaterialState &state, const Strain &strain)
-  {
-    const MaterialUpdate answer = law.update(state, strain);
-    const double         step   = 1e-6 * strain.norm();
-    double               worst  = 0;
-    for (int k = 0; k < 2; ++k)
-      for (int l = k; l < 2; ++l)
-        {
-          Strain up = strain, down = strain;
-          up[k][l] += step, down[k][l] -= step;
-          const Strain difference = (law.update(state, up).state.stress - law.update(state, down).state.stress) / (2 * step);
-          for (int i = 0; i < 2; ++i)
-            for (int j = i; j < 2; ++j)
-              {
-                // Moving the shared off-diagonal entry moves both of its places.
-                const double expected = answer.tangent[i][j][k][l] * (k == l ? 1 : 2);
-                worst                 = std::max(worst, std::abs(difference[i][j] - expected) / 500);
-              }
-        }
-    return worst;
-  }
-
-  struct Case
-  {
-    const char   *name;
-    Regime        regime;
-    MaterialState state;
-    double        size; // of the strain increments
+    unsigned int    major, minor;
+    Eigen::Vector3d normal;
   };
 
-  TEST(MohrCoulomb, TangentAgreesWithDifferencesInEveryRegime)
+  std::vector<Plane> planes(const double angle)
   {
-    const MohrCoulomb law(softening_law());
-    const Case        cases[] = {{"elastic", Regime::elastic, compressed(1), 1e-5},
-                                 {"plastic", Regime::plastic, compressed(1), 5e-3},
-                                 {"softened", Regime::plastic, compressed(1, 0.06), 5e-3},
-                                 {"apex", Regime::apex, compressed(0.01, 0.02), 5e-3}};
-    for (const Case &c : cases)
-      {
-        int seen = 0;
-        for (const Strain &strain : random_strains(60, c.size))
+    std::vector<Plane> all;
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        if (i != j)
           {
-            const MaterialUpdate answer = law.update(c.state, strain);
-            if (answer.regime != c.regime)
-              continue;
-            ++seen;
-            EXPECT_LT(tangent_error(law, c.state, strain), 1e-6) << c.name << ", strain " << strain;
+            Eigen::Vector3d n = Eigen::Vector3d::Zero();
+            n[i] = (1 + sine(angle)) / 2, n[j] = -(1 - sine(angle)) / 2;
+            all.push_back({i, j, n});
           }
-        EXPECT_GE(seen, 10) << c.name << " must have been met";
-      }
+    return all;
   }
 
-  TEST(MohrCoulomb, PlasticStatesLieOnTheSoftenedYieldSurface)
+  Eigen::Matrix3d principal_stiffness(const ElasticModuli &m)
   {
-    const MohrCoulomb law(softening_law());
-    int               plastic = 0;
-    for (const Strain &strain : random_strains(50, 5e-3))
+    return 2 * m.shear * Eigen::Matrix3d::Identity() + m.lateral * Eigen::Matrix3d::Ones();
+  }
+
+  // Closest point to `trial` in the energy norm, among the points of every face, edge and corner of the yield surface.
+  Eigen::Vector3d closest_point(const Eigen::Vector3d &trial,
+                                const double           friction,
+                                const double           cohesion,
+                                const ElasticModuli   &m)
+  {
+    const auto            all = planes(friction);
+    const double          b   = cohesion * std::cos(friction * degree);
+    const Eigen::Matrix3d D   = principal_stiffness(m);
+    Eigen::Vector3d       best;
+    double                least = INFINITY;
+    for (unsigned int subset = 0; subset < 64; ++subset)
       {
-        const MaterialUpdate answer = law.update(compressed(1), strain);
-        if (answer.regime == Regime::elastic)
+        Eigen::MatrixXd A(0, 3);
+        for (unsigned int k = 0; k < 6; ++k)
+          if (subset & (1u << k))
+            {
+              A.conservativeResize(A.rows() + 1, 3);
+              A.row(A.rows() - 1) = all[k].normal;
+            }
+        if (A.rows() > 3)
           continue;
-        ++plastic;
-        EXPECT_NEAR(law.yield_function(answer.state.stress, answer.state.equivalent_plastic_strain), 0, 1e-11);
-        EXPECT_GT(answer.state.equivalent_plastic_strain, 0);
+        // A (trial - D A^T x) = b.
+        const Eigen::VectorXd right = A * trial - Eigen::VectorXd::Constant(A.rows(), b);
+        const Eigen::VectorXd x     = A.rows() > 0 ? Eigen::VectorXd((A * D * A.transpose()).fullPivLu().solve(right)) : right;
+        const Eigen::Vector3d point = trial - D * A.transpose() * x;
+        double                worst = 0;
+        for (const Plane &plane : all)
+          worst = std::max(worst, plane.normal.dot(point) - b);
+        const double energy = (trial - point).dot(D.inverse() * (trial - point));
+        if (worst < 1e-9 && energy < least)
+          {
+            least = energy;
+            best  = point;
+          }
       }
-    EXPECT_GT(plastic, 20);
+    return best;
   }
 
-  // Turning the strain turns the stress.
-  TEST(MohrCoulomb, KnowsNoDirection)
+  Eigen::Vector3d principal(const MaterialState &state)
   {
-    const MohrCoulomb law(softening_law());
-    const double      c = std::cos(0.7), s = std::sin(0.7);
-    const auto        turned = [&](const Strain &a) {
-      const double xx = c * c * a[0][0] - 2 * c * s * a[0][1] + s * s * a[1][1];
-      const double yy = s * s * a[0][0] + 2 * c * s * a[0][1] + c * c * a[1][1];
-      return tensor(xx, yy, c * s * (a[0][0] - a[1][1]) + (c * c - s * s) * a[0][1]);
-    };
-    for (const Strain &strain : random_strains(20, 4e-3))
+    return {state.stress[xx], state.stress[yy], state.stress_zz};
+  }
+
+  std::vector<MaterialState> random_states(const int n)
+  {
+    std::mt19937               random(5);
+    std::vector<MaterialState> states;
+    const auto                 number = [&] { return 2 * double(random()) / double(random.max()) - 1; };
+    for (int k = 0; k < n; ++k)
       {
-        const Strain a = turned(law.update(compressed(1), strain).state.stress);
-        const Strain b = law.update(compressed(1), turned(strain)).state.stress;
-        EXPECT_NEAR((a - b).norm(), 0, 1e-12);
+        const double a = number() / 2, b = number() / 2, c = number() / 2;
+        const double mean = number() - .3;
+        states.push_back(state_of(mean + a, mean + b, mean + c));
       }
+    return states;
   }
 
-  // d eps_v / d gamma = -sin psi, dilation negative in compression-positive volume: measured on the plastic strain of a
-  // shear increment without hardening change (softening strain very long). G = E/(2(1+nu)), plane bulk K + G/3.
-  TEST(MohrCoulomb, DilatesByTheSineOfItsAngle)
+  // Associated flow without hardening is the closest point. The random trial states lie in every region.
+  TEST(MohrCoulomb, AssociatedReturnIsTheClosestPoint)
   {
-    MohrCoulombOptions options;
-    options.softening_strain = 1e5;
-    const MohrCoulomb    law(options);
-    const Strain         strain = tensor(0.004, -0.004, 0); // vertical shortening, no volume change
-    const MaterialUpdate answer = law.update(compressed(1), strain);
-    ASSERT_EQ(answer.regime, Regime::plastic);
-    const PlaneModuli moduli         = plane_moduli(options.elastic);
-    const double      elastic_volume = (trace(answer.state.stress) + 2) / (2 * moduli.bulk); // tension positive
-    const double      plastic_volume = trace(strain) - elastic_volume;
-    EXPECT_NEAR(plastic_volume / answer.state.equivalent_plastic_strain, sine(12), 1e-6);
-  }
-
-  // c = 0.1, phi = 20.5: stretched beyond the cone the state is its tip, s = -c cot(phi), no shear.
-  TEST(MohrCoulomb, ReturnsToTheApexUnderTension)
-  {
-    MohrCoulombOptions options = softening_law();
-    options.softening_strain   = 1e5;
-    const MohrCoulomb    law(options);
-    const MaterialUpdate answer = law.update(compressed(0.1), tensor(0.01, 0.012, 0.001));
-    EXPECT_EQ(answer.regime, Regime::apex);
-    const double tension = 0.1 / std::tan(20.5 * M_PI / 180);
-    EXPECT_NEAR((answer.state.stress - tensor(tension, tension, 0)).norm(), 0, 1e-6);
-  }
-
-  TEST(MohrCoulomb, DissipationIsNeverNegative)
-  {
-    const MohrCoulomb law(softening_law());
-    const PlaneModuli moduli = plane_moduli({});
-    for (const Strain &strain : random_strains(100, 5e-3))
+    for (const double friction : {0., 20., 35.})
       {
-        const MaterialState  start    = compressed(0.3, 0.01);
-        const MaterialUpdate answer   = law.update(start, strain);
-        const Strain         d_stress = answer.state.stress - start.stress;
-        // Elastic strain of the stress increment: volume over 2 bulk, deviator over 2 G.
-        const Strain elastic = trace(d_stress) / (4 * moduli.bulk) * dealii::unit_symmetric_tensor<2>() +
-                               1 / (2 * moduli.shear) * deviator(d_stress);
-        EXPECT_GE(answer.state.stress * (strain - elastic), -1e-14);
+        const MohrCoulomb     law(constant(friction, friction, 0.1));
+        std::map<Regime, int> seen;
+        int                   other_plane = 0;
+        for (const MaterialState &trial : random_states(300))
+          {
+            const MaterialUpdate  answer   = law.update(trial, {}, 0);
+            const Eigen::Vector3d expected = closest_point(principal(trial), friction, 0.1, law.moduli());
+            EXPECT_NEAR((principal(answer.state) - expected).norm(), 0, 1e-9) << principal(trial).transpose();
+            ++seen[answer.regime];
+            const auto   stress = principal(answer.state);
+            const double middle = stress.sum() - stress.maxCoeff() - stress.minCoeff();
+            other_plane += answer.regime == Regime::plastic && middle != stress[2];
+          }
+        EXPECT_GT(seen[Regime::plastic], 30);
+        EXPECT_GT(seen[Regime::edge], 20);
+        EXPECT_GT(seen[Regime::elastic], 3);
+        EXPECT_GT(other_plane, 20) << "sigma_zz outer, one plane";
+        EXPECT_EQ(seen[Regime::apex] > 5, friction > 0);
       }
   }
 
-  TEST(MohrCoulomb, LeavesTheCommittedStateAlone)
+  // Koiter: plastic strain is a sum of the flow directions of planes that are active at the end, with no negative share, and
+  // kappa grows by the sum of the shares. The shares follow from least squares on the active flow directions.
+  TEST(MohrCoulomb, FlowIsThatOfActivePlanesWithHardeningAndFadingDilatancy)
   {
-    const MohrCoulomb   law(softening_law());
-    const MaterialState state = compressed(1, 0.01), before = state;
-    (void)law.update(state, tensor(0.01, -0.02, 0.003));
-    EXPECT_EQ(state.stress, before.stress);
-    EXPECT_EQ(state.equivalent_plastic_strain, before.equivalent_plastic_strain);
+    for (const std::string kind : {"exponential", "table, viscous"})
+      {
+        const LawOptions   options = hardenings()[kind];
+        const MohrCoulomb  law(options);
+        std::map<int, int> seen;
+        for (MaterialState trial : random_states(300))
+          {
+            trial.equivalent_plastic_strain = 0.01;
+            MaterialUpdate answer           = law.update(trial, {}, 1e-2);
+            ASSERT_EQ(answer.verdict, Verdict::reliable);
+            if (answer.regime == Regime::elastic || answer.regime == Regime::apex)
+              continue;
+            add_plastic_flow(law.moduli(), trial, {}, answer.state);
+            const PlasticStrain  &p = answer.state.plastic_strain;
+            const Eigen::Vector3d flow(p.xx, p.yy, p.zz);
+            const Strength        end   = Hardening(options).at(answer.state.equivalent_plastic_strain);
+            const auto            yield = planes(end.friction / degree), direction = planes(end.dilatancy / degree);
+            Eigen::MatrixXd       active(3, 0);
+            for (unsigned int k = 0; k < 6; ++k)
+              {
+                const double F = yield[k].normal.dot(principal(answer.state)) - end.cohesion * std::cos(end.friction);
+                EXPECT_LT(F, answer.state.overstress + 1e-11);
+                if (F < answer.state.overstress - 1e-9)
+                  continue;
+                active.conservativeResize(3, active.cols() + 1);
+                active.col(active.cols() - 1) = direction[k].normal;
+              }
+            ASSERT_EQ(active.cols(), answer.regime == Regime::edge ? 2 : 1);
+            const Eigen::VectorXd shares = active.colPivHouseholderQr().solve(flow);
+            EXPECT_NEAR((active * shares - flow).norm(), 0, 1e-14);
+            EXPECT_GE(shares.minCoeff(), -1e-12);
+            EXPECT_NEAR(shares.sum(), answer.state.equivalent_plastic_strain - 0.01, 1e-13);
+            ++seen[active.cols()];
+          }
+        EXPECT_GT(seen[1], 50) << kind;
+        EXPECT_GT(seen[2], 20) << kind;
+      }
   }
 
-  TEST(MohrCoulomb, ContradictoryOptionsAreRefusedByName)
+  // Stress is continuous where regimes meet: along a straight line of trial states no jump exceeds what the elastic moduli and
+  // the step allow: |D| h = 2 (K + 4 G/3) h at most.
+  TEST(MohrCoulomb, StressIsContinuousAcrossRegimes)
   {
-    MohrCoulombOptions options;
-    options.friction_angle_peak = 10;
-    try
+    const MohrCoulomb law(hardenings()["exponential, viscous"]);
+    const double      h            = 1e-5;
+    const Strain      directions[] = {strain_of(1, 1.001), strain_of(1, -.2, .3), strain_of(-.3, 1, .1), strain_of(-1, -.9)};
+    std::set<Regime>  seen;
+    for (const Strain &direction : directions)
+      for (const double szz : {-1., -.5, -1.6, .1})
+        {
+          Stress last = state_of(-.5, -.4, szz).stress;
+          for (int k = 1; k < 1000; ++k)
+            {
+              const MaterialUpdate answer = law.update(state_of(-.5, -.4, szz), k * h * direction, 1e-2);
+              if (k > 1)
+                {
+                  EXPECT_LT((answer.state.stress - last).norm(), 3 * law.moduli().plane_bulk * h * direction.norm());
+                }
+              last = answer.state.stress;
+              seen.insert(answer.regime);
+            }
+        }
+    EXPECT_EQ(seen.size(), 4u);
+  }
+
+  // Equal in-plane principal stresses at an edge: no division by their difference.
+  TEST(MohrCoulomb, TangentHoldsWithEqualStressesInThePlane)
+  {
+    const Law law = make_law("mohr_coulomb", hardenings()["exponential"]);
+    for (const auto &[size, szz] : {std::pair(-3e-3, -.5), std::pair(1e-3, -1.5)})
       {
-        validate(options);
-        FAIL() << "no error";
-      }
-    catch (const std::invalid_argument &error)
-      {
-        EXPECT_NE(std::string(error.what()).find("friction_angle_peak"), std::string::npos);
+        const MaterialState  s0     = state_of(-1, -1, szz);
+        const MaterialUpdate answer = update(law, s0, strain_of(size, size));
+        EXPECT_EQ(answer.regime, Regime::edge);
+        EXPECT_LT(tangent_error(law, s0, strain_of(size, size)).value_or(1), 1e-6);
       }
   }
 } // namespace

@@ -71,6 +71,29 @@ namespace
     EXPECT_EQ(scene.comparison.window_edges, (std::vector<double>{0, 0.02}));
   }
 
+  TEST(Scene, ReadsEveryKindOfValueOfTheContinuum)
+  {
+    const Scene scene = read_scene(
+      SceneFile("").path, {"continuum/hardening=table", "continuum/table_strain=0, 0.1", "continuum/table_friction_angle=30, 20",
+                           "continuum/table_dilatancy_angle=10, 0", "continuum/table_cohesion=0.1, 0.2",
+                           "continuum/cohesion_residual=0.25", "continuum/refinement_levels=3", "continuum/mesh=mine.msh"});
+    EXPECT_EQ(scene.continuum.material.hardening, "table");
+    EXPECT_EQ(scene.continuum.material.table_strain, (std::vector<double>{0, 0.1}));
+    EXPECT_EQ(scene.continuum.material.table_friction_angle, (std::vector<double>{30, 20}));
+    EXPECT_EQ(scene.continuum.material.cohesion_residual, std::optional<double>(0.25));
+    EXPECT_EQ(scene.continuum.refinement_levels, 3);
+    EXPECT_EQ(scene.continuum.mesh, "mine.msh");
+    EXPECT_FALSE(read_scene(SceneFile("").path, {}).continuum.material.cohesion_residual);
+    EXPECT_TRUE(read_scene(SceneFile("").path, {}).continuum.material.table_strain.empty());
+  }
+
+  TEST(Scene, OnlyAComparisonAsksItsWindowsToBeStages)
+  {
+    const SceneFile file("subsection comparison\n  set window_edges = 0, 0.013\nend\n");
+    EXPECT_THROW(read_scene(file.path, {}), SceneError);
+    EXPECT_NO_THROW(read_scene(file.path, {}, false));
+  }
+
   TEST(Scene, AnUnknownKeyIsNamedWithFileLineAndNearestKey)
   {
     expect_words(error_of("subsection sample\n\n  set grians = 500\nend\n"),
@@ -109,7 +132,12 @@ namespace
     expect_words(error_of("subsection loading\n  set axial_strain = 0.012\nend\n"),
                  {"loading/axial_strain", "loading/stage_strain"});
     expect_words(error_of("subsection comparison\n  set window_edges = 0, 0.013\nend\n"), {"window_edges", "0.013"});
-    expect_words(error_of("subsection continuum\n  set friction_angle_peak = 10\nend\n"), {"friction_angle"});
+    expect_words(error_of("subsection continuum\n  set friction_angle_peak = 10\nend\n"),
+                 {"friction_angle_peak", "line 2", "continuum/friction_angle_peak = '10'"});
+    expect_words(error_of("", {"continuum/element=q1_bbar"}), {"continuum", "element = q1_bbar", "--set"});
+    expect_words(error_of("", {"continuum/mesh=rectangle", "continuum/rectangle_width=3"}), {"rectangle_height = 0"});
+    expect_words(error_of("", {"loading/mode=time", "comparison/window_edges=0, 5.5"}),
+                 {"window_edges", "5.5", "stage_time", "duration"});
     expect_words(error_of("subsection sample\n  set radius_max = 0.8\nend\n"), {"radius_min", "radius_max"});
   }
 
@@ -141,6 +169,5 @@ namespace
     const std::vector<double> strains = stages(loading);
     ASSERT_EQ(strains.size(), 6u);
     EXPECT_DOUBLE_EQ(strains.back(), 0.03);
-    EXPECT_EQ(continuum_loading(loading, 75.).upper_platen_travel, Eigen::Vector2d(75, -75));
   }
 } // namespace

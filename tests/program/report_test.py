@@ -192,6 +192,40 @@ class OtherFolders(unittest.TestCase):
         run(self.folder.name)
         self.assertEqual(read(self.folder.name), first)
 
+    def write_with_law(self, length):
+        write_folder(self.folder.name)
+        path = os.path.join(self.folder.name, "comparison.json")
+        with open(path, encoding="utf-8") as stream:
+            comparison = json.load(stream)
+        comparison["continuum_summary"] = {"law": "a law", "internal_length_d": length, "localisation_strain": None}
+        write_json(self.folder.name, "comparison.json", comparison)
+        outcome = run(self.folder.name)
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        text = read(self.folder.name)
+        return text, re.search(r"10–90 % width</th>(.*?)</tr>", text).group(1)
+
+    def test_a_law_with_an_internal_length_is_not_said_to_be_set_by_the_mesh(self):
+        text, row = self.write_with_law(1.5)
+        self.assertEqual(row.count("internal length 1.5 d"), 3)
+        self.assertNotIn("set by the mesh (local law)", text)
+        self.assertIn("never", text)  # it did not localise
+
+    def test_a_law_without_one_is(self):
+        text, row = self.write_with_law(None)
+        self.assertEqual(row.count("set by the mesh (local law)"), 3)
+        self.assertNotIn("internal length 1.5 d", text)
+
+    def test_stages_of_shear_are_drawn_against_the_travel(self):
+        """In the mode shear the grains' axial strain stays 0: their histories are drawn against shear_strain."""
+        write_folder(self.folder.name)
+        with open(os.path.join(self.folder.name, "scene.prm"), "w", encoding="utf-8") as stream:
+            stream.write("subsection loading\n  set mode = shear\nend\n")
+        with open(os.path.join(self.folder.name, "discrete.csv"), "w", encoding="utf-8") as stream:
+            stream.write("axial_strain,shear_strain,stress_ratio\n0,0.005,0.3\n0,0.01,0.3\n")
+        sys.path.insert(0, os.path.dirname(REPORT))
+        from load import load
+        np.testing.assert_array_equal(load(self.folder.name).histories["discrete"]["axial_strain"], [0.005, 0.01])
+
     def test_a_missing_file_is_named_and_ends_with_code_2(self):
         write_folder(self.folder.name, complete=False)
         os.remove(os.path.join(self.folder.name, "continuum.csv"))

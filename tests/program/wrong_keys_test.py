@@ -80,7 +80,11 @@ class WrongKeys(unittest.TestCase):
         """Those that take any text are drives, which are checked for themselves."""
         self.assertTrue(all(key.startswith("drive_") for key in self.expect_refused("discrete")))
 
+    def test_every_key_of_continuum(self):
+        self.assertEqual(self.expect_refused("continuum"), {"mesh"})
+
     def test_files_that_are_not_there(self):
+        self.expect_wrong(setting(continuum_mesh="no_such.msh"), "continuum/mesh", "no_such.msh", command="continuum")
         self.expect_wrong(setting(sample_file="no_such.csv"), "no_such.csv", "sample/file")
         self.expect_wrong(setting(sample_radius_distribution="table", sample_radius_table="no_such.csv"), "no_such.csv",
                           "sample/radius_table")
@@ -161,10 +165,32 @@ class WrongKeys(unittest.TestCase):
         self.assertEqual([name for name in listing(self.out) if name.endswith(".part")], [])
 
     def test_what_the_continuum_does_not_have(self):
-        for words, key in [(setting(discrete_lateral="periodic"), "discrete/lateral"), (setting(loading_mode="shear"), "loading/mode"),
-                           (setting(discrete_gravity_y=-1), "discrete/gravity_y"),
-                           (["--set", "discrete/drive_lower_x=velocity 1"], "discrete/drive_")]:
-            self.expect_wrong(words, key, "diptych discrete", command="run")
+        sides = setting(discrete_lateral="rigid_walls")
+        for words, key in [(setting(discrete_lateral="periodic"), "continuum/platens"),
+                           (setting(loading_mode="shear", continuum_platens="smooth"), "loading/mode"),
+                           (["--set", "discrete/drive_upper_y=velocity -1"], "discrete/drive_upper_y"),
+                           (sides + ["--set", "discrete/drive_right_x=force -1"], "discrete/drive_right_x"),
+                           (sides + ["--set", "discrete/drive_left_y=velocity 1"], "discrete/drive_left_y")]:
+            for command in ["run", "continuum"]:
+                self.expect_wrong(words, key, "diptych discrete", command=command)
+
+    def test_meshes_that_do_not_fit_the_command(self):
+        rectangle = setting(continuum_mesh="rectangle", continuum_rectangle_width=9, continuum_rectangle_height=9)
+        self.expect_wrong(rectangle, "continuum/mesh", "outline", "diptych continuum", command="run")
+        self.expect_wrong(rectangle + setting(continuum_initial_stress="mapped"), "continuum/initial_stress", "outline",
+                          command="continuum")
+        self.expect_wrong(setting(continuum_mesh="rectangle"), "rectangle_width = 0", command="continuum")
+        triangles = write(self.path("broken.msh"), "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n")
+        self.expect_wrong(setting(continuum_mesh=triangles), "continuum/mesh", "broken.msh", command="continuum")
+        self.expect_wrong(setting(continuum_mesh=write(self.path("mesh.txt"), "")), "continuum/mesh", ".msh or .geo", command="continuum")
+
+    def test_keys_of_the_law_that_contradict_each_other_are_named_with_their_place(self):
+        scene = write(self.path("mine.prm"), "subsection continuum\n  set friction_angle_residual = 40\nend\n")
+        result = diptych("continuum", scene, "--output", self.out)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        for text in ["mine.prm, line 2: continuum/friction_angle_residual = '40'", "friction_angle_peak"]:
+            self.assertIn(text, result.stderr)
+        self.assertFalse(os.path.exists(self.out))
 
     def test_studies_that_cannot_be(self):
         self.expect_wrong(["--study", "grid"], "--study grid", "step")

@@ -1,0 +1,62 @@
+// diptych: laws whose return mapping is radial, onto a cone over the pressure
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "continuum/laws/cone_return.h"
+#include "continuum/laws/elasticity.h"
+
+namespace diptych::continuum
+{
+  // Stress as pressure s and a deviatoric vector q whose elastic increment is G g, g the strain conjugate to it:
+  //   q = ((s_xx - s_yy)/2, s_xy, (sqrt3/2) s_zz', m_x/(sqrt2 l), m_y/(sqrt2 l)),
+  //   g = (e_xx - e_yy, gamma_xy, -tr(e)/sqrt3, sqrt2 l kappa_x, sqrt2 l kappa_y).
+  // The third entry belongs to Drucker-Prager, the last two to Cosserat laws; else they are zero. The elastic pressure
+  // increment is -B tr(e): B = K + G/3 and s = -(s_xx + s_yy)/2 for Mohr-Coulomb, B = K and s = -I1/3 for Drucker-Prager.
+  // The skew stress is elastic and no part of the yield function, the couple stress is through m.m/(2 l^2).
+  class ConeLaw
+  {
+  public:
+    // Members as in LinearElastic. The constructor throws std::invalid_argument as validate(options) does.
+    ConeLaw(const LawOptions &options, ConeShape shape, bool is_cosserat);
+
+    // Implicit: F = |q| - s f - g0 = overstress with f, g0 and dilation d at the END of the step; the hardening variable grows
+    // by the multiplier lambda, |q| falls by G lambda, s rises by B lambda d. Perzyna: overstress = (viscosity/d_time) lambda.
+    MaterialUpdate update(const MaterialState &s0, const Strain &d_strain, double d_time) const;
+    double         yield_function(const MaterialState &state) const;
+    double         shear_strength(const MaterialState &state) const;
+
+    const ElasticModuli &moduli() const { return moduli_; }
+    const Tangent       &elastic_tangent() const { return elastic; }
+
+  protected:
+    using Deviatoric = dealii::Tensor<1, 5>;
+
+    // Elastic predictor. `direction` is the unit vector of q, zero where q is.
+    struct Trial
+    {
+      MaterialState state;
+      Deviatoric    direction;
+      double        shear = 0, pressure = 0; // |q|, s
+    };
+
+    Trial          elastic_trial(const MaterialState &s0, const Strain &d_strain) const;
+    ConeReturn     radial_return(const Trial &trial, double d_time) const;
+    MaterialUpdate elastic_answer(const Trial &trial) const;
+    MaterialUpdate plastic_answer(const Trial &trial, const ConeReturn &end) const;
+    double         viscous_modulus(double d_time) const { return d_time > 0 ? viscosity / d_time : 0; }
+
+    YieldCone     cone;
+    ElasticModuli moduli_;
+
+  private:
+    Deviatoric deviatoric(const MaterialState &state) const;
+    double     pressure(const MaterialState &state) const;
+    Stress     conjugate(const Deviatoric &q) const; // q . dg/d(strain)
+
+    double  pressure_modulus; // B [pressure]
+    double  viscosity;
+    double  couple_scale; // sqrt2 l; zero for a classical law
+    Tangent elastic;
+    Tangent metric; // (dg/d strain)^T (dg/d strain)
+  };
+} // namespace diptych::continuum

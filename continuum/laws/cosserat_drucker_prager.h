@@ -1,0 +1,20 @@
+// diptych: Drucker-Prager plasticity with Cosserat rotations, thus an internal length
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "continuum/laws/cone_law.h"
+
+namespace diptych::continuum
+{
+  // As DruckerPrager, with the couple stress in the yield function: J2 + m.m/(2 l^2) in place of J2. The plastic curvature takes
+  // part in the hardening variable.
+  class CosseratDruckerPrager : public ConeLaw
+  {
+  public:
+    static constexpr bool is_cosserat = true;
+
+    explicit CosseratDruckerPrager(const LawOptions &options)
+        : ConeLaw(options, ConeShape::drucker_prager, is_cosserat)
+    {}
+  };
+} // namespace diptych::continuum

@@ -1,0 +1,21 @@
+// diptych: in-plane Mohr-Coulomb plasticity with Cosserat rotations, thus an internal length
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "continuum/laws/cone_law.h"
+
+namespace diptych::continuum
+{
+  // F = sqrt(t^2 + m.m/(2 l^2)) - s sin(phi) - c cos(phi) with t and s in the plane. sigma_zz is kept, elastic, and never looked
+  // at: the law is Mohr-Coulomb's only where it is the intermediate principal stress. The panel tells the share of the area
+  // where it is not. The plastic curvature takes part in the hardening variable.
+  class CosseratMohrCoulomb : public ConeLaw
+  {
+  public:
+    static constexpr bool is_cosserat = true;
+
+    explicit CosseratMohrCoulomb(const LawOptions &options)
+        : ConeLaw(options, ConeShape::mohr_coulomb, is_cosserat)
+    {}
+  };
+} // namespace diptych::continuum

@@ -1,0 +1,22 @@
+// diptych: Drucker-Prager plasticity in plane strain
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "continuum/laws/cone_law.h"
+
+namespace diptych::continuum
+{
+  // F = sqrt(J2) + alpha I1 - k with alpha, k and the dilatancy matched to plane-strain flow (yield_cone.h): there it has the
+  // strength of the Mohr-Coulomb law whatever its dilatancy. sigma_zz flows plastically. The hardening variable grows by the
+  // multiplier: the norm of the plastic part of g (ConeLaw), which in plane-strain flow is d(eps_1 - eps_3) plastic times
+  // sqrt(1 + sin^2(psi)/3), 0.7 % above it at psi = 12 degrees.
+  class DruckerPrager : public ConeLaw
+  {
+  public:
+    static constexpr bool is_cosserat = false;
+
+    explicit DruckerPrager(const LawOptions &options)
+        : ConeLaw(options, ConeShape::drucker_prager, is_cosserat)
+    {}
+  };
+} // namespace diptych::continuum

@@ -1,0 +1,109 @@
+// diptych: parameters of the constitutive laws, checked
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "continuum/laws/options.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace diptych::continuum
+{
+  namespace
+  {
+    template <class... Text> void require(const bool holds, const Text &...text)
+    {
+      if (holds)
+        return;
+      std::ostringstream message;
+      (message << ... << text);
+      throw std::invalid_argument(message.str());
+    }
+
+    // The comparison is false for what is not a number.
+    void require_range(const std::string &key, const double value, const double low, const double high)
+    {
+      require(value >= low && value <= high, key, " = ", value, " must lie in [", low, ", ", high, "]");
+    }
+
+    constexpr double steepest = 60, greatest = 1e12; // [degrees], any other unit
+
+    void check_values(const std::string &place, const double friction, const double dilatancy, const double cohesion)
+    {
+      require(dilatancy <= friction, "dilatancy angle ", dilatancy, ' ', place, " must not exceed the friction angle ", friction,
+              " (plastic work would be negative)");
+      require(friction > 0 || cohesion > 0, "friction and cohesion are both zero ", place, ": one must be positive");
+    }
+
+    void check_peak(const LawOptions &o)
+    {
+      require_range("friction_angle_peak", o.friction_angle_peak, 0, steepest);
+      require_range("dilatancy_angle_peak", o.dilatancy_angle_peak, 0, steepest);
+      require_range("cohesion", o.cohesion, 0, greatest);
+      check_values("at the peak (dilatancy_angle_peak, friction_angle_peak, cohesion)", o.friction_angle_peak,
+                   o.dilatancy_angle_peak, o.cohesion);
+    }
+
+    // All values decay alike, so that the two ends decide for all between.
+    void check_residual(const LawOptions &o)
+    {
+      const double cohesion = o.cohesion_residual.value_or(o.cohesion);
+      require_range("friction_angle_residual", o.friction_angle_residual, 0, steepest);
+      require_range("dilatancy_angle_residual", o.dilatancy_angle_residual, 0, steepest);
+      require_range("cohesion_residual", cohesion, 0, greatest);
+      require_range("softening_strain", o.softening_strain, 1e-6, 1e6);
+      require(o.friction_angle_residual <= o.friction_angle_peak, "friction_angle_residual = ", o.friction_angle_residual,
+              " must not exceed friction_angle_peak = ", o.friction_angle_peak);
+      require(o.dilatancy_angle_residual <= o.dilatancy_angle_peak, "dilatancy_angle_residual = ", o.dilatancy_angle_residual,
+              " must not exceed dilatancy_angle_peak = ", o.dilatancy_angle_peak);
+      require(cohesion <= o.cohesion, "cohesion_residual = ", cohesion, " must not exceed cohesion = ", o.cohesion);
+      check_values("after long shear (dilatancy_angle_residual, friction_angle_residual, cohesion_residual)",
+                   o.friction_angle_residual, o.dilatancy_angle_residual, cohesion);
+    }
+
+    // Linear between the points, so that the points decide.
+    void check_table(const LawOptions &o)
+    {
+      const std::size_t n = o.table_strain.size();
+      require(n > 0, "hardening = table needs table_strain, a list that ascends from 0");
+      require(o.table_friction_angle.size() == n && o.table_dilatancy_angle.size() == n && o.table_cohesion.size() == n,
+              "table_strain, table_friction_angle, table_dilatancy_angle, table_cohesion have ", n, ", ",
+              o.table_friction_angle.size(), ", ", o.table_dilatancy_angle.size(), ", ", o.table_cohesion.size(),
+              " values: they must be equally long");
+      require(o.table_strain[0] == 0, "table_strain begins with ", o.table_strain[0], ": it must ascend from 0");
+      for (std::size_t k = 0; k < n; ++k)
+        {
+          require_range("table_strain", o.table_strain[k], 0, 1e6);
+          require(k == 0 || o.table_strain[k] > o.table_strain[k - 1], "table_strain = ", o.table_strain[k],
+                  " must be above the value before it");
+          require_range("table_friction_angle", o.table_friction_angle[k], 0, steepest);
+          require_range("table_dilatancy_angle", o.table_dilatancy_angle[k], 0, steepest);
+          require_range("table_cohesion", o.table_cohesion[k], 0, greatest);
+          std::ostringstream place;
+          place << "at table_strain = " << o.table_strain[k] << " (table_dilatancy_angle, table_friction_angle, table_cohesion)";
+          check_values(place.str(), o.table_friction_angle[k], o.table_dilatancy_angle[k], o.table_cohesion[k]);
+        }
+    }
+  } // namespace
+
+  void validate(const ElasticOptions &options)
+  {
+    require_range("youngs_modulus", options.youngs_modulus, 1e-3, greatest);
+    require_range("poisson_ratio", options.poisson_ratio, 0, 0.49);
+  }
+
+  void validate(const LawOptions &o)
+  {
+    validate(o.elastic);
+    require(o.hardening == "exponential" || o.hardening == "table" || o.hardening == "constant", "hardening = ", o.hardening,
+            " must be one of exponential, table, constant");
+    if (o.hardening == "table")
+      check_table(o);
+    else
+      check_peak(o);
+    if (o.hardening == "exponential")
+      check_residual(o);
+    require_range("viscosity", o.viscosity, 0, greatest);
+    require_range("internal_length", o.internal_length, 1e-12, greatest);
+    require_range("couple_shear_ratio", o.couple_shear_ratio, 1e-6, 1e6);
+  }
+} // namespace diptych::continuum

@@ -1,0 +1,44 @@
+// diptych: Mohr-Coulomb and Drucker-Prager as cones over the pressure
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "continuum/laws/hardening.h"
+
+namespace diptych::continuum
+{
+  // F = |q| - s slope - intercept, s the pressure (positive in compression) and q a deviatoric vector; the plastic volume
+  // strain is `dilation` times the plastic multiplier. A `_rate` is the derivative by the hardening variable.
+  struct Cone
+  {
+    double slope = 0, slope_rate = 0;
+    double intercept = 0, intercept_rate = 0; // [pressure]
+    double dilation = 0, dilation_rate = 0;
+  };
+
+  enum class ConeShape
+  {
+    mohr_coulomb,  // in the plane: |q| = (sigma_1 - sigma_2)/2, s = -(sigma_1 + sigma_2)/2
+    drucker_prager // |q| = sqrt(J2), s = -I1/3
+  };
+
+  // slope = sin phi, intercept = c cos phi, dilation = sin psi.
+  Cone mohr_coulomb_cone(const Strength &strength);
+
+  // slope = 3 alpha, intercept = k, dilation = 3 beta of F = sqrt(J2) + alpha I1 - k and G = sqrt(J2) + beta I1, matched to
+  // phi, psi and c in plane-strain flow, for any psi:
+  //   beta  = sin psi / sqrt(9 + 3 sin^2 psi),  alpha = sin phi / (3 (sqrt(1 - 3 beta^2) + beta sin phi)),
+  //   k     = c cos phi (1 - 3 alpha beta) / sqrt(1 - 3 beta^2).
+  Cone drucker_prager_cone(const Strength &strength);
+
+  struct YieldCone
+  {
+    Hardening hardening;
+    ConeShape shape;
+
+    Cone at(double equivalent_plastic_strain) const
+    {
+      const Strength strength = hardening.at(equivalent_plastic_strain);
+      return shape == ConeShape::mohr_coulomb ? mohr_coulomb_cone(strength) : drucker_prager_cone(strength);
+    }
+  };
+} // namespace diptych::continuum

@@ -1,0 +1,36 @@
+// diptych: what is done to the continuum's sample
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "continuum/loading.h"
+
+#include <stdexcept>
+#include <string>
+
+#include "continuum/require.h"
+
+namespace diptych::continuum
+{
+  Loading straight_loading(const double pressure, const Eigen::Vector2d &travel, std::vector<double> stages)
+  {
+    Loading loading;
+    loading.pressure = pressure;
+    loading.stages   = std::move(stages);
+    for (unsigned int c = 0; c < 2; ++c)
+      loading.platens[1][c].value = [rate = travel[c]](const double progress) { return rate * progress; };
+    return loading;
+  }
+
+  void validate(const Loading &loading)
+  {
+    require(loading.pressure >= 0, "pressure = ", loading.pressure, " must not be negative");
+    require(loading.body_force.allFinite(), "body_force must be finite");
+    require(!loading.stages.empty(), "stages: at least one is needed");
+    for (std::size_t i = 0; i < loading.stages.size(); ++i)
+      require(loading.stages[i] >= 0 && (i == 0 || loading.stages[i] > loading.stages[i - 1]), "stages: ", loading.stages[i],
+              " is not ascending from 0 on");
+    for (const auto &platen : loading.platens)
+      for (const auto &drive : platen)
+        require(!drive.is_force || drive.value, "a platen that moves freely needs its force");
+    require(!(loading.platens[0][1].is_force && loading.platens[1][1].is_force),
+            "both platens move freely in the vertical: one must be held");
+  }
+} // namespace diptych::continuum

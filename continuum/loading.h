@@ -1,0 +1,55 @@
+// diptych: what is done to the continuum's sample
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace diptych::continuum
+{
+  // The loading is a function of one progress: the axial strain (platen descent or travel / initial height), or a time where
+  // platens move as tables say. One component of a platen's motion:
+  struct Drive
+  {
+    bool                          is_force = false; // the platen moves freely in this component and carries the value as a force
+    std::function<double(double)> value;            // progress -> displacement since the start [length], or force on the platen
+  };
+
+  // A pressure on both sides that acts horizontally per unit of current height, as Moreau's containing action on the grains.
+  struct SidePressure
+  {};
+  // Rigid smooth side walls: the left one stands still, the right one carries pressure x current height or is moved.
+  struct RigidSides
+  {
+    std::optional<double> widening = {}; // displacement of the right wall per unit progress, outwards [length]
+  };
+  // The right side moves as the left one plus a change of the width, which is free under pressure x current height or given.
+  // The sides must carry equally many element edges at equal heights. A free width needs smooth platens.
+  struct PeriodicSides
+  {
+    std::optional<double> widening = 0.; // of the width per unit progress [length]
+  };
+  struct FreeSides
+  {};
+  using LateralCondition = std::variant<SidePressure, RigidSides, PeriodicSides, FreeSides>;
+
+  struct Loading
+  {
+    double                              pressure = 1; // lateral; also the isotropic initial stress [pressure]
+    std::array<std::array<Drive, 2>, 2> platens;      // [lower, upper][x, y]; no function: at rest. Smooth platens leave x alone
+    LateralCondition                    lateral;
+    Eigen::Vector2d                     body_force = Eigen::Vector2d::Zero(); // weight per current area [pressure / length]
+    std::vector<double>                 stages; // values of the progress at which a snapshot is made, ascending; last: the end
+  };
+
+  // The upper platen moves by `travel` [length] per unit progress, the lower one is at rest.
+  Loading straight_loading(double pressure, const Eigen::Vector2d &travel, std::vector<double> stages);
+
+  // Throws std::invalid_argument naming the value and what is allowed.
+  void validate(const Loading &loading);
+} // namespace diptych::continuum

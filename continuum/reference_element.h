@@ -1,0 +1,73 @@
+// diptych: the elements of the continuum panel on the unit square
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+namespace diptych::continuum
+{
+  // Counts known at compile time, so that the loops over them unroll. Every element is isoparametric: the nodes of the
+  // displacement carry the shape, too. `mean_dilation`: the volumetric strain is the mean over the element (B-bar).
+  struct Q2
+  {
+    static constexpr unsigned int n_nodes = 9, n_rotations = 0, n_points = 9, n_dofs = 18, degree = 2;
+    static constexpr bool         mean_dilation = false;
+  };
+  struct Q1MeanDilation
+  {
+    static constexpr unsigned int n_nodes = 4, n_rotations = 0, n_points = 4, n_dofs = 8, degree = 1;
+    static constexpr bool         mean_dilation = true;
+  };
+  struct Q2Cosserat // biquadratic displacement, bilinear rotation
+  {
+    static constexpr unsigned int n_nodes = 9, n_rotations = 4, n_points = 9, n_dofs = 22, degree = 2;
+    static constexpr bool         mean_dilation = false;
+  };
+  constexpr unsigned int max_nodes = 9, max_points = 9, max_dofs = 22;
+
+  enum class ElementKind
+  {
+    q2,
+    q1_mean_dilation,
+    q2_cosserat
+  };
+
+  // Calls action(Element()) with the type that belongs to `kind`.
+  template <class Action> decltype(auto) with_element(const ElementKind kind, Action &&action)
+  {
+    switch (kind)
+      {
+      case ElementKind::q2:
+        return std::forward<Action>(action)(Q2());
+      case ElementKind::q1_mean_dilation:
+        return std::forward<Action>(action)(Q1MeanDilation());
+      default:
+        return std::forward<Action>(action)(Q2Cosserat());
+      }
+  }
+
+  // Shape functions at the Gauss points of the unit square, nodes in deal.II's order of FE_Q (corners in lexicographic order,
+  // then the middles of the left, right, lower and upper edge, then the centre).
+  struct ReferenceElement
+  {
+    explicit ReferenceElement(ElementKind kind);
+
+    unsigned int                                   n_nodes, n_rotations, n_points, n_dofs;
+    std::vector<dealii::Point<2>>                  nodes, points;
+    std::vector<double>                            weights;           // of the points; sum 1
+    std::vector<std::vector<double>>               shape;             // [point][node]
+    std::vector<std::vector<dealii::Tensor<1, 2>>> gradient;          // [point][node], by unit coordinates
+    std::vector<std::vector<double>>               rotation_shape;    // [point][corner]
+    std::vector<std::vector<dealii::Tensor<1, 2>>> rotation_gradient; // [point][corner]
+  };
+
+  // Values of the Lagrange polynomials through the nodes of FE_Q(degree) at a point of the unit square, and through the
+  // degree + 1 squared Gauss points in the order of the element's points.
+  std::vector<double> nodal_interpolation(unsigned int degree, const dealii::Point<2> &at);
+  std::vector<double> gauss_interpolation(unsigned int degree, const dealii::Point<2> &at);
+} // namespace diptych::continuum

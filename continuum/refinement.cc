@@ -1,0 +1,92 @@
+// diptych: smaller elements where plastic strain gathers
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "continuum/refinement.h"
+
+#include <algorithm>
+
+#include <deal.II/distributed/cell_data_transfer.templates.h>
+
+#include "continuum/cell_records.h"
+
+namespace diptych::continuum
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // Flags the cells above the threshold and those that share a vertex with one of them. Whether any process flagged one.
+    bool flag_cells(BoundaryValueProblem &problem, const RefinementRule &rule, const std::vector<double> &increments)
+    {
+      auto        &mesh    = problem.discretisation();
+      const double mine    = increments.empty() ? 0. : *std::max_element(increments.begin(), increments.end());
+      const double largest = Utilities::MPI::max(mine, MPI_COMM_WORLD);
+      if (!(largest > 0))
+        return false;
+      std::vector<bool> near_band(mesh.triangulation.n_vertices(), false);
+      std::size_t       c = 0;
+      for (const auto &cell : mesh.triangulation.active_cell_iterators())
+        if (cell->is_locally_owned() && increments[c++] > rule.threshold * largest)
+          for (const unsigned int v : cell->vertex_indices())
+            near_band[cell->vertex_index(v)] = true;
+      bool flagged = false;
+      for (const auto &cell : mesh.triangulation.active_cell_iterators())
+        if (cell->is_locally_owned() && cell->level() < rule.levels)
+          for (const unsigned int v : cell->vertex_indices())
+            if (near_band[cell->vertex_index(v)])
+              {
+                cell->set_refine_flag();
+                flagged = true;
+              }
+      return Utilities::MPI::max(int(flagged), MPI_COMM_WORLD) == 1;
+    }
+  } // namespace
+
+  std::vector<double> plastic_increments(const BoundaryValueProblem &problem)
+  {
+    const auto         &mesh = problem.discretisation();
+    std::vector<double> increments;
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+      {
+        double sum = 0;
+        for (unsigned int q = 0; q < mesh.reference.n_points; ++q)
+          sum += problem.last_flow()[c * mesh.reference.n_points + q];
+        increments.push_back(sum / mesh.reference.n_points);
+      }
+    return increments;
+  }
+
+  bool refine(BoundaryValueProblem      &problem,
+              const RefinementRule      &rule,
+              const std::vector<double> &increments,
+              std::vector<double>       &last_increment)
+  {
+    if (!flag_cells(problem, rule, increments))
+      return false;
+    auto      &mesh     = problem.discretisation();
+    const auto records  = make_records(problem, last_increment);
+    const auto progress = problem.progress();
+
+    mesh.triangulation.prepare_coarsening_and_refinement();
+    std::vector<CellRecord> sent(mesh.triangulation.n_active_cells());
+    std::size_t             c = 0;
+    for (const auto &cell : mesh.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        sent[cell->active_cell_index()] = records[c++];
+    parallel::distributed::CellDataTransfer<2, 2, std::vector<CellRecord>> transfer(mesh.triangulation);
+    transfer.prepare_for_coarsening_and_refinement(sent);
+    mesh.triangulation.execute_coarsening_and_refinement();
+    std::vector<CellRecord> received(mesh.triangulation.n_active_cells(), CellRecord(record_length(mesh.reference)));
+    transfer.unpack(received);
+
+    mesh.distribute();
+    problem.rebuild();
+    std::vector<CellRecord> mine;
+    for (const auto &cell : mesh.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        mine.push_back(std::move(received[cell->active_cell_index()]));
+    auto restored  = read_records(problem, mine, progress);
+    last_increment = std::move(restored.last_increment);
+    problem.adopt(std::move(restored.state));
+    return true;
+  }
+} // namespace diptych::continuum

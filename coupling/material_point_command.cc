@@ -1,0 +1,51 @@
+// diptych: the continuum's law on one point
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <algorithm>
+#include <iostream>
+#include <sstream>
+
+#include "continuum/material_point.h"
+#include "coupling/commands.h"
+#include "coupling/result_folder.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    std::string summary(const continuum::MaterialPointReport &report)
+    {
+      const auto         peak = std::max_element(report.rows.begin(), report.rows.end(),
+                                                 [](const auto &a, const auto &b) { return a.stress_ratio < b.stress_ratio; });
+      std::ostringstream text;
+      text.precision(6);
+      text << "peak stress ratio " << peak->stress_ratio << " at " << reached(peak->axial_strain) << ", "
+           << report.rows.back().stress_ratio << " at " << reached(report.axial_strain);
+      return text.str();
+    }
+  } // namespace
+
+  int run_material_point(const CommandLine &line)
+  {
+    const Scene                        scene = scene_of(line);
+    const continuum::Law               law   = continuum::make_law(scene.continuum.law, scene.continuum.material);
+    const continuum::MaterialPointPath path{scene.loading.pressure, scene.loading.axial_strain, scene.continuum.initial_step};
+    try
+      {
+        continuum::validate(path);
+      }
+    catch (const std::invalid_argument &error)
+      {
+        throw SceneError(line.target + ": loading/pressure, loading/axial_strain or continuum/initial_step: " + error.what());
+      }
+    open_result_folder(scene, false);
+    const continuum::MaterialPointReport report = continuum::drive_material_point(law, path);
+    const std::string                    csv    = scene.output.directory + "/material_point.csv";
+    continuum::write_csv(report, csv);
+    std::cout << summary(report) << std::endl;
+    say(line, "material point: " + csv);
+    if (report.status == continuum::MaterialPointStatus::finished)
+      return done;
+    std::cerr << "material point: " << report.message << ", kept in " << csv << std::endl;
+    return not_converged;
+  }
+} // namespace diptych::coupling

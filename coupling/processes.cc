@@ -1,0 +1,137 @@
+// diptych: several processes that run the continuum together
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/processes.h"
+
+#include <chrono>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include <deal.II/base/mpi.h>
+
+#include "coupling/commands.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    enum class Kind
+    {
+      none,
+      wrong_input,
+      run_time,
+      other
+    };
+
+    Kind kind_of(const std::exception &error)
+    {
+      if (dynamic_cast<const std::invalid_argument *>(&error) != nullptr)
+        return Kind::wrong_input;
+      return dynamic_cast<const std::runtime_error *>(&error) != nullptr ? Kind::run_time : Kind::other;
+    }
+
+    [[noreturn]] void throw_as(const Kind kind, const std::string &text)
+    {
+      if (kind == Kind::wrong_input)
+        throw std::invalid_argument(text);
+      if (kind == Kind::run_time)
+        throw std::runtime_error(text);
+      throw std::logic_error(text);
+    }
+
+    // Whether every process arrives here soon: then they met the same error, or all of them their own.
+    bool all_arrive(const MPI_Comm communicator)
+    {
+      constexpr std::chrono::seconds patience(5);
+      MPI_Request                    request;
+      MPI_Ibarrier(communicator, &request);
+      const auto begin = std::chrono::steady_clock::now();
+      for (int arrived = 0; std::chrono::steady_clock::now() - begin < patience;)
+        {
+          MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
+          if (arrived != 0)
+            return true;
+          std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+      return false;
+    }
+  } // namespace
+
+  bool is_first_process()
+  {
+    return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  }
+
+  unsigned int n_processes()
+  {
+    return dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  }
+
+  int on_first_process(const std::function<int()> &work)
+  {
+    if (n_processes() == 1)
+      return work();
+    std::exception_ptr thrown;
+    std::string        text;
+    int                code_and_kind[2] = {0, int(Kind::none)};
+    if (is_first_process())
+      try
+        {
+          code_and_kind[0] = work();
+        }
+      catch (const std::exception &error)
+        {
+          thrown           = std::current_exception();
+          text             = error.what();
+          code_and_kind[1] = int(kind_of(error));
+        }
+    MPI_Bcast(code_and_kind, 2, MPI_INT, 0, MPI_COMM_WORLD);
+    text = dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, text);
+    if (thrown)
+      std::rethrow_exception(thrown);
+    if (code_and_kind[1] != int(Kind::none))
+      throw_as(Kind(code_and_kind[1]), text);
+    return code_and_kind[0];
+  }
+
+  double sum_over_processes(const double value)
+  {
+    return dealii::Utilities::MPI::sum(value, MPI_COMM_WORLD);
+  }
+
+  double from_first_process(double value)
+  {
+    MPI_Bcast(&value, 1, MPI_DOUBLE, 0, MPI_COMM_WORLD);
+    return value;
+  }
+
+  int code_of(const std::exception &error)
+  {
+    // Run-time errors are files that are missing, truncated or cannot be written.
+    return kind_of(error) == Kind::other ? invariant : wrong_input;
+  }
+
+  int answer_for(const std::function<int()> &work)
+  {
+    // A communicator of its own: the barrier must not be taken for one of those that `work` waits in.
+    MPI_Comm communicator = MPI_COMM_NULL;
+    MPI_Comm_dup(MPI_COMM_WORLD, &communicator);
+    int code = done;
+    try
+      {
+        code = work();
+      }
+    catch (const std::exception &error)
+      {
+        code              = code_of(error);
+        const bool shared = all_arrive(communicator);
+        if (is_first_process() || !shared)
+          std::cerr << "diptych: " << error.what() << std::endl;
+        if (!shared)
+          MPI_Abort(MPI_COMM_WORLD, code);
+      }
+    MPI_Comm_free(&communicator);
+    return code;
+  }
+} // namespace diptych::coupling

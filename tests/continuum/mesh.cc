@@ -1,0 +1,168 @@
+// diptych: meshes that are made
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "tests/continuum/grid_of_file.h"
+
+namespace
+{
+  using namespace diptych::continuum;
+  namespace fs = std::filesystem;
+
+  Outline outline_of(const double width, const double height, const int points, const double waviness)
+  {
+    Outline outline;
+    for (int k = 0; k < points; ++k)
+      {
+        const double y    = height * k / (points - 1);
+        const double wave = waviness * std::sin(2 * M_PI * 3 * y / height);
+        outline.left.emplace_back(-wave, y);
+        outline.right.emplace_back(width + wave, y);
+      }
+    return outline;
+  }
+
+  double polygon_area(const Outline &outline)
+  {
+    auto   polygon = outline.right;
+    double twice   = 0;
+    polygon.insert(polygon.end(), outline.left.rbegin(), outline.left.rend());
+    for (std::size_t k = 0; k < polygon.size(); ++k)
+      {
+        const Eigen::Vector2d &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+        twice += a.x() * b.y() - a.y() * b.x();
+      }
+    return twice / 2;
+  }
+
+  TEST(Mesh, OfAWavyOutlineFillsItWithQuadrilaterals)
+  {
+    const Folder      folder;
+    const std::string file    = folder.file("wavy.msh");
+    const Outline     outline = outline_of(20, 30, 16, 0.4);
+    const MeshSummary summary = make_mesh(outline, 2., file);
+    EXPECT_NEAR(summary.area, polygon_area(outline), 0.005 * polygon_area(outline));
+    EXPECT_GT(summary.n_cells, 100u);
+    EXPECT_LT(summary.n_cells, 260u); // 600 / 4 = 150
+    expect_that_deal_ii_reads(file, summary);
+    const MeshSummary checked = check_mesh(file);
+    EXPECT_EQ(checked.n_cells, summary.n_cells);
+    EXPECT_EQ(checked.area, summary.area); // coordinates survive the file to the last bit
+  }
+
+  TEST(Mesh, OfAnOutlineThatIsNoSampleIsRefused)
+  {
+    const Folder folder;
+    Outline      outline = outline_of(2, 3, 2, 0);
+    std::swap(outline.left, outline.right);
+    EXPECT_THROW((void)make_mesh(outline, 1., folder.file("none.msh")), std::invalid_argument);
+    EXPECT_TRUE(fs::is_empty(folder.path));
+  }
+
+  // Sides of 10.5 and 10.5 - 1e-9 elements get 11 edges both, where each by itself would get 11 and 10.
+  TEST(Mesh, StraightSidesCarryVerticesAtEqualHeights)
+  {
+    const Folder folder;
+    Outline      outline = outline_of(5, 10.5, 12, 0);
+    outline.left         = {outline.left.front(), outline.left.back()};
+    outline.right.back().y() -= 1e-9;
+    const MeshSummary summary = make_mesh(outline, 1., folder.file("straight.msh"));
+    Grid              grid(folder.file("straight.msh"));
+    EXPECT_TRUE(summary.sides_match);
+    EXPECT_EQ(grid.n_edges[left_side], 11u);
+    EXPECT_EQ(grid.n_edges[right_side], 11u);
+  }
+
+  // Platens of 5.5 and 5.5 - 1e-9 elements get 6 and 5 edges; the edge that makes the number even goes to a platen.
+  TEST(Mesh, StraightSidesStayEqualWhereTheNumberOfEdgesWouldBeOdd)
+  {
+    const Folder folder;
+    Outline      outline      = outline_of(5.5, 7, 2, 0);
+    outline.right.back().x()  = 5.5 - 1e-9;
+    const MeshSummary summary = make_mesh(outline, 1., folder.file("odd.msh"));
+    Grid              grid(folder.file("odd.msh"));
+    EXPECT_TRUE(summary.sides_match);
+    EXPECT_EQ(grid.n_edges, (std::map<unsigned int, unsigned int>{{1, 6}, {2, 6}, {3, 7}, {4, 7}}));
+  }
+
+  // Platen 1.3 on a width of 10 with elements of 0.5: 4.35 = 9 edges, 1.3 = 3 edges, 4.35 = 9 edges; height 6.2 = 12 edges.
+  TEST(Mesh, OfARectangleHasAPlatenOfExactWidth)
+  {
+    const Folder      folder;
+    const std::string file    = folder.file("strip.msh");
+    const MeshSummary summary = make_rectangle_mesh({10, 6.2, 1.3, 0.5}, file);
+    EXPECT_EQ(summary.n_cells, 21u * 12u);
+    EXPECT_EQ(summary.n_vertices, 22u * 13u);
+    EXPECT_NEAR(summary.area, 62, 1e-12);
+    EXPECT_NEAR(summary.shortest_edge, 1.3 / 3, 1e-14);
+    EXPECT_NEAR(summary.longest_edge, 6.2 / 12, 1e-14);
+    EXPECT_TRUE(summary.sides_match);
+    expect_that_deal_ii_reads(file, summary);
+    Grid grid(file);
+    EXPECT_NEAR(grid.length[upper_platen], 1.3, 1e-14);
+    EXPECT_NEAR(grid.length[free_edge], 8.7, 1e-13);
+    EXPECT_NEAR(grid.length[lower_platen], 10, 1e-13);
+    EXPECT_EQ(grid.n_edges, (std::map<unsigned int, unsigned int>{{1, 21}, {2, 3}, {3, 12}, {4, 12}, {5, 18}}));
+    for (const auto &face : grid.triangulation.active_face_iterators())
+      if (face->at_boundary() && face->boundary_id() == upper_platen)
+        {
+          EXPECT_EQ(face->center()[1], 6.2);
+          EXPECT_LT(std::abs(face->center()[0] - 5), 0.5);
+        }
+  }
+
+  TEST(Mesh, OfARectangleUnderOnePlatenHasNoFreeEdge)
+  {
+    const Folder folder;
+    for (const double platen : {0., 4.})
+      {
+        const MeshSummary summary = make_rectangle_mesh({4, 3, platen, 1}, folder.file("whole.msh"));
+        expect_that_deal_ii_reads(folder.file("whole.msh"), summary);
+        const Grid grid(folder.file("whole.msh"));
+        EXPECT_EQ(grid.n_edges, (std::map<unsigned int, unsigned int>{{1, 4}, {2, 4}, {3, 3}, {4, 3}}));
+      }
+  }
+
+  TEST(Mesh, ARectangleThatIsNoneIsRefusedByItsMember)
+  {
+    const Folder folder;
+    const double nan = std::nan("");
+    for (const auto &[rectangle, member] : {std::pair{Rectangle{0, 1, 0, 0.1}, "width"},
+                                            {Rectangle{1, -1, 0, 0.1}, "height"},
+                                            {Rectangle{1, nan, 0, 0.1}, "height"},
+                                            {Rectangle{1, 1, 1.1, 0.1}, "platen_width"},
+                                            {Rectangle{1, 1, -0.1, 0.1}, "platen_width"},
+                                            {Rectangle{1, 1, 0, 0}, "element_size"},
+                                            {Rectangle{1, 3, 0, 2}, "element_size"},
+                                            {Rectangle{1, 1, 0, 1e-5}, "element_size"}})
+      try
+        {
+          (void)make_rectangle_mesh(rectangle, folder.file("none.msh"));
+          ADD_FAILURE() << "no error for " << member;
+        }
+      catch (const std::invalid_argument &error)
+        {
+          EXPECT_NE(std::string(error.what()).find(std::string("rectangle: ") + member + " = "), std::string::npos)
+            << error.what();
+        }
+    EXPECT_TRUE(fs::is_empty(folder.path));
+  }
+
+  TEST(Mesh, ThatCannotBeWrittenIsAnErrorThatNamesTheFile)
+  {
+    const Folder folder;
+    try
+      {
+        (void)make_rectangle_mesh({1, 1, 0, 1}, folder.file("no_such_folder/a.msh"));
+        FAIL() << "no error";
+      }
+    catch (const std::runtime_error &error)
+      {
+        EXPECT_NE(std::string(error.what()).find("no_such_folder/a.msh"), std::string::npos) << error.what();
+      }
+  }
+} // namespace
