@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/continuum_command.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -146,6 +147,31 @@ namespace diptych::coupling
       return done;
     }
 
+    // What the curve says, and what should not be overlooked in it.
+    void say_result(const CommandLine &line, const ContinuumPart &part, const continuum::Report &report)
+    {
+      const auto rows = continuum::read_history(part.directory + "/continuum.csv");
+      if (rows.empty())
+        return;
+      const auto larger_by = [](const auto member) {
+        return [member](const auto &a, const auto &b) { return a.*member < b.*member; };
+      };
+      const auto largest = [&](const auto member) { return *std::max_element(rows.begin(), rows.end(), larger_by(member)); };
+      const auto peak    = largest(&continuum::HistoryRow::stress_ratio);
+      std::ostringstream text;
+      text << part.title << ": t/s " << peak.stress_ratio << " at most, at " << 100 * peak.axial_strain << " %, "
+           << rows.back().stress_ratio << " at " << 100 * rows.back().axial_strain << " %; " << report.n_cells << " elements, "
+           << report.n_unknowns << " unknowns, " << report.steps << " steps, " << report.cut_backs << " cut-backs";
+      if (report.localisation_strain)
+        text << "\n  ellipticity first lost at " << 100 * *report.localisation_strain << " %, along a line at "
+             << report.localisation_angle << " degrees";
+      if (const double share = largest(&continuum::HistoryRow::viscous_share).viscous_share; share > 0)
+        text << "\n  viscosity carries up to " << 100 * share << " % of the shear strength where the sample yields";
+      if (const double share = largest(&continuum::HistoryRow::share_zz_not_intermediate).share_zz_not_intermediate; share > 0)
+        text << "\n  sigma_zz is not the intermediate principal stress in up to " << 100 * share << " % of the area";
+      say(line, text.str());
+    }
+
     void say_how_it_ended(const CommandLine &line, const Scene &scene, const ContinuumPart &part, const continuum::Report &report)
     {
       if (report.status == continuum::Status::finished || !is_first_process())
@@ -177,6 +203,7 @@ namespace diptych::coupling
       cost.cpu_s                     = sum_over_processes(cost.cpu_s);
       on_first_process([&] {
         update_provenance(scene.output.directory, scene, line.text, {cost}, {{part.name, facts_of(report)}});
+        say_result(line, part, report);
         return 0;
       });
       say_how_it_ended(line, scene, part, report);
