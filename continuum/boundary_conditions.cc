@@ -156,10 +156,7 @@ namespace diptych::continuum
           add_rule({dof, {}, &widening});
       }
     else
-      {
-        move_together(right);
-        squeezed.emplace_back(right[0], -1.);
-      }
+      move_together(right);
   }
 
   // Right node = left node + change of the width. A free width is the first pair's distance, which every other pair takes over.
@@ -179,6 +176,9 @@ namespace diptych::continuum
     if (sides.widening)
       widening = [rate = *sides.widening](const double progress) { return rate * progress; };
     for (std::size_t k = 0; k < left.size(); ++k)
+      if (right[k].rotation != numbers::invalid_dof_index && !is_ruled(right[k].rotation))
+        add_rule({right[k].rotation, {{left[k].rotation, 1.}}});
+    for (std::size_t k = 0; k < left.size(); ++k)
       for (unsigned int c = 0; c < 2; ++c)
         {
           const auto l = left[k].dofs[c], r = right[k].dofs[c];
@@ -189,8 +189,6 @@ namespace diptych::continuum
           else
             add_rule({r, {{l, 1.}}, c == 0 ? &widening : nullptr});
         }
-    if (!sides.widening)
-      squeezed.insert(squeezed.end(), {{right[0].dofs[0], -1.}, {left[0].dofs[0], 1.}});
   }
 
   void BoundaryConditions::build(Discretisation &mesh)
@@ -232,14 +230,11 @@ namespace diptych::continuum
     return initial_height + (upper.value ? upper.value(progress) : 0) - (lower.value ? lower.value(progress) : 0);
   }
 
-  std::vector<std::pair<types::global_dof_index, double>> BoundaryConditions::applied_forces(const double progress,
-                                                                                             const double height) const
+  std::vector<std::pair<types::global_dof_index, double>> BoundaryConditions::applied_forces(const double progress) const
   {
     std::vector<std::pair<types::global_dof_index, double>> forces;
     for (const auto &[dof, drive] : forced)
       forces.emplace_back(dof, drive->value ? drive->value(progress) : 0.);
-    for (const auto &[dof, direction] : squeezed)
-      forces.emplace_back(dof, direction * loading.pressure * height);
     return forces;
   }
 } // namespace diptych::continuum

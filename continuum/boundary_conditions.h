@@ -48,8 +48,8 @@ namespace diptych::continuum
     // Distance of the platens at a progress, where their vertical motion is prescribed; else `present`. [length]
     double height(double progress, double present) const;
 
-    // Forces on platens and walls that move freely, as {dof, value}; `height`: the sides' current one. Each process gets all.
-    std::vector<std::pair<dealii::types::global_dof_index, double>> applied_forces(double progress, double height) const;
+    // Forces on platens that move freely, as {dof, value}. Each process gets all.
+    std::vector<std::pair<dealii::types::global_dof_index, double>> applied_forces(double progress) const;
 
     // Nodes of the lower and of the upper platen, of all processes, those in side contact included.
     const std::array<std::vector<Node>, 2> &platens() const { return platen_nodes; }
@@ -80,7 +80,6 @@ namespace diptych::continuum
     std::vector<Rule>                                                      rules;
     std::vector<dealii::types::global_dof_index>                           governed; // dofs that rules or ties speak of, sorted
     std::vector<std::pair<dealii::types::global_dof_index, const Drive *>> forced;   // first dof of a tied platen
-    std::vector<std::pair<dealii::types::global_dof_index, double>>        squeezed; // carries direction x pressure x height
     // Closing substitutes masters that are constrained themselves: a hanging node beside a platen would forget that it moves.
     dealii::AffineConstraints<double> unresolved, homogeneous;
   };

@@ -31,6 +31,15 @@ namespace diptych::continuum
       return options.element == "q1_bbar" ? ElementKind::q1_mean_dilation : ElementKind::q2;
     }
 
+    bool sides_carry_pressure(const LateralCondition &lateral)
+    {
+      if (const auto *rigid = std::get_if<RigidSides>(&lateral))
+        return !rigid->widening;
+      if (const auto *periodic = std::get_if<PeriodicSides>(&lateral))
+        return !periodic->widening;
+      return std::holds_alternative<SidePressure>(lateral);
+    }
+
     template <class Element> ElementVector<Element> gather(const Cell &cell, const std::vector<double> &values)
     {
       ElementVector<Element> u;
@@ -233,17 +242,18 @@ namespace diptych::continuum
     return mesh.extent.y() + Utilities::MPI::sum(travel[1] - travel[0], MPI_COMM_WORLD);
   }
 
-  // Side pressure follows the current height: along the moved sides where nodes move, brought from the step's beginning to its
-  // end; in small strain along the initial ones. There the moved y would be wrong: where a band leaves the sample the side
-  // folds over as soon as the jump exceeds an element, and the pressure would pull.
+  // Side pressure acts along the sides of the shape that equilibrium is stated on. In small strain that is the initial one, and
+  // the total follows the height; along the moved sides it would be wrong there: where a band leaves the sample the side folds
+  // over as soon as the jump exceeds an element, and the pressure would pull. On rigid walls and a free period it acts through
+  // the ties of their nodes, so that nodes which a platen holds get none.
   std::vector<double> BoundaryValueProblem::loads(const double to) const
   {
     std::vector<double> force(external.size(), 0.);
-    const bool          moves  = options.geometry == "updated";
-    const double        before = present_height(), after = conditions->height(to, before);
-    if (std::holds_alternative<SidePressure>(loading.lateral))
+    const bool          moves = options.geometry == "updated";
+    const double        share = moves ? 1. : conditions->height(to, present_height()) / mesh.extent.y();
+    if (sides_carry_pressure(loading.lateral))
       add_side_pressure(mesh, positions(mesh, moves ? state.displacement : std::vector<double>(force.size(), 0.)),
-                        loading.pressure * after / (moves ? before : mesh.extent.y()), force);
+                        loading.pressure * share, force);
     if (loading.body_force.norm() > 0)
       add_body_force(mesh, current, loading.body_force, force);
     return force;
@@ -257,9 +267,8 @@ namespace diptych::continuum
     external = loads(to);
     for (std::size_t i = 0; i < external.size(); ++i)
       external[i] = share * external[i] + (1 - share) * balanced_force[i];
-    const double before = present_height();
-    applied             = zero_vector();
-    for (const auto &[dof, force] : conditions->applied_forces(to, conditions->height(to, before)))
+    applied = zero_vector();
+    for (const auto &[dof, force] : conditions->applied_forces(to))
       if (mesh.owned.is_element(dof))
         applied[dof] += share * force;
     applied.compress(VectorOperation::add);

@@ -48,16 +48,39 @@ namespace diptych::continuum
       return sum;
     }
 
-    // Held within the range of the values.
-    double held_interpolated(const std::vector<double> &weights, const double *values, const std::size_t stride)
+    // All children's points in the parent, and what makes their values of the parent's.
+    struct ChildPoints
     {
-      double low = values[0], high = values[0];
-      for (std::size_t k = 1; k < weights.size(); ++k)
+      std::vector<std::vector<double>> weights; // [child x point][parent's point]
+
+      explicit ChildPoints(const ReferenceElement &reference)
+      {
+        const unsigned int degree = reference.n_nodes == 9 ? 2 : 1;
+        for (unsigned int child = 0; child < 4; ++child)
+          for (const auto &point : reference.points)
+            weights.push_back(gauss_interpolation(degree, GeometryInfo<2>::child_to_cell_coordinates(point, child)));
+      }
+    };
+
+    // The polynomial through the parent's points, drawn towards its mean just so far that no child's point leaves the range of
+    // the parent's: the integral over the parent stays. Returns how much of the deviation is kept.
+    double kept_deviation(const ChildPoints &points, const double mean, const double *values, const std::size_t stride)
+    {
+      double low = values[0], high = values[0], kept = 1;
+      for (std::size_t k = 1; k < points.weights[0].size(); ++k)
         {
           low  = std::min(low, values[k * stride]);
           high = std::max(high, values[k * stride]);
         }
-      return std::clamp(interpolated(weights, values, stride), low, high);
+      for (const auto &weights : points.weights)
+        {
+          const double v = interpolated(weights, values, stride);
+          if (v > high)
+            kept = std::min(kept, (high - mean) / (v - mean));
+          else if (v < low)
+            kept = std::min(kept, (low - mean) / (v - mean));
+        }
+      return kept;
     }
 
     // The record that a child takes over from its parent's.
@@ -90,13 +113,19 @@ namespace diptych::continuum
                 }
             }
         }
-      const std::size_t states = 1 + 2 * reference.n_dofs;
-      for (unsigned int q = 0; q < reference.n_points; ++q)
+      // Stress as the polynomial has it, hardening variable and the record of the past held within their range.
+      static const ChildPoints points_of_q2((ReferenceElement(ElementKind::q2))),
+        points_of_q1((ReferenceElement(ElementKind::q1_mean_dilation)));
+      const ChildPoints &points = degree == 2 ? points_of_q2 : points_of_q1;
+      const std::size_t  states = 1 + 2 * reference.n_dofs;
+      for (unsigned int k = 0; k < n_state; ++k)
         {
-          const auto weights = gauss_interpolation(degree, to_parent(reference.points[q]));
-          for (unsigned int k = 0; k < n_state; ++k)
-            record[states + q * n_state + k] = k <= n_components ? interpolated(weights, &parent[states + k], n_state) :
-                                                                   held_interpolated(weights, &parent[states + k], n_state);
+          const double *values = &parent[states + k];
+          const double  mean   = interpolated(reference.weights, values, n_state);
+          const double  kept   = k <= n_components ? 1. : kept_deviation(points, mean, values, n_state);
+          for (unsigned int q = 0; q < reference.n_points; ++q)
+            record[states + q * n_state + k] =
+              mean + kept * (interpolated(points.weights[child * reference.n_points + q], values, n_state) - mean);
         }
       return record;
     }

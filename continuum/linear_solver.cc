@@ -53,6 +53,7 @@ namespace diptych::continuum
     umfpack.forget_factors();
     mumps.reset();
     amg.reset();
+    factorised.reset();
     is_stale = true;
   }
 
@@ -114,13 +115,17 @@ namespace diptych::continuum
     is_stale = false;
     if (method == LinearMethod::umfpack)
       return umfpack.factorise(matrix);
+    mumps.reset();
+    amg.reset();
+    factorised = std::make_unique<TrilinosWrappers::SparseMatrix>();
+    factorised->copy_from(matrix);
     if (method == LinearMethod::amg)
-      return build_amg(matrix);
+      return build_amg(*factorised);
     mumps = std::make_unique<TrilinosWrappers::SolverDirect>(
       direct_control, TrilinosWrappers::SolverDirect::AdditionalData(false, "Amesos_Mumps"));
     try
       {
-        mumps->initialize(matrix);
+        mumps->initialize(*factorised);
       }
     catch (const ExceptionBase &) // a singular tangent
       {

@@ -68,10 +68,12 @@ namespace diptych::continuum
     bool factorise(const dealii::TrilinosWrappers::SparseMatrix &matrix);
     bool build_amg(const dealii::TrilinosWrappers::SparseMatrix &matrix);
 
-    LinearMethod                                               method;
-    RigidModes                                                 rigid_modes;
-    Umfpack                                                    umfpack;
-    dealii::SolverControl                                      direct_control;
+    LinearMethod          method;
+    RigidModes            rigid_modes;
+    Umfpack               umfpack;
+    dealii::SolverControl direct_control;
+    // What MUMPS and ML go on reading, while the problem assembles anew or changes its structure. Outlives both.
+    std::unique_ptr<dealii::TrilinosWrappers::SparseMatrix>    factorised;
     std::unique_ptr<dealii::TrilinosWrappers::SolverDirect>    mumps;
     std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> amg;
     bool                                                       is_fresh = false, is_stale = true;

@@ -110,8 +110,12 @@ namespace diptych::continuum
         << mean_diameter << ' ' << loading.pressure << ' ' << loading.lateral.index() << ' ' << loading.body_force.transpose();
     for (const auto &platen : loading.platens)
       for (const auto &drive : platen)
-        for (const double progress : {1e-3, 1e-2, 1e-1, 1.})
-          out << ' ' << drive.is_force << ' ' << (drive.value ? drive.value(progress) : 0.);
+        {
+          out << ' ' << drive.is_force;
+          for (const double decade : {1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1., 10., 100.})
+            for (int k = 10; k < 100; ++k)
+              out << ' ' << (drive.value ? drive.value(k * decade) : 0.);
+        }
     if (const auto *rigid = std::get_if<RigidSides>(&loading.lateral))
       out << ' ' << text_of(rigid->widening);
     if (const auto *periodic = std::get_if<PeriodicSides>(&loading.lateral))

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include <deal.II/distributed/cell_data_transfer.templates.h>
+#include <deal.II/grid/grid_tools.h>
 
 #include "continuum/cell_records.h"
 
@@ -22,10 +23,19 @@ namespace diptych::continuum
       const double largest = Utilities::MPI::max(mine, MPI_COMM_WORLD);
       if (!(largest > 0))
         return false;
-      std::vector<bool> near_band(mesh.triangulation.n_vertices(), false);
+      std::vector<bool> in_band(mesh.triangulation.n_active_cells(), false), near_band(mesh.triangulation.n_vertices(), false);
       std::size_t       c = 0;
       for (const auto &cell : mesh.triangulation.active_cell_iterators())
-        if (cell->is_locally_owned() && increments[c++] > rule.threshold * largest)
+        if (cell->is_locally_owned())
+          in_band[cell->active_cell_index()] = increments[c++] > rule.threshold * largest;
+      // The ring of neighbours goes on across the borders of processes.
+      using CellIterator = Triangulation<2>::active_cell_iterator;
+      GridTools::exchange_cell_data_to_ghosts<bool, Triangulation<2>>(
+        mesh.triangulation,
+        [&](const CellIterator &cell) { return std_cxx17::optional<bool>(in_band[cell->active_cell_index()]); },
+        [&](const CellIterator &cell, const bool &value) { in_band[cell->active_cell_index()] = value; });
+      for (const auto &cell : mesh.triangulation.active_cell_iterators())
+        if (in_band[cell->active_cell_index()])
           for (const unsigned int v : cell->vertex_indices())
             near_band[cell->vertex_index(v)] = true;
       bool flagged = false;
