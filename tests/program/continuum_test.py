@@ -162,7 +162,7 @@ class GrainSamples(Folder):
             comparison = json.load(file)
         for stage in comparison["stages"]:
             self.assertLess(stage["mapping"]["total_relative_error"], 1e-12)
-        self.assertEqual(comparison["continuum_summary"]["internal_length_d"], 1)
+        self.assertEqual(comparison["continuum_summary"]["internal_length_d"], 3)
         self.assertEqual(comparison["continuum_summary"]["viscous_share"], 0)
         self.assertIn("localisation_strain", comparison["continuum_summary"])
         with h5py.File(os.path.join(self.folder, "comparison.h5"), "r") as file:
