@@ -181,53 +181,17 @@ namespace diptych::continuum
 
   DistributedVector BoundaryValueProblem::zero_vector() const
   {
-    return DistributedVector(mesh.owned, MPI_COMM_WORLD);
+    return continuum::zero_vector(mesh);
   }
 
   std::vector<double> BoundaryValueProblem::relevant_values(const DistributedVector &vector) const
   {
-    DistributedVector ghosted(mesh.owned, mesh.relevant, MPI_COMM_WORLD);
-    ghosted = vector;
-    std::vector<types::global_dof_index> indices;
-    mesh.relevant.fill_index_vector(indices);
-    std::vector<double> values(indices.size());
-    ghosted.extract_subvector_to(indices, values);
-    return values;
+    return continuum::relevant_values(mesh, vector);
   }
 
   DistributedVector BoundaryValueProblem::owned_values(const std::vector<double> &relevant) const
   {
-    auto vector = zero_vector();
-    for (const auto dof : mesh.owned)
-      vector[dof] = relevant[mesh.relevant.index_within_set(dof)];
-    vector.compress(VectorOperation::insert);
-    return vector;
-  }
-
-  DistributedVector BoundaryValueProblem::assembled(const std::vector<double> &local) const
-  {
-    auto                                 vector = zero_vector();
-    std::vector<types::global_dof_index> indices;
-    mesh.relevant.fill_index_vector(indices);
-    vector.add(indices, local);
-    vector.compress(VectorOperation::add);
-    return vector;
-  }
-
-  // Forces on dofs that follow others go to those; on prescribed ones they vanish.
-  void BoundaryValueProblem::condense(std::vector<double> &local) const
-  {
-    const auto &constraints = conditions->correction();
-    for (const auto &line : constraints.get_lines())
-      if (mesh.relevant.is_element(line.index))
-        {
-          const auto   from  = mesh.relevant.index_within_set(line.index);
-          const double force = local[from];
-          local[from]        = 0;
-          if (force != 0)
-            for (const auto &[master, weight] : line.entries)
-              local[mesh.relevant.index_within_set(master)] += weight * force;
-        }
+    return continuum::owned_values(mesh, relevant);
   }
 
   double BoundaryValueProblem::present_height() const
@@ -324,9 +288,9 @@ namespace diptych::continuum
     auto force = internal_force();
     for (std::size_t i = 0; i < force.size(); ++i)
       force[i] -= external[i];
-    nodal_force = assembled(force);
-    condense(force);
-    rhs = assembled(force);
+    nodal_force = assembled(mesh, force);
+    condense(mesh, conditions->correction(), force);
+    rhs = assembled(mesh, force);
     rhs -= applied;
     rhs *= -1;
 
@@ -358,8 +322,8 @@ namespace diptych::continuum
           scatter<Element>(mesh.cells[c], f, force);
         }
     });
-    condense(force);
-    auto result = assembled(force);
+    condense(mesh, conditions->correction(), force);
+    auto result = assembled(mesh, force);
     result *= -1;
     result += rhs;
     return result;

@@ -8,19 +8,16 @@
 #include <string>
 #include <vector>
 
-#include <deal.II/lac/trilinos_vector.h>
-
 #include "continuum/boundary_conditions.h"
 #include "continuum/discretisation.h"
 #include "continuum/laws/any_law.h"
 #include "continuum/localisation.h"
+#include "continuum/nodal_vectors.h"
 #include "continuum/panel.h"
 #include "continuum/tangent_matrix.h"
 
 namespace diptych::continuum
 {
-  using DistributedVector = dealii::TrilinosWrappers::MPI::Vector;
-
   // Out-of-balance force of a trial state: Euclidean norms over all nodes [pressure * length].
   struct Imbalance
   {
@@ -119,8 +116,6 @@ namespace diptych::continuum
     double                                 present_height() const;
     std::vector<double>                    loads(double to) const;
     std::vector<double>                    internal_force() const;
-    void                                   condense(std::vector<double> &local) const;
-    DistributedVector                      assembled(const std::vector<double> &local) const;
     Eigen::Vector2d                        trial_platen_force(bool upper) const;
     double                                 platen_scale() const;
     template <class L, class Element> void update_points(const L &law, Element);
