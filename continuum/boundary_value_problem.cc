@@ -219,7 +219,7 @@ namespace diptych::continuum
       add_side_pressure(mesh, positions(mesh, moves ? state.displacement : std::vector<double>(force.size(), 0.)),
                         loading.pressure * share, force);
     if (loading.body_force.norm() > 0)
-      add_body_force(mesh, current, loading.body_force, force);
+      add_body_force(mesh, geometry_at(mesh, positions(mesh, std::vector<double>(force.size(), 0.))), loading.body_force, force);
     return force;
   }
 

@@ -102,7 +102,8 @@ namespace diptych::continuum
         d_share /= 2;
         if (d_share < 1e-3)
           return "no equilibrium at rest under the loads (" + report.message + ")" +
-                 (progress > 0 ? " after a refinement" : "; is the outline too rough, or the mapped stress beyond the strength?");
+                 (progress > 0 ? " after a refinement"
+                               : ": the initial stress does not fit a free edge or a wavy outline, or exceeds the strength");
       }
     return {};
   }

@@ -30,7 +30,7 @@ namespace diptych::continuum
 
   LinearMethod linear_method(const std::string &name, const std::size_t n_unknowns)
   {
-    if (name == "amg" || (name == "auto" && n_unknowns >= 200000))
+    if (name == "amg" || (name == "auto" && n_unknowns >= 400000))
       return LinearMethod::amg;
     return Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1 ? LinearMethod::umfpack : LinearMethod::mumps;
   }

@@ -43,7 +43,7 @@ namespace diptych::continuum
     double                              pressure = 1; // lateral; also the isotropic initial stress [pressure]
     std::array<std::array<Drive, 2>, 2> platens;      // [lower, upper][x, y]; no function: at rest. Smooth platens leave x alone
     LateralCondition                    lateral;
-    Eigen::Vector2d                     body_force = Eigen::Vector2d::Zero(); // weight per current area [pressure / length]
+    Eigen::Vector2d                     body_force = Eigen::Vector2d::Zero(); // weight per initial area [pressure / length]
     std::vector<double>                 stages; // values of the progress at which a snapshot is made, ascending; last: the end
   };
 

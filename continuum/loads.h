@@ -18,7 +18,7 @@ namespace diptych::continuum
                          double                              pressure,
                          std::vector<double>                &force);
 
-  // f_a = int N_a b dA
+  // f_a = int N_a b dA over the shape of `geometry`: the initial one for a weight, because mass is kept.
   void add_body_force(const Discretisation  &mesh,
                       const Geometry        &geometry,
                       const Eigen::Vector2d &body_force,

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/panel.h"
 
+#include <array>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 
@@ -85,7 +87,7 @@ namespace diptych::continuum
       bool after_step()
       {
         const auto row = make_history_row(problem, driver);
-        if (!report.localisation_strain && row.least_acoustic_determinant <= 0)
+        if (row.step > 0 && !report.localisation_strain && row.least_acoustic_determinant <= 0)
           {
             report.localisation_strain = row.axial_strain;
             report.localisation_angle  = row.localisation_angle;
@@ -118,9 +120,9 @@ namespace diptych::continuum
         std::vector<double> numbers;
         for (const auto &tensor : all)
           numbers.insert(numbers.end(), tensor.data(), tensor.data() + 4);
-        numbers                            = dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, numbers);
-        const unsigned int           mine  = problem.discretisation().cells.size();
-        unsigned int first = 0;
+        numbers                  = dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, numbers);
+        const unsigned int mine  = problem.discretisation().cells.size();
+        unsigned int       first = 0;
         MPI_Exscan(&mine, &first, 1, MPI_UNSIGNED, MPI_SUM, MPI_COMM_WORLD);
         if (is_first_process())
           first = 0; // MPI leaves it undefined there
@@ -166,6 +168,29 @@ namespace diptych::continuum
     };
   } // namespace
 
+  namespace
+  {
+    // Both platens are level, the upper one above, and the left side is left of the right one.
+    void check_places(const std::string &msh_file, const Discretisation &mesh)
+    {
+      std::array<Eigen::Vector2d, 5> mean;
+      for (const unsigned int id : {lower_platen, upper_platen, left_side, right_side})
+        {
+          const auto nodes = mesh.boundary_nodes(id);
+          mean[id].setZero();
+          for (const auto &node : nodes)
+            mean[id] += node.initial / double(nodes.size());
+          for (const auto &node : nodes)
+            require((id != lower_platen && id != upper_platen) ||
+                      std::abs(node.initial.y() - mean[id].y()) < 1e-6 * mesh.extent.y(),
+                    msh_file, ": the ", id == lower_platen ? "lower" : "upper", " platen is not level at x = ", node.initial.x(),
+                    ", y = ", node.initial.y());
+        }
+      require(mean[upper_platen].y() > mean[lower_platen].y(), msh_file, ": upper_platen lies below lower_platen");
+      require(mean[left_side].x() < mean[right_side].x(), msh_file, ": left_side lies to the right of right_side");
+    }
+  } // namespace
+
   void validate(const Options &options)
   {
     require(options.min_step > 0 && options.min_step <= options.initial_step && options.initial_step <= options.max_step,
@@ -195,7 +220,8 @@ namespace diptych::continuum
     require(!std::holds_alternative<PeriodicSides>(loading.lateral) || (mesh.sides_match && options.refinement == "uniform"),
             "lateral = periodic needs sides that match node by node and refinement = uniform");
 
-    Run   panel(msh_file, mean_diameter, loading, options, callbacks);
+    Run panel(msh_file, mean_diameter, loading, options, callbacks);
+    check_places(msh_file, panel.problem.discretisation());
     auto &report        = panel.report;
     report.message      = panel.through(loading.stages);
     report.axial_strain = panel.problem.progress();

@@ -86,6 +86,8 @@ namespace diptych::coupling
   {
     const Scene scene = scene_of(line);
     require_continuum(scene);
+    if (scene.comparison.coarse_element_size == 0)
+      throw SceneError("comparison/coarse_element_size = 0: `diptych run` compares with that run; a number from 0.1 on");
     if (scene.continuum.mesh != "outline")
       throw SceneError("continuum/mesh = " + scene.continuum.mesh +
                        ": `diptych run` compares both panels on one sample and needs outline; the continuum alone runs with "

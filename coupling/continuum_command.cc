@@ -148,7 +148,7 @@ namespace diptych::coupling
     }
 
     // What the curve says, and what should not be overlooked in it.
-    void say_result(const CommandLine &line, const ContinuumPart &part, const continuum::Report &report)
+    void say_result(const CommandLine &line, const std::string &law, const ContinuumPart &part, const continuum::Report &report)
     {
       const auto rows = continuum::read_history(part.directory + "/continuum.csv");
       if (rows.empty())
@@ -163,12 +163,17 @@ namespace diptych::coupling
            << rows.back().stress_ratio << " at " << 100 * rows.back().axial_strain << " %; " << report.n_cells << " elements, "
            << report.n_unknowns << " unknowns, " << report.steps << " steps, " << report.cut_backs << " cut-backs";
       if (report.localisation_strain)
-        text << "\n  ellipticity first lost at " << 100 * *report.localisation_strain << " %, along a line at "
+        text << "\n  ellipticity first lost, at one point, at " << 100 * *report.localisation_strain << " %, along a line at "
              << report.localisation_angle << " degrees";
       if (const double share = largest(&continuum::HistoryRow::viscous_share).viscous_share; share > 0)
         text << "\n  viscosity carries up to " << 100 * share << " % of the shear strength where the sample yields";
-      if (const double share = largest(&continuum::HistoryRow::share_zz_not_intermediate).share_zz_not_intermediate; share > 0)
-        text << "\n  sigma_zz is not the intermediate principal stress in up to " << 100 * share << " % of the area";
+      double outside = 0; // at rest all three stresses are equal, and nothing depends on their order
+      for (const continuum::HistoryRow &row : rows)
+        outside = row.step > 0 ? std::max(outside, row.share_zz_not_intermediate) : outside;
+      if (law == "cosserat_mohr_coulomb" && outside > 0)
+        text << "\n  sigma_zz is not the intermediate principal stress in up to " << 100 * outside
+             << " % of the area, where this law's in-plane form is not exact"
+             << (outside > 0.05 ? ": hold the result against cosserat_drucker_prager" : "");
       say(line, text.str());
     }
 
@@ -203,7 +208,7 @@ namespace diptych::coupling
       cost.cpu_s                     = sum_over_processes(cost.cpu_s);
       on_first_process([&] {
         update_provenance(scene.output.directory, scene, line.text, {cost}, {{part.name, facts_of(report)}});
-        say_result(line, part, report);
+        say_result(line, scene.continuum.law, part, report);
         return 0;
       });
       say_how_it_ended(line, scene, part, report);

@@ -26,6 +26,8 @@ namespace diptych::coupling
     bool has_coarse(const Scene &scene)
     {
       const continuum::Options &o = scene.continuum;
+      if (scene.comparison.coarse_element_size == 0)
+        return false;
       if (o.mesh == "rectangle")
         return first_edge(scene, scene.comparison.coarse_element_size) <= std::min(o.rectangle_width, o.rectangle_height);
       return o.mesh == "outline";

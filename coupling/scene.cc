@@ -250,6 +250,8 @@ namespace diptych::coupling
 
     Scene checked(Scene scene, const std::string &file, const std::vector<Entry> &entries, const bool compares)
     {
+      if (const double coarse = scene.comparison.coarse_element_size; coarse > 0 && coarse < 0.1)
+        throw SceneError(file + ": comparison/coarse_element_size = " + text_of(coarse) + ": 0 or a number from 0.1 on");
       check_stages(file, scene, compares);
       try
         {
