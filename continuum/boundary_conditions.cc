@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <stdexcept>
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/dofs/dof_tools.h>
 
 #include "continuum/mesh.h"
@@ -30,30 +28,19 @@ namespace diptych::continuum
     }
   } // namespace
 
-  // The planes are those of the platens' first nodes.
-  SideContact side_contact(const Discretisation &mesh, const std::vector<double> &displacement)
+  SideContact side_contact(const Discretisation             &mesh,
+                           const std::vector<double>        &displacement,
+                           const std::array<PlatenPlane, 2> &planes)
   {
-    SideContact contact;
+    const double tolerance = 1e-9 * mesh.extent.y();
+    SideContact  contact;
     for (const bool upper : {false, true})
-      {
-        const unsigned int platen = upper ? upper_platen : lower_platen;
-        double             plane  = upper ? -huge : huge;
-        (void)mesh.boundary_nodes(platen, displacement, [&](const Eigen::Vector2d &p) {
-          plane = upper ? std::max(plane, p.y()) : std::min(plane, p.y());
-          return false;
-        });
-        plane = upper ? Utilities::MPI::max(plane, MPI_COMM_WORLD) : Utilities::MPI::min(plane, MPI_COMM_WORLD);
-        std::set<types::global_dof_index> own;
-        for (const auto &node : mesh.boundary_nodes(platen))
-          own.insert(node.dofs[0]);
-        const double tolerance = 1e-9 * mesh.extent.y();
-        for (const unsigned int side : {left_side, right_side})
-          for (const auto &node : mesh.boundary_nodes(side, displacement, [&](const Eigen::Vector2d &p) {
-                 return upper ? p.y() >= plane - tolerance : p.y() <= plane + tolerance;
-               }))
-            if (own.count(node.dofs[0]) == 0)
-              contact[upper].push_back(node);
-      }
+      for (const unsigned int side : {left_side, right_side})
+        for (const auto &node : mesh.boundary_nodes(side, displacement, [&](const Eigen::Vector2d &p) {
+               return upper ? p.y() >= planes[1].now - tolerance : p.y() <= planes[0].now + tolerance;
+             }))
+          if (std::abs(node.initial.y() - planes[upper].initial) > tolerance) // else it is the platen's own end
+            contact[upper].push_back(node);
     return contact;
   }
 
@@ -194,10 +181,10 @@ namespace diptych::continuum
   void BoundaryConditions::build(Discretisation &mesh)
   {
     std::vector<types::global_dof_index> masters;
+    // On every process: a side node that joins a tied platen later must not change the numbering of what is already kept.
     for (const auto &rule : rules)
-      if (mesh.relevant.is_element(rule.dof))
-        for (const auto &[master, weight] : rule.masters)
-          masters.push_back(master);
+      for (const auto &[master, weight] : rule.masters)
+        masters.push_back(master);
     mesh.add_relevant(masters);
     unresolved.reinit(mesh.relevant);
     DoFTools::make_hanging_node_constraints(mesh.dof_handler, unresolved);

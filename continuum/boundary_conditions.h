@@ -23,7 +23,13 @@ namespace diptych::continuum
   // Nodes of free sides that have come level with a platen. Platens are wider than the sample: what is squeezed out beside one
   // rolls onto its plane and moves with it from then on. Else it would be extruded past the platen like paste.
   using SideContact = std::array<std::vector<Node>, 2>; // lower, upper platen
-  SideContact side_contact(const Discretisation &mesh, const std::vector<double> &displacement);
+  struct PlatenPlane
+  {
+    double initial = 0, now = 0; // y [length]
+  };
+  SideContact side_contact(const Discretisation             &mesh,
+                           const std::vector<double>        &displacement,
+                           const std::array<PlatenPlane, 2> &planes);
 
   // Constraints on displacement and rotation. A platen or rigid wall prescribes components of its nodes, or ties them together
   // where it moves freely under a force, which then acts on the first of them. Between platen and side the platen's word counts.

@@ -99,24 +99,23 @@ namespace diptych::continuum
 
   void BoundaryValueProblem::rebuild()
   {
-    state.displacement.assign(mesh.relevant.n_elements(), 0.);
-    set_conditions();
+    set_conditions({});
     const std::size_t n_points = mesh.cells.size() * mesh.reference.n_points;
     trial.assign(n_points, {});
     trial_increment.assign(mesh.relevant.n_elements(), 0.);
-    external = balanced_force = state.displacement = trial_increment;
+    external = balanced_force = weight = state.displacement = trial_increment;
     state.points.assign(n_points, {});
     state.localisation.assign(n_points, {});
     flow.assign(n_points, 0.);
     current = geometry_at(mesh, positions(mesh, state.displacement));
+    if (!moves())
+      moved = current;
+    if (loading.body_force.norm() > 0)
+      add_body_force(mesh, current, loading.body_force, weight);
   }
 
-  void BoundaryValueProblem::set_conditions()
+  void BoundaryValueProblem::set_conditions(const SideContact &contact)
   {
-    SideContact contact;
-    if (options.geometry == "updated" &&
-        (std::holds_alternative<SidePressure>(loading.lateral) || std::holds_alternative<FreeSides>(loading.lateral)))
-      contact = side_contact(mesh, state.displacement);
     n_in_side_contact = {contact[0].size(), contact[1].size()};
     conditions        = std::make_unique<BoundaryConditions>(
       mesh, loading, PlatenGrip{options.platens == "rough", options.platen_rotation == "held"}, contact);
@@ -124,22 +123,23 @@ namespace diptych::continuum
     ++structure_version;
   }
 
-  // Nodes of the sides that the accepted step has brought to a platen's plane belong to it from now on.
-  void BoundaryValueProblem::take_up_side_contact()
+  // States the problem on the shape that the committed displacement gives. Nodes of free sides that have come to a platen's
+  // plane belong to it from now on.
+  void BoundaryValueProblem::move_nodes()
   {
-    const auto contact = side_contact(mesh, state.displacement);
+    (moves() ? current : moved) = geometry_at(mesh, positions(mesh, state.displacement));
+    if (!moves() ||
+        !(std::holds_alternative<SidePressure>(loading.lateral) || std::holds_alternative<FreeSides>(loading.lateral)))
+      return;
+    const auto contact = side_contact(mesh, state.displacement, platen_planes());
     if (contact[0].size() != n_in_side_contact[0] || contact[1].size() != n_in_side_contact[1])
-      set_conditions();
+      set_conditions(contact);
   }
 
   void BoundaryValueProblem::adopt(CommittedState new_state)
   {
     state = std::move(new_state);
-    if (options.geometry == "updated")
-      {
-        set_conditions();
-        current = geometry_at(mesh, positions(mesh, state.displacement));
-      }
+    move_nodes();
     begin_step(state.progress);
     (void)evaluate(zero_vector());
     reset_balance();
@@ -194,16 +194,17 @@ namespace diptych::continuum
     return continuum::owned_values(mesh, relevant);
   }
 
-  double BoundaryValueProblem::present_height() const
+  std::array<PlatenPlane, 2> BoundaryValueProblem::platen_planes() const
   {
-    double travel[2] = {0, 0};
+    std::array<PlatenPlane, 2> planes;
     for (const unsigned int platen : {0u, 1u})
       {
-        const auto dof = conditions->platens()[platen].front().dofs[1];
-        if (mesh.owned.is_element(dof))
-          travel[platen] = state.displacement[mesh.relevant.index_within_set(dof)];
+        const Node  &node   = conditions->platens()[platen].front();
+        const bool   mine   = mesh.owned.is_element(node.dofs[1]);
+        const double travel = mine ? state.displacement[mesh.relevant.index_within_set(node.dofs[1])] : 0.;
+        planes[platen]      = {node.initial.y(), node.initial.y() + Utilities::MPI::sum(travel, MPI_COMM_WORLD)};
       }
-    return mesh.extent.y() + Utilities::MPI::sum(travel[1] - travel[0], MPI_COMM_WORLD);
+    return planes;
   }
 
   // Side pressure acts along the sides of the shape that equilibrium is stated on. In small strain that is the initial one, and
@@ -212,14 +213,13 @@ namespace diptych::continuum
   // the ties of their nodes, so that nodes which a platen holds get none.
   std::vector<double> BoundaryValueProblem::loads(const double to) const
   {
-    std::vector<double> force(external.size(), 0.);
-    const bool          moves = options.geometry == "updated";
-    const double        share = moves ? 1. : conditions->height(to, present_height()) / mesh.extent.y();
-    if (sides_carry_pressure(loading.lateral))
-      add_side_pressure(mesh, positions(mesh, moves ? state.displacement : std::vector<double>(force.size(), 0.)),
-                        loading.pressure * share, force);
-    if (loading.body_force.norm() > 0)
-      add_body_force(mesh, geometry_at(mesh, positions(mesh, std::vector<double>(force.size(), 0.))), loading.body_force, force);
+    std::vector<double> force = weight;
+    if (!sides_carry_pressure(loading.lateral))
+      return force;
+    const auto   planes = platen_planes();
+    const double share  = moves() ? 1. : conditions->height(to, planes[1].now - planes[0].now) / mesh.extent.y();
+    add_side_pressure(mesh, positions(mesh, moves() ? state.displacement : std::vector<double>(force.size(), 0.)),
+                      loading.pressure * share, force);
     return force;
   }
 
@@ -356,17 +356,16 @@ namespace diptych::continuum
 
   bool BoundaryValueProblem::is_folded() const
   {
-    std::vector<double> moved = state.displacement;
-    for (std::size_t i = 0; i < moved.size(); ++i)
-      moved[i] += trial_increment[i];
-    const bool folded = !geometry_at(mesh, positions(mesh, moved)).is_regular;
+    std::vector<double> displacement = state.displacement;
+    for (std::size_t i = 0; i < displacement.size(); ++i)
+      displacement[i] += trial_increment[i];
+    const bool folded = !geometry_at(mesh, positions(mesh, displacement)).is_regular;
     return Utilities::MPI::max(int(folded), MPI_COMM_WORLD) == 1;
   }
 
   void BoundaryValueProblem::commit()
   {
     const Stopwatch watch{phase.geometry};
-    const bool      moves   = options.geometry == "updated";
     const Tangent   elastic = std::visit([](const auto &law) { return law.elastic_tangent(); }, material);
     const auto      moduli  = std::visit([](const auto &law) { return law.moduli(); }, material);
     flow.resize(trial.size());
@@ -384,7 +383,7 @@ namespace diptych::continuum
               state.localisation[point] = trial[point].regime == Regime::elastic ? Localisation()
                                                                                  : localisation(trial[point].tangent, elastic);
               flow[point]               = next.equivalent_plastic_strain - state.points[point].equivalent_plastic_strain;
-              if (moves)
+              if (moves())
                 turn(next, spin_at<Element>(current.cells[c].points[q], u));
               state.points[point] = next;
             }
@@ -394,11 +393,7 @@ namespace diptych::continuum
       state.displacement[i] += trial_increment[i];
     state.progress         = step_end;
     committed_platen_force = {trial_platen_force(false), trial_platen_force(true)};
-    if (!moves)
-      return;
-    current = geometry_at(mesh, positions(mesh, state.displacement));
-    if (std::holds_alternative<SidePressure>(loading.lateral) || std::holds_alternative<FreeSides>(loading.lateral))
-      take_up_side_contact();
+    move_nodes();
   }
 
   Eigen::Vector2d BoundaryValueProblem::trial_platen_force(const bool upper) const

@@ -93,11 +93,12 @@ namespace diptych::continuum
     // Grows whenever the unknowns or their constraints change: matrices have another pattern then.
     int version() const { return structure_version; }
 
-    const Discretisation              &discretisation() const { return mesh; }
-    Discretisation                    &discretisation() { return mesh; }
-    const Geometry                    &geometry() const { return current; }
-    const Law                         &law() const { return material; }
-    const CommittedState              &committed() const { return state; }
+    const Discretisation &discretisation() const { return mesh; }
+    Discretisation       &discretisation() { return mesh; }
+    const Geometry       &geometry() const { return current; }                         // on which equilibrium is stated
+    const Geometry       &moved_geometry() const { return moves() ? current : moved; } // of the committed displacement
+    const Law            &law() const { return material; }
+    const CommittedState &committed() const { return state; }
     const std::vector<MaterialUpdate> &last_update() const { return trial; } // of the last evaluate()
     const std::vector<double>         &last_flow() const { return flow; } // growth of the hardening variable in the accepted step
     double                             progress() const { return state.progress; }
@@ -110,10 +111,11 @@ namespace diptych::continuum
     DistributedVector   owned_values(const std::vector<double> &relevant) const; // its inverse
 
   private:
-    void                                   set_conditions();
+    void                                   set_conditions(const SideContact &contact);
     void                                   reset_points();
-    void                                   take_up_side_contact();
-    double                                 present_height() const;
+    void                                   move_nodes();
+    bool                                   moves() const { return options.geometry == "updated"; }
+    std::array<PlatenPlane, 2>             platen_planes() const;
     std::vector<double>                    loads(double to) const;
     std::vector<double>                    internal_force() const;
     Eigen::Vector2d                        trial_platen_force(bool upper) const;
@@ -131,14 +133,15 @@ namespace diptych::continuum
     int                                 structure_version = 0;
     dealii::AffineConstraints<double>   step_constraints;
     Geometry                            current; // shape on which equilibrium is stated
+    Geometry                            moved;   // in small strain: that of the committed displacement
     TangentMatrix                       tangent;
 
-    CommittedState                 state;
-    double                         step_end = 0;
-    std::vector<MaterialUpdate>    trial;
-    std::vector<double>            trial_increment, external, balanced_force; // relevant dofs; forces: this process's part
-    DistributedVector              applied;          // forces on free platens and walls, in the present step
-    DistributedVector              nodal_force, rhs; // internal - external, uncondensed; negative residual
+    CommittedState              state;
+    double                      step_end = 0;
+    std::vector<MaterialUpdate> trial;
+    std::vector<double>         trial_increment, external, balanced_force, weight; // relevant dofs; forces: this process's part
+    DistributedVector           applied;          // forces on free platens and walls, in the present step
+    DistributedVector           nodal_force, rhs; // internal - external, uncondensed; negative residual
     std::array<Eigen::Vector2d, 2> committed_platen_force{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}; // lower, upper
     std::vector<double>            flow;                                                                     // per point
     PhaseSeconds                   phase;

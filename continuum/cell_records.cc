@@ -48,31 +48,39 @@ namespace diptych::continuum
       return sum;
     }
 
-    // All children's points in the parent, and what makes their values of the parent's.
-    struct ChildPoints
+    // What makes the children's values of the parent's, at their nodes and points; [child x node or point][parent's ...].
+    struct ChildWeights
     {
-      std::vector<std::vector<double>> weights; // [child x point][parent's point]
+      std::vector<std::vector<double>> nodes, corners, points;
 
-      explicit ChildPoints(const ReferenceElement &reference)
+      explicit ChildWeights(const ReferenceElement &reference)
       {
         const unsigned int degree = reference.n_nodes == 9 ? 2 : 1;
         for (unsigned int child = 0; child < 4; ++child)
-          for (const auto &point : reference.points)
-            weights.push_back(gauss_interpolation(degree, GeometryInfo<2>::child_to_cell_coordinates(point, child)));
+          {
+            const auto in_parent = [&](const Point<2> &p) { return GeometryInfo<2>::child_to_cell_coordinates(p, child); };
+            for (const auto &node : reference.nodes)
+              {
+                nodes.push_back(nodal_interpolation(degree, in_parent(node)));
+                corners.push_back(nodal_interpolation(1, in_parent(node)));
+              }
+            for (const auto &point : reference.points)
+              points.push_back(gauss_interpolation(degree, in_parent(point)));
+          }
       }
     };
 
     // The polynomial through the parent's points, drawn towards its mean just so far that no child's point leaves the range of
     // the parent's: the integral over the parent stays. Returns how much of the deviation is kept.
-    double kept_deviation(const ChildPoints &points, const double mean, const double *values, const std::size_t stride)
+    double kept_deviation(const ChildWeights &children, const double mean, const double *values, const std::size_t stride)
     {
       double low = values[0], high = values[0], kept = 1;
-      for (std::size_t k = 1; k < points.weights[0].size(); ++k)
+      for (std::size_t k = 1; k < children.points[0].size(); ++k)
         {
           low  = std::min(low, values[k * stride]);
           high = std::max(high, values[k * stride]);
         }
-      for (const auto &weights : points.weights)
+      for (const auto &weights : children.points)
         {
           const double v = interpolated(weights, values, stride);
           if (v > high)
@@ -84,48 +92,34 @@ namespace diptych::continuum
     }
 
     // The record that a child takes over from its parent's.
-    CellRecord child_record(const ReferenceElement &reference, const CellRecord &parent, const unsigned int child)
+    CellRecord child_record(const ReferenceElement &reference,
+                            const ChildWeights     &children,
+                            const CellRecord       &parent,
+                            const unsigned int      child)
     {
-      const unsigned int degree = reference.n_nodes == 9 ? 2 : 1;
-      CellRecord         record = parent;
+      CellRecord record = parent;
       record[0] += 1;
-      const auto to_parent = [&](const Point<2> &p) { return GeometryInfo<2>::child_to_cell_coordinates(p, child); };
-      for (unsigned int node = 0; node < reference.n_nodes; ++node)
+      for (const unsigned int field : {0u, 1u}) // displacement, last increment
         {
-          const auto weights = nodal_interpolation(degree, to_parent(reference.nodes[node]));
-          const auto corners = nodal_interpolation(1, to_parent(reference.nodes[node]));
-          for (const unsigned int field : {0u, 1u}) // displacement, last increment
-            {
-              const std::size_t start = 1 + field * reference.n_dofs, rotations = start + 2 * reference.n_nodes;
-              for (unsigned int c = 0; c < 2; ++c)
-                {
-                  double value = 0;
-                  for (unsigned int k = 0; k < reference.n_nodes; ++k)
-                    value += weights[k] * parent[start + 2 * k + c];
-                  record[start + 2 * node + c] = value;
-                }
-              if (node < reference.n_rotations)
-                {
-                  double value = 0;
-                  for (unsigned int k = 0; k < 4; ++k)
-                    value += corners[k] * parent[rotations + k];
-                  record[rotations + node] = value;
-                }
-            }
+          const std::size_t start = 1 + field * reference.n_dofs, rotations = start + 2 * reference.n_nodes;
+          for (unsigned int node = 0; node < reference.n_nodes; ++node)
+            for (unsigned int c = 0; c < 2; ++c)
+              record[start + 2 * node + c] = interpolated(children.nodes[child * reference.n_nodes + node], &parent[start + c],
+                                                          2);
+          for (unsigned int corner = 0; corner < reference.n_rotations; ++corner)
+            record[rotations + corner] = interpolated(children.corners[child * reference.n_nodes + corner], &parent[rotations],
+                                                      1);
         }
       // Stress as the polynomial has it, hardening variable and the record of the past held within their range.
-      static const ChildPoints points_of_q2((ReferenceElement(ElementKind::q2))),
-        points_of_q1((ReferenceElement(ElementKind::q1_mean_dilation)));
-      const ChildPoints &points = degree == 2 ? points_of_q2 : points_of_q1;
-      const std::size_t  states = 1 + 2 * reference.n_dofs;
+      const std::size_t states = 1 + 2 * reference.n_dofs;
       for (unsigned int k = 0; k < n_state; ++k)
         {
           const double *values = &parent[states + k];
           const double  mean   = interpolated(reference.weights, values, n_state);
-          const double  kept   = k <= n_components ? 1. : kept_deviation(points, mean, values, n_state);
+          const double  kept   = k <= n_components ? 1. : kept_deviation(children, mean, values, n_state);
           for (unsigned int q = 0; q < reference.n_points; ++q)
             record[states + q * n_state + k] =
-              mean + kept * (interpolated(points.weights[child * reference.n_points + q], values, n_state) - mean);
+              mean + kept * (interpolated(children.points[child * reference.n_points + q], values, n_state) - mean);
         }
       return record;
     }
@@ -166,7 +160,8 @@ namespace diptych::continuum
     restored.state.progress = progress;
     restored.state.displacement.assign(mesh.relevant.n_elements(), 0.);
     restored.last_increment = restored.state.displacement;
-    std::size_t c           = 0;
+    const ChildWeights children(mesh.reference);
+    std::size_t        c = 0;
     for (const auto &active : mesh.dof_handler.active_cell_iterators())
       if (active->is_locally_owned())
         {
@@ -175,7 +170,7 @@ namespace diptych::continuum
             for (unsigned int child = 0; child < 4; ++child)
               if (active->parent()->child(child) == active)
                 {
-                  record = child_record(mesh.reference, records[c], child);
+                  record = child_record(mesh.reference, children, records[c], child);
                   break;
                 }
           for (unsigned int i = 0; i < mesh.reference.n_dofs; ++i)

@@ -61,20 +61,18 @@ namespace diptych::continuum
       return J;
     }
 
-    // Shape of the sample now and at the start: nodes' positions and the present geometry.
+    // Positions of the nodes at the start and now.
     struct Shape
     {
       std::vector<Eigen::Vector2d> before, now;
-      Geometry                     geometry;
     };
 
     Shape shape_of(const BoundaryValueProblem &problem)
     {
       const auto &mesh = problem.discretisation();
       Shape       shape;
-      shape.before   = positions(mesh, std::vector<double>(problem.committed().displacement.size(), 0.));
-      shape.now      = positions(mesh, problem.committed().displacement);
-      shape.geometry = geometry_at(mesh, shape.now); // in small strain not the one that equilibrium is stated on
+      shape.before = positions(mesh, std::vector<double>(problem.committed().displacement.size(), 0.));
+      shape.now    = positions(mesh, problem.committed().displacement);
       return shape;
     }
 
@@ -88,7 +86,7 @@ namespace diptych::continuum
           const std::size_t     i     = c * mesh.reference.n_points + q;
           const auto           &point = problem.committed().points[i];
           const auto           &place = problem.committed().localisation[i];
-          const double          w     = shape.geometry.cells[c].points[q].area;
+          const double          w     = problem.moved_geometry().cells[c].points[q].area;
           const Eigen::Matrix2d F     = jacobian(mesh, mesh.cells[c], q, shape.now) *
                                     jacobian(mesh, mesh.cells[c], q, shape.before).inverse();
           state.strain.topLeftCorner<2, 2>() -= w * ((F + F.transpose()) / 2 - Eigen::Matrix2d::Identity());
@@ -196,7 +194,7 @@ namespace diptych::continuum
         }
       for (unsigned int q = 0; q < mesh.reference.n_points; ++q)
         for (unsigned int node = 0; node < mesh.reference.n_nodes; ++node)
-          result[node].weight += shape.geometry.cells[c].points[q].area * mesh.reference.shape[q][node];
+          result[node].weight += problem.moved_geometry().cells[c].points[q].area * mesh.reference.shape[q][node];
       return result;
     }
 
@@ -244,10 +242,11 @@ namespace diptych::continuum
     }
 
     // Sums over the points of all processes that a row of the history shows.
-    void add_point_sums(const BoundaryValueProblem &problem, const Geometry &geometry, HistoryRow &row)
+    void add_point_sums(const BoundaryValueProblem &problem, HistoryRow &row)
     {
-      const auto &mesh  = problem.discretisation();
-      const auto &state = problem.committed();
+      const auto &mesh     = problem.discretisation();
+      const auto &state    = problem.committed();
+      const auto &geometry = problem.moved_geometry();
       double      area = 0, yielding = 0, unreliable = 0, not_intermediate = 0, viscous = 0, dissipation = 0, largest = 0;
       for (std::size_t i = 0; i < state.points.size(); ++i)
         {
@@ -324,7 +323,7 @@ namespace diptych::continuum
     HistoryRow  row;
     row.step         = count.steps;
     row.axial_strain = problem.progress();
-    add_point_sums(problem, geometry_at(mesh, positions(mesh, problem.committed().displacement)), row);
+    add_point_sums(problem, row);
     add_localisation(problem, row);
     row.stress_ratio       = stress_ratio(row.mean_stress);
     row.lower_platen_force = problem.platen_force(false);

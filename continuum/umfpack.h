@@ -11,7 +11,7 @@
 namespace diptych::continuum
 {
   // UMFPACK (Davis, ACM TOMS 30, 2004) through its own interface: the symbolic analysis is kept while the pattern stays, and
-  // solve() does no iterative refinement, which deal.II's class always does and which costs four times the solve itself.
+  // solve() does no iterative refinement, which deal.II's class always does.
   class Umfpack
   {
   public:

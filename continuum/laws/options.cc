@@ -3,22 +3,13 @@
 #include "continuum/laws/options.h"
 
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
+
+#include "continuum/require.h"
 
 namespace diptych::continuum
 {
   namespace
   {
-    template <class... Text> void require(const bool holds, const Text &...text)
-    {
-      if (holds)
-        return;
-      std::ostringstream message;
-      (message << ... << text);
-      throw std::invalid_argument(message.str());
-    }
-
     // The comparison is false for what is not a number.
     void require_range(const std::string &key, const double value, const double low, const double high)
     {
