@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "coupling/band_candidates.h"
+#include "coupling/band_intervals.h"
 #include "coupling/strips.h"
 
 namespace diptych::coupling
@@ -43,23 +44,29 @@ namespace diptych::coupling
       return data;
     }
 
-    // Empty when every band of a fit is one; else what is wrong.
-    std::string objection(const BandFit &fit, const BandFitOptions &sample, const BandOptions &options)
+    // Empty when band b of a fit is one; else what is wrong.
+    std::string objection(const BandFit &fit, const std::size_t b, const BandFitOptions &sample, const double minimum_jump)
     {
-      for (std::size_t b = 0; b < fit.shape.size(); ++b)
-        {
-          const BandShape &shape = fit.shape[b];
-          if (2 * fit.coefficient.row(3 + b).norm() < options.minimum_jump)
-            return "the jump is below minimum_jump";
-          if (shape.half_width >= 0.999 * largest_half_width(sample, shape.angle))
-            return "the transition is as wide as half the sample";
-          if (std::abs(shape.offset) > 2 * largest_half_width(sample, shape.angle))
-            return "the line lies outside the sample";
-        }
+      const BandShape &shape = fit.shape[b];
+      if (2 * fit.coefficient.row(3 + b).norm() < minimum_jump)
+        return "the jump is below minimum_jump";
+      if (shape.half_width >= 0.999 * largest_half_width(sample, shape.angle))
+        return "the transition is as wide as half the sample";
+      if (std::abs(shape.offset) > 2 * largest_half_width(sample, shape.angle))
+        return "the line lies outside the sample";
       if (fit.shape.size() == 2 &&
           !distinct(fit.shape[0], fit.shape[1], 20 * degree, 2 * (fit.shape[0].half_width + fit.shape[1].half_width)))
         return "the two lines are parts of one band";
       return "";
+    }
+
+    // Of the first band that is none.
+    std::string objection(const BandFit &fit, const BandFitOptions &sample, const double minimum_jump)
+    {
+      std::string text;
+      for (std::size_t b = 0; b < fit.shape.size() && text.empty(); ++b)
+        text = objection(fit, b, sample, minimum_jump);
+      return text;
     }
 
     // Starts are compared on block means, which cost a tenth; the best is then fitted to all points, unless there is an objection
@@ -75,7 +82,7 @@ namespace diptych::coupling
       for (const auto &start : starts)
         {
           const BandFit fit      = fit_bands(blocks, start, sample);
-          const bool    is_valid = objection(fit, sample, options).empty();
+          const bool    is_valid = objection(fit, sample, options.minimum_jump).empty();
           if (best.shape.empty() || (is_valid && !valid) || (is_valid == valid && fit.mean_misfit < best.mean_misfit))
             {
               best  = fit;
@@ -131,30 +138,64 @@ namespace diptych::coupling
       band.r_squared_strips = r_squared(strip_value, strip_fitted, strip_weight);
     }
 
-    Band reported_band(const BandShape &shape, const Eigen::Vector2d &half_jump, const double mean_diameter)
+    // The same field with angles in (-90, 90] degrees: half a turn reverses the normal, and with it offset and jump.
+    BandFit with_folded_angles(BandFit fit)
+    {
+      for (std::size_t b = 0; b < fit.shape.size(); ++b)
+        {
+          BandShape &shape = fit.shape[b];
+          double     turns = std::round(shape.angle / M_PI);
+          if (shape.angle - turns * M_PI <= -0.5 * M_PI)
+            turns -= 1;
+          shape.angle -= turns * M_PI;
+          if (std::fmod(std::abs(turns), 2.) == 1)
+            {
+              shape.offset = -shape.offset;
+              fit.coefficient.row(3 + b) *= -1;
+            }
+        }
+      return fit;
+    }
+
+    Interval times(const double factor, const Interval &interval)
+    {
+      return {factor * interval.value, factor * interval.low, factor * interval.high};
+    }
+
+    // Lengths of the intervals in mean diameters.
+    Band reported_band(const BandIntervals &numbers, const double mean_diameter)
     {
       Band band;
-      // the angle folded to (-90, 90]: an odd number of half turns reverses the normal, and with it offset and jump
-      double turns   = std::round(shape.angle / M_PI);
-      band.angle_deg = (shape.angle - turns * M_PI) / degree;
-      if (band.angle_deg <= -90)
-        {
-          band.angle_deg += 180;
-          turns -= 1;
-        }
-      const double          sign  = std::fmod(std::abs(turns), 2.) == 1 ? -1 : 1;
-      const Eigen::Vector2d jump  = 2 * sign * half_jump;
-      const double          along = jump.dot(band.direction()), opening = jump.dot(band.normal());
-      band.offset       = sign * shape.offset * mean_diameter;
-      band.half_width   = shape.half_width * mean_diameter;
-      band.width_10_90  = 2 * std::atanh(0.8) * band.half_width;
-      band.jump         = std::copysign(jump.norm(), along);
-      band.dilation_deg = std::atan2(opening, std::abs(along)) / degree;
+      band.interval             = numbers;
+      band.interval.half_width  = times(mean_diameter, numbers.half_width);
+      band.interval.width_10_90 = times(mean_diameter, numbers.width_10_90);
+      band.interval.offset      = times(mean_diameter, numbers.offset);
+
+      band.angle_deg    = band.interval.angle_deg.value;
+      band.half_width   = band.interval.half_width.value;
+      band.width_10_90  = band.interval.width_10_90.value;
+      band.offset       = band.interval.offset.value;
+      band.jump         = band.interval.jump.value;
+      band.dilation_deg = band.interval.dilation_deg.value;
       return band;
+    }
+
+    // A refit must still be a band, however weak: half a jump is one of its possible values.
+    std::vector<BandIntervals> intervals_of(const BandData       &data,
+                                            const BandFit        &fit,
+                                            const BandFitOptions &sample,
+                                            const BandOptions    &options,
+                                            const std::uint64_t   seed)
+    {
+      return band_intervals(data, fit, sample, {options.correlation_length, options.resamples, seed},
+                            [&](const BandFit &refit, const std::size_t b) { return objection(refit, b, sample, 0).empty(); });
     }
   } // namespace
 
-  BandReport find_bands(const DisplacementField &field, const SampleFrame &frame, const BandOptions &options)
+  BandReport find_bands(const DisplacementField &field,
+                        const SampleFrame       &frame,
+                        const BandOptions       &options,
+                        const std::uint64_t      seed)
   {
     const BandData data = scaled_data(field, frame);
     BandFitOptions fit_options;
@@ -193,7 +234,7 @@ namespace diptych::coupling
     std::array<std::string, 3> objections;
     for (std::size_t k = 0; k < fits.size(); ++k)
       {
-        objections[k] = objection(fits[k], fit_options, options);
+        objections[k] = objection(fits[k], fit_options, options.minimum_jump);
         if (!objections[k].empty())
           continue;
         report.residual[k]    = std::sqrt(fits[k].robust_variance);
@@ -203,11 +244,11 @@ namespace diptych::coupling
           best = k;
       }
 
-    const BandFit &fit = fits[best];
-    report.converged   = fit.converged;
-    for (std::size_t b = 0; b < fit.shape.size(); ++b)
+    const BandFit fit = with_folded_angles(fits[best]);
+    report.converged  = fit.converged;
+    for (const BandIntervals &numbers : intervals_of(data, fit, fit_options, options, seed))
       {
-        Band band = reported_band(fit.shape[b], fit.coefficient.row(3 + b).transpose(), frame.mean_diameter);
+        Band band = reported_band(numbers, frame.mean_diameter);
         add_r_squared(data, fit, frame, band);
         report.bands.push_back(band);
       }
@@ -222,5 +263,18 @@ namespace diptych::coupling
     if (!fit.converged)
       report.verdict += " (fit not converged)";
     return report;
+  }
+
+  Band folded(const Band &band)
+  {
+    const auto negative = [](const Interval &i) { return Interval{-i.value, -i.high, -i.low}; };
+    if (band.angle_deg >= 0)
+      return band;
+    Band mirrored               = band;
+    mirrored.angle_deg          = -band.angle_deg;
+    mirrored.jump               = -band.jump;
+    mirrored.interval.angle_deg = negative(band.interval.angle_deg);
+    mirrored.interval.jump      = negative(band.interval.jump);
+    return mirrored;
   }
 } // namespace diptych::coupling

@@ -4,11 +4,13 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "coupling/interval.h"
 #include "coupling/strain_increment.h"
 
 namespace diptych::coupling
@@ -20,6 +22,15 @@ namespace diptych::coupling
     double          width = 0, height = 0;                      // of the sample [length]
     double          mean_diameter    = 1;                       // [length]
     Eigen::Vector2d platen_increment = Eigen::Vector2d::Zero(); // displacement increment of the upper platen [length]
+  };
+
+  // The numbers of a band with their 95 % intervals (band_intervals.h), each in the unit it has in Band. Ends that are not
+  // known are NaN. Angles are unwrapped around the value.
+  struct BandIntervals
+  {
+    Interval angle_deg, half_width, width_10_90, offset, jump, dilation_deg;
+    int      resamples  = 0;   // kept
+    double   lost_share = NAN; // of all resamples: those in which the fit failed or was no band any more; NaN: none were drawn
   };
 
   // A band along s = (cos, sin)(angle) with normal n = (-sin, cos)(angle), n_y >= 0. Across it the displacement increment is
@@ -36,6 +47,8 @@ namespace diptych::coupling
     double r_squared        = 0; // weighted 1 - SS_res/SS_tot of the longitudinal component u.s at the raw points
     double r_squared_strips = 0; // the same for the means over 16 strips parallel to the band
 
+    BandIntervals interval; // of the numbers above
+
     Eigen::Vector2d direction() const { return {std::cos(angle_deg * M_PI / 180), std::sin(angle_deg * M_PI / 180)}; }
 
     Eigen::Vector2d normal() const { return {-std::sin(angle_deg * M_PI / 180), std::cos(angle_deg * M_PI / 180)}; }
@@ -48,6 +61,7 @@ namespace diptych::coupling
     double correlation_length = 10.0; // mean diameters; points closer than this are one independent sample
     double minimum_jump       = 0.1;  // of the platen increment; weaker bands are not reported
     double residual_floor     = 0.01; // of the platen increment; misfits below it count for nothing
+    int    resamples          = 200;  // of the block bootstrap; 0 saves its time
   };
 
   template <class Visitor> void visit_parameters(BandOptions &o, Visitor &&visitor)
@@ -56,9 +70,11 @@ namespace diptych::coupling
     visitor("huber_threshold", o.huber_threshold, "scales", {0.5, 1e6},
             "misfit beyond which a point counts linearly, not squared");
     visitor("correlation_length", o.correlation_length, "mean diameters", {1., 100.},
-            "points closer than this are one independent sample");
+            "points closer than this are one independent sample; also the least side of the blocks of the bootstrap");
     visitor("minimum_jump", o.minimum_jump, "platen increments", {0., 1.}, "weaker bands are not reported");
     visitor("residual_floor", o.residual_floor, "platen increments", {1e-6, 1.}, "misfit below which fits are equally good");
+    visitor("band_resamples", o.resamples, "-", {0, 10000},
+            "resamples of the block bootstrap that gives the 95 % intervals of a band; fewer than 40: no intervals");
   }
 
   struct BandReport
@@ -74,6 +90,15 @@ namespace diptych::coupling
   // Fits no, one and two bands (Huber loss, variable projection) and keeps the number with the lowest BIC; n in it is the number
   // of independent samples, two for each square of the correlation length, not the number of points. A transition as wide as half
   // the sample is not told from the affine background: it is reported as diffuse. Throws std::invalid_argument for fewer than 30
-  // weighted points, a platen increment of zero or a frame without extent.
-  [[nodiscard]] BandReport find_bands(const DisplacementField &field, const SampleFrame &frame, const BandOptions &options = {});
+  // weighted points, a platen increment of zero or a frame without extent. The seed draws the blocks of the intervals and nothing
+  // else.
+  [[nodiscard]] BandReport find_bands(const DisplacementField &field,
+                                      const SampleFrame       &frame,
+                                      const BandOptions       &options = {},
+                                      std::uint64_t            seed    = 1);
+
+  // Under vertical loading chance decides whether a band leans to the left or to the right. A band of negative angle is mirrored
+  // left to right (about the sample's centre): angle and jump change sign, offset, widths and dilation stay; a band of
+  // positive angle, a level or an upright one is returned as it is. So folded, the bands of several samples can be averaged.
+  Band folded(const Band &band);
 } // namespace diptych::coupling

@@ -3,9 +3,7 @@
 #include "coupling/band_fit.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <stdexcept>
 
 #include <Eigen/Cholesky>
 
@@ -13,102 +11,6 @@ namespace diptych::coupling
 {
   namespace
   {
-    // tanh to 1e-16 absolute, which is what a fit needs, at a fourth of std::tanh's cost.
-    double fast_tanh(const double z)
-    {
-      return 1 - 2 / (std::exp(2 * z) + 1);
-    }
-
-    // The problem after the linear coefficients are eliminated (Golub & Pereyra 1973, with Kaufman's Jacobian). Nonlinear
-    // parameters are ordered angle, offset, log half width of each band.
-    struct Projection
-    {
-      double                                   sum_of_squares = 0;
-      double                                   data_squares   = 0;
-      Eigen::Matrix<double, Eigen::Dynamic, 2> coefficient;
-      Eigen::MatrixXd                          hessian;
-      Eigen::VectorXd                          descent; // minus half the gradient
-    };
-
-    // Columns: affine (3), profiles (K), their derivatives (3 K), data (2): one weighted Gram matrix holds all that a step needs.
-    // K is fixed at compile time because this loop over all points is where the time goes.
-    template <int K>
-    Eigen::MatrixXd gram_matrix_of(const BandData &data, const std::vector<double> &weight, const std::vector<BandShape> &shape)
-    {
-      constexpr int                  n    = 5 + 4 * K;
-      Eigen::Matrix<double, n, n>    gram = Eigen::Matrix<double, n, n>::Zero();
-      std::array<Eigen::Vector2d, K> along, normal;
-      for (int b = 0; b < K; ++b)
-        {
-          along[b]  = {std::cos(shape[b].angle), std::sin(shape[b].angle)};
-          normal[b] = {-along[b].y(), along[b].x()};
-        }
-
-      Eigen::Matrix<double, n, 1> row;
-      for (std::size_t i = 0; i < data.x.size(); ++i)
-        {
-          row.template head<3>() << 1, data.x[i].x(), data.x[i].y();
-          for (int b = 0; b < K; ++b)
-            {
-              const double z       = (normal[b].dot(data.x[i]) - shape[b].offset) / shape[b].half_width;
-              const double profile = fast_tanh(z);
-              const double slope   = 1 - profile * profile;
-              row[3 + b]           = profile;
-              row.template segment<3>(3 + K + 3 * b) << -slope * along[b].dot(data.x[i]) / shape[b].half_width,
-                -slope / shape[b].half_width, -slope * z;
-            }
-          row.template tail<2>() = data.u[i];
-          gram.noalias() += (weight[i] * row) * row.transpose();
-        }
-      return gram;
-    }
-
-    Eigen::MatrixXd gram_matrix(const BandData &data, const std::vector<double> &weight, const std::vector<BandShape> &shape)
-    {
-      switch (shape.size())
-        {
-        case 0:
-          return gram_matrix_of<0>(data, weight, shape);
-        case 1:
-          return gram_matrix_of<1>(data, weight, shape);
-        case 2:
-          return gram_matrix_of<2>(data, weight, shape);
-        default:
-          throw std::invalid_argument("at most two bands can be fitted");
-        }
-    }
-
-    Projection project(const BandData &data, const std::vector<double> &weight, const std::vector<BandShape> &shape)
-    {
-      const Eigen::MatrixXd gram     = gram_matrix(data, weight, shape);
-      const Eigen::Index    n_linear = 3 + shape.size(), n_curved = 3 * shape.size();
-      const auto            basis       = gram.topLeftCorner(n_linear, n_linear);
-      const auto            derivatives = gram.block(n_linear, n_linear, n_curved, n_curved);
-      const auto            mixed       = gram.block(0, n_linear, n_linear, n_curved);
-      const auto            basis_data  = gram.topRightCorner(n_linear, 2);
-
-      const Eigen::LDLT<Eigen::MatrixXd> solver(basis);
-      Projection                         p;
-      p.coefficient    = solver.solve(basis_data);
-      p.data_squares   = gram.bottomRightCorner(2, 2).trace();
-      p.sum_of_squares = std::max(0., p.data_squares - p.coefficient.cwiseProduct(basis_data).sum());
-      if (n_curved == 0)
-        return p;
-
-      const Eigen::MatrixXd projected    = derivatives - mixed.transpose() * solver.solve(Eigen::MatrixXd(mixed));
-      const Eigen::MatrixXd misfit_slope = gram.block(n_linear, n_linear + n_curved, n_curved, 2) -
-                                           mixed.transpose() * p.coefficient;
-      p.hessian.resize(n_curved, n_curved);
-      p.descent.resize(n_curved);
-      for (Eigen::Index k = 0; k < n_curved; ++k)
-        {
-          p.descent[k] = p.coefficient.row(3 + k / 3).dot(misfit_slope.row(k));
-          for (Eigen::Index l = 0; l < n_curved; ++l)
-            p.hessian(k, l) = p.coefficient.row(3 + k / 3).dot(p.coefficient.row(3 + l / 3)) * projected(k, l);
-        }
-      return p;
-    }
-
     double clamped_half_width(const BandFitOptions &options, const BandShape &shape)
     {
       const double largest = std::max(options.smallest_half_width, largest_half_width(options, shape.angle));
@@ -142,7 +44,7 @@ namespace diptych::coupling
     }
 
     // A half width held at its bound takes no part in the step, else the others would wait for it.
-    void hold_bounded_widths(const std::vector<BandShape> &shape, const BandFitOptions &options, Projection &p)
+    void hold_bounded_widths(const std::vector<BandShape> &shape, const BandFitOptions &options, BandProjection &p)
     {
       for (std::size_t b = 0; b < shape.size(); ++b)
         {
@@ -151,31 +53,50 @@ namespace diptych::coupling
           const bool         at_lower = shape[b].half_width <= (1 + 1e-9) * options.smallest_half_width;
           if ((at_upper && p.descent[k] > 0) || (at_lower && p.descent[k] < 0))
             {
-              p.hessian.row(k).setZero();
-              p.hessian.col(k).setZero();
-              p.hessian(k, k) = 1;
-              p.descent[k]    = 0;
+              for (Eigen::MatrixXd *matrix : {&p.gauss_newton, &p.hessian})
+                {
+                  matrix->row(k).setZero();
+                  matrix->col(k).setZero();
+                  (*matrix)(k, k) = 1;
+                }
+              p.descent[k] = 0;
             }
         }
     }
 
-    // Levenberg-Marquardt with fixed weights; returns whether the step became small.
-    bool minimise(const BandData &data, const std::vector<double> &weight, const BandFitOptions &options, BandFit &fit)
+    // Newton's step where the second derivative is positive definite, else that of Gauss and Newton, which always leads down.
+    Eigen::VectorXd damped_step(const BandProjection &p, const double lambda)
     {
-      Projection p      = project(data, weight, fit.shape);
-      double     lambda = 1e-3;
-      bool       small  = fit.shape.empty();
-      for (int iteration = 0; iteration < 12 && !small && lambda < 1e8; ++iteration)
+      const auto damped = [lambda](Eigen::MatrixXd matrix, const double floor) {
+        matrix.diagonal() *= 1 + lambda;
+        matrix.diagonal().array() += floor;
+        return matrix;
+      };
+      const double                      floor = 1e-14 * p.gauss_newton.trace() + 1e-300;
+      const Eigen::LLT<Eigen::MatrixXd> newton(damped(p.hessian, floor));
+      if (newton.info() == Eigen::Success)
+        return newton.solve(p.descent);
+      return damped(p.gauss_newton, floor).ldlt().solve(p.descent);
+    }
+
+    // Levenberg-Marquardt with fixed weights; returns whether the step became smaller than the tolerance.
+    bool minimise(const BandData            &data,
+                  const std::vector<double> &weight,
+                  const BandFitOptions      &options,
+                  const double               tolerance,
+                  BandFit                   &fit)
+    {
+      BandProjection p      = project_bands(data, weight, fit.shape);
+      double         lambda = 1e-3;
+      bool           small  = fit.shape.empty();
+      for (int iteration = 0; iteration < 20 && !small && lambda < 1e8; ++iteration)
         {
-          Projection held = p;
+          BandProjection held = p;
           hold_bounded_widths(fit.shape, options, held);
-          Eigen::MatrixXd damped = held.hessian;
-          damped.diagonal() *= 1 + lambda;
-          damped.diagonal().array() += 1e-14 * held.hessian.trace() + 1e-300;
-          const std::vector<BandShape> next = stepped(fit.shape, damped.ldlt().solve(held.descent), options);
-          const Projection             q    = project(data, weight, next);
+          const std::vector<BandShape> next = stepped(fit.shape, damped_step(held, lambda), options);
+          const BandProjection         q    = project_bands(data, weight, next);
           ++fit.iterations;
-          small = distance(fit.shape, next) < 1e-7;
+          small = distance(fit.shape, next) < tolerance;
           if (q.sum_of_squares <= p.sum_of_squares + 1e-14 * p.data_squares)
             {
               fit.shape = next;
@@ -196,12 +117,24 @@ namespace diptych::coupling
       std::nth_element(misfit.begin(), middle, misfit.end());
       return std::max(floor, *middle / 1.1774);
     }
-  } // namespace
 
-  double BandShape::profile(const Eigen::Vector2d &x) const
-  {
-    return fast_tanh((-std::sin(angle) * x.x() + std::cos(angle) * x.y() - offset) / half_width);
-  }
+    std::vector<double> misfits(const BandData &data, const BandFit &fit)
+    {
+      std::vector<double> misfit(data.x.size());
+      for (std::size_t i = 0; i < misfit.size(); ++i)
+        misfit[i] = (data.u[i] - fit.at(data.x[i])).norm();
+      return misfit;
+    }
+
+    std::vector<double> weights_of(const BandData &data, const std::vector<double> &misfit, const BandFitOptions &options)
+    {
+      const double        limit = options.huber_threshold * robust_scale(misfit, options.scale_floor);
+      std::vector<double> weight(misfit.size());
+      for (std::size_t i = 0; i < misfit.size(); ++i)
+        weight[i] = data.w[i] * std::min(1., limit / std::max(misfit[i], 1e-300));
+      return weight;
+    }
+  } // namespace
 
   double largest_half_width(const BandFitOptions &options, const double angle)
   {
@@ -223,20 +156,18 @@ namespace diptych::coupling
     for (auto &shape : fit.shape)
       shape.half_width = clamped_half_width(options, shape);
 
-    std::vector<double> weight          = data.w, misfit(data.x.size());
+    std::vector<double> weight          = data.w;
     double              variance_before = -1;
     for (int round = 0; round < 15 && !fit.converged; ++round)
       {
         const std::vector<BandShape> before = fit.shape;
-        const bool                   small  = minimise(data, weight, options, fit);
+        const bool                   small  = minimise(data, weight, options, 1e-7, fit);
 
-        for (std::size_t i = 0; i < misfit.size(); ++i)
-          misfit[i] = (data.u[i] - fit.at(data.x[i])).norm();
-        const double scale   = robust_scale(misfit, options.scale_floor);
-        double       squares = 0, sum = 0, lengths = 0, total = 0;
+        const std::vector<double> misfit = misfits(data, fit);
+        weight                           = weights_of(data, misfit, options);
+        double squares = 0, sum = 0, lengths = 0, total = 0;
         for (std::size_t i = 0; i < misfit.size(); ++i)
           {
-            weight[i] = data.w[i] * std::min(1., options.huber_threshold * scale / std::max(misfit[i], 1e-300));
             squares += weight[i] * misfit[i] * misfit[i];
             sum += weight[i];
             lengths += data.w[i] * misfit[i];
@@ -249,5 +180,18 @@ namespace diptych::coupling
         variance_before = fit.robust_variance;
       }
     return fit;
+  }
+
+  BandFit refit_bands(const BandData &data, const BandFit &start, const BandFitOptions &options, const double tolerance)
+  {
+    BandFit fit    = start;
+    fit.iterations = 0;
+    fit.converged  = minimise(data, data.w, options, tolerance, fit);
+    return fit;
+  }
+
+  std::vector<double> huber_weights(const BandData &data, const BandFit &fit, const BandFitOptions &options)
+  {
+    return weights_of(data, misfits(data, fit), options);
   }
 } // namespace diptych::coupling

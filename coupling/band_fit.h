@@ -6,25 +6,10 @@
 
 #include <Eigen/Core>
 
+#include "coupling/band_projection.h"
+
 namespace diptych::coupling
 {
-  // Scaled data: positions from the sample's centre in mean diameters, displacements in platen increments.
-  struct BandData
-  {
-    std::vector<Eigen::Vector2d> x, u;
-    std::vector<double>          w; // > 0
-  };
-
-  // The nonlinear parameters of one band: line along (cos, sin)(angle), normal n = (-sin, cos)(angle).
-  struct BandShape
-  {
-    double angle      = 0; // radians
-    double offset     = 0; // along n [mean diameters]
-    double half_width = 1; // delta [mean diameters]
-
-    double profile(const Eigen::Vector2d &x) const; // tanh((n.x - offset) / half_width)
-  };
-
   struct BandFitOptions
   {
     double width = 0, height = 0;      // of the sample [mean diameters]
@@ -52,4 +37,14 @@ namespace diptych::coupling
   // Minimises sum w rho(|u - c - G x - sum_b a_b tanh((n_b.x - o_b)/delta_b)|), rho of Huber, from the given shapes (none:
   // affine).
   [[nodiscard]] BandFit fit_bands(const BandData &data, const std::vector<BandShape> &start, const BandFitOptions &options);
+
+  // Plain least squares with the weights as they are, from a fit nearby, until angles, offsets / half widths and log half widths
+  // move by less than the tolerance. Robust variance and misfit stay those of the start.
+  [[nodiscard]] BandFit refit_bands(const BandData       &data,
+                                    const BandFit        &start,
+                                    const BandFitOptions &options,
+                                    double                tolerance = 1e-3);
+
+  // The weights that Huber's loss gives the data beside a fit.
+  std::vector<double> huber_weights(const BandData &data, const BandFit &fit, const BandFitOptions &options);
 } // namespace diptych::coupling

@@ -38,17 +38,16 @@ namespace diptych::coupling
       progress.update("comparing", 0);
       PhaseTimer       timer("comparison");
       const Comparison c = compare(scene, directory);
-      write_comparison_csv(directory, c);
       write_comparison_h5(directory, scene, c);
       write_fields_vtu(directory, c);
       update_provenance(directory, scene, line.text, {timer.stop()}, json::object());
-      write_comparison_json(directory, scene, c, read_provenance(directory));
+      write_comparison(directory, scene, c, read_provenance(directory));
       progress.finish();
       for (const StageRecord &stage : c.stages)
-        if (!(stage.total_relative_error < 1e-12))
+        if (!(stage.mapping.total_relative_error < 1e-12))
           {
             std::cerr << "the mapping at " << reached(stage.axial_strain) << " misses the grains' total by "
-                      << stage.total_relative_error << std::endl;
+                      << stage.mapping.total_relative_error << std::endl;
             return invariant;
           }
       return done;
@@ -82,9 +81,8 @@ namespace diptych::coupling
     }
   } // namespace
 
-  int run_both(const CommandLine &line)
+  void check_comparable(const CommandLine &line, const Scene &scene)
   {
-    const Scene scene = scene_of(line);
     require_continuum(scene);
     if (scene.comparison.coarse_element_size == 0)
       throw SceneError("comparison/coarse_element_size = 0: `diptych run` compares with that run; a number from 0.1 on");
@@ -94,6 +92,12 @@ namespace diptych::coupling
                        "`diptych continuum`");
     if (!line.study.empty())
       throw SceneError("--study " + line.study + ": only `diptych discrete` has studies");
+  }
+
+  int run_both(const CommandLine &line)
+  {
+    const Scene scene = scene_of(line);
+    check_comparable(line, scene);
     const bool resume_continuum = line.resume && may_resume_continuum(scene);
     open_result_folder(scene, line.resume);
     if (const int code = discrete_panel(line, scene); code != done)

@@ -15,6 +15,8 @@ namespace diptych::coupling
     int                      threads = 1;         // --threads
     bool                     resume  = false;     // --resume
     std::string              study;               // --study: step
+    std::string              seeds;               // --seeds: "1-8", "1,3,5-7"
+    int                      jobs       = 0;      // --jobs; 0: as many as fit
     std::string              solver     = "psor"; // --solver, --tolerance, --max-sweeps, --form: of solve
     double                   tolerance  = 1e-8;
     int                      max_sweeps = 1000000;
@@ -30,6 +32,11 @@ namespace diptych::coupling
     wrong_input   = 2,
     not_converged = 3
   };
+
+  struct Scene;
+
+  // Throws SceneError where `diptych run` cannot compare the panels of a scene, before anything is written.
+  void check_comparable(const CommandLine &line, const Scene &scene);
 
   // Each returns an ExitCode. Throw SceneError or std::invalid_argument on wrong input and std::runtime_error on trouble with
   // files.

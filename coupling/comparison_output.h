@@ -10,21 +10,16 @@
 
 namespace diptych::coupling
 {
-  // comparison.json and comparison.csv: every number of the report, lengths in mean diameters where the name ends in _d,
-  // stresses in the scene's unit, angles from the horizontal in degrees. `provenance` supplies cost and counts.
-  void write_comparison_json(const std::string    &directory,
-                             const Scene          &scene,
-                             const Comparison     &c,
-                             const nlohmann::json &provenance);
-
-  // One line a number: axial_strain_from, axial_strain_to, panel, quantity, value.
-  void write_comparison_csv(const std::string &directory, const Comparison &c);
+  // comparison.json: every number of the report, lengths in mean diameters where the name ends in _d, stresses in the scene's
+  // unit, angles from the horizontal in degrees. `provenance` supplies cost and counts. comparison.csv: the same, one line a
+  // number: axial_strain_from, axial_strain_to, panel, quantity, value and, where they are known, the ends of its 95 % interval.
+  void write_comparison(const std::string &directory, const Scene &scene, const Comparison &c, const nlohmann::json &provenance);
 
   // comparison.h5: the arrays behind the report's pictures.
   void write_comparison_h5(const std::string &directory, const Scene &scene, const Comparison &c);
 
-  // fields.vtu: the last stage, both panels on the continuum's mesh in its position of that stage: stresses as 3x3 tensors
-  // (compression positive), their difference, shear strain increments over the stage, grain count, solid fraction, and the
-  // relative standard error of the grains' mean pressure.
+  // fields.vtu: the last stage, both panels on the continuum's mesh in its position of that stage: every field of CellFields,
+  // tensors as 3x3 tensors (compression positive), vectors with three components, and the difference of the stresses. grid.vtu:
+  // the same on the regular grid.
   void write_fields_vtu(const std::string &directory, const Comparison &c);
 } // namespace diptych::coupling

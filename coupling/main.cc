@@ -8,6 +8,8 @@
 #include <deal.II/base/mpi.h>
 
 #include "coupling/commands.h"
+#include "coupling/ensemble_command.h"
+#include "coupling/ensemble_folder.h"
 #include "coupling/processes.h"
 #include "coupling/scene.h"
 #include "coupling/solve_command.h"
@@ -33,6 +35,9 @@ namespace
   --set section/key=value  change one key of the scene; may be repeated
   --threads N              for the contact solver; the same bits for every N (default 1)
   --resume                 go on from the checkpoint of an interrupted run, grains or continuum
+  --seeds LIST             run: the scene on every sample of a list like 1-8 or 1,3,5-7, each in DIR/seed_K, then means, intervals
+                           and verdicts over them (default folder: results/<scene name>_ensemble; also under mpirun)
+  --jobs N                 how many of them at once, on each process (default: cores it may use / threads; under mpirun 1)
   --study step             discrete: run with step h, h/2 and h/4 and compare energy and stress ratio
   --solver NAME            solve: psor or nsgs (psor)
   --tolerance T            solve: natural map relative to |r| (1e-8)
@@ -44,6 +49,21 @@ namespace
 Exit codes: 0 done, 1 a stated invariant failed, 2 wrong input, 3 did not converge or was stopped (what was reached is kept)
 )";
 
+  int run_one_or_many(const CommandLine &line)
+  {
+    return line.seeds.empty() ? run_both(line) : run_ensemble(line);
+  }
+
+  int compare_one_or_many(const CommandLine &line)
+  {
+    return is_ensemble_folder(line.target) ? compare_ensemble_again(line) : compare_again(line);
+  }
+
+  int report_one_or_many(const CommandLine &line)
+  {
+    return is_ensemble_folder(line.target) ? report_ensemble_again(line) : report_again(line);
+  }
+
   // What each command is called and whether it needs a target.
   struct Command
   {
@@ -52,14 +72,11 @@ Exit codes: 0 done, 1 a stated invariant failed, 2 wrong input, 3 did not conver
     bool                                    on_several_processes = false;
   };
 
-  const std::map<std::string, Command> commands = {{"run", {run_both, true}},
-                                                   {"discrete", {run_discrete, true}},
-                                                   {"continuum", {run_continuum, true, true}},
-                                                   {"material-point", {run_material_point, true}},
-                                                   {"solve", {solve_stored_problem, true}},
-                                                   {"compare", {compare_again, true}},
-                                                   {"report", {report_again, true}},
-                                                   {"explain", {explain_keys, false}}};
+  const std::map<std::string, Command> commands = {
+    {"run", {run_one_or_many, true}},           {"discrete", {run_discrete, true}},
+    {"continuum", {run_continuum, true, true}}, {"material-point", {run_material_point, true}},
+    {"solve", {solve_stored_problem, true}},    {"compare", {compare_one_or_many, true}},
+    {"report", {report_one_or_many, true}},     {"explain", {explain_keys, false}}};
 
   int positive_number(const std::string &option, const std::string &text)
   {
@@ -108,6 +125,14 @@ Exit codes: 0 done, 1 a stated invariant failed, 2 wrong input, 3 did not conver
           line.resume = true;
         else if (words[k] == "--study")
           line.study = argument();
+        else if (words[k] == "--seeds")
+          {
+            line.seeds = argument();
+            if (line.seeds.empty())
+              throw SceneError("--seeds: the list is empty; a list like 1-8 or 1,3,5-7");
+          }
+        else if (words[k] == "--jobs")
+          line.jobs = positive_number("--jobs", argument());
         else if (words[k] == "--solver")
           line.solver = argument();
         else if (words[k] == "--tolerance")
@@ -132,6 +157,10 @@ Exit codes: 0 done, 1 a stated invariant failed, 2 wrong input, 3 did not conver
       throw SceneError("unknown command '" + line.command + "'; see diptych --help");
     if (found->second.needs_target && line.target.empty())
       throw SceneError("diptych " + line.command + ": a scene file, problem file or result folder is missing");
+    if (!line.seeds.empty() && line.command != "run")
+      throw SceneError("--seeds " + line.seeds + ": only `diptych run` runs a list of seeds");
+    if (line.jobs > 0 && line.seeds.empty())
+      throw SceneError("--jobs " + std::to_string(line.jobs) + ": only with --seeds");
     return line;
   }
 
@@ -155,8 +184,9 @@ Exit codes: 0 done, 1 a stated invariant failed, 2 wrong input, 3 did not conver
     line.quiet                                       = line.quiet || !is_first_process();
     install_stop_signals();
     return answer_for([&] {
-      if (n_processes() > 1 && !command.on_several_processes)
-        throw SceneError("mpirun: diptych " + line.command + " runs on one process; several may run `diptych continuum` alone");
+      if (n_processes() > 1 && !command.on_several_processes && line.seeds.empty())
+        throw SceneError("mpirun: diptych " + line.command +
+                         " runs on one process; several may run `diptych continuum` alone or `diptych run` with --seeds");
       return command.execute(line);
     });
   }

@@ -1,4 +1,4 @@
-// diptych: the cells that grain quantities are mapped onto: areas, point location, cutting of segments
+// diptych: the cells that grain quantities are mapped onto, and the triangles they are made of
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/mesh_cells.h"
 
@@ -6,103 +6,24 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <string>
-#include <tuple>
 #include <utility>
 
 namespace diptych::coupling
 {
   namespace
   {
-    constexpr double edge_tolerance = 1e-12; // of an edge's length: points closer to it count as on it
-
-    double cross(const Eigen::Vector2d &a, const Eigen::Vector2d &b)
-    {
-      return a.x() * b.y() - a.y() * b.x();
-    }
-
     double area(const Eigen::Vector2d &a, const Eigen::Vector2d &b, const Eigen::Vector2d &c)
     {
-      return 0.5 * cross(b - a, c - a);
-    }
-
-    // The corners of a cell whose diagonal 0-2 lies inside it.
-    std::array<unsigned int, 4> with_inner_diagonal(const std::vector<Eigen::Vector2d> &x,
-                                                    const std::array<unsigned int, 4>  &c,
-                                                    const std::size_t                   number)
-    {
-      for (const unsigned int shift : {0u, 1u})
-        {
-          const std::array<unsigned int, 4> turned = {{c[shift], c[shift + 1], c[(shift + 2) % 4], c[(shift + 3) % 4]}};
-          if (area(x[turned[0]], x[turned[1]], x[turned[2]]) > 0 && area(x[turned[0]], x[turned[2]], x[turned[3]]) > 0)
-            return turned;
-        }
-      throw std::runtime_error("cell " + std::to_string(number) + " of the deformed mesh is turned inside out");
-    }
-
-    bool contains(const std::array<Eigen::Vector2d, 3> &corner, const Eigen::Vector2d &point)
-    {
-      for (unsigned int k = 0; k < 3; ++k)
-        {
-          const Eigen::Vector2d edge = corner[(k + 1) % 3] - corner[k];
-          if (cross(edge, point - corner[k]) < -edge_tolerance * edge.squaredNorm())
-            return false;
-        }
-      return true;
-    }
-
-    // Part of a-b inside a triangle: first >= second where there is none. An edge cuts exactly where it is crossed; a segment
-    // that keeps within the tolerance of it, as one along the mesh's boundary does, is not cut.
-    std::pair<double, double> clip(const std::array<Eigen::Vector2d, 3> &corner,
-                                   const Eigen::Vector2d                &a,
-                                   const Eigen::Vector2d                &b)
-    {
-      constexpr std::pair<double, double> nothing(1, 0);
-      double                              from = 0, to = 1;
-      for (unsigned int k = 0; k < 3; ++k)
-        {
-          const Eigen::Vector2d edge   = corner[(k + 1) % 3] - corner[k];
-          const double          margin = edge_tolerance * edge.squaredNorm();
-          const double          at_a = cross(edge, a - corner[k]), at_b = cross(edge, b - corner[k]);
-          if (at_a < -margin)
-            {
-              if (at_b <= 0)
-                return nothing;
-              from = std::max(from, at_a / (at_a - at_b));
-            }
-          else if (at_b < -margin)
-            {
-              if (at_a <= 0)
-                return nothing;
-              to = std::min(to, at_a / (at_a - at_b));
-            }
-        }
-      return {from, to};
-    }
-
-    bool strictly_contains(const std::array<Eigen::Vector2d, 3> &corner, const Eigen::Vector2d &point)
-    {
-      for (unsigned int k = 0; k < 3; ++k)
-        {
-          const Eigen::Vector2d edge = corner[(k + 1) % 3] - corner[k];
-          if (cross(edge, point - corner[k]) < edge_tolerance * edge.squaredNorm())
-            return false;
-        }
-      return true;
-    }
-
-    double squared_distance(const Eigen::Vector2d &point, const Eigen::Vector2d &from, const Eigen::Vector2d &to)
-    {
-      const Eigen::Vector2d edge = to - from;
-      const double          t    = std::clamp((point - from).dot(edge) / edge.squaredNorm(), 0., 1.);
-      return (from + t * edge - point).squaredNorm();
+      const Eigen::Vector2d u = b - a, v = c - a;
+      return 0.5 * (u.x() * v.y() - u.y() * v.x());
     }
   } // namespace
 
   QuadMesh quad_mesh(const continuum::Snapshot &snapshot)
   {
-    constexpr unsigned int    unseen = std::numeric_limits<unsigned int>::max();
-    std::vector<unsigned int> number(snapshot.position.size(), unseen);
+    constexpr unsigned int       unseen = std::numeric_limits<unsigned int>::max();
+    std::vector<unsigned int>    number(snapshot.position.size(), unseen);
+    std::vector<Eigen::Vector2d> initial;
 
     QuadMesh mesh;
     for (const auto &cell : snapshot.cells)
@@ -110,27 +31,51 @@ namespace diptych::coupling
         std::array<unsigned int, 4> corner;
         for (unsigned int k = 0; k < 4; ++k)
           {
-            if (number.at(cell[k]) == unseen)
+            const unsigned int node = cell[k];
+            if (number.at(node) == unseen)
               {
-                number[cell[k]] = mesh.node.size();
-                mesh.node.push_back(snapshot.position[cell[k]]);
+                number[node] = mesh.node.size();
+                mesh.node.push_back(snapshot.position[node]);
+                initial.push_back(snapshot.position[node]);
+                if (!snapshot.displacement.empty())
+                  initial.back() -= snapshot.displacement.at(node);
               }
-            corner[k] = number[cell[k]];
+            corner[k] = number[node];
           }
-        mesh.cell.push_back(with_inner_diagonal(mesh.node, corner, mesh.cell.size()));
+        mesh.cell.push_back(corner);
       }
+    triangulate(mesh, initial);
+    return mesh;
+  }
+
+  QuadMesh regular_grid(const Eigen::Vector2d &lower, const Eigen::Vector2d &upper, const double size)
+  {
+    const Eigen::Vector2d extent = upper - lower;
+    if (!(extent.minCoeff() > 0) || !(size > 0) || !std::isfinite(extent.sum() / size))
+      throw std::invalid_argument("a regular grid needs a box of positive width and height and cells of positive size");
+    const unsigned int columns = std::max(1., std::round(extent.x() / size)), rows = std::max(1., std::round(extent.y() / size));
+    QuadMesh           mesh;
+    for (unsigned int r = 0; r <= rows; ++r)
+      for (unsigned int c = 0; c <= columns; ++c)
+        mesh.node.push_back(lower + Eigen::Vector2d(c * extent.x() / columns, r * extent.y() / rows));
+    for (unsigned int r = 0; r < rows; ++r)
+      for (unsigned int c = 0; c < columns; ++c)
+        {
+          const unsigned int first = r * (columns + 1) + c, above = first + columns + 1;
+          mesh.cell.push_back({{first, first + 1, above + 1, above}});
+        }
+    triangulate(mesh);
     return mesh;
   }
 
   std::array<unsigned int, 3> triangle_nodes(const QuadMesh &mesh, const unsigned int triangle)
   {
-    const auto &c = mesh.cell[triangle / 2];
-    return triangle % 2 == 0 ? std::array<unsigned int, 3>{{c[0], c[1], c[2]}} : std::array<unsigned int, 3>{{c[0], c[2], c[3]}};
+    return mesh.triangle[triangle].node;
   }
 
   double triangle_area(const QuadMesh &mesh, const unsigned int triangle)
   {
-    const auto n = triangle_nodes(mesh, triangle);
+    const auto &n = mesh.triangle[triangle].node;
     return area(mesh.node[n[0]], mesh.node[n[1]], mesh.node[n[2]]);
   }
 
@@ -142,10 +87,46 @@ namespace diptych::coupling
 
   std::vector<double> cell_areas(const QuadMesh &mesh)
   {
-    std::vector<double> areas(mesh.cell.size());
-    for (unsigned int c = 0; c < areas.size(); ++c)
-      areas[c] = triangle_area(mesh, 2 * c) + triangle_area(mesh, 2 * c + 1);
+    std::vector<double> areas(mesh.cell.size(), 0.);
+    for (unsigned int t = 0; t < mesh.triangle.size(); ++t)
+      areas[mesh.triangle[t].cell] += triangle_area(mesh, t);
     return areas;
+  }
+
+  std::vector<std::vector<unsigned int>> cell_outlines(const QuadMesh &mesh)
+  {
+    std::vector<std::vector<unsigned int>> outlines(mesh.cell.size());
+    for (std::size_t t = 0, end = 0; t < mesh.triangle.size(); t = end)
+      {
+        const unsigned int                                 cell = mesh.triangle[t].cell;
+        std::vector<std::pair<unsigned int, unsigned int>> directed;
+        for (end = t; end < mesh.triangle.size() && mesh.triangle[end].cell == cell; ++end)
+          for (unsigned int k = 0; k < 3; ++k)
+            directed.emplace_back(mesh.triangle[end].node[k], mesh.triangle[end].node[(k + 1) % 3]);
+        const auto is_outer = [&](const auto &e) {
+          return std::find(directed.begin(), directed.end(), std::make_pair(e.second, e.first)) == directed.end();
+        };
+        unsigned int node = mesh.cell[cell][0];
+        do
+          {
+            outlines[cell].push_back(node);
+            node = std::find_if(directed.begin(), directed.end(), [&](const auto &e) {
+                     return e.first == node && is_outer(e);
+                   })->second;
+        } while (node != mesh.cell[cell][0]);
+      }
+    return outlines;
+  }
+
+  Eigen::Vector3d shape_values(const QuadMesh &mesh, const unsigned int triangle, const Eigen::Vector2d &point)
+  {
+    const auto           &n = mesh.triangle[triangle].node;
+    const Eigen::Vector2d u = mesh.node[n[1]] - mesh.node[n[0]], v = mesh.node[n[2]] - mesh.node[n[0]];
+    const Eigen::Vector2d offset = point - mesh.node[n[0]];
+    const double          whole  = u.x() * v.y() - u.y() * v.x();
+    const double          second = (offset.x() * v.y() - offset.y() * v.x()) / whole;
+    const double          third  = (u.x() * offset.y() - u.y() * offset.x()) / whole;
+    return {1 - second - third, second, third};
   }
 
   // grad N_a is normal to the edge opposite corner a, with length edge / (2 area).
@@ -160,188 +141,5 @@ namespace diptych::coupling
         gradients.col(k)               = Eigen::Vector2d(-opposite.y(), opposite.x()) / twice_area;
       }
     return gradients;
-  }
-
-  TriangleSearch::TriangleSearch(const QuadMesh &mesh)
-  {
-    if (mesh.cell.empty())
-      throw std::invalid_argument("a mesh without cells cannot receive grain quantities");
-
-    struct Edge
-    {
-      unsigned int low, high, triangle, corner;
-    };
-    std::vector<Edge> edges;
-    Eigen::Vector2d   lower = mesh.node[mesh.cell[0][0]], upper = lower;
-    double            total_area = 0;
-    for (unsigned int t = 0; t < 2 * mesh.cell.size(); ++t)
-      {
-        const auto   n = triangle_nodes(mesh, t);
-        Triangle     triangle{{{mesh.node[n[0]], mesh.node[n[1]], mesh.node[n[2]]}}, {}, {}};
-        const double size = triangle_area(mesh, t);
-        if (!(size > 0))
-          throw std::invalid_argument("cell " + std::to_string(t / 2) + " has a triangle without positive area");
-        total_area += size;
-
-        triangle.lower = triangle.corner[0].cwiseMin(triangle.corner[1]).cwiseMin(triangle.corner[2]);
-        triangle.upper = triangle.corner[0].cwiseMax(triangle.corner[1]).cwiseMax(triangle.corner[2]);
-        // so that a point within the edge tolerance is still inside the box
-        const Eigen::Vector2d margin = Eigen::Vector2d::Constant(1e-9 * (triangle.upper - triangle.lower).sum());
-        triangle.lower -= margin;
-        triangle.upper += margin;
-        lower = lower.cwiseMin(triangle.lower);
-        upper = upper.cwiseMax(triangle.upper);
-        triangles.push_back(triangle);
-        for (unsigned int k = 0; k < 3; ++k)
-          edges.push_back({std::min(n[k], n[(k + 1) % 3]), std::max(n[k], n[(k + 1) % 3]), t, k});
-      }
-
-    std::sort(edges.begin(), edges.end(), [](const Edge &a, const Edge &b) {
-      return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
-    });
-    for (std::size_t e = 0; e < edges.size();)
-      {
-        std::size_t next = e + 1;
-        while (next < edges.size() && edges[next].low == edges[e].low && edges[next].high == edges[e].high)
-          ++next;
-        const auto &corner = triangles[edges[e].triangle].corner;
-        if (next == e + 1)
-          boundary.push_back({edges[e].triangle, corner[edges[e].corner], corner[(edges[e].corner + 1) % 3]});
-        e = next;
-      }
-    std::sort(boundary.begin(), boundary.end(),
-              [](const BoundaryEdge &a, const BoundaryEdge &b) { return a.triangle < b.triangle; });
-
-    // bins of about half a cell: a branch of one diameter then meets few triangles
-    bin_size  = std::sqrt(0.5 * total_area / mesh.cell.size());
-    origin    = lower;
-    n_columns = 1 + static_cast<int>((upper.x() - lower.x()) / bin_size);
-    n_rows    = 1 + static_cast<int>((upper.y() - lower.y()) / bin_size);
-
-    bin_begin.assign(static_cast<std::size_t>(n_columns) * n_rows + 1, 0);
-    const auto for_each_bin = [&](const Triangle &triangle, const auto &action) {
-      const BinRange range = bins(triangle.lower, triangle.upper);
-      for (int row = range.row_begin; row < range.row_end; ++row)
-        for (int column = range.column_begin; column < range.column_end; ++column)
-          action(row * n_columns + column);
-    };
-    for (const auto &triangle : triangles)
-      for_each_bin(triangle, [&](const int bin) { ++bin_begin[bin + 1]; });
-    for (std::size_t b = 1; b < bin_begin.size(); ++b)
-      bin_begin[b] += bin_begin[b - 1];
-    bin_triangle.resize(bin_begin.back());
-    std::vector<unsigned int> next(bin_begin.begin(), bin_begin.end() - 1);
-    for (unsigned int t = 0; t < triangles.size(); ++t)
-      for_each_bin(triangles[t], [&](const int bin) { bin_triangle[next[bin]++] = t; });
-  }
-
-  TriangleSearch::BinRange TriangleSearch::bins(const Eigen::Vector2d &lower, const Eigen::Vector2d &upper) const
-  {
-    // clamped before the conversion: far points and NaN must not overflow an int
-    const auto index = [this](const double distance, const int n) {
-      return static_cast<int>(std::min(std::max(std::floor(distance / bin_size), -1.), double(n)));
-    };
-    return {std::max(0, index(lower.x() - origin.x(), n_columns)),
-            std::min(n_columns, 1 + index(upper.x() - origin.x(), n_columns)), std::max(0, index(lower.y() - origin.y(), n_rows)),
-            std::min(n_rows, 1 + index(upper.y() - origin.y(), n_rows))};
-  }
-
-  TriangleSearch::Place TriangleSearch::locate(const Eigen::Vector2d &point) const
-  {
-    const BinRange range = bins(point, point);
-    if (range.column_begin < range.column_end && range.row_begin < range.row_end)
-      {
-        const std::size_t bin = static_cast<std::size_t>(range.row_begin) * n_columns + range.column_begin;
-        for (unsigned int k = bin_begin[bin]; k < bin_begin[bin + 1]; ++k) // ascending
-          if (contains(triangles[bin_triangle[k]].corner, point))
-            return {bin_triangle[k], true};
-      }
-    return {nearest_boundary_triangle(point), false};
-  }
-
-  unsigned int TriangleSearch::nearest_boundary_triangle(const Eigen::Vector2d &point) const
-  {
-    double       nearest  = std::numeric_limits<double>::infinity();
-    unsigned int triangle = boundary.front().triangle;
-    for (const auto &edge : boundary)
-      {
-        const double distance = squared_distance(point, edge.from, edge.to);
-        if (distance < nearest)
-          {
-            nearest  = distance;
-            triangle = edge.triangle;
-          }
-      }
-    return triangle;
-  }
-
-  void TriangleSearch::cut(const Eigen::Vector2d &a, const Eigen::Vector2d &b, std::vector<Piece> &pieces) const
-  {
-    pieces.clear();
-    static thread_local std::vector<double> cuts; // one allocation a thread: this is called for every contact
-    cuts.clear();
-
-    const Eigen::Vector2d lower = a.cwiseMin(b), upper = a.cwiseMax(b);
-    const BinRange        range = bins(lower, upper);
-    for (int row = range.row_begin; row < range.row_end; ++row)
-      for (int column = range.column_begin; column < range.column_end; ++column)
-        {
-          const std::size_t bin = static_cast<std::size_t>(row) * n_columns + column;
-          for (unsigned int k = bin_begin[bin]; k < bin_begin[bin + 1]; ++k)
-            {
-              const Triangle &triangle = triangles[bin_triangle[k]];
-              if ((triangle.lower.array() > upper.array()).any() || (triangle.upper.array() < lower.array()).any())
-                continue;
-              const auto [from, to] = clip(triangle.corner, a, b);
-              if (from == 0 && to == 1 && strictly_contains(triangle.corner, a))
-                {
-                  pieces.push_back({bin_triangle[k], 0, 1, true});
-                  return;
-                }
-              if (from < to)
-                {
-                  cuts.push_back(from);
-                  cuts.push_back(to);
-                }
-            }
-        }
-    cuts.push_back(1.);
-    std::sort(cuts.begin(), cuts.end());
-
-    constexpr double shortest = 1e-13; // cuts of one edge seen from its two sides differ by rounding
-    double           from     = 0;
-    for (const double cut : cuts)
-      {
-        if (cut - from < shortest)
-          continue;
-        const double to    = 1 - cut < shortest ? 1 : cut;
-        const Place  place = locate(a + 0.5 * (from + to) * (b - a));
-        if (!pieces.empty() && pieces.back().triangle == place.triangle && pieces.back().inside == place.inside)
-          pieces.back().to = to;
-        else
-          pieces.push_back({place.triangle, from, to, place.inside});
-        from = to;
-      }
-  }
-
-  void TriangleSearch::triangles_in_box(const Eigen::Vector2d     &lower,
-                                        const Eigen::Vector2d     &upper,
-                                        std::vector<unsigned int> &found) const
-  {
-    found.clear();
-    const BinRange range = bins(lower, upper);
-    for (int row = range.row_begin; row < range.row_end; ++row)
-      for (int column = range.column_begin; column < range.column_end; ++column)
-        {
-          const std::size_t bin = static_cast<std::size_t>(row) * n_columns + column;
-          for (unsigned int k = bin_begin[bin]; k < bin_begin[bin + 1]; ++k)
-            {
-              const Triangle &triangle = triangles[bin_triangle[k]];
-              if ((triangle.lower.array() <= upper.array()).all() && (triangle.upper.array() >= lower.array()).all())
-                found.push_back(bin_triangle[k]);
-            }
-        }
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
   }
 } // namespace diptych::coupling

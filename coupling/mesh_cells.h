@@ -1,4 +1,4 @@
-// diptych: the cells that grain quantities are mapped onto: areas, point location, cutting of segments
+// diptych: the cells that grain quantities are mapped onto, and the triangles they are made of
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -11,89 +11,59 @@
 
 namespace diptych::coupling
 {
-  // Quadrilaterals with straight edges, corners counter-clockwise. Each is two triangles: number 2*cell has the corners
-  // 0-1-2, number 2*cell+1 the corners 0-2-3.
+  // Corners counter-clockwise.
+  struct CellTriangle
+  {
+    std::array<unsigned int, 3> node;
+    unsigned int                cell;
+  };
+
+  // Quadrilaterals with straight edges, corners counter-clockwise, and the triangles they are divided into: of a cell without
+  // hanging nodes the corners 0-1-2, then 0-2-3. A cell beside smaller ones is a polygon through its neighbours' corners
+  // on its edges (hanging nodes) and has more triangles; every edge of a triangle is then an edge of its neighbour's, too.
   struct QuadMesh
   {
     std::vector<Eigen::Vector2d>             node; // [length]
     std::vector<std::array<unsigned int, 4>> cell;
+    std::vector<CellTriangle>                triangle; // those of a cell follow one another, cells ascending
   };
 
-  // Current corners of the continuum's cells, same cell order. Corners only are kept and numbered anew by first appearance. A
-  // cell that is concave at the end of its diagonal 0-2 has its corners rotated by one. Throws std::runtime_error
-  // naming the cell when neither diagonal gives two triangles of positive area.
+  // Fills mesh.triangle. A node hangs on an edge of a cell where, in the shape `initial` (n_nodes places, in which edges of
+  // divided cells are straight; without it: as it is), it lies between the edge's ends within 1e-9 of its length and no
+  // cell shares the whole edge. Of all divisions of a polygon into triangles the one whose flattest triangle is least flat.
+  // A cell of four nodes that is concave at the end of its diagonal 0-2 has its corners rotated by one. Throws
+  // std::runtime_error naming the cell that cannot be divided into triangles of positive area.
+  void triangulate(QuadMesh &mesh);
+  void triangulate(QuadMesh &mesh, const std::vector<Eigen::Vector2d> &initial);
+
+  // Current corners of the continuum's cells, same cell order, with their triangles. Only corners are kept and numbered
+  // anew by first appearance; the middle of an edge counts where smaller cells meet there. Throws as triangulate().
   QuadMesh quad_mesh(const continuum::Snapshot &snapshot);
+
+  // Equal rectangles over a box, their sides as near to `size` as whole numbers of them allow; row by row from below. Throws
+  // std::invalid_argument for an empty box or a size that is not positive.
+  QuadMesh regular_grid(const Eigen::Vector2d &lower, const Eigen::Vector2d &upper, double size);
 
   std::array<unsigned int, 3> triangle_nodes(const QuadMesh &mesh, unsigned int triangle);
   double                      triangle_area(const QuadMesh &mesh, unsigned int triangle);
-  Eigen::Vector2d             cell_centre(const QuadMesh &mesh, unsigned int cell); // mean of the corners
+  Eigen::Vector2d             cell_centre(const QuadMesh &mesh, unsigned int cell); // mean of the four corners
 
-  // n_cells entries [length^2].
+  // n_cells entries [length^2]: of the polygons.
   std::vector<double> cell_areas(const QuadMesh &mesh);
+
+  // Nodes of every cell's polygon, counter-clockwise from its corner 0; hanging nodes included.
+  std::vector<std::vector<unsigned int>> cell_outlines(const QuadMesh &mesh);
+
+  // An edge that only one triangle has, the mesh to its left.
+  struct BoundaryEdge
+  {
+    unsigned int from, to, triangle; // nodes; the triangle that has it
+  };
+  std::vector<BoundaryEdge> boundary_edges(const QuadMesh &mesh); // triangles ascending
+
+  // Linear shape functions of a triangle at a point; they add up to 1, also outside it.
+  Eigen::Vector3d shape_values(const QuadMesh &mesh, unsigned int triangle, const Eigen::Vector2d &point);
 
   // Gradients of the three linear shape functions of a triangle, one a column [1/length].
   Eigen::Matrix<double, 2, 3> shape_gradients(const QuadMesh &mesh, unsigned int triangle);
-
-  // Finds triangles through a uniform grid of bins. A point on an edge belongs to the triangle of lowest number (tolerance
-  // 1e-12 of the edge); a point outside the mesh to the triangle at the nearest boundary edge.
-  class TriangleSearch
-  {
-  public:
-    struct Place
-    {
-      unsigned int triangle;
-      bool         inside;
-    };
-
-    // A part of a segment a-b: parameters 0 <= from < to <= 1.
-    struct Piece
-    {
-      unsigned int triangle;
-      double       from, to;
-      bool         inside;
-    };
-
-    // Throws std::invalid_argument for an empty mesh or a triangle without positive area.
-    explicit TriangleSearch(const QuadMesh &mesh);
-
-    Place locate(const Eigen::Vector2d &point) const;
-
-    // Cuts a-b where it enters or leaves a triangle. The pieces are in order and each begins where the one before ends, the
-    // first at 0 and the last at 1: their sum is the segment, whatever rounding does to the cuts.
-    void cut(const Eigen::Vector2d &a, const Eigen::Vector2d &b, std::vector<Piece> &pieces) const;
-
-    // Triangles whose bounding box meets the given box, ascending, each once.
-    void triangles_in_box(const Eigen::Vector2d &lower, const Eigen::Vector2d &upper, std::vector<unsigned int> &triangles) const;
-
-    const std::array<Eigen::Vector2d, 3> &corners(const unsigned int triangle) const { return triangles[triangle].corner; }
-
-  private:
-    struct Triangle
-    {
-      std::array<Eigen::Vector2d, 3> corner;
-      Eigen::Vector2d                lower, upper;
-    };
-
-    struct BoundaryEdge
-    {
-      unsigned int    triangle;
-      Eigen::Vector2d from, to;
-    };
-
-    struct BinRange
-    {
-      int column_begin, column_end, row_begin, row_end;
-    };
-
-    BinRange     bins(const Eigen::Vector2d &lower, const Eigen::Vector2d &upper) const;
-    unsigned int nearest_boundary_triangle(const Eigen::Vector2d &point) const;
-
-    std::vector<Triangle>     triangles;
-    std::vector<BoundaryEdge> boundary;
-
-    Eigen::Vector2d           origin;
-    double                    bin_size  = 1;
-    int                       n_columns = 1, n_rows = 1;
-    std::vector<unsigned int> bin_begin, bin_triangle; // triangles of bin b: bin_triangle[bin_begin[b] .. bin_begin[b+1])
-  };
 } // namespace diptych::coupling

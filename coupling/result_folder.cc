@@ -39,7 +39,7 @@ namespace diptych::coupling
                                                   "material_point.csv"};
   }
 
-  const std::vector<std::string> comparison_files = {"comparison.json", "comparison.csv", "comparison.h5", "fields.vtu",
+  const std::vector<std::string> comparison_files = {"comparison.json", "comparison.csv", "comparison.h5", "fields.vtu", "grid.vtu",
                                                      "report.html"};
 
   void remove_results(const std::string &directory, const std::vector<std::string> &names)

@@ -8,6 +8,8 @@
 
 #include "continuum/panel.h"
 #include "coupling/band.h"
+#include "coupling/equivalence.h"
+#include "coupling/homogenisation/averaging.h"
 #include "coupling/probes.h"
 #include "discrete/panel.h"
 
@@ -61,6 +63,9 @@ namespace diptych::coupling
     double              averaging_strain    = 0.005;
     BandOptions         band;
     ProbeOptions        probes;
+    EquivalenceMargins  margins;
+    AveragingOptions    averaging;
+    double              grid_size = 3;
   };
 
   template <class Visitor> void visit_parameters(ComparisonOptions &o, Visitor &&visitor)
@@ -77,6 +82,10 @@ namespace diptych::coupling
             "stage");
     visit_parameters(o.band, visitor);
     visit_parameters(o.probes, visitor);
+    visit_parameters(o.margins, visitor);
+    visit_parameters(o.averaging, visitor);
+    visitor("grid_size", o.grid_size, "mean diameters", {0.5, 1000.},
+            "about the side of the regular grid's cells, on which all fields are given beside the continuum's mesh");
   }
 
   struct OutputOptions

@@ -74,6 +74,7 @@ namespace diptych::discrete
     s.window_forces        = window.time > 0 ? window.mean_forces(state) : s.contacts;
     s.mean_spin_term       = window.time > 0 ? window.mean_spin_term() : spin_terms(g);
     s.window_time          = window.time;
+    s.window_dissipation   = window.time > 0 ? window.dissipation() : std::vector<double>(s.contacts.size(), 0.);
     s.mean_internal_moment = internal_moments(g.position, s.window_forces, s.mean_spin_term);
     s.rattler              = rattlers(result, g);
     s.applied_force        = result.applied_force;

@@ -116,6 +116,7 @@ namespace diptych::discrete
       file.write(contacts + "/gap", s.gap);
       file.write(contacts + "/status", integers(s.status));
       write_forces(file, window, s.window_forces);
+      file.write(window + "/dissipation", s.window_dissipation);
       file.write(group + "/outline/left", s.outline.left);
       file.write(group + "/outline/right", s.outline.right);
       write_attributes(file, group, s);
@@ -162,14 +163,26 @@ namespace diptych::discrete
       return "    <Grid Name=\"" + name + "\" GridType=\"Collection\" CollectionType=\"Temporal\">\n" + grids + "    </Grid>\n";
     }
 
+    std::string xdmf_window(const std::string &file, const std::string &group, const Snapshot &s)
+    {
+      const std::size_t n    = s.window_forces.size();
+      std::string       grid = xdmf_points(file, group, "point", n, s.axial_strain);
+      grid += xdmf_attribute(file, group, "normal", "Vector", n, 3, false);
+      grid += xdmf_attribute(file, group, "force", "Vector", n, 3, false);
+      if (s.window_dissipation.size() == n)
+        grid += xdmf_attribute(file, group, "dissipation", "Scalar", n, 1, false);
+      return grid + "      </Grid>\n";
+    }
+
     std::string xdmf(const std::string &file, const std::vector<Snapshot> &snapshots)
     {
-      std::string grains, contacts;
+      std::string grains, contacts, windows;
       for (std::size_t k = 0; k < snapshots.size(); ++k)
         {
           const Snapshot   &s = snapshots[k];
           const std::size_t n = s.position.size(), m = s.contacts.size();
           const std::string g = group_name(k) + "/grains", c = group_name(k) + "/contacts";
+          windows += xdmf_window(file, group_name(k) + "/window", s);
           grains += xdmf_points(file, g, "position", n, s.axial_strain);
           for (const char *name : {"displacement", "velocity", "applied_force"})
             grains += xdmf_attribute(file, g, name, "Vector", n, 3, false);
@@ -186,7 +199,7 @@ namespace diptych::discrete
           contacts += xdmf_attribute(file, c, "status", "Scalar", m, 1, true) + "      </Grid>\n";
         }
       return "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n" + xdmf_collection("grains", grains) +
-             xdmf_collection("contacts", contacts) + "  </Domain>\n</Xdmf>\n";
+             xdmf_collection("contacts", contacts) + xdmf_collection("window", windows) + "  </Domain>\n</Xdmf>\n";
     }
   } // namespace
 
@@ -247,7 +260,9 @@ namespace diptych::discrete
         for (const int status : file.read_int(group + "/contacts/status"))
           s.status.push_back(ContactStatus(status));
         s.window_forces = read_forces(file, group + "/window");
-        s.outline       = {file.read_vectors(group + "/outline/left"), file.read_vectors(group + "/outline/right")};
+        if (const std::string dissipation = group + "/window/dissipation"; file.has(dissipation)) // else of an earlier version
+          s.window_dissipation = file.read(dissipation);
+        s.outline = {file.read_vectors(group + "/outline/left"), file.read_vectors(group + "/outline/right")};
         snapshots.push_back(std::move(s));
       }
     if (snapshots.empty())

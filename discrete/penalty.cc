@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 #include "discrete/body_motion.h"
@@ -71,9 +72,11 @@ namespace diptych::discrete
     }
 
     // The ledger of a step takes all tangential work for friction; here only sliding is, the rest is elastic.
-    void take_ledger(StepLedger ledger, const double sliding, StepResult &result)
+    void take_ledger(StepLedger ledger, StepResult &result)
     {
-      result.energies = ledger.energies;
+      const std::vector<double> &each    = result.contact_dissipation;
+      const double               sliding = std::accumulate(each.begin(), each.end(), 0.);
+      result.energies                    = ledger.energies;
       result.energies.impact_dissipation += result.energies.friction_dissipation - sliding;
       result.energies.friction_dissipation = sliding;
       result.wall_force                    = std::move(ledger.wall_force);
@@ -112,18 +115,17 @@ namespace diptych::discrete
                                                            free_velocities(trial, v, result.applied_force, setting));
     const SpringLaw                 law{kn, tangential_over_normal_stiffness * kn, options.damping,
                         penalty.impulse_step > 0 ? penalty.impulse_step : h};
-    double                          sliding = 0;
     for (std::size_t k = 0; k < result.contacts.size(); ++k)
       {
         const ContactRow &c   = problem.contacts[k];
         const double      gap = result.contacts[k].gap;
-        sliding += apply_law(law, c, gap, relative_velocity(c, v), h, result.impulses[k]);
+        result.contact_dissipation.push_back(apply_law(law, c, gap, relative_velocity(c, v), h, result.impulses[k]));
         result.largest_penetration = std::max(result.largest_penetration, -gap);
       }
 
     const std::vector<BodyVelocity> v_new = velocities(problem, result.impulses);
     take_ledger(step_ledger({trial, problem, result.contacts, result.impulses, result.applied_force, v, v_new, h}, false),
-                sliding, result);
+                result);
     take_velocities(v_new, trial);
     drift(trial, 0.5 * h);
     if (has_blown_up(trial, h))

@@ -51,8 +51,9 @@ namespace diptych::discrete
   // ContactRow. Contacts (closed ones only, ascending) and applied forces are those at q_m. Forces of drives are taken at the
   // middle of the step, prescribed velocities at its end.
   //
-  // Energies are those of StepLedger, but friction_dissipation is the work of sliding alone; impact_dissipation is that of
-  // the dashpots PLUS THE CHANGE OF THE ELASTIC ENERGY of both springs, so that the ledger still closes to round-off.
+  // Energies are those of StepLedger, but friction_dissipation, also that of each contact, is the work of sliding alone;
+  // impact_dissipation is that of the dashpots PLUS THE CHANGE OF THE ELASTIC ENERGY of both springs, so that the ledger still
+  // closes to round-off.
   //
   // Nothing is iterated: `solve` is converged with no sweeps, or, where a grain is not finite or travels more than its radius
   // in a step (blow-up), max_sweeps_reached with an infinite residual; the state then stays as it was.

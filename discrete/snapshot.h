@@ -69,6 +69,13 @@ namespace diptych::discrete
     std::vector<ContactForce> window_forces;
     double                    window_time = 0; // 0: no window yet
 
+    // Friction dissipation of each entry of window_forces, summed over the steps of the window [energy, unit thickness]; zeros
+    // where there is no window yet, empty where a file does not tell. A step counts -r_t (u_t + u_t')/2, the work of the
+    // tangential impulse on the mean of the velocities before and after it (penalty: the work of sliding), as the ledger does:
+    // all entries of all windows sum up to friction_dissipation of discrete.csv. The law makes -r_t (u_t' + e_t u_t) >= 0, so
+    // single entries may be negative unless e_t = 1 (discrete/README.md: how much).
+    std::vector<double> window_dissipation;
+
     // platens: lower and upper, force on the sample
     double          lower_y = 0, upper_y = 0;
     Eigen::Vector2d upper_platen_displacement = Eigen::Vector2d::Zero();

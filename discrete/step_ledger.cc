@@ -49,11 +49,11 @@ namespace diptych::discrete
       double impact = 0, friction = 0, correction = 0; // work, split by direction
     };
 
-    // Sums over the acting contacts, and the forces of the walls.
-    ContactSums sum_contacts(const SolvedStep             &s,
-                             const std::vector<int>       &acting,
-                             const bool                    corrects_by_velocity,
-                             std::vector<Eigen::Vector2d> &wall_force)
+    // Sums over the acting contacts; friction of each contact and the forces of the walls go to the ledger.
+    ContactSums sum_contacts(const SolvedStep       &s,
+                             const std::vector<int> &acting,
+                             const bool              corrects_by_velocity,
+                             StepLedger             &ledger)
     {
       const std::size_t n = s.state.grains.size();
       ContactSums       sum;
@@ -68,11 +68,13 @@ namespace diptych::discrete
           sum.impulse += std::sqrt(r.normal * r.normal + r.tangential * r.tangential);
           sum.normal += r.normal;
           sum.impact += 0.5 * r.normal * (u.normal + next.normal);
-          sum.friction += 0.5 * r.tangential * (u.tangential + next.tangential);
+          const double friction = 0.5 * r.tangential * (u.tangential + next.tangential);
+          sum.friction += friction;
+          ledger.contact_dissipation[k] = 0 - friction;
           if (corrects_by_velocity && c.normal_term < 0 && s.contacts[k].gap < 0)
             sum.correction += 0.5 * r.normal * c.normal_term;
           if (std::size_t(c.j) >= n)
-            wall_force[c.j - n] += vector_of(c, r) / s.step;
+            ledger.wall_force[c.j - n] += vector_of(c, r) / s.step;
         }
       return sum;
     }
@@ -146,8 +148,9 @@ namespace diptych::discrete
     const std::size_t n = g.size();
     StepLedger        ledger;
     ledger.wall_force.assign(s.state.walls.size(), Eigen::Vector2d::Zero());
+    ledger.contact_dissipation.assign(s.contacts.size(), 0.);
     const std::vector<int> acting        = acting_contacts(s.impulses);
-    const ContactSums      contacts      = sum_contacts(s, acting, corrects_by_velocity, ledger.wall_force);
+    const ContactSums      contacts      = sum_contacts(s, acting, corrects_by_velocity, ledger);
     ledger.energies.impact_dissipation   = 0 - contacts.impact;
     ledger.energies.friction_dissipation = 0 - contacts.friction;
     ledger.energies.correction_work      = 0 - contacts.correction;

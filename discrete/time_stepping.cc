@@ -76,12 +76,13 @@ namespace diptych::discrete
       return result;
 
     const std::vector<BodyVelocity> v_new = velocities(problem, result.impulses);
-    StepLedger ledger        = step_ledger({trial, problem, result.contacts, result.impulses, result.applied_force, v, v_new, h},
-                                           setting.law.normal_restitution == 0);
-    result.energies          = ledger.energies;
-    result.wall_force        = std::move(ledger.wall_force);
-    result.momentum_residual = ledger.momentum_residual;
-    result.unbalanced_force  = ledger.unbalanced_force;
+    StepLedger ledger = step_ledger({trial, problem, result.contacts, result.impulses, result.applied_force, v, v_new, h},
+                                    setting.law.normal_restitution == 0);
+    result.energies   = ledger.energies;
+    result.wall_force = std::move(ledger.wall_force);
+    result.contact_dissipation = std::move(ledger.contact_dissipation);
+    result.momentum_residual   = ledger.momentum_residual;
+    result.unbalanced_force    = ledger.unbalanced_force;
 
     take_velocities(v_new, trial);
     drift(trial, 0.5 * h);

@@ -1,4 +1,4 @@
-// diptych: mean contact forces over a window of steps
+// diptych: mean contact forces and friction dissipation over a window of steps
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/window_forces.h"
 
@@ -11,8 +11,8 @@ namespace diptych::discrete
     const auto           before = [](const PairSum &a, const PairSum &b) { return a.i != b.i ? a.i < b.i : a.j < b.j; };
     std::vector<PairSum> now; // ascending, as the contacts are
     for (std::size_t k = 0; k < result.contacts.size(); ++k)
-      if (result.impulses[k].normal > 0)
-        now.push_back({result.contacts[k].i, result.contacts[k].j, impulse_vector(result.contacts[k], result.impulses[k])});
+      if (const Contact &c = result.contacts[k]; result.impulses[k].normal > 0)
+        now.push_back({c.i, c.j, result.contact_dissipation[k], impulse_vector(c, result.impulses[k])});
     std::vector<PairSum> merged;
     merged.reserve(sums.size() + now.size());
     auto a = sums.begin();
@@ -21,7 +21,10 @@ namespace diptych::discrete
         while (a != sums.end() && before(*a, b))
           merged.push_back(*a++);
         if (a != sums.end() && a->i == b.i && a->j == b.j)
-          merged.push_back({b.i, b.j, (a++)->impulse + b.impulse});
+          {
+            merged.push_back({b.i, b.j, a->dissipation + b.dissipation, a->impulse + b.impulse});
+            ++a;
+          }
         else
           merged.push_back(b);
       }
@@ -52,5 +55,14 @@ namespace diptych::discrete
         forces.push_back({s.i, s.j, c.point, c.normal, s.impulse / time, state.cell ? c.image * state.cell->width : 0.});
       }
     return forces;
+  }
+
+  std::vector<double> WindowForces::dissipation() const
+  {
+    std::vector<double> sum;
+    sum.reserve(sums.size());
+    for (const PairSum &s : sums)
+      sum.push_back(s.dissipation);
+    return sum;
   }
 } // namespace diptych::discrete

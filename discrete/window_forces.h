@@ -1,4 +1,4 @@
-// diptych: mean contact forces over a window of steps
+// diptych: mean contact forces and friction dissipation over a window of steps
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -7,14 +7,16 @@
 
 namespace diptych::discrete
 {
-  // Sums the impulse of every pair that touches, and the spin term of every grain, over the steps since the last reset.
+  // Sums impulse and friction dissipation of every pair that touches, and the spin term of every grain, over the steps since the
+  // last reset.
   // Contacts of rigid grains make and break within a few steps: single steps scatter, their mean is the stress.
   struct WindowForces
   {
     struct PairSum
     {
       int             i, j;
-      Eigen::Vector2d impulse; // on i
+      double          dissipation; // [energy]
+      Eigen::Vector2d impulse;     // on i
     };
     std::vector<PairSum> sums;     // ascending in (i, j)
     std::vector<double>  spin;     // sum of step x spin term, of each grain
@@ -26,5 +28,7 @@ namespace diptych::discrete
     std::vector<double> mean_spin_term() const;
     // Mean force of every pair, placed at its contact point in `state` (between the surfaces if they have parted).
     std::vector<ContactForce> mean_forces(const State &state) const;
+    // Sum, not mean, of each entry of mean_forces(). [energy]
+    std::vector<double> dissipation() const;
   };
 } // namespace diptych::discrete

@@ -73,22 +73,24 @@ namespace diptych::coupling
     cover.grain_count.assign(mesh.cell.size(), 0);
     std::vector<double>          disc_area(mesh.cell.size(), 0.);
     std::vector<unsigned int>    triangles;
-    std::vector<Eigen::Vector2d> polygon(4);
+    std::vector<Eigen::Vector2d> polygon;
+    const auto                   outlines = cell_outlines(mesh);
     for (std::size_t i = 0; i < position.size(); ++i)
       {
         const auto place = search.locate(position[i]);
         if (place.inside)
-          ++cover.grain_count[place.triangle / 2];
+          ++cover.grain_count[mesh.triangle[place.triangle].cell];
 
         const Eigen::Vector2d extent = Eigen::Vector2d::Constant(radius[i]);
         search.triangles_in_box(position[i] - extent, position[i] + extent, triangles);
         for (std::size_t k = 0; k < triangles.size(); ++k)
           {
-            const unsigned int cell = triangles[k] / 2;
-            if (k > 0 && triangles[k - 1] / 2 == cell)
+            const unsigned int cell = mesh.triangle[triangles[k]].cell;
+            if (k > 0 && mesh.triangle[triangles[k - 1]].cell == cell)
               continue;
-            for (unsigned int corner = 0; corner < 4; ++corner)
-              polygon[corner] = mesh.node[mesh.cell[cell][corner]];
+            polygon.clear();
+            for (const unsigned int node : outlines[cell])
+              polygon.push_back(mesh.node[node]);
             disc_area[cell] += disc_polygon_area(position[i], radius[i], polygon);
           }
       }

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "coupling/mesh_cells.h"
+#include "coupling/triangle_search.h"
 
 namespace diptych::coupling
 {

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "coupling/mesh_cells.h"
+#include "coupling/triangle_search.h"
 #include "discrete/snapshot.h"
 
 namespace diptych::coupling
@@ -15,9 +16,11 @@ namespace diptych::coupling
   // [pressure * length^2].
   struct MappedMoment
   {
-    std::vector<Eigen::Matrix2d> triangle_moment;                 // 2 * n_cells
+    std::vector<Eigen::Matrix2d> triangle_moment;                 // one a triangle
     Eigen::Matrix2d              total = Eigen::Matrix2d::Zero(); // -sum over contacts of f (x) branch, not through the mesh
     double                       outside_share = 0;               // of sum |f| * length of segment, what lay outside the mesh
+    std::vector<double>          triangle_weight;    // sum of |f| * length of the segments inside [pressure * length^2]
+    double                       outside_weight = 0; // of those outside the mesh
   };
 
   // |K| sigma_K = -sum_c f (x) (segment in K): the branch x_i - contact point - x_j of each contact cut by the triangles, f the
@@ -30,6 +33,9 @@ namespace diptych::coupling
                             const std::vector<Eigen::Vector2d>        &position,
                             const std::vector<discrete::ContactForce> &contacts);
 
+  // outside_weight / sum of all weights; 0 where there are none.
+  double outside_share(const MappedMoment &mapped);
+
   // Adds the dynamic part of the internal moments, -spin_term * 1 at each grain's centre, with
   // spin_term = mean of (1/2) omega^2 I >= 0 [pressure * length^2], to the triangles and to the total.
   void add_spin_term(const TriangleSearch               &search,
@@ -41,16 +47,25 @@ namespace diptych::coupling
   // internal moments, or mapped.total.
   double total_relative_error(const MappedMoment &mapped, const Eigen::Matrix2d &expected);
 
-  // Stress of the cells [pressure]: the moments of their two triangles over the cell's area; unsymmetric.
+  // Stress of the cells [pressure]: the moments of their triangles over the cell's area; unsymmetric.
   std::vector<Eigen::Matrix2d> cell_stress(const QuadMesh &mesh, const MappedMoment &mapped);
 
   // sum_K |K| sigma_K grad N_a at every node of the mesh [pressure * length], N_a linear on the triangles.
   std::vector<Eigen::Vector2d> nodal_forces(const QuadMesh &mesh, const MappedMoment &mapped);
 
-  // What nodal_forces() gives when every branch lies inside the mesh, computed without cutting: N_a at the grain centres times
-  // the contact forces on the grains, minus N_a at the contact points times the forces from the platens.
+  // What nodal_forces() gives when every branch lies inside the mesh (collar.h sees to that), computed without cutting: N_a at
+  // the grain centres times the contact forces on the grains, minus N_a at the contact points times the forces from the platens.
   std::vector<Eigen::Vector2d> nodal_contact_forces(const QuadMesh                            &mesh,
                                                     const TriangleSearch                      &search,
                                                     const std::vector<Eigen::Vector2d>        &position,
                                                     const std::vector<discrete::ContactForce> &contacts);
+
+  // The same from what acts on the grains besides contacts, in the last step of a snapshot (its `contacts`, not the window's):
+  // sum_i N_a(x_i) (m_i a_i - F_i) - sum_platens N_a(x_c) f, with F_i the containing action and gravity. Both agree by the
+  // balance of momentum. acceleration: a_i = (velocity - velocity before the step) / step [length/time^2]. A fixed grain counts
+  // with its contact forces.
+  std::vector<Eigen::Vector2d> nodal_applied_forces(const QuadMesh                     &mesh,
+                                                    const TriangleSearch               &search,
+                                                    const discrete::Snapshot           &grains,
+                                                    const std::vector<Eigen::Vector2d> &acceleration);
 } // namespace diptych::coupling

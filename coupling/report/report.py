@@ -11,62 +11,87 @@ sys.dont_write_bytecode = True  # the source tree may be read-only, and stays cl
 import jinja2  # noqa: E402
 
 import accounts  # noqa: E402
+import accuracy  # noqa: E402
+import chains  # noqa: E402
+import circular  # noqa: E402
 import curves  # noqa: E402
-import fields  # noqa: E402
-import maps  # noqa: E402
+import ledgers  # noqa: E402
 import probes  # noqa: E402
+import resolution  # noqa: E402
+import stage_tables  # noqa: E402
+import still  # noqa: E402
 import strips  # noqa: E402
 import style  # noqa: E402
 import tables  # noqa: E402
-import vectors  # noqa: E402
+import trends  # noqa: E402
+import viewer  # noqa: E402
 import wording  # noqa: E402
-from load import InputError, load, percent  # noqa: E402
+from load import InputError, load  # noqa: E402
+from pair import Pair  # noqa: E402
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 
-def section(name, title, increments, content):
-    """A part of the page stepped through by increments. content(increment): its pane's "pairs", and perhaps tables.
+class Part:
+    """A part of the page stepped through by increments.
 
-    Each part opens at the end of its first window, or at 1 % of strain: all open at one instant.
+    maps: name of a pair of maps that draw.js draws, or "". content(increment): what stands under it, by name; the page says
+    how each is shown. Each part opens at the end of its first window, or at 1 % of strain: all open at one instant.
     """
+
+    def __init__(self, name, title, increments, content, maps=""):
+        self.name, self.title, self.maps = name, title, maps
+        opening = opens_at(increments)
+        self.items = [{"key": i.key, "label": i.label, "kind": i.kind, "title": i.title, "end": f"{i.end:.9g}",
+                       "open": i is opening, **content(i)} for i in increments]
+
+
+def opens_at(increments):
+    """The increment that is shown first; None without any."""
     start = next((i.end for i in increments if i.kind == "window"), 0.01)
-    first = next((i.key for i in increments if i.end >= start - 1e-9), increments[-1].key if increments else "")
-    items = [{"key": i.key, "label": i.label, "kind": i.kind, "title": i.title, "end": f"{i.end:.9g}",
-              "open": i.key == first, **content(i)} for i in increments]
-    return {"name": name, "title": title, "items": items}
+    return next((i for i in increments if i.end >= start - 1e-9), increments[-1] if increments else None)
 
 
-def sections(result):
-    """The steppable parts in the order of the page; a new one is one entry here, its introduction one in the page."""
-    box = maps.extent(result.increments)
-    strain, cells = (fields.limits(q, result.increments) for q in (fields.STRAIN, fields.STRAIN_ON_CELLS))
-    stress = [(quantity, fields.limits(quantity, result.stages)) for quantity in fields.STRESS]
-    probed = [i for i in result.stages if i.panel("discrete").get("probes") or i.panel("continuum").get("probes")]
+def parts(result):
+    """The steppable parts in the order of the page; a new one is one entry here, its words one in the page."""
+    mapped = [i for i in result.increments if i.arrays]
+    stages = [i for i in mapped if i.kind == "stage"]
     return [
-        section("strain", "Shear strain increment", result.increments, lambda i: {
-            "pairs": [fields.pair(fields.STRAIN, i, box, strain)], "band_table": tables.bands(result, i),
-            "verdicts": tables.verdicts(i)}),
-        section("stress", "Stress on the same mesh cells", result.stages, lambda i: {
-            "pairs": [fields.pair(quantity, i, box, rule) for quantity, rule in stress],
-            "mapping": i.record.get("mapping"),
-            "stress_difference": (i.record.get("difference") or {}).get("stress_l2_relative")}),
-        section("cells", "Shear strain increment on the same mesh cells", result.windows, lambda i: {
-            "pairs": [fields.pair(fields.STRAIN_ON_CELLS, i, box, cells)]}),
-        section("vectors", "Displacement increments", result.windows or result.stages, lambda i: {
-            "pairs": [vectors.pair(i, box)]}),
-        section("strips", "Sixteen strips parallel to the band", result.windows, lambda i: {"pairs": [strips.pair(i)]}),
-        section("probes", "Three probes", probed, lambda i: {
-            "pairs": [probes.pair(i, box)], "probe_table": tables.probes(i)}),
+        Part("maps", "Grains and continuum at the same instant", mapped, lambda i: {
+            "tables": [tables.bands(result, i)], "notes": tables.band_notes(result, i)}, "quantity"),
+        Part("difference", "Difference on the same cells", mapped, lambda i: {
+            "tables": [stage_tables.stress_difference(i), stage_tables.dissipation(i)],
+            "notes": said((i.record.get("difference") or {}).get("stress_verdict"))}, "difference"),
+        Part("arrows", "Field of motion", mapped, lambda i: {}, "arrows"),
+        Part("strips", "Sixteen strips parallel to the band", result.increments, lambda i: {"pair": strips.pair(i)}),
+        Part("probes", "Probes: mean stress and contact normals", stages, lambda i: {
+            "roses": probes.roses(i), "notes": [], "tables": [
+                stage_tables.probes(i), stage_tables.differences(i), stage_tables.grain_pressures(i)]}, "probes"),
+        Part("crosses", "Internal moments of single grains", stages, lambda i: {
+            "pair": Pair(chains.distribution(i), chains.traction(i)),
+            "tables": [stage_tables.chains(i)], "notes": said(stage_tables.chains_verdict(i))}, "crosses"),
+        Part("forces", "Contact forces", stages, lambda i: {}, "forces"),
+        Part("circle", "Circular probe", stages, lambda i: {"pair": circular.pair(i)}),
     ]
+
+
+def said(sentence):
+    """A verdict as a paragraph of its own: capital letter, full stop."""
+    return [sentence[0].upper() + sentence[1:].rstrip(".") + "."] if sentence else []
 
 
 def page(result):
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True)
     comparison = result.comparison
+    maps = viewer.data(result)
     return environment.get_template("template.html").render(
-        comparison=comparison, sections=sections(result), curves=curves.figures(result), stages=tables.stages(result),
+        comparison=comparison, parts=parts(result), maps=maps, map_json=viewer.as_json(maps) if maps else "",
+        still=still.pair(result, opens_at([i for i in result.increments if i.arrays])),
+        curves=curves.figures(result) + ledgers.figures(result), solver=ledgers.solver(result),
+        trends=trends.figures(result),
+        resolution=resolution.figures(result), resolution_verdict=said(resolution.verdict(result)),
+        stages=tables.stages(result), mapping=stage_tables.mapping(result), accuracy=accuracy.table(result),
         discrete_summary=tables.summary(comparison.get("discrete_summary")),
         continuum_summary=tables.summary(comparison.get("continuum_summary")),
         coarse=comparison.get("continuum_coarse") or {}, cost=accounts.cost(result),
@@ -74,7 +99,8 @@ def page(result):
         law=accounts.law_parameters(result), scene_text=result.scene_text, number=wording.number,
         fitted=wording.FITTED, absent=wording.ABSENT, thickness_note=tables.thickness_note(result),
         thickness_reason=wording.MESH_SET_REASON if tables.internal_length(result) is None else wording.LENGTH_SET_REASON,
-        averaging=percent(result.averaging_strain))
+        progress=result.progress,
+        averaging=result.progress.text(result.averaging_strain))
 
 
 def main(arguments):

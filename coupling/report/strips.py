@@ -5,8 +5,8 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from fields import Pair
-from maps import plain
+from increments import interval, plain
+from pair import Pair
 from style import DIFFUSE, INK, PANEL_COLOURS, PANEL_NAMES, svg
 from wording import rounded
 
@@ -23,7 +23,7 @@ def pair(increment):
     lowest = min(min(0.0, np.nanmin(mean)) for _, mean, _, _ in known)
     highest = max(max(1.0, np.nanmax(mean)) for _, mean, _, _ in known)
     reach = max(np.abs(edges).max() for edges, _, _, _ in known)
-    box = (-reach, reach, lowest - 0.12, highest + 0.2)
+    box = (-reach, reach, lowest - 0.12, highest + 0.35)
     pictures = [_panel(increment, panel, profiles[panel], box, plain(stored[panel].get("angle_deg")))
                 for panel in PANEL_NAMES]
     angles = [f"{name.lower()} {rounded(stored[panel].get('angle_deg'), '°')}" for panel, name in PANEL_NAMES.items()]
@@ -45,8 +45,8 @@ def _panel(increment, panel, profile, box, angle):
         return None
     edges, mean, deviation, count = profile
     middle, colour = (edges[1:] + edges[:-1]) / 2, PANEL_COLOURS[panel]
-    figure = Figure(figsize=(4.6, 3.3))
-    axes = figure.add_axes([0.135, 0.15, 0.845, 0.76])
+    figure = Figure(figsize=(4.5, 3.3))
+    axes = figure.add_axes([0.14, 0.15, 0.84, 0.76])
     axes.bar(middle, mean, np.diff(edges) * 0.96, color=colour, alpha=0.35, linewidth=0, label="mean of each strip")
     axes.errorbar(middle, mean, deviation, fmt="none", ecolor=colour, elinewidth=1, capsize=2,
                   label="standard deviation in it")
@@ -84,7 +84,10 @@ def _draw_fit(axes, band, middle, mean, count, box):
         background = np.linalg.lstsq(matrix * weight[:, None], rest * weight, rcond=None)[0]
     x = np.linspace(box[0], box[1], 400)
     width = plain(band.get("width_10_90_d"))
-    label = "fit" if width is None else f"fit, 10–90 % over {width:.3g} d"
+    ends = interval(band.get("width_10_90_d"))
+    label = "fit" if width is None else f"fit, 10–90 % over {width:.1f} d"
+    if ends:
+        label += f" [{ends[0]:.1f}, {ends[1]:.1f}]".replace("-", "−")
     axes.plot(x, background[0] + background[1] * x + jump / 2 * np.tanh((x - offset) / delta), color=INK, label=label)
     if width is not None:
         axes.axvspan(offset - width / 2, offset + width / 2, color=INK, alpha=0.08, linewidth=0)

@@ -5,11 +5,14 @@
 import base64
 import io
 from dataclasses import dataclass
-from typing import Optional, Tuple
 
 import matplotlib
+import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 from PIL import Image
+
+from increments import interval, plain
 
 # Okabe and Ito's palette: told apart by colour-blind readers; line styles differ as well, for prints in grey.
 GRAINS = "#0072B2"
@@ -21,18 +24,19 @@ DIFFUSE = "diffuse: no band"
 PANEL_NAMES = {"discrete": "Grains", "continuum": "Continuum"}
 PANEL_COLOURS = {"discrete": GRAINS, "continuum": CONTINUUM}
 PANEL_LINES = {"discrete": "-", "continuum": (0, (5, 1.5))}
-MAP_DPI = 150
+MAP_DPI = 110
+GRID = "#e4e4e4"
+THIRD = "#007A5E"   # for a third line beside the two panels
 
 
 @dataclass(frozen=True)
 class Picture:
-    """One embedded image. limits: the colour limits read back from what was drawn, None without a colour scale."""
+    """One embedded image; width and height in CSS pixels."""
 
     uri: str
     alt: str
     width: int
     height: int
-    limits: Optional[Tuple[float, float]] = None
 
 
 def set_up():
@@ -43,11 +47,44 @@ def set_up():
         "xtick.labelsize": 8.5, "ytick.labelsize": 8.5, "axes.edgecolor": INK, "axes.linewidth": 0.7,
         "axes.unicode_minus": True, "legend.frameon": False, "lines.linewidth": 1.6,
         # A stated title height spares matplotlib a search that costs a tenth of the page's time.
-        "axes.titley": 1.0, "svg.fonttype": "path", "svg.hashsalt": "diptych", "path.simplify_threshold": 0.3,
+        "axes.titley": 1.0, "svg.hashsalt": "diptych", "path.simplify_threshold": 0.3,
+        # Text stays text and takes the page's fonts; matplotlib's own, the last, is the widest: nothing is cut off.
+        "svg.fonttype": "none",
+        "font.sans-serif": ["Arial", "Liberation Sans", "Helvetica", "DejaVu Sans", "sans-serif"],
     })
 
 
-def png(figure, alt, limits=None, dpi=MAP_DPI):
+def chart(result, label, height=3.1, log=False):
+    """(figure, axes) of a curve against what the stages count: one size and one frame for all."""
+    figure = Figure(figsize=(4.5, height))
+    axes = figure.add_axes([0.15, 0.5 / height, 0.825, 1 - 0.6 / height])
+    axes.set(xlabel=result.progress.label, ylabel=label)
+    if log:
+        axes.set_yscale("log")
+    ruled(axes)
+    return figure, axes
+
+
+def ruled(axes):
+    axes.grid(True, color=GRID, linewidth=0.6)
+    axes.set_axisbelow(True)
+    return axes
+
+
+def with_intervals(axes, x, numbers, **look):
+    """Points with their 95 % intervals, where they carry one; numbers as in increments.plain. True if any has a value."""
+    points = [(at, plain(n), interval(n)) for at, n in zip(x, numbers) if plain(n) is not None]
+    if not points:
+        return False
+    at, values = np.array([p[0] for p in points]), np.array([p[1] for p in points])
+    ends = np.array([p[2] or (p[1], p[1]) for p in points])
+    # An end may lie on the wrong side of the value by round-off or by a skewed resampling: a bar has no negative length.
+    bars = np.clip(np.stack([values - ends[:, 0], ends[:, 1] - values]), 0, None)
+    axes.errorbar(at, values, bars, capsize=2.5, elinewidth=1, **look)
+    return True
+
+
+def png(figure, alt, dpi=MAP_DPI):
     """Raster picture for maps of thousands of shapes, with a palette of 255 colours: a third of the bytes."""
     canvas = FigureCanvasAgg(figure)
     figure.set_dpi(dpi)
@@ -56,17 +93,17 @@ def png(figure, alt, limits=None, dpi=MAP_DPI):
     image = image.convert("RGB").quantize(255, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
     stream = io.BytesIO()
     image.save(stream, "png", compress_level=7)
-    return _picture(figure, "image/png", stream, alt, limits)
+    return _picture(figure, "image/png", stream, alt)
 
 
-def svg(figure, alt, limits=None):
+def svg(figure, alt):
     """Vector picture for curves. No date is written, so that the same results give the same bytes."""
     stream = io.BytesIO()
     figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
-    return _picture(figure, "image/svg+xml", stream, alt, limits)
+    return _picture(figure, "image/svg+xml", stream, alt)
 
 
-def _picture(figure, kind, stream, alt, limits):
+def _picture(figure, kind, stream, alt):
     width, height = figure.get_size_inches()
     uri = f"data:{kind};base64," + base64.b64encode(stream.getvalue()).decode("ascii")
-    return Picture(uri, alt, round(96 * width), round(96 * height), limits)
+    return Picture(uri, alt, round(96 * width), round(96 * height))

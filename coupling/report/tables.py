@@ -1,62 +1,94 @@
-# diptych: every number of the report as rows of text
+# diptych: bands and stages as rows of text
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A table is {"head": [...], "rows": [[...]]}; a row's first entry names it."""
+"""A table is {"head": [...], "rows": [[...]]}; a row's first entry names it; a head may be (words, small print)."""
 
+from increments import interval, plain
 from style import DIFFUSE, PANEL_NAMES
+from trends import THEORY, minor_direction
 from wording import ABSENT, MESH_SET, NULLS, WORDS, number, rounded
 
 LAW_KEYS = ("law", "law_parameters")
 
-BAND_ROWS = (("inclination from the horizontal", "angle_deg", "°"), ("10–90 % width", "width_10_90_d", " d"),
-             ("offset from the centre, along the normal", "offset_d", " d"), ("jump / |ΔU|", "jump", ""),
-             ("dilation angle", "dilation_deg", "°"), ("R² of the fit, all points", "r_squared", ""),
-             ("R² of the fit, means of 16 strips", "r_squared_strips", ""))
+BAND_ROWS = (("inclination", "angle_deg", "°"), ("10–90 % width", "width_10_90_d", " d"), ("width 2 δ", "half_width_d", " d"),
+             ("offset from centre", "offset_d", " d"), ("jump / |ΔU|", "jump", ""), ("dilation angle", "dilation_deg", "°"),
+             ("R² points; strips", "r_squared", ""))
+
 
 def bands(result, increment):
-    """Bands of both panels and of the coarse mesh for one increment: one column a band."""
-    size = result.comparison.get("continuum_summary", {}).get("element_size_d")
-    columns = [(PANEL_NAMES["discrete"], "", increment.panel("discrete").get("bands")),
-               (PANEL_NAMES["continuum"], "" if size is None else f"elements of {number(size, ' d')}",
-                increment.panel("continuum").get("bands"))]
-    if increment.kind == "window":
-        coarse = result.comparison.get("continuum_coarse") or {}
-        same = [w for w in coarse.get("windows") or []
-                if abs(w["from"] - increment.start) < 1e-9 and abs(w["to"] - increment.end) < 1e-9]
-        columns.append(("Continuum, coarse mesh", f"elements of {number(coarse.get('element_size_d'), ' d')}",
-                        same[0].get("bands") if same else None))
+    """Bands of both panels for one increment: one column a band, then the difference continuum - grains."""
     flat = []
-    for heading, elements, found in columns:
-        if not found:
-            flat.append((heading, elements, DIFFUSE if found is not None else ABSENT))
-        for k, band in enumerate(found or []):
-            flat.append((heading + (f", band {k + 1}" if len(found) > 1 else ""), elements, band))
-    note = thickness_note(result)
-    rows = []
-    for words, key, unit in BAND_ROWS:
-        cells = []
-        for heading, _, band in flat:
-            if isinstance(band, str):
-                cells.append(band if key == BAND_ROWS[0][1] else "–")
-                continue
-            text = rounded(band.get(key), unit)
-            if key == "width_10_90_d" and heading.startswith("Continuum"):
-                text += f" – {note}"
-            cells.append(text)
-        rows.append([words] + cells)
-    head = [("", "")] + [(heading, elements) for heading, elements, _ in flat]
+    for panel, heading in PANEL_NAMES.items():
+        found = increment.panel(panel).get("bands")
+        for k, band in enumerate(found or [DIFFUSE if found is not None else ABSENT]):
+            flat.append((f"{heading}, band {k + 1}" if len(found or []) > 1 else heading, band))
+    rows = [[words] + [_band_cell(band, key, unit) for _, band in flat] for words, key, unit in BAND_ROWS]
+    head = [("", "")] + [(heading, "") for heading, _ in flat]
     difference = {k: v for k, v in (increment.record.get("difference") or {}).items() if v is not None}
     if any(key in difference for _, key, _ in BAND_ROWS):
-        at = 1 + sum(not heading.startswith("Continuum, coarse") for heading, _, _ in flat)
-        head.insert(at, ("Difference", "continuum − grains; angle between the lines"))
+        head.append(("Difference", ""))
         for row, (_, key, unit) in zip(rows, BAND_ROWS):
-            row.insert(at, rounded(difference[key], unit) if key in difference else "–")
+            row.append(rounded(difference[key], unit) if key in difference else "–")
     return {"head": head, "rows": rows}
 
 
-def verdicts(increment):
-    """What the band detector says of each panel, in its own words; empty if it does not."""
-    said = [(words, increment.panel(panel).get("band_verdict")) for panel, words in PANEL_NAMES.items()]
-    return "; ".join(f"{words.lower()}: {verdict}" for words, verdict in said if verdict)
+def _thickness(result, increment):
+    """What sets the thickness of the continuum's band, and its value on the other mesh."""
+    size = plain((result.comparison.get("continuum_summary") or {}).get("element_size_d"))
+    text = f"Thickness of the continuum's band: {thickness_note(result)}" + (
+        f"; elements of {number(size, ' d')}" if size is not None else "")
+    coarse = result.comparison.get("continuum_coarse") or {}
+    same = [w for w in coarse.get("windows") or [] if increment.kind == "window"
+            and abs(w["from"] - increment.start) < 1e-9 and abs(w["to"] - increment.end) < 1e-9]
+    if same:
+        bands = same[0].get("bands") or []
+        text += f". On the coarse mesh, elements of {number(coarse.get('element_size_d'), ' d')}: " + ("; ".join(
+            f"{rounded(b.get('width_10_90_d'), ' d')} at {rounded(b.get('angle_deg'), '°')}" for b in bands) or DIFFUSE)
+    return [text + "."]
+
+
+def _band_cell(band, key, unit):
+    if isinstance(band, str):
+        return band if key == BAND_ROWS[0][1] else "–"
+    if key == "half_width_d":
+        return rounded(_doubled(band.get(key)), unit)
+    if key == "r_squared" and band.get("r_squared_strips") is not None:
+        return f"{rounded(band.get(key), unit)}; {rounded(band['r_squared_strips'], unit)}"
+    return rounded(band.get(key), unit)
+
+
+def _doubled(value):
+    if isinstance(value, dict):
+        return {k: _doubled(v) for k, v in value.items()}
+    return None if plain(value) is None else 2 * value
+
+
+def band_notes(result, increment):
+    """Sentences under the bands: thickness, theory lines beside the measured angles, the detector's words, resamples."""
+    said = [(words.lower(), increment.panel(panel).get("band_verdict")) for panel, words in PANEL_NAMES.items()]
+    notes = ["Detector – " + "; ".join(f"{words}: {verdict}" for words, verdict in said if verdict) + "."] if any(
+        verdict for _, verdict in said) else []
+    samples = {band.get("resamples") for panel in PANEL_NAMES for band in increment.bands(panel) if band.get("resamples")}
+    if any(interval(band.get("angle_deg")) for panel in PANEL_NAMES for band in increment.bands(panel)):
+        notes.append("In brackets: 95 % intervals by block bootstrap" + (
+            f", {'/'.join(map(str, sorted(samples)))} resamples" if samples else "") + ". Difference: continuum − grains; "
+            "of inclinations the angle between the lines.")
+    return _thickness(result, increment) + _theory_note(result, increment) + notes
+
+
+def _theory_note(result, increment):
+    angles = []
+    for panel, words in PANEL_NAMES.items():
+        minor = minor_direction(increment, panel)
+        turned = [] if minor is None else [abs((plain(b.get("angle_deg")) - minor + 90) % 180 - 90)
+                                           for b in increment.bands(panel) if plain(b.get("angle_deg")) is not None]
+        if turned:
+            angles.append(f"{words.lower()} " + "; ".join(rounded(angle, "°") for angle in turned))
+    theory = result.comparison.get("theory") or {}
+    lines = [f"{label} = {rounded(theory[key], '°')}" for key, label, _ in THEORY if plain(theory.get(key)) is not None]
+    if not angles:
+        return []
+    return [f"To the minor principal stress of the zone: {', '.join(angles)}." + (
+        f" Theory lines: {', '.join(lines)}." if lines else "")]
 
 
 def internal_length(result):
@@ -75,28 +107,23 @@ def thickness_note(result):
 
 def stages(result):
     """The comparison table, as two of readable width: stress and volume; bands. Differences are the program's own."""
-    stress = {"head": ["axial strain", "t/s, grains", "t/s, continuum", "difference", "volumetric strain, grains",
-                       "volumetric strain, continuum", "difference", "stress on cells, L2 difference",
-                       "mapping: error of the total", "mapping: nodal residual", "mapping: from outside"], "rows": []}
-    bands = {"head": ["axial strain", "inclination, grains", "inclination, continuum", "angle between",
-                      "10–90 % width, grains", "10–90 % width, continuum", "difference", "R², grains",
-                      "R², continuum"], "rows": []}
-    bands["head"][5] = (bands["head"][5], thickness_note(result))
+    stress = {"head": [result.progress.word, "t/s, grains", "t/s, continuum", "difference", "volumetric strain, grains",
+                       "volumetric strain, continuum", "difference"], "rows": []}
+    inclined = {"head": [result.progress.word, "inclination, grains", "inclination, continuum", "angle between",
+                         "10–90 % width, grains", "10–90 % width, continuum", "difference", "R², grains",
+                         "R², continuum"], "rows": []}
+    inclined["head"][5] = (inclined["head"][5], thickness_note(result))
     for stage in result.stages:
-        panels = stage.panel("discrete"), stage.panel("continuum")
-        difference, mapping = stage.record.get("difference") or {}, stage.record.get("mapping") or {}
-        row = [number(stage.end, "%")]
+        panels, difference = (stage.panel("discrete"), stage.panel("continuum")), stage.record.get("difference") or {}
+        row = [result.progress.text(stage.end)]
         for key, unit in (("stress_ratio", ""), ("volumetric_strain", "%")):
             row += [rounded(source.get(key), unit) for source in (*panels, difference)]
-        stress["rows"].append(row + [rounded(difference.get("stress_l2_relative"), "%", 0),
-                                     number(mapping.get("total_relative_error"), "", 2),
-                                     number(mapping.get("nodal_residual"), "", 2),
-                                     rounded(mapping.get("outside_share"), "%", 1)])
-        row = [number(stage.end, "%")]
+        stress["rows"].append(row)
+        row = [result.progress.text(stage.end)]
         for key, unit in (("angle_deg", "°"), ("width_10_90_d", " d")):
             row += [_of_bands(stage, panel, key, unit) for panel in PANEL_NAMES] + [_or_dash(difference.get(key), unit)]
-        bands["rows"].append(row + [_of_bands(stage, panel, "r_squared", "") for panel in PANEL_NAMES])
-    return [stress, bands]
+        inclined["rows"].append(row + [_of_bands(stage, panel, "r_squared", "") for panel in PANEL_NAMES])
+    return [stress, inclined]
 
 
 def _of_bands(stage, panel, key, unit):
@@ -110,38 +137,6 @@ def _or_dash(value, unit):
     return "–" if value is None else rounded(value, unit)
 
 
-def probes(increment):
-    head = ["probe", "panel", "σ₁", "σ₂", "direction of σ₁", "t/s", "mean of", "fabric direction", "fabric − stress",
-            "anisotropy", "contacts"]
-    rows = []
-    for panel, words in PANEL_NAMES.items():
-        for probe in increment.panel(panel).get("probes") or []:
-            grains = panel == "discrete"
-            rows.append([probe.get("name", ""), words, rounded(probe.get("s1"), " P"), rounded(probe.get("s2"), " P"),
-                         rounded(probe.get("direction_deg"), "°"), rounded(probe.get("t_over_s"), ""),
-                          "–" if probe.get("count") is None else f"{probe['count']} " + ("grains" if grains else "cells")]
-                        + (_fabric(probe) if grains else ["–"] * 4))
-    return {"head": head, "rows": rows} if rows else None
-
-
-def _fabric(probe):
-    return [_with_error(probe, "fabric_direction_deg", "fabric_direction_error_deg", "°"), _turn(probe),
-            _with_error(probe, "anisotropy", "anisotropy_error", ""), number(probe.get("contacts"))]
-
-
-def _with_error(probe, key, error, unit):
-    text = rounded(probe.get(key), unit)
-    return text if probe.get(error) is None else f"{text} ± {rounded(probe[error], unit)}"
-
-
-def _turn(probe):
-    """Angle from the stress's to the fabric's major direction, in [-90, 90): directions have no sense."""
-    stress, fabric = probe.get("direction_deg"), probe.get("fabric_direction_deg")
-    if not isinstance(stress, (int, float)) or not isinstance(fabric, (int, float)):
-        return ABSENT
-    return rounded((fabric - stress + 90) % 180 - 90, "°")
-
-
 def summary(values):
     """Words, number, what to hold it against; keys without words here are shown under their own name."""
     rows = []
@@ -149,6 +144,9 @@ def summary(values):
     values = values or {}
     for key in sorted(values, key=lambda name: order.index(name) if name in WORDS else len(order)):
         value = values[key]
+        ends = values.get(key + "_interval")
+        if isinstance(ends, dict):
+            value = {"value": value, **ends}
         if key in LAW_KEYS or value == "" or (isinstance(value, (dict, list)) and "value" not in value):
             continue
         words, unit, expected = WORDS.get(key, (key.replace("_", " "), "", ""))

@@ -74,7 +74,7 @@ def number(value, unit="", digits=4):
         text = number(value["value"], unit, digits)
         if value.get("low") is None or value.get("high") is None:
             return text
-        return f"{text} [{number(value['low'], unit, digits)}, {number(value['high'], unit, digits)}]"
+        return f"{text} {_brackets([number(value[end], unit, digits) for end in ('low', 'high')], unit)}"
     if value is None or isinstance(value, (dict, list)):
         return ABSENT
     if isinstance(value, bool):
@@ -95,6 +95,12 @@ def number(value, unit="", digits=4):
     return f"{value:.{digits}g}".replace("-", "−") + unit
 
 
+def _brackets(ends, unit):
+    """Interval without its unit, in one piece when a line is broken."""
+    suffix = " %" if unit == "%" else unit
+    return "[" + ",\u00a0".join(end.removesuffix(suffix) if suffix else end for end in ends) + "]"
+
+
 DECIMALS = {"°": 1, " d": 1, " P": 2, "%": 2, "": 3}
 
 
@@ -104,7 +110,7 @@ def rounded(value, unit, decimals=None):
         text = rounded(value["value"], unit, decimals)
         if value.get("low") is None or value.get("high") is None:
             return text
-        return f"{text} [{rounded(value['low'], unit, decimals)}, {rounded(value['high'], unit, decimals)}]"
+        return f"{text} {_brackets([rounded(value[end], unit, decimals) for end in ('low', 'high')], unit)}"
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
         return number(value)
     decimals = DECIMALS[unit] if decimals is None else decimals

@@ -6,25 +6,14 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/continuum/continuum_scenes.h"
 #include "tests/continuum/grid_of_file.h"
 
 namespace
 {
   using namespace diptych::continuum;
+  using tests::wavy_outline;
   namespace fs = std::filesystem;
-
-  Outline outline_of(const double width, const double height, const int points, const double waviness)
-  {
-    Outline outline;
-    for (int k = 0; k < points; ++k)
-      {
-        const double y    = height * k / (points - 1);
-        const double wave = waviness * std::sin(2 * M_PI * 3 * y / height);
-        outline.left.emplace_back(-wave, y);
-        outline.right.emplace_back(width + wave, y);
-      }
-    return outline;
-  }
 
   double polygon_area(const Outline &outline)
   {
@@ -43,7 +32,7 @@ namespace
   {
     const Folder      folder;
     const std::string file    = folder.file("wavy.msh");
-    const Outline     outline = outline_of(20, 30, 16, 0.4);
+    const Outline     outline = wavy_outline(20, 30, 16, 0.4);
     const MeshSummary summary = make_mesh(outline, 2., file);
     EXPECT_NEAR(summary.area, polygon_area(outline), 0.005 * polygon_area(outline));
     EXPECT_GT(summary.n_cells, 100u);
@@ -57,7 +46,7 @@ namespace
   TEST(Mesh, OfAnOutlineThatIsNoSampleIsRefused)
   {
     const Folder folder;
-    Outline      outline = outline_of(2, 3, 2, 0);
+    Outline      outline = wavy_outline(2, 3, 2, 0);
     std::swap(outline.left, outline.right);
     EXPECT_THROW((void)make_mesh(outline, 1., folder.file("none.msh")), std::invalid_argument);
     EXPECT_TRUE(fs::is_empty(folder.path));
@@ -67,7 +56,7 @@ namespace
   TEST(Mesh, StraightSidesCarryVerticesAtEqualHeights)
   {
     const Folder folder;
-    Outline      outline = outline_of(5, 10.5, 12, 0);
+    Outline      outline = wavy_outline(5, 10.5, 12, 0);
     outline.left         = {outline.left.front(), outline.left.back()};
     outline.right.back().y() -= 1e-9;
     const MeshSummary summary = make_mesh(outline, 1., folder.file("straight.msh"));
@@ -81,7 +70,7 @@ namespace
   TEST(Mesh, StraightSidesStayEqualWhereTheNumberOfEdgesWouldBeOdd)
   {
     const Folder folder;
-    Outline      outline      = outline_of(5.5, 7, 2, 0);
+    Outline      outline      = wavy_outline(5.5, 7, 2, 0);
     outline.right.back().x()  = 5.5 - 1e-9;
     const MeshSummary summary = make_mesh(outline, 1., folder.file("odd.msh"));
     Grid              grid(folder.file("odd.msh"));

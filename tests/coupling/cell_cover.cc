@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/homogenisation/cell_cover.h"
 
+#include <cmath>
 #include <numeric>
 
 #include <gtest/gtest.h>
 
+#include "tests/coupling/refined_mesh.h"
 #include "tests/coupling/synthetic_samples.h"
 
 namespace
@@ -28,17 +30,22 @@ namespace
 
   TEST(CellCover, DiscAreasAndCountsAddUpOverCells)
   {
-    const QuadMesh  mesh     = synthetic::box_mesh({-1, -1}, {21, 31}, 14, 19, 0.3);
-    const auto      network  = synthetic::random_network({0, 0}, {20, 30}, 500, 3);
-    const CellCover cover    = cell_cover(mesh, TriangleSearch(mesh), network.position, network.radius);
-    const auto      areas    = cell_areas(mesh);
-    double          in_cells = 0, of_discs = 0;
-    for (std::size_t c = 0; c < areas.size(); ++c)
-      in_cells += cover.solid_fraction[c] * areas[c];
-    for (const double r : network.radius)
-      of_discs += M_PI * r * r;
-    EXPECT_NEAR(in_cells, of_discs, 1e-11 * of_discs);
-    EXPECT_EQ(std::accumulate(cover.grain_count.begin(), cover.grain_count.end(), 0), 500);
+    const auto network = synthetic::random_network({0, 0}, {20, 30}, 500, 3);
+    const auto above   = [](const Eigen::Vector2d &x) { return x.y() > 0.8 * x.x(); };
+    const auto bent    = [](const Eigen::Vector2d &x) { return Eigen::Vector2d(0.2 * std::sin(x.y()), 0); };
+    for (const QuadMesh &mesh : {synthetic::box_mesh({-1, -1}, {21, 31}, 14, 19, 0.3),
+                                 synthetic::refined_mesh({-1, -1}, {21, 31}, {{9, 14}}, above, bent)})
+      {
+        const CellCover cover    = cell_cover(mesh, TriangleSearch(mesh), network.position, network.radius);
+        const auto      areas    = cell_areas(mesh);
+        double          in_cells = 0, of_discs = 0;
+        for (std::size_t c = 0; c < areas.size(); ++c)
+          in_cells += cover.solid_fraction[c] * areas[c];
+        for (const double r : network.radius)
+          of_discs += M_PI * r * r;
+        EXPECT_NEAR(in_cells, of_discs, 1e-11 * of_discs);
+        EXPECT_EQ(std::accumulate(cover.grain_count.begin(), cover.grain_count.end(), 0), 500);
+      }
   }
 
   // Square lattice of touching discs (solid fraction pi/4) over the mesh's left part only: the cells it reaches into by a quarter

@@ -3,6 +3,7 @@
 #include "coupling/probes.h"
 
 #include <numeric>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 
@@ -128,7 +129,7 @@ namespace
       }
     contacts.push_back({0, 1, {26, 37.5}, {1, 0}, {0, 0}});  // carries nothing
     contacts.push_back({0, 1, {-26, 37.5}, {1, 0}, {1, 0}}); // elsewhere
-    const auto fabric = probe_fabric({"zone", box}, contacts);
+    const auto fabric = probe_fabric({"zone", box, 0}, contacts);
     EXPECT_EQ(fabric.contacts, 20000);
     EXPECT_NEAR(fabric.fabric.trace(), 1, 1e-12);
     EXPECT_NEAR(fabric.anisotropy_error, 0.01, 1e-12);
@@ -142,9 +143,52 @@ namespace
     EXPECT_GT(fabric.normals_24[1], fabric.normals_24[7]); // 15-30 degrees against 105-120
   }
 
+  // 0, 0 is the middle of the frame, 26, 37.5; 20 x 10 turned by 90 degrees covers x = 31 .. 41, y = 17.5 .. 37.5.
+  TEST(Probes, OfTheSceneLieWhereItSays)
+  {
+    ProbeOptions options;
+    options.probe_rectangles = {10, -10, 20, 10, 90, 24, 0, 10, 20, 0};
+    const auto probes        = place_probes(box, synthetic::frame_52_75(), {oblique_band()}, options);
+    ASSERT_EQ(probes.size(), 2u);
+    EXPECT_EQ(probes[0].name, "probe 1");
+    EXPECT_EQ(probes[0].angle_deg, 90);
+    Eigen::Vector2d low = probes[0].polygon[0], high = low;
+    for (const auto &x : probes[0].polygon)
+      low = low.cwiseMin(x), high = high.cwiseMax(x);
+    EXPECT_LT((low - Eigen::Vector2d(31, 17.5)).norm(), 1e-12);
+    EXPECT_LT((high - Eigen::Vector2d(41, 37.5)).norm(), 1e-12);
+    EXPECT_NEAR(polygon_area(probes[1].polygon), 7 * 20, 1e-12); // x = 45 .. 55, the sample ends at 52
+    options.probe_rectangles = {100, 0, 10, 20, 0};
+    EXPECT_TRUE(place_probes(box, synthetic::frame_52_75(), {}, options)[0].polygon.empty());
+  }
+
+  TEST(Probes, WrongNumbersOfTheSceneNameTheirKey)
+  {
+    const auto message = [](const ProbeOptions &options) -> std::string {
+      try
+        {
+          place_probes(box, synthetic::frame_52_75(), {}, options);
+        }
+      catch (const std::invalid_argument &error)
+        {
+          return error.what();
+        }
+      return "";
+    };
+    ProbeOptions options;
+    EXPECT_EQ(message(options), "");
+    options.probe_rectangles = {1, 2, 3, 4};
+    EXPECT_NE(message(options).find("probe_rectangles: 4 numbers"), std::string::npos);
+    options.probe_rectangles = {1, 2, 3, 0, 5};
+    EXPECT_NE(message(options).find("probe_rectangles: length and thickness of probe 1"), std::string::npos);
+    options              = {};
+    options.probe_circle = {1, 2, -3};
+    EXPECT_NE(message(options).find("probe_circle: the radius"), std::string::npos);
+  }
+
   TEST(Probes, EmptyProbeHasNoStress)
   {
-    const ProbeRegion none{"upper", {}};
+    const ProbeRegion none{"upper", {}, 0};
     EXPECT_TRUE(std::isnan(grain_probe_stress(none, {}, {}, {}).s1));
     EXPECT_EQ(probe_fabric(none, {}).contacts, 0);
   }

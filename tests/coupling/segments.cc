@@ -163,6 +163,7 @@ namespace
         for (int k = 0; k < 4; ++k)
           fine.cell.push_back({{corner[k], middle[k], centre, middle[(k + 3) % 4]}});
       }
+    triangulate(fine);
 
     const auto on_coarse = mapped_on(coarse, network), on_fine = mapped_on(fine, network);
     EXPECT_LT((on_fine.total - on_coarse.total).norm(), 1e-12 * on_coarse.total.norm());

@@ -47,6 +47,7 @@ namespace diptych::coupling::synthetic
     for (unsigned int r = 0; r < rows; ++r)
       for (unsigned int c = 0; c < columns; ++c)
         mesh.cell.push_back({{number(r, c), number(r, c + 1), number(r + 1, c + 1), number(r + 1, c)}});
+    triangulate(mesh);
     return mesh;
   }
 

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include <gtest/gtest.h>
+#include <hdf5.h>
 
 #include <unistd.h>
 
@@ -49,8 +51,42 @@ namespace
         ASSERT_EQ(a.window_forces.size(), b.window_forces.size());
         for (std::size_t c = 0; c < a.window_forces.size(); ++c)
           EXPECT_EQ(a.window_forces[c].force, b.window_forces[c].force);
+        EXPECT_EQ(a.window_dissipation, b.window_dissipation);
       }
     EXPECT_FALSE(std::filesystem::exists(path + ".h5.part"));
+    std::filesystem::remove(path + ".h5"), std::filesystem::remove(path + ".xdmf");
+  }
+
+  // Files written before there was a dissipation: the entries are missing, not zero.
+  TEST(Output, AFileThatDoesNotTellTheDissipationLeavesItEmpty)
+  {
+    const std::vector<Snapshot> written = short_run();
+    const std::string           path    = temporary_path("earlier");
+    write_snapshots(path, written);
+    const hid_t file = H5Fopen((path + ".h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    EXPECT_GE(H5Ldelete(file, "stage_0001/window/dissipation", H5P_DEFAULT), 0);
+    H5Fclose(file);
+    const std::vector<Snapshot> read = read_snapshots(path + ".h5");
+    EXPECT_EQ(read[1].window_forces.size(), written[1].window_forces.size());
+    EXPECT_TRUE(read[1].window_dissipation.empty());
+    EXPECT_EQ(read[2].window_dissipation, written[2].window_dissipation);
+    std::filesystem::remove(path + ".h5"), std::filesystem::remove(path + ".xdmf");
+  }
+
+  // ParaView takes the place of the numbers from the .xdmf: points and one value for each.
+  TEST(Output, XdmfShowsTheDissipationAtThePairsOfItsWindow)
+  {
+    const std::vector<Snapshot> written = short_run();
+    const std::string           path    = temporary_path("shown");
+    write_snapshots(path, written);
+    std::ifstream     in(path + ".xdmf");
+    const std::string xdmf{std::istreambuf_iterator<char>(in), {}};
+    for (const auto &[extents, array] : {std::pair{"", "dissipation<"}, std::pair{" 3", "force<"}, std::pair{" 3", "point<"}})
+      {
+        const std::string item = "Dimensions=\"" + std::to_string(written[2].window_forces.size()) + extents + "\">" +
+                                 path.substr(path.find_last_of('/') + 1) + ".h5:/stage_0002/window/" + array;
+        EXPECT_NE(xdmf.find(item), std::string::npos) << item;
+      }
     std::filesystem::remove(path + ".h5"), std::filesystem::remove(path + ".xdmf");
   }
 

@@ -3,124 +3,57 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Run with the python3 that the program uses for its reports: python3 tests/program/report_test.py"""
 
+import base64
 import json
 import os
 import re
-import subprocess
 import sys
 import tempfile
 import unittest
 from html.parser import HTMLParser
 
-import h5py
 import numpy as np
 
-REPORT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "coupling", "report", "report.py")
-BAND = {"angle_deg": -45.0, "half_width_d": 1.0, "width_10_90_d": 2.197, "offset_d": 0.0, "jump": 0.9,
-        "dilation_deg": 3.0, "r_squared": 0.98}
-STRIPS = {"angle_deg": -45.0, "edges_d": list(np.linspace(-4, 4, 17)), "mean": [None] + list(np.linspace(0, 1, 15)),
-          "deviation": [None] + [0.1] * 15, "count": [0] + [2] * 15}
+import report_folder
+from report_folder import REPORT, panel, read, run, write_folder, write_json
 
-
-def probe(name, y):
-    return {"name": name, "polygon": [[1, y], [4, y], [4, y + 1.5], [1, y + 1.5]], "stress": [[1, 0], [0, 2]],
-            "s1": 2.0, "s2": 1.0, "direction_deg": 90.0, "t_over_s": 1 / 3, "fabric_direction_deg": -88.0,
-            "fabric_direction_error_deg": 4.0, "anisotropy": 0.3, "anisotropy_error": 0.05, "normals_24": [3] * 24,
-            "contacts": 36}
-
-
-def panel(bands):
-    return {"stress_ratio": 0.3, "volumetric_strain": -0.001, "bands": bands, "strips": STRIPS,
-            "probes": [probe(name, y) for name, y in (("upper", 5.5), ("zone", 3.0), ("lower", 0.5))]}
-
-
-def write_group(file, name, start, end, stress):
-    """5 x 8 d: a lattice of 40 grains, 2 x 3 cells; continuum strains four times the grains'."""
-    group = file.create_group(name)
-    group.attrs.update({"from": start, "axial_strain": end})
-    x, y = (v.ravel() + 0.5 for v in np.meshgrid(np.arange(5.0), np.arange(8.0)))
-    group["discrete/position"] = np.column_stack([x, y])
-    group["discrete/radius"] = np.full(40, 0.5)
-    group["discrete/displacement_increment"] = np.column_stack([y, -y]) * (end - start)
-    group["discrete/shear_strain_increment"] = np.linspace(0, 0.02, 40)
-    corners = np.array([[[2.5 * (i + a), 8 / 3 * (j + b)] for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
-                        for j in range(3) for i in range(2)])
-    nodes = np.unique(corners.reshape(-1, 2), axis=0)
-    group["nodes/position"] = nodes
-    group["nodes/displacement_increment"] = np.column_stack([nodes[:, 1], -nodes[:, 1]]) * (end - start)
-    group["cells/corners"] = corners
-    group["cells/continuum_shear_strain_increment"] = np.linspace(0, 0.08, 6)
-    group["cells/discrete_shear_strain_increment"] = np.array([0.01, np.nan, 0.01, 0.02, 0.01, 0.0])
-    if stress:
-        tensor = np.tile(np.diag([1.0, 2.0]), (6, 1, 1))
-        group["cells/continuum_stress"] = tensor
-        group["cells/discrete_stress"] = tensor * np.array([0.5, np.nan, 1.0, 2.0, 1.0, 0.8])[:, None, None]
-
-
-def write_folder(folder, complete=True):
-    """Two stages (the first one diffuse in both panels) and one window; without optional keys if not complete."""
-    comparison = {"format": 1, "scene": "tiny", "seed": 3}
-    if complete:
-        comparison["stages"] = [
-            {"axial_strain": end, "discrete": panel(bands), "continuum": panel(bands),
-             "difference": {"stress_ratio": 0.0, "angle_deg": None}, "mapping": {"method": "segments"}}
-            for end, bands in ((0.005, []), (0.01, [BAND]))]
-        comparison["windows"] = [{"from": 0.0, "to": 0.01, "discrete": panel([dict(BAND, angle_deg={
-            "value": -45.0, "low": -46.5, "high": -43.5})]), "continuum": panel([BAND, dict(BAND, angle_deg=44.0)])}]
-        comparison["windows"][0]["discrete"]["bands"][0]["jump"] = {"value": 0.9, "low": 0.8, "high": 1.0}
-        comparison["continuum_coarse"] = {"element_size_d": 4.0, "windows": [{"from": 0.0, "to": 0.01, "bands": [BAND]}]}
-        comparison["continuum_summary"] = {"element_size_d": 2.0, "law": {"friction_angle_peak": 20.5}}
-        comparison["discrete_summary"] = {"grains": 40, "residual_factor": None, "a_later_key": 1.5}
-        comparison["cost"] = {"discrete_cpu_s": 1.0}
-    with h5py.File(os.path.join(folder, "comparison.h5"), "w") as file:
-        if complete:
-            file.attrs.update(mean_diameter=1.0, pressure=1.0, height0=8.0, width0=5.0)
-            write_group(file, "stage_0001", 0.0, 0.005, True)
-            write_group(file, "stage_0002", 0.005, 0.01, True)
-            write_group(file, "window_0", 0.0, 0.01, False)
-    write_json(folder, "comparison.json", comparison)
-    write_json(folder, "provenance.json", {"phases": [{"name": "discrete", "cpu_s": 1.0}]} if complete else {})
-    columns = "axial_strain,stress_ratio,volumetric_strain,lower_fy,upper_fy" + (
-        ",sweeps,residual,kinetic_energy_ratio" if complete else "")
-    for name in ("discrete.csv", "continuum.csv"):
-        with open(os.path.join(folder, name), "w", encoding="utf-8") as stream:
-            stream.write(columns + "\n")
-            for k in range(1, 21):
-                row = [0.0005 * k, 0.3, -0.001 * k, 10, -10.05] + ([20, 1e-5, 1.2] if complete else [])
-                stream.write(",".join(map(str, row)) + "\n")
-
-
-def write_json(folder, name, value):
-    with open(os.path.join(folder, name), "w", encoding="utf-8") as stream:
-        json.dump(value, stream)
-
-
-def run(folder):
-    return subprocess.run([sys.executable, REPORT, folder], capture_output=True, text=True, check=False)
-
-
-def read(folder):
-    with open(os.path.join(folder, "report.html"), encoding="utf-8") as stream:
-        return stream.read()
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.dirname(REPORT))
 
 
 class Page(HTMLParser):
-    """Images, links to anything, and the colour limits of each pair of panels."""
+    """Images (those for readers without scripts apart), canvases, links to anything, and the data of the maps."""
 
     def __init__(self, text):
         super().__init__()
-        self.images, self.links, self.pairs = [], [], []
+        self.images, self.still, self.canvases, self.links, self.maps = [], [], [], [], ""
+        self._without_scripts = self._data = False
         self.feed(text)
 
     def handle_starttag(self, tag, attrs):
         attributes = dict(attrs)
         self.links += [attributes[name] for name in ("src", "href") if name in attributes]
+        self._without_scripts |= tag == "noscript"
+        self._data = attributes.get("id") == "map-data"
         if tag == "img":
-            self.images.append(attributes)
-        if attributes.get("class") == "pair":
-            self.pairs.append([])
-        if "data-vmin" in attributes:
-            self.pairs[-1].append((attributes["data-panel"], attributes["data-vmin"], attributes["data-vmax"]))
+            (self.still if self._without_scripts else self.images).append(attributes)
+        if tag == "canvas":
+            self.canvases.append(attributes)
+
+    def handle_endtag(self, tag):
+        self._without_scripts &= tag != "noscript"
+        self._data &= tag != "script"
+
+    def handle_data(self, text):
+        if self._data:
+            self.maps += text
+
+
+def stored(maps, index):
+    """Values of an array of the page, as the browser decodes them."""
+    entry = maps["arrays"][index]
+    codes = np.frombuffer(base64.b64decode(entry["data"]), dtype="<u2").astype(float)
+    return np.where(codes == 65535, np.nan, entry["low"] + codes * (entry["high"] - entry["low"]) / 65534)
 
 
 class CompleteFolder(unittest.TestCase):
@@ -131,10 +64,14 @@ class CompleteFolder(unittest.TestCase):
         cls.outcome = run(cls.folder.name)
         cls.text = read(cls.folder.name) if cls.outcome.returncode == 0 else ""
         cls.page = Page(cls.text)
+        cls.maps = json.loads(cls.page.maps)
 
     @classmethod
     def tearDownClass(cls):
         cls.folder.cleanup()
+
+    def increment(self, key):
+        return next(i for i in self.maps["increments"] if i["key"] == key)
 
     def test_succeeds_and_leaves_no_temporary_file(self):
         self.assertEqual(self.outcome.returncode, 0, self.outcome.stderr)
@@ -142,31 +79,77 @@ class CompleteFolder(unittest.TestCase):
         self.assertFalse([name for name in os.listdir(self.folder.name) if name.endswith(".part")])
 
     def test_every_figure_is_there_with_words_for_those_who_cannot_see_it(self):
-        # strain 3 increments x 2; stress 2 stages x 2 quantities x 2; cells, arrows, strips 1 window x 2 each;
-        # probes 2 stages x (2 maps + roses); 6 histories.
-        self.assertEqual(len(self.page.images), 6 + 8 + 2 + 2 + 2 + 6 + 6)
-        self.assertTrue(all(len(image.get("alt", "")) > 20 for image in self.page.images))
+        self.assertEqual((len(self.page.images), len(self.page.canvases)), report_folder.number_of_figures())
+        self.assertEqual(len(self.page.still), 2)
+        self.assertTrue(all(len(image.get("alt", "")) > 20 for image in self.page.images + self.page.still))
+        self.assertTrue(all(canvas.get("aria-label") for canvas in self.page.canvases))
 
-    def test_both_panels_have_the_same_colour_limits(self):
-        coloured = [pair for pair in self.page.pairs if pair]
-        self.assertEqual(len(coloured), 3 + 4 + 1)
-        for left, right in coloured:
-            self.assertEqual((left[0], right[0]), ("discrete", "continuum"))
-            self.assertEqual(left[1:], right[1:])
-            self.assertLess(float(left[1]), float(left[2]))
+    def test_both_panels_share_their_colour_limits(self):
+        # 98th percentiles: grains 0.98 * 2 %, continuum 0.98 * 8 %, the lower counts: 1.96 %. Per axial strain 1.96/0.5 in both
+        # stages, 1.96/1 in the window; their median, 3.92, gives 1.96 % over 0.5 % and 3.92 % over 1 %, two digits each.
+        self.assertEqual(self.increment("stage-1")["values"]["shear"]["discs"]["limits"], [0.0, 2.0])
+        self.assertEqual(self.increment("window-0")["values"]["shear"]["discs"]["limits"], [0.0, 3.9])
+        for increment in self.maps["increments"]:
+            for quantity, places in increment["values"].items():
+                for place, values in places.items():
+                    self.assertLess(*values["limits"], f"{quantity} {place}")
+
+    def test_the_page_holds_the_numbers_of_the_files(self):
+        # 16 bits over the range: at most half a code off, range/65534/2
+        values = stored(self.maps, self.increment("stage-1")["values"]["shear"]["discs"]["discrete"])
+        np.testing.assert_allclose(values, np.linspace(0, 2, 40), atol=2 / 65534 / 2 * 1.001)
+        cells = stored(self.maps, self.increment("stage-1")["values"]["shear"]["cells"]["discrete"])
+        np.testing.assert_array_equal(np.isnan(cells), [False, True, False, False, False, False])
+
+    def test_a_window_shows_the_stress_of_the_stage_that_ends_with_it(self):
+        window, stage = (self.increment(key)["values"]["s"]["cells"] for key in ("window-0", "stage-1"))
+        self.assertEqual(window["continuum"], stage["continuum"])  # one array, stored once
+        np.testing.assert_allclose(stored(self.maps, stage["continuum"]), 1.5)
+
+    def test_stress_of_a_single_grain_is_its_moment_over_its_share_of_the_area(self):
+        # moment = diag(1, 2) pi/4 on discs of area pi/4, no solid fraction stored (1): stresses 2 and 1, major vertical
+        crosses = self.increment("stage-0")["crosses"]["discrete"]
+        for key, value in (("s1", 2.0), ("s2", 1.0)):
+            np.testing.assert_allclose(stored(self.maps, crosses[key]), value, rtol=1e-12)
+        np.testing.assert_allclose(np.abs(stored(self.maps, crosses["a"])), np.pi / 2, rtol=1e-12)
+
+    def test_velocities_count_in_the_platens_speed(self):
+        # platen: 8 d sqrt(2) * 0.005 in 10 steps of time 1; grains: 0.001 sqrt(2)
+        speed = stored(self.maps, self.increment("stage-1")["values"]["velocity"]["discs"]["discrete"])
+        np.testing.assert_allclose(speed, 0.001 / (8 * 0.005 / 10), rtol=1e-9)
+
+    def test_a_contact_without_force_is_not_drawn(self):
+        forces = self.increment("stage-1")["forces"]
+        np.testing.assert_allclose(stored(self.maps, forces["f"]), [3.0])
+
+    def test_every_quantity_asked_for_can_be_chosen(self):
+        offered = {quantity["key"]: quantity["places"] for quantity in self.maps["quantities"]}
+        for key in ("shear", "displacement", "velocity", "rotation", "s", "t_over_s", "xx", "yy", "xy"):
+            self.assertIn("discs", offered[key])
+        for key in ("spin", "turn", "couple", "dissipation"):
+            self.assertEqual(offered[key], ["cells", "grid"])
 
     def test_what_is_fitted_and_what_the_mesh_sets_is_said(self):
         self.assertIn("fitted, not predicted", self.text)
-        # of both bands of the continuum and of the coarse mesh, with its element size
-        row = re.search(r"10–90 % width</th>(.*?)</tr>", self.text).group(1)
-        self.assertEqual(row.count("set by the mesh (local law)"), 3)
-        self.assertIn("elements of 4 d", self.text)
+        self.assertIn("Thickness of the continuum&#39;s band: set by the mesh (local law); elements of 2 d. "
+                      "On the coarse mesh, elements of 4 d: 2.2 d at −45.0°.", self.text)
 
     def test_no_band_is_called_diffuse(self):
         self.assertIn("diffuse: no band", self.text)
 
     def test_an_interval_stands_beside_its_number(self):
-        self.assertIn("0.900 [0.800, 1.000]", self.text)
+        self.assertIn("0.900 [0.800,\u00a01.000]", self.text)
+        self.assertIn("−45.0° [−46.5,\u00a0−43.5]", self.text)
+
+    def test_the_angle_to_the_minor_stress_stands_beside_the_theory_lines(self):
+        # major stress at 90 degrees, so the minor one lies along the horizontal: a band at -45 degrees is 45 degrees from it
+        self.assertIn("To the minor principal stress of the zone: grains 45.0°", self.text)
+        self.assertIn("Coulomb 45° + φ/2 = 55.0°", self.text)
+
+    def test_density_of_dissipation_in_the_band(self):
+        # three quarters of it on half of the area: (0.75/0.5)/(0.25/0.5) = 3
+        row = re.search(r"<th scope=\"row\">Grains</th><td>75.0 %</td><td>50.0 %</td><td>(.*?)</td>", self.text)
+        self.assertEqual(row.group(1), "3.00")
 
     def test_a_value_that_is_null_is_not_computed_and_an_unknown_one_is_shown(self):
         self.assertIn("not computed", self.text)
@@ -201,19 +184,26 @@ class OtherFolders(unittest.TestCase):
         write_json(self.folder.name, "comparison.json", comparison)
         outcome = run(self.folder.name)
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
-        text = read(self.folder.name)
-        return text, re.search(r"10–90 % width</th>(.*?)</tr>", text).group(1)
+        return read(self.folder.name)
 
     def test_a_law_with_an_internal_length_is_not_said_to_be_set_by_the_mesh(self):
-        text, row = self.write_with_law(1.5)
-        self.assertEqual(row.count("internal length 1.5 d"), 3)
+        text = self.write_with_law(1.5)
+        self.assertIn("band: internal length 1.5 d", text)
         self.assertNotIn("set by the mesh (local law)", text)
         self.assertIn("never", text)  # it did not localise
 
     def test_a_law_without_one_is(self):
-        text, row = self.write_with_law(None)
-        self.assertEqual(row.count("set by the mesh (local law)"), 3)
+        text = self.write_with_law(None)
+        self.assertIn("band: set by the mesh (local law)", text)
         self.assertNotIn("internal length 1.5 d", text)
+
+    def test_a_scene_named_like_markup_is_shown_as_it_is(self):
+        write_folder(self.folder.name)
+        record = report_folder.comparison_of_two_stages()
+        record["scene"] = record["stages"][1]["discrete"]["probes"][0]["name"] = "</script><b>x"
+        write_json(self.folder.name, "comparison.json", record)
+        self.assertEqual(run(self.folder.name).returncode, 0)
+        self.assertNotIn("</script><b>", read(self.folder.name))
 
     def test_stages_of_shear_are_drawn_against_the_travel(self):
         """In the mode shear the grains' axial strain stays 0: their histories are drawn against shear_strain."""
@@ -222,7 +212,6 @@ class OtherFolders(unittest.TestCase):
             stream.write("subsection loading\n  set mode = shear\nend\n")
         with open(os.path.join(self.folder.name, "discrete.csv"), "w", encoding="utf-8") as stream:
             stream.write("axial_strain,shear_strain,stress_ratio\n0,0.005,0.3\n0,0.01,0.3\n")
-        sys.path.insert(0, os.path.dirname(REPORT))
         from load import load
         np.testing.assert_array_equal(load(self.folder.name).histories["discrete"]["axial_strain"], [0.005, 0.01])
 
@@ -244,11 +233,6 @@ class OtherFolders(unittest.TestCase):
 
 
 class Formulas(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        sys.dont_write_bytecode = True
-        sys.path.insert(0, os.path.dirname(REPORT))
-
     def test_trailing_mean_of_a_straight_line_lags_by_half_the_window(self):
         # mean of x over [x - w, x] is x - w/2, for uneven steps too; before a full window there is no value
         from curves import trailing_mean
@@ -266,12 +250,21 @@ class Formulas(unittest.TestCase):
         self.assertLessEqual(len(x), 100)
         self.assertEqual(y[x == 4321.0], 7.0)
 
-    def test_stresses_and_lengths_of_probes_are_shown_in_P_and_d(self):
-        # d = 2 and P = 10: a stress of 20 is 2 P, a corner at 6 is at 3 d
-        from load import _scale_probes
-        value = {"probes": [{"polygon": [[6.0, 2.0]], "s1": 20.0, "s2": None}]}
-        _scale_probes(value, 2.0, 10.0)
-        self.assertEqual(value["probes"], [{"polygon": [[3.0, 1.0]], "s1": 2.0, "s2": None}])
+    def test_stresses_and_lengths_are_shown_in_P_and_d(self):
+        # d = 2 and P = 10: a stress of 20 is 2 P, a corner at 6 is at 3 d, a force of 40 is 2 P d, a moment of 80 is 2 P d^2
+        from increments import _scale_panel, unit_of
+        value = {"probes": [{"polygon": [[6.0, 2.0]], "s1": {"value": 20.0, "low": 10.0, "high": None}, "s2": None}],
+                 "circular_probe": {"centre": [4.0, 2.0], "radius": 6.0, "normal": [20.0]},
+                 "band_traction": {"normal": [None, 30.0]}}
+        _scale_panel(value, 2.0, 10.0)
+        probe = {"polygon": [[3.0, 1.0]], "s1": {"value": 2.0, "low": 1.0, "high": None}, "s2": None}
+        self.assertEqual(value, {"probes": [probe],
+                                 "circular_probe": {"centre": [2.0, 1.0], "radius": 3.0, "normal": [2.0]},
+                                 "band_traction": {"normal": [None, 3.0]}})
+        units = {"discrete/position": 2, "cells/discrete_stress": 10, "cells/discrete_couple_stress": 20, "contacts/force": 20,
+                 "discrete/internal_moment": 40, "cells/continuum_dissipation": 10, "cells/discrete_standard_error": 10,
+                 "grid/discrete_displacement_increment": 2, "cells/discrete_shear_strain_increment": 1}
+        self.assertEqual({name: unit_of(name, 2.0, 10.0) for name in units}, units)
 
     def test_an_echoed_scene_gives_key_value_and_meaning(self):
         from load import scene_section
@@ -280,17 +273,35 @@ class Formulas(unittest.TestCase):
         self.assertEqual(scene_section(text, "continuum"), [("youngs_modulus", "500", "stiffness [pressure]; > 0")])
 
     def test_a_band_at_minus_45_degrees_goes_right_and_down_with_its_normal_up_and_right(self):
-        from maps import band_axes
-        along, normal = band_axes({"angle_deg": -45.0})
+        from still import band_axes
+        along, normal = band_axes(-45.0)
         np.testing.assert_allclose(along, [np.sqrt(0.5), -np.sqrt(0.5)], atol=1e-15)
         np.testing.assert_allclose(normal, [np.sqrt(0.5), np.sqrt(0.5)], atol=1e-15)
 
     def test_fabric_and_stress_directions_have_no_sense(self):
         # 90 and -88 degrees are 2 degrees apart, not 178
-        import tables
-        from load import Increment
-        table = tables.probes(Increment("stage-0", "stage", 0.0, 0.01, {"discrete": panel([])}))
+        import stage_tables
+        from increments import Increment
+        table = stage_tables.probes(Increment("stage-0", "stage", 0.0, 0.01, {"discrete": panel([])}))
         self.assertEqual(dict(zip(table["head"], table["rows"][0]))["fabric − stress"], "2.0°")
+
+    def test_solver_noise_counts_in_grain_diameters_and_the_pressures_speed(self):
+        # residual 1e-5, step 4 in units of 1/s with d = 2, P = 16, rho = 4: h sqrt(P/rho)/d = 4, over I = 1e-4: 0.4
+        import types
+
+        import accuracy
+        result = types.SimpleNamespace(pressure=16.0, diameter=2.0, scene={"sample": {"density": "4"}})
+        noise = accuracy._noise(result, {"residual": 1e-5, "step_length": 4.0, "mean_inertial_number": 1e-4})
+        self.assertAlmostEqual(noise, 0.4, places=12)
+
+    def test_an_interval_of_the_inclination_turns_with_it(self):
+        # band at -45 [-50, -42], minor stress at 0: 45 degrees, between 42 and 50
+        from increments import Increment
+        from trends import to_minor_stress
+        band = {"angle_deg": {"value": -45.0, "low": -50.0, "high": -42.0}, "jump": 1.0}
+        record = {"discrete": {"bands": [band], "probes": [{"name": "zone", "direction_deg": 90.0}]}}
+        stage = Increment("stage-0", "stage", 0.0, 0.01, record, end_record=record)
+        self.assertEqual(to_minor_stress(stage, "discrete"), {"value": 45.0, "low": 42.0, "high": 50.0})
 
 
 if __name__ == "__main__":

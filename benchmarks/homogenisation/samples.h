@@ -1,0 +1,25 @@
+// diptych: sheared samples and their meshes
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "coupling/mesh_cells.h"
+#include "discrete/snapshot.h"
+
+namespace diptych::benchmarks
+{
+  // Default sample (4000 discs, radii 0.3 to 0.7 d, width/height 0.7, seed 1) under a 45 degree loading with free end grains,
+  // I = 1e-4, step 0.5: snapshots at 0, 2, 2.5, 3, 3.5 and 4 % axial strain, with the mean forces in between. Kept in `folder`,
+  // if that is not empty, and read from there when asked again. Throws std::runtime_error where the run does not converge.
+  std::vector<discrete::Snapshot> sheared_sample(const std::string &folder);
+
+  // columns x rows quadrilaterals between the sides of a sample's outline and its platens.
+  coupling::QuadMesh outline_mesh(const discrete::Outline &outline, unsigned int columns, unsigned int rows);
+
+  // A sample or a mesh n x n times side by side, `spacing` apart. Copies of grains do not touch, those of meshes share no nodes.
+  Eigen::Vector2d    spacing_of_copies(const coupling::QuadMesh &mesh, double mean_diameter); // 4 d between them [length]
+  discrete::Snapshot copies(const discrete::Snapshot &sample, int n, const Eigen::Vector2d &spacing);
+  coupling::QuadMesh copies(const coupling::QuadMesh &mesh, int n, const Eigen::Vector2d &spacing);
+} // namespace diptych::benchmarks

@@ -1,0 +1,30 @@
+// diptych: the tables of the benchmark, each printed by one function
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "coupling/homogenisation/averaging.h"
+
+namespace diptych::benchmarks
+{
+  // `samples`: folder in which the sheared sample is kept; empty: it is made anew each time.
+  void cost(const std::string &samples);           // CPU seconds of every method at 4000 and 64000 grains
+  void known_stress(const std::string &samples);   // error of every method against a stress field that is known
+  void sheared_grains(const std::string &samples); // scatter of every method on a sheared sample
+  void resolution(const std::string &samples);     // stress against the averaging length
+
+  struct NamedMethod
+  {
+    const char                *name;
+    coupling::AveragingOptions options;
+  };
+  inline const std::vector<NamedMethod> methods = {{"segments", {"segments", "gauss", 1.5}},
+                                                   {"centroid", {"centroid", "gauss", 1.5}},
+                                                   {"laguerre", {"laguerre", "gauss", 1.5}},
+                                                   {"kernel gauss w = 0.75", {"kernel", "gauss", 0.75}},
+                                                   {"kernel gauss w = 1.5", {"kernel", "gauss", 1.5}},
+                                                   {"kernel lucy w = 1.5", {"kernel", "lucy", 1.5}},
+                                                   {"projection w = 1.5", {"projection", "gauss", 1.5}}};
+} // namespace diptych::benchmarks

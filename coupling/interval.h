@@ -1,0 +1,17 @@
+// diptych: a number with its 95 % interval
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <limits>
+
+namespace diptych::coupling
+{
+  // A value and the ends of its 95 % interval, all in the unit of the value. An end that is not known is NaN (null in JSON).
+  // For angles low and high are unwrapped around the value: low <= value <= high normally, and they may leave the value's range.
+  struct Interval
+  {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    double low   = std::numeric_limits<double>::quiet_NaN();
+    double high  = std::numeric_limits<double>::quiet_NaN();
+  };
+} // namespace diptych::coupling

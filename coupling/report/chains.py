@@ -1,0 +1,65 @@
+# diptych: force chains inside and outside the zone; traction across the zone
+# SPDX-License-Identifier: LGPL-2.1-or-later
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from increments import plain
+from style import CONTINUUM, GRAINS, INK, PANEL_COLOURS, PANEL_LINES, PANEL_NAMES, ruled, svg
+
+
+def distribution(increment):
+    """Share of grains whose major principal stress exceeds a multiple of the mean; inside and outside the zone."""
+    chains = increment.panel("discrete").get("force_chains") or {}
+    levels = np.array(chains.get("quantiles") or [], dtype=float)
+    figure = Figure(figsize=(4.5, 3.1))
+    axes = ruled(figure.add_axes([0.15, 0.16, 0.825, 0.8]))
+    drawn = []
+    for key, colour, dashes in (("inside", CONTINUUM, "-"), ("outside", GRAINS, (0, (5, 1.5)))):
+        part = chains.get(key) or {}
+        values = np.array(part.get("values") or [], dtype=float)
+        if not len(levels) or len(values) != len(levels):
+            continue
+        above = 1 - levels
+        keep = np.isfinite(values) & (above > 0)
+        axes.plot(values[keep], above[keep], color=colour, linestyle=dashes, label=f"{key} ({part.get('grains', '?')} grains)")
+        drawn.append(key)
+    if not drawn:
+        return None
+    axes.axvline(1, color=INK, linewidth=0.7, linestyle=":")
+    axes.set(yscale="log", xlabel="major principal stress of a grain / mean", ylabel="share of grains above", xlim=(0, None))
+    axes.legend(loc="best", title="10–90 % width of the band", title_fontsize=8.5)
+    where = " and ".join(drawn)
+    return svg(figure, f"Distribution of the major principal stress of single grains {where} the zone, {increment.title}.")
+
+
+def traction(increment):
+    """Mean normal and shear traction on strips parallel to the grains' band: equilibrium asks for uniform ones."""
+    stored = {panel: increment.panel(panel).get("band_traction") or {} for panel in PANEL_NAMES}
+    figure = Figure(figsize=(4.5, 3.9))
+    drawn = []
+    for k, part in enumerate(("normal", "shear")):
+        axes = ruled(figure.add_axes([0.15, 0.56 - 0.43 * k, 0.825, 0.4]))
+        for panel, record in stored.items():
+            edges, values = (np.array(record.get(name) or [], dtype=float) for name in ("edges_d", part))
+            if len(edges) != len(values) + 1 or not np.isfinite(values).any():
+                continue
+            spread = plain(record.get("variation_" + part))
+            label = PANEL_NAMES[panel] + ("" if spread is None else f": {100 * spread:.0f} %")
+            axes.stairs(values, edges, baseline=None, color=PANEL_COLOURS[panel], linestyle=PANEL_LINES[panel], linewidth=1.4,
+                        label=label)
+            error = record.get(part + "_error")
+            if error and len(error) == len(values):
+                axes.errorbar((edges[1:] + edges[:-1]) / 2, values, np.array(error, dtype=float), fmt="none", elinewidth=0.8,
+                              capsize=1.5, color=PANEL_COLOURS[panel])
+            drawn.append(panel)
+        axes.set_ylabel(f"{part} traction (P)")
+        axes.tick_params(labelbottom=k == 1)
+        if drawn:
+            low, high = axes.get_ylim()
+            low, high = min(low, 0), max(high, 0)
+            axes.set_ylim(low, high + 0.45 * (high - low))
+            axes.legend(loc="upper left", ncol=2, title="variation", title_fontsize=8.5, alignment="left")
+    axes.set_xlabel("distance along the band's normal / d")
+    alt = f"Normal and shear traction on strips parallel to the band, both panels, {increment.title}."
+    return svg(figure, alt) if drawn else None

@@ -1,0 +1,76 @@
+# diptych: tractions across the diameters of a circle against its mean stress's prediction, both panels
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Moreau 1997, section 3 and figure 3."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from increments import interval, plain
+from pair import Pair
+from style import INK, PANEL_COLOURS, PANEL_NAMES, ruled, svg
+
+PARTS = (("normal", "normal (P)"), ("tangential", "tangential (P)"))
+
+
+def pair(increment):
+    """Both panels on the same axes. A picture is None where no circle is stored."""
+    stored = {panel: _columns(increment.panel(panel).get("circular_probe")) for panel in PANEL_NAMES}
+    known = [columns for columns in stored.values() if columns]
+    if not known:
+        return Pair(None, None)
+    spans = {}
+    for part, _ in PARTS:
+        every = np.concatenate([np.concatenate([c[part], c["predicted_" + part]]) for c in known])
+        room = 0.08 * max(np.nanmax(every) - np.nanmin(every), 1e-6)
+        spans[part] = (min(np.nanmin(every) - room, 0), np.nanmax(every) + room)
+    return Pair(*[_panel(increment, panel, stored[panel], spans) for panel in PANEL_NAMES], caption=_sampling(increment))
+
+
+def _sampling(increment):
+    alone = plain((increment.panel("discrete").get("circular_probe") or {}).get("sampling_alone"))
+    return "" if alone is None else ("Bars: standard errors from blocks along the diameter. Sampling of the grains alone "
+                                     f"would give a difference of {100 * alone:.1f} %.")
+
+
+def _columns(circle):
+    """The probe's columns as arrays of equal length; None if they are not all there."""
+    names = ["angles_deg"] + [prefix + part for part, _ in PARTS for prefix in ("", "predicted_")]
+    if not circle or any(not circle.get(name) for name in names):
+        return None
+    columns = {name: np.array(circle[name], dtype=float) for name in names}  # null becomes nan
+    if len({len(column) for column in columns.values()}) != 1 or not np.isfinite(columns["normal"]).any():
+        return None
+    for part, _ in PARTS:
+        error = circle.get(part + "_error")
+        columns[part + "_error"] = np.array(error, dtype=float) if error and len(error) == len(columns[part]) else None
+    columns["relative_l2"] = circle.get("relative_l2")
+    return columns
+
+
+def _panel(increment, panel, columns, spans):
+    if columns is None:
+        return None
+    figure = Figure(figsize=(4.5, 3.9))
+    for k, (part, label) in enumerate(PARTS):
+        axes = ruled(figure.add_axes([0.14, 0.545 - 0.425 * k, 0.835, 0.385]))
+        axes.errorbar(columns["angles_deg"], columns[part], columns[part + "_error"], fmt="o", markersize=3, elinewidth=0.8,
+                      color=PANEL_COLOURS[panel], label="across the diameter")
+        axes.plot(columns["angles_deg"], columns["predicted_" + part], color=INK, linewidth=1.3, label="by the mean stress")
+        axes.set(ylabel=label, xlim=(0, 180), ylim=spans[part], xticks=range(0, 181, 30))
+        axes.tick_params(labelbottom=k == 1)
+        if k == 0:
+            axes.set_title(PANEL_NAMES[panel], loc="left", fontweight="bold")
+            axes.set_title(_difference(columns["relative_l2"]), loc="right", fontsize=8.5)
+            axes.legend(loc="best", handlelength=1.6)
+    axes.set_xlabel("direction of the diameter (degrees)")
+    alt = (f"{PANEL_NAMES[panel]}: mean traction across the diameters of the circular probe, measured and predicted, "
+           f"{increment.title}; {_difference(columns['relative_l2'])}.")
+    return svg(figure, alt)
+
+
+def _difference(number):
+    if plain(number) is None:
+        return ""
+    ends = interval(number)
+    text = f"difference {100 * plain(number):.1f} %" + (f" [{100 * ends[0]:.1f}, {100 * ends[1]:.1f}]" if ends else "")
+    return text.replace("-", "−")

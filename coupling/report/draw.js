@@ -1,0 +1,196 @@
+// diptych: drawing of one map on a canvas. SPDX-License-Identifier: LGPL-2.1-or-later
+// Lengths in mean diameters d, stresses in P; "view" turns them into pixels.
+"use strict";
+const INK = "#222222", FONT = '11px Arial, "Liberation Sans", Helvetica, "DejaVu Sans", sans-serif';
+const data = JSON.parse(document.getElementById("map-data").textContent);
+const decoded = new Map();
+
+// Values of one stored array; nan where there is none.
+function values(id) {
+  if (id === null || id === undefined) return null;
+  if (!decoded.has(id)) {
+    const entry = data.arrays[id], text = atob(entry.data), out = new Float32Array(text.length / 2);
+    const step = (entry.high - entry.low) / 65534;
+    for (let k = 0; k < out.length; ++k) {
+      const code = text.charCodeAt(2 * k) + 256 * text.charCodeAt(2 * k + 1);
+      out[k] = code === 65535 ? NaN : entry.low + code * step;
+    }
+    decoded.set(id, out);
+  }
+  return decoded.get(id);
+}
+
+function colourOf(map, limits, value) {
+  if (!(value === value)) return data.no_value;
+  const share = (value - limits[0]) / (limits[1] - limits[0]);
+  return data.maps[map][Math.max(0, Math.min(255, Math.floor(256 * share)))];
+}
+
+// About n round numbers between two limits.
+function ticks(low, high, n) {
+  const rough = (high - low) / n, power = Math.pow(10, Math.floor(Math.log10(rough)));
+  const step = power * [1, 2, 5, 10].find((m) => m * power >= rough * 0.999), out = [];
+  for (let k = Math.ceil(low / step - 1e-9); k <= Math.floor(high / step + 1e-9); ++k) out.push(k * step);
+  return { at: out, digits: Math.max(0, -Math.floor(Math.log10(step) + 1e-9)) };
+}
+
+function numeral(value, digits) {
+  return value.toFixed(digits).replace(/^-(0(\.0*)?)$/, "$1").replace("-", "\u2212");
+}
+
+// Prepares a canvas of a given width on the page; the height follows from the equal scale of both axes.
+function viewOf(canvas, width, pixels) {
+  const [x0, x1, y0, y1] = data.box, left = 38, right = 6, top = 6, bottom = 34;
+  const scale = Math.max(0.1, (width - left - right) / (x1 - x0)), height = top + bottom + scale * (y1 - y0);
+  canvas.width = Math.round(width * pixels);
+  canvas.height = Math.round(height * pixels);
+  canvas.style.aspectRatio = width + " / " + height;
+  const c = canvas.getContext("2d");
+  c.setTransform(pixels, 0, 0, pixels, 0, 0);
+  c.fillStyle = "#ffffff";
+  c.fillRect(0, 0, width, height);
+  return { c, scale, width, height, left, top, right: width - right, bottom: height - bottom,
+           x: (x) => left + scale * (x - x0), y: (y) => top + scale * (y1 - y),
+           toX: (px) => x0 + (px - left) / scale, toY: (py) => y1 - (py - top) / scale };
+}
+
+function clipToAxes(view) {
+  view.c.save();
+  view.c.beginPath();
+  view.c.rect(view.left, view.top, view.right - view.left, view.bottom - view.top);
+  view.c.clip();
+}
+
+function drawAxes(view) {
+  const c = view.c, [x0, x1, y0, y1] = data.box;
+  c.restore();
+  c.strokeStyle = c.fillStyle = INK;
+  c.lineWidth = 0.8;
+  c.font = FONT;
+  c.strokeRect(view.left, view.top, view.right - view.left, view.bottom - view.top);
+  const across = ticks(x0, x1, Math.max(2, Math.min(7, (view.right - view.left) / 45)));
+  const up = ticks(y0, y1, Math.max(2, Math.min(8, (view.bottom - view.top) / 45)));
+  c.beginPath();
+  c.textAlign = "center";
+  c.textBaseline = "top";
+  for (const x of across.at) {
+    c.moveTo(view.x(x), view.bottom), c.lineTo(view.x(x), view.bottom + 3);
+    c.fillText(numeral(x, across.digits), view.x(x), view.bottom + 5);
+  }
+  c.fillText("x / d", (view.left + view.right) / 2, view.bottom + 19);
+  c.textAlign = "right";
+  c.textBaseline = "middle";
+  for (const y of up.at) {
+    c.moveTo(view.left, view.y(y)), c.lineTo(view.left - 3, view.y(y));
+    c.fillText(numeral(y, up.digits), view.left - 5, view.y(y));
+  }
+  c.stroke();
+  c.save();
+  c.translate(9, (view.top + view.bottom) / 2);
+  c.rotate(-Math.PI / 2);
+  c.textAlign = "center";
+  c.fillText("y / d", 0, 0);
+  c.restore();
+}
+
+function drawDiscs(view, discs, numbers, map, limits) {
+  const x = values(discs.x), y = values(discs.y), r = values(discs.r), c = view.c;
+  for (let k = 0; k < x.length; ++k) {
+    c.fillStyle = typeof numbers === "string" ? numbers : colourOf(map, limits, numbers[k]);
+    c.beginPath();
+    c.arc(view.x(x[k]), view.y(y[k]), view.scale * r[k], 0, 2 * Math.PI);
+    c.fill();
+  }
+}
+
+function cellPath(view, corners, k) {
+  const c = view.c;
+  c.beginPath();
+  for (let n = 0; n < 4; ++n) {
+    const px = view.x(corners[8 * k + 2 * n]), py = view.y(corners[8 * k + 2 * n + 1]);
+    n ? c.lineTo(px, py) : c.moveTo(px, py);
+  }
+  c.closePath();
+}
+
+function drawCells(view, id, numbers, map, limits) {
+  const corners = values(id), c = view.c;
+  c.lineWidth = 0.6;
+  for (let k = 0; 8 * k < corners.length; ++k) {
+    // Edges in the face's colour close the hairlines that anti-aliasing leaves between neighbours.
+    c.fillStyle = c.strokeStyle = typeof numbers === "string" ? numbers : colourOf(map, limits, numbers[k]);
+    cellPath(view, corners, k);
+    c.fill();
+    c.stroke();
+  }
+}
+
+function drawOutline(view, increment) {
+  view.c.strokeStyle = INK;
+  view.c.lineWidth = 0.7;
+  for (const side of increment.outline) {
+    view.c.beginPath();
+    side.forEach(([x, y], k) => k ? view.c.lineTo(view.x(x), view.y(y)) : view.c.moveTo(view.x(x), view.y(y)));
+    view.c.stroke();
+  }
+}
+
+// Centre line of each band, dashed lines at plus and minus half its 10-90 % width; white with a dark rim on colours. Bands
+// with less than half of the largest jump are fainter.
+function drawBands(view, increment, panel, onColour) {
+  const c = view.c, far = 4 * (data.box[1] - data.box[0] + data.box[3] - data.box[2]);
+  const bands = increment.bands[panel] || [], strongest = Math.max(0, ...bands.map((band) => Math.abs(band[3] || 0)));
+  for (const [angle, offset, width, jump] of bands) {
+    if (angle === null || !increment.centre) continue;
+    const a = angle * Math.PI / 180, half = (width || 0) / 2;
+    c.globalAlpha = Math.abs(jump || 0) < 0.5 * strongest ? 0.45 : 1;
+    for (const shift of half > 0 ? [0, -half, half] : [0]) {
+      const along = (offset || 0) + shift;  // the band's normal (-sin, cos)
+      const x = increment.centre[0] - Math.sin(a) * along, y = increment.centre[1] + Math.cos(a) * along;
+      c.setLineDash(shift === 0 ? [] : [6, 4]);
+      for (const [colour, thick] of onColour ? [["#000000", 3], ["#ffffff", 1.5]] : [[INK, 1]]) {
+        c.strokeStyle = colour;
+        c.lineWidth = thick;
+        c.beginPath();
+        c.moveTo(view.x(x - far * Math.cos(a)), view.y(y - far * Math.sin(a)));
+        c.lineTo(view.x(x + far * Math.cos(a)), view.y(y + far * Math.sin(a)));
+        c.stroke();
+      }
+    }
+  }
+  c.setLineDash([]);
+  c.globalAlpha = 1;
+}
+
+// One shared bar under a pair; an end with an arrow says that values go beyond it.
+function drawBar(canvas, width, pixels, quantity, limits, beyond) {
+  const height = 46, inset = Math.max(24, 0.12 * width), c = canvas.getContext("2d");
+  canvas.width = Math.round(width * pixels);
+  canvas.height = Math.round(height * pixels);
+  canvas.style.aspectRatio = width + " / " + height;
+  c.setTransform(pixels, 0, 0, pixels, 0, 0);
+  c.fillStyle = "#ffffff";
+  c.fillRect(0, 0, width, height);
+  const long = width - 2 * inset, table = data.maps[quantity.map];
+  table.forEach((colour, k) => { c.fillStyle = colour; c.fillRect(inset + long * k / 256, 2, long / 256 + 0.7, 10); });
+  [[0, -1], [1, 1]].forEach(([end, sense]) => {
+    if (!beyond[end]) return;
+    const x = inset + end * long;
+    c.fillStyle = table[255 * end];
+    c.beginPath();
+    c.moveTo(x, 2), c.lineTo(x + 9 * sense, 7), c.lineTo(x, 12);
+    c.fill();
+  });
+  const marks = ticks(limits[0], limits[1], Math.max(3, Math.min(7, long / 55)));
+  c.fillStyle = c.strokeStyle = INK;
+  c.font = FONT;
+  c.textAlign = "center";
+  c.textBaseline = "top";
+  c.lineWidth = 0.8;
+  for (const mark of marks.at) {
+    const x = inset + long * (mark - limits[0]) / (limits[1] - limits[0]);
+    c.fillRect(x - 0.4, 12, 0.8, 3);
+    c.fillText(numeral(mark, marks.digits), x, 17);
+  }
+  c.fillText(quantity.label, width / 2, 32);
+}

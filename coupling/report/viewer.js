@@ -1,0 +1,182 @@
+// diptych: stepping, choosing and reading the maps. SPDX-License-Identifier: LGPL-2.1-or-later
+"use strict";
+const increments = new Map(data.increments.map((increment) => [increment.key, increment]));
+const chosen = { quantity: data.quantities[0], place: data.quantities[0].home, arrows: "increment" };
+const all = (selector, root) => Array.from((root || document).querySelectorAll(selector));
+let pixels = Math.min(3, Math.max(2, window.devicePixelRatio || 1));
+
+// Numbers of one panel of the chosen quantity; place discs: the continuum's panel shows its cells.
+function shown(increment, panel, quantity, place) {
+  const stored = (increment.values[quantity.key] || {})[place];
+  const cells = place === "grid" ? increment.grid : increment.cells;
+  return { limits: stored ? stored.limits : null, numbers: stored ? values(stored[panel]) : null,
+           discs: place === "discs" && panel === "discrete", cells };
+}
+
+function bandWords(increment, panel) {
+  const bands = increment.bands[panel];
+  if (bands === null || bands === undefined) return "band not computed";
+  return bands.length ? bands.map((band) => "band at " + numeral(band[0], 0) + " degrees").join("; ") : "no band detected";
+}
+
+function drawQuantity(view, increment, panel, canvas) {
+  const { limits, numbers, discs, cells } = shown(increment, panel, chosen.quantity, chosen.place);
+  if (!numbers) return "";
+  if (discs) drawDiscs(view, increment.discs, numbers, chosen.quantity.map, limits);
+  else drawCells(view, cells, numbers, chosen.quantity.map, limits);
+  drawOutline(view, increment);
+  drawBands(view, increment, panel, true);
+  Object.assign(canvas.dataset, { quantity: chosen.quantity.key, low: limits[0], high: limits[1] });
+  const what = numbers.length + (discs ? " grains as discs" : " cells");
+  return chosen.quantity.label + ", " + what + "; " + bandWords(increment, panel);
+}
+
+// Continuum minus grains on the same cells; panel "error": standard error of the grains.
+function differenceOf(increment, panel) {
+  const place = chosen.place === "grid" ? "grid" : "cells", cells = place === "grid" ? increment.grid : increment.cells;
+  const quantity = panel === "error" ? data.quantities.find((q) => q.key === "error") : chosen.quantity;
+  const stored = quantity && (increment.values[quantity.key] || {})[place];
+  if (!stored) return null;
+  if (panel === "error") return { cells, quantity, limits: stored.limits, numbers: values(stored.discrete) };
+  const left = values(stored.discrete), right = values(stored.continuum);
+  if (!left || !right) return null;
+  const numbers = left.map((value, k) => right[k] - value);
+  const sizes = Array.from(numbers).filter((v) => v === v).map(Math.abs).sort((a, b) => a - b);
+  const reach = Number((sizes[Math.floor(0.98 * (sizes.length - 1))] || 1).toPrecision(2));
+  const shownAs = { map: "RdBu_r", label: "continuum − grains: " + quantity.label };
+  return { cells, numbers, limits: [-reach, reach], quantity: shownAs };
+}
+
+function drawDifference(view, increment, panel) {
+  const found = differenceOf(increment, panel);
+  if (!found || !found.numbers) return "";
+  drawCells(view, found.cells, found.numbers, found.quantity.map, found.limits);
+  drawOutline(view, increment);
+  return found.quantity.label + ", " + found.numbers.length + " cells";
+}
+
+const counted = (draw, what) => (view, increment, panel) => {
+  const n = draw(view, increment, panel, chosen.arrows);
+  return n ? n + " " + what + "; " + bandWords(increment, panel) : "";
+};
+const DRAWINGS = {
+  quantity: drawQuantity, difference: drawDifference,
+  arrows: counted(drawArrows, "arrows of displacement or velocity"),
+  crosses: counted(drawCrosses, "crosses of principal stresses"),
+  forces: counted(drawForces, "forces, thickness by size"),
+  probes: counted(drawProbes, "probes with their principal stresses as crosses"),
+};
+
+function drawPair(pair, key) {
+  const increment = increments.get(key);
+  if (!increment) return;
+  for (const canvas of all("canvas.map", pair)) drawMap(canvas, pair.dataset.draw, increment);
+  for (const bar of all("canvas.bar", pair.parentElement)) drawBarOf(bar, increment);
+}
+
+function drawMap(canvas, drawing, increment) {
+  const panel = canvas.dataset.panel, frame = canvas.parentElement;
+  const view = viewOf(canvas, frame.clientWidth || parseInt(frame.style.width) || 400, pixels);
+  clipToAxes(view);
+  const words = DRAWINGS[drawing](view, increment, panel, canvas);
+  drawAxes(view);
+  canvas.dataset.key = increment.key;
+  canvas.dataset.drawn = words ? "yes" : "no";
+  const reason = increment.kind === "window" ? "stages alone store this: choose a stage"
+               : panel === "continuum" ? "the continuum has none" : "not stored";
+  canvas.setAttribute("aria-label", (data.panels[panel] || canvas.dataset.title) + ", " + increment.title + ": " + (words || reason));
+  frame.classList.toggle("empty", !words);
+  all(".none", frame).forEach((none) => { none.textContent = reason; });
+}
+
+function drawBarOf(bar, increment) {
+  const width = bar.parentElement.clientWidth || 400;
+  if (bar.dataset.of !== "pair") {
+    const found = differenceOf(increment, bar.dataset.of);
+    bar.hidden = !found || !found.numbers;
+    if (!bar.hidden) drawBar(bar, width, pixels, found.quantity, found.limits, beyond([found.numbers], found.limits));
+    return;
+  }
+  const both = ["discrete", "continuum"].map((panel) => shown(increment, panel, chosen.quantity, chosen.place));
+  const limits = both[0].limits;
+  bar.hidden = !limits;
+  if (limits) drawBar(bar, width, pixels, chosen.quantity, limits, beyond(both.map((b) => b.numbers), limits));
+}
+
+function beyond(sets, limits) {
+  const every = sets.filter((set) => set);
+  return [every.some((set) => set.some((v) => v < limits[0])), every.some((set) => set.some((v) => v > limits[1]))];
+}
+
+// The widest that lets both maps of a pair and what stands under them fit the screen.
+function fit() {
+  const [x0, x1, y0, y1] = data.box;
+  for (const pair of all(".pair[data-draw]")) {
+    const tall = Math.max(300, (pair.dataset.draw === "quantity" ? 0.47 : 0.72) * window.innerHeight);
+    pair.style.setProperty("--map-width", Math.round((tall - 40) * (x1 - x0) / (y1 - y0) + 44) + "px");
+  }
+}
+
+function keyOf(part) {
+  const radio = part.querySelector(".stepper input:checked");
+  return radio ? radio.dataset.key : null;
+}
+
+function refresh(part) {
+  const key = keyOf(part);
+  all(".pane", part).forEach((pane) => pane.classList.toggle("open", pane.dataset.key === key));
+  all(".pair[data-draw]", part).forEach((pair) => drawPair(pair, key));
+  const slider = part.querySelector("input[type=range]"), radio = part.querySelector(".stepper input:checked");
+  if (slider && radio) {
+    const stages = all('.stepper input[data-kind="stage"]', part);
+    const at = stages.findIndex((stage) => stage.dataset.end === radio.dataset.end);
+    if (at >= 0) slider.value = at;
+    slider.setAttribute("aria-valuetext", increments.has(key) ? increments.get(key).title : key);
+    part.querySelector(".now").textContent = increments.has(key) ? increments.get(key).title : key;
+  }
+  if (hover.part === part) hideReadout();
+}
+
+function refreshAll() {
+  fit();
+  all("section.part").forEach(refresh);
+}
+
+// Choosing an increment in one part chooses the same one in every other, or one that ends at the same strain.
+function choose(radio) {
+  radio.checked = true;
+  const own = radio.closest("section.part");
+  refresh(own);
+  if (!document.getElementById("together").checked) return;
+  for (const part of all("section.part")) {
+    if (part === own) continue;
+    const other = part.querySelector('.stepper input[data-key="' + radio.dataset.key + '"]') ||
+                  part.querySelector('.stepper input[data-end="' + radio.dataset.end + '"]');
+    if (other) other.checked = true, refresh(part);
+  }
+}
+
+function chooseQuantity(key) {
+  chosen.quantity = data.quantities.find((quantity) => quantity.key === key);
+  chosen.place = chosen.quantity.home;
+  offerPlaces();
+  all('section.part').filter((part) => part.querySelector('[data-draw="quantity"], [data-draw="difference"]')).forEach(refresh);
+}
+
+function offerPlaces() {
+  const names = { discs: "grains as discs", cells: "both on the mesh’s cells", grid: "both on a regular grid" };
+  const place = document.getElementById("place");
+  place.replaceChildren(...chosen.quantity.places.map((key) => new Option(names[key], key, false, key === chosen.place)));
+}
+
+document.addEventListener("change", (event) => {
+  const target = event.target;
+  if (target.id === "quantity") chooseQuantity(target.value);
+  else if (target.id === "place") chosen.place = target.value, all("section.part").forEach(refresh);
+  else if (target.id === "arrows-kind") chosen.arrows = target.value, all("section.part").forEach(refresh);
+  else if (target.dataset.key && target.type === "radio") choose(target);
+});
+document.addEventListener("input", (event) => {
+  if (event.target.type !== "range") return;
+  choose(all('.stepper input[data-kind="stage"]', event.target.closest("section.part"))[Number(event.target.value)]);
+});

@@ -1,0 +1,323 @@
+#!/usr/bin/env python3
+# diptych: one scene on many samples: members, statistics, failures, interruption, several processes, the page
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: ensemble_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
+
+import csv
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+from running import content, diptych, ENVIRONMENT, listing, main, PROGRAM, QUICK, setting, start, write
+
+# 150 grains and a coarse continuum: a member takes less than a second.
+TINY = setting(sample_grains=150, loading_inertial_number=1e-3, loading_axial_strain=0.01, discrete_step=0.1,
+               discrete_tolerance=1e-4, discrete_snapshot_max_sweeps=100, discrete_reference_sweeps=0,
+               comparison_window_edges="0,0.01", continuum_element_size=2.5, comparison_coarse_element_size=3)
+PLAIN = TINY + setting(output_report="false")
+# The grains' part long enough to be interrupted in.
+LONG = PLAIN + setting(sample_grains=200, loading_inertial_number=5e-4, loading_axial_strain=0.04, loading_stage_strain=0.01,
+                       comparison_window_edges="0,0.04")
+
+
+def read(folder, name="ensemble.json"):
+    with open(os.path.join(folder, name), encoding="utf-8") as file:
+        return json.load(file)
+
+
+def quantity(folder, name):
+    return next(q for q in read(folder)["quantities"] if q["name"] == name)
+
+
+def running_on(folder):
+    """Whether some process has the folder on its command line."""
+    for number in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            if folder.encode() in content(f"/proc/{number}/cmdline"):
+                return True
+        except OSError:
+            pass
+    return False
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        keep = tempfile.TemporaryDirectory()
+        self.addCleanup(keep.cleanup)
+        self.work, self.folder = keep.name, os.path.join(keep.name, "out")
+
+    def run_seeds(self, seeds, *words, scene=PLAIN, code=0, folder=None):
+        folder = folder or self.folder
+        result = diptych("run", QUICK, *scene, "--seeds", seeds, "--output", folder, *words)
+        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
+        if code != 2:
+            self.assertEqual([name for name in listing(folder) if name.endswith(".part")], [])
+        return result
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+
+class Statistics(Folder):
+    """Three seeds without their pages."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.keep = tempfile.TemporaryDirectory()
+        cls.three = os.path.join(cls.keep.name, "three")
+        cls.process = diptych("run", QUICK, *PLAIN, "--seeds", "1-3", "--jobs", "1", "--output", cls.three)
+        assert cls.process.returncode == 0, cls.process.stderr
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.keep.cleanup()
+
+    def test_every_member_is_a_result_folder_of_its_own(self):
+        for seed in (1, 2, 3):
+            self.assertEqual(read(os.path.join(self.three, f"seed_{seed}"), "comparison.json")["seed"], seed)
+            self.assertTrue(os.path.exists(os.path.join(self.three, f"seed_{seed}.log")))
+        record = read(self.three)
+        self.assertEqual((record["seeds"], record["done"], record["failed"]), ([1, 2, 3], [1, 2, 3], []))
+
+    def test_a_single_run_of_a_seed_gives_the_same_numbers(self):
+        single = diptych("run", QUICK, *PLAIN, *setting(sample_seed=2), "--output", self.folder, "--quiet")
+        self.assertEqual(single.returncode, 0, single.stderr)
+        member = read(os.path.join(self.three, "seed_2"), "comparison.json")
+        self.assertEqual(read(self.folder, "comparison.json")["stages"], member["stages"])
+
+    def test_means_are_those_of_the_members(self):
+        peaks = [read(os.path.join(self.three, f"seed_{k}"), "comparison.json")["discrete_summary"]["peak_stress_ratio"]
+                 for k in (1, 2, 3)]
+        found = quantity(self.three, "discrete_summary peak_stress_ratio")
+        self.assertEqual(found["values"], peaks)
+        mean = sum(peaks) / 3
+        self.assertAlmostEqual(found["mean"], mean, places=12)
+        # t of 2 degrees of freedom, 0.975: 4.30265; the interval is t s / sqrt(3) to each side.
+        half = 4.30265 * (sum((p - mean) ** 2 for p in peaks) / 2) ** 0.5 / 3 ** 0.5
+        self.assertAlmostEqual(found["high"] - found["low"], 2 * half, delta=1e-5 * half)
+        with open(os.path.join(self.three, "ensemble.csv"), newline="", encoding="utf-8") as file:
+            row = next(r for r in csv.DictReader(file) if r["quantity"] == "discrete_summary peak_stress_ratio")
+        self.assertAlmostEqual(float(row["mean"]), mean, places=8)
+        self.assertAlmostEqual(float(row["seed_3"]), peaks[2], places=8)
+
+    def test_the_number_at_once_does_not_change_a_bit(self):
+        self.run_seeds("3,1-2", "--jobs", "2")
+        for name in ("ensemble.json", "ensemble.csv"):
+            self.assertEqual(content(self.path(name)), content(os.path.join(self.three, name)), name)
+
+    def test_several_processes_share_the_seeds(self):
+        words = ["mpirun", "--oversubscribe", "-np", "2", PROGRAM, "run", QUICK, *PLAIN, "--seeds", "1-3", "--output", self.folder]
+        result = subprocess.run(words, env=ENVIRONMENT, capture_output=True, text=True, check=False)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(content(self.path("ensemble.json")), content(os.path.join(self.three, "ensemble.json")))
+        self.assertEqual(result.stdout.count("peak_stress_ratio"), 1)  # only the first process speaks
+        self.assertEqual(read(self.path("seed_2"), "comparison.json")["continuum_summary"]["processes"], 1)
+
+    def test_other_margins_need_no_run(self):
+        """Any two positive stress ratios are equivalent within 10 times their mean, and nothing within a millionth."""
+        shutil.copytree(self.three, self.folder)
+        before = os.stat(self.path("seed_1", "comparison.json")).st_mtime_ns
+        verdicts = {}
+        for margin in ("10", "1e-6"):
+            again = diptych("compare", self.folder, "--set", "comparison/margin_peak_stress_ratio=" + margin)
+            self.assertEqual(again.returncode, 0, again.stderr)
+            verdicts[margin] = next(v for v in read(self.folder)["verdicts"] if v["quantity"] == "peak_stress_ratio")
+        self.assertEqual(verdicts["10"]["verdict"], "equivalent")
+        self.assertNotEqual(verdicts["1e-6"]["verdict"], "equivalent")
+        self.assertEqual(os.stat(self.path("seed_1", "comparison.json")).st_mtime_ns, before)
+        refused = diptych("compare", self.folder, "--set", "comparison/window_edges=0,0.005")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("margin_", refused.stderr)
+
+    def test_more_seeds_are_added_by_resuming(self):
+        shutil.copytree(self.three, self.folder)
+        before = {k: os.stat(self.path(f"seed_{k}", "discrete.h5")).st_mtime_ns for k in (1, 2, 3)}
+        result = self.run_seeds("1-4", "--resume")
+        self.assertIn("3 of 4 seeds are finished", result.stdout)
+        self.assertEqual(read(self.folder)["done"], [1, 2, 3, 4])
+        self.assertEqual({k: os.stat(self.path(f"seed_{k}", "discrete.h5")).st_mtime_ns for k in (1, 2, 3)}, before)
+        self.assertEqual(quantity(self.folder, "discrete_summary peak_stress_ratio")["values"][:3],
+                         quantity(self.three, "discrete_summary peak_stress_ratio")["values"])
+
+    def test_progress_counts_the_seeds(self):
+        self.assertIn("3 of 3 seeds done, 0 running, 0 failed", self.process.stderr)
+
+
+class Failures(Folder):
+    def test_a_failed_seed_is_named_and_the_rest_kept(self):
+        """A foreign file stands where seed 2 would write, so that its run refuses the folder with exit code 2."""
+        self.run_seeds("1", "--quiet")
+        os.mkdir(self.path("seed_2"))
+        write(self.path("seed_2", "mine.txt"), "mine")
+        result = self.run_seeds("1-3", "--resume", scene=TINY, code=3)
+        for text in ["seed 2 failed with exit code 2", "holds other files", "seed_2.log", "failed: seed 2", "2 of 3 seeds are done"]:
+            self.assertIn(text, result.stderr)
+        record = read(self.folder)
+        self.assertEqual(record["done"], [1, 3])
+        self.assertEqual([(m["seed"], m["exit_code"]) for m in record["failed"]], [(2, 2)])
+        self.assertEqual(quantity(self.folder, "discrete_summary peak_stress_ratio")["n"], 2)
+        self.assertEqual(listing(self.path("seed_2")), ["mine.txt"])
+        with open(self.path("report.html"), encoding="utf-8") as file:
+            self.assertIn("Failed: seed 2", file.read())
+
+    def test_a_seed_that_does_not_converge_fails(self):
+        """Its panels' reason stands in the record, and there is nothing to average."""
+        self.run_seeds("5-6", scene=PLAIN + setting(discrete_tolerance=1e-13, discrete_max_sweeps=20), code=3)
+        record = read(self.folder)
+        self.assertEqual((record["done"], record["quantities"]), ([], []))
+        self.assertEqual([m["exit_code"] for m in record["failed"]], [3, 3])
+        self.assertIn("did not converge", record["failed"][0]["message"])
+
+    def test_a_single_member_has_means_and_no_verdict(self):
+        self.run_seeds("7")
+        self.assertEqual({v["verdict"] for v in read(self.folder)["verdicts"]}, {"cannot tell"})
+        self.assertIsNone(quantity(self.folder, "stage 0.01 discrete stress_ratio")["low"])
+
+
+class Interruption(Folder):
+    """Whatever stops an ensemble, and it goes on to the same bits. Two seeds at once."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.keep = tempfile.TemporaryDirectory()
+        cls.alone = os.path.join(cls.keep.name, "alone")
+        result = diptych("run", QUICK, *LONG, "--seeds", "1-3", "--jobs", "2", "--output", cls.alone, "--quiet")
+        assert result.returncode == 0, result.stderr
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.keep.cleanup()
+
+    def stop(self, signal_number):
+        """Sends a signal when the first member has its prepared sample, the first thing that a run keeps."""
+        process = start("run", QUICK, *LONG, "--seeds", "1-3", "--jobs", "2", "--output", self.folder)
+        while process.poll() is None and not os.path.exists(self.path("seed_1", "discrete.h5")):
+            time.sleep(0.002)
+        self.assertIsNone(process.poll(), "it ended before the signal")
+        process.send_signal(signal_number)
+        _, errors = process.communicate()
+        patience = time.monotonic() + 60
+        while running_on(self.folder) and time.monotonic() < patience:
+            time.sleep(0.01)
+        self.assertFalse(running_on(self.folder), "members outlive their ensemble")
+        return process.returncode, errors
+
+    def expect_the_rest(self):
+        self.run_seeds("1-3", "--jobs", "2", "--resume", scene=LONG)
+        self.assertEqual(content(self.path("ensemble.json")), content(os.path.join(self.alone, "ensemble.json")))
+        self.assertEqual([name for name in listing(self.folder) if "checkpoint" in name], [])
+
+    def expect_stopped_and_resumed(self, signal_number):
+        code, errors = self.stop(signal_number)
+        self.assertEqual(code, 3, errors)
+        for text in ["stopped on request", "--resume", "--seeds 1-3", self.folder]:
+            self.assertIn(text, errors)
+        self.assertIn(3, read(self.folder)["interrupted"])  # never begun
+        self.assertEqual(read(self.folder)["failed"], [])
+        self.assertIn("seed_1/checkpoint.h5", listing(self.folder))
+        self.assertNotIn("seed_3.log", listing(self.folder))
+        self.expect_the_rest()
+
+    def test_ctrl_c(self):
+        self.expect_stopped_and_resumed(signal.SIGINT)
+
+    def test_sigterm(self):
+        self.expect_stopped_and_resumed(signal.SIGTERM)
+
+    def test_a_kill(self):
+        """Members are asked to stop when their ensemble is killed, and write their checkpoints."""
+        code, _ = self.stop(signal.SIGKILL)
+        self.assertEqual(code, -signal.SIGKILL)
+        self.assertIn("seed_1/checkpoint.h5", listing(self.folder))
+        self.assertNotIn("ensemble.json", listing(self.folder))
+        self.expect_the_rest()
+
+    def test_another_scene_is_refused_and_nothing_changes(self):
+        shutil.copytree(self.alone, self.folder)
+        before = {name: content(self.path(name)) for name in listing(self.folder)}
+        result = self.run_seeds("1-3", "--resume", scene=LONG + setting(discrete_friction=0.3), code=2)
+        self.assertIn("discrete/friction = '0.3'", result.stderr)
+        self.assertIn("'0.4'", result.stderr)
+        self.assertEqual({name: content(self.path(name)) for name in listing(self.folder)}, before)
+
+    def test_without_resume_every_member_is_run_again(self):
+        """Interrupted before its turn came, seed 3 is not taken for finished with what an earlier ensemble left."""
+        shutil.copytree(self.alone, self.folder)
+        os.remove(self.path("seed_1", "discrete.h5"))
+        before = os.stat(self.path("seed_3", "discrete.h5")).st_mtime_ns
+        self.stop(signal.SIGKILL)
+        self.expect_the_rest()
+        self.assertGreater(os.stat(self.path("seed_3", "discrete.h5")).st_mtime_ns, before)
+
+
+class WrongInput(Folder):
+    def expect_wrong(self, words, *texts):
+        result = diptych(*words, "--output", self.folder)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        for text in texts:
+            self.assertIn(text, result.stderr)
+        self.assertFalse(os.path.exists(self.folder))
+
+    def test_lists_that_are_none(self):
+        for seeds in ["", "one", "1,,2", "3-1", "1-3,3", "-1", "0-10000", "2147483648"]:
+            with self.subTest(seeds=seeds):
+                self.expect_wrong(["run", QUICK, *PLAIN, "--seeds", seeds], "--seeds")
+
+    def test_words_that_do_not_fit_together(self):
+        self.expect_wrong(["discrete", QUICK, "--seeds", "1-2"], "--seeds 1-2", "diptych run")
+        self.expect_wrong(["run", QUICK, "--jobs", "2"], "--jobs 2", "--seeds")
+        self.expect_wrong(["run", QUICK, "--seeds", "1-2", "--jobs", "0"], "--jobs 0")
+        self.expect_wrong(["run", QUICK, "--seeds", "1-2", "--set", "sample/seed=3"], "sample/seed=3", "--seeds 1-2")
+        self.expect_wrong(["run", QUICK, "--seeds", "1-2", "--study", "step"], "--study")
+
+    def test_margins_out_of_range(self):
+        for key in ["angle", "thickness", "peak_stress_ratio", "volumetric_strain"]:
+            name = "comparison/margin_" + key
+            self.expect_wrong(["run", QUICK, "--seeds", "1-2", "--set", name + "=-1"], name, "-1")
+
+    def test_a_sample_of_a_file_has_no_seed(self):
+        rows = "".join(f"{x},0.5,0.5\n" for x in range(12))
+        grains = write(os.path.join(self.work, "grains.csv"), "x,y,r\n" + rows)
+        self.expect_wrong(["run", QUICK, *setting(sample_file=grains), "--seeds", "1-2"], "sample/file", "grains.csv")
+
+    def test_a_folder_that_is_no_ensemble_is_left_alone(self):
+        os.mkdir(self.folder)
+        write(self.path("scene.prm"), "# mine: every parameter, as it was used\n")
+        for words in [[], ["--resume"]]:
+            result = self.run_seeds("1-2", *words, code=2)
+            self.assertIn("no ensemble", result.stderr)
+        self.assertEqual(listing(self.folder), ["scene.prm"])
+
+
+class Page(Folder):
+    def test_verdicts_figures_and_links(self):
+        result = self.run_seeds("1-3", scene=TINY + setting(loading_horizontal_over_vertical=0))
+        self.assertIn("report.html", result.stdout)
+        with open(self.path("report.html"), encoding="utf-8") as file:
+            text = file.read()
+        for seed in (1, 2, 3):
+            self.assertIn(f'href="seed_{seed}/report.html"', text)
+            self.assertTrue(os.path.getsize(self.path(f"seed_{seed}", "report.html")) > 0)
+        links = re.findall(r'(?:href|src)="([^"]+)"', text)
+        self.assertEqual([link for link in links if not link.startswith(("data:", "seed_"))], [])
+        self.assertEqual(len(re.findall(r'<td class="verdict', text)), 4)  # peak, volume, angle and width of one window
+        self.assertIn("two one-sided tests", text)
+        self.assertIn("folded", text)  # left and right by chance
+        self.assertTrue(read(self.folder)["folded"])
+        images = re.findall(r'<img src="data:[^"]+" alt="([^"]*)"', text)
+        self.assertGreaterEqual(len(images), 5)  # differences, two of dots, two histories; no band, no dots
+        self.assertTrue(all(len(alt) > 20 for alt in images))
+        again = diptych("report", self.folder)
+        self.assertEqual(again.returncode, 0, again.stderr)
+        with open(self.path("report.html"), encoding="utf-8") as file:
+            self.assertEqual(file.read(), text)
+
+
+if __name__ == "__main__":
+    main()
