@@ -71,6 +71,20 @@ namespace diptych::coupling
       return deviations;
     }
 
+    // A refit with the weights as found moves too little. Huber's force psi on a misfit r beyond the threshold k is k r/|r|: its
+    // derivative vanishes along r and is the weight k/|r| across it, half the weight on average, while the refit counts the
+    // whole.
+    double fixed_weight_factor(const std::vector<double> &plain, const std::vector<double> &huber)
+    {
+      double whole = 0, moving = 0;
+      for (std::size_t i = 0; i < plain.size(); ++i)
+        {
+          whole += huber[i];
+          moving += huber[i] < plain[i] ? 0.5 * huber[i] : huber[i];
+        }
+      return whole / moving;
+    }
+
     Interval stretched(const double value, const double factor, const std::vector<double> &deviations)
     {
       Interval interval = interval_from(0, deviations);
@@ -98,6 +112,7 @@ namespace diptych::coupling
     weighted.w            = huber_weights(data, fit, sample);
     const auto deviations = resampled_deviations(block_means(weighted, cell_size(fit)), fit, sample, bootstrap, holds_band);
 
+    const double             fixed = fixed_weight_factor(data.w, weighted.w);
     std::vector<BandNumbers> factors(fit.shape.size());
     if (!fit.shape.empty() && !deviations[0].empty())
       factors = bootstrap_factors(weighted, fit, tiles_of(sample, bootstrap.block), bootstrap);
@@ -106,7 +121,7 @@ namespace diptych::coupling
     for (std::size_t b = 0; b < fit.shape.size(); ++b)
       {
         const BandNumbers value  = band_numbers(fit, b);
-        const auto        number = [&](const int k) { return stretched(value[k], factors[b][k], deviations[5 * b + k]); };
+        const auto        number = [&](const int k) { return stretched(value[k], fixed * factors[b][k], deviations[5 * b + k]); };
         BandIntervals    &band   = intervals[b];
         band.angle_deg           = times(1 / degree, number(0));
         band.half_width          = exponential(number(1));

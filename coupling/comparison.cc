@@ -120,8 +120,11 @@ namespace diptych::coupling
     for (std::size_t w = 0; w + 1 < edges.size(); ++w)
       if (const int from = stage_at(c, edges[w]), to = stage_at(c, edges[w + 1]); from >= 0 && to >= 0)
         c.windows.push_back(make_increment(stage_pair(c, from, to), scene.comparison.band, std::uint64_t(scene.sample.seed)));
-    c.coarse     = coarse_run(scene, c, directory + "/coarse");
-    c.resolution = study_of(c, scene.comparison);
+    c.coarse             = coarse_run(scene, c, directory + "/coarse");
+    c.resolution         = study_of(c, scene.comparison);
+    const auto &material = scene.continuum.material;
+    if (scene.continuum.law != "linear_elastic")
+      c.theory = theory_lines(material.friction_angle_peak, material.dilatancy_angle_peak);
     return c;
   }
 } // namespace diptych::coupling

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "coupling/history_table.h"
 #include "coupling/resolution_study.h"
 #include "coupling/stage_record.h"
+#include "coupling/theory_lines.h"
 
 namespace diptych::coupling
 {
@@ -25,6 +27,7 @@ namespace diptych::coupling
     std::vector<Increment>           windows;
     CoarseRun                        coarse;
     ResolutionStudy                  resolution; // of the last stage's grain stress
+    std::optional<TheoryLines>       theory;     // of the continuum's peak angles; none for an elastic law
     HistoryTable                     discrete_history, continuum_history;
     std::vector<discrete::Snapshot>  grains; // stage 0 first
     std::vector<continuum::Snapshot> nodes;

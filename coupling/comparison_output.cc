@@ -17,13 +17,14 @@ namespace diptych::coupling
   {
     using nlohmann::json;
 
-    // One line a number of a JSON value: `line` names where it belongs; an interval stands in one line with its ends.
+    // One line a known number of a JSON value: `line` names where it belongs; an interval stands in one line with its ends.
     void write_lines(std::ostream &out, const json &value, const std::string &line, const std::string &quantity)
     {
-      const auto text = [](const json &v) { return v.is_number() ? v.dump() : std::string(); };
+      const auto known = [](const json &v) { return v.is_number() && std::isfinite(v.get<double>()); };
+      const auto text  = [&](const json &v) { return known(v) ? v.dump() : std::string(); };
       if (value.is_object() && value.contains("value") && value.contains("low"))
         out << line << quantity << ',' << text(value["value"]) << ',' << text(value["low"]) << ',' << text(value["high"]) << '\n';
-      else if (value.is_number())
+      else if (known(value))
         out << line << quantity << ',' << text(value) << ",,\n";
       else if (value.is_structured())
         for (const auto &[key, part] : value.items())
@@ -53,7 +54,7 @@ namespace diptych::coupling
       write_increments(comparison["stages"], "");
       write_increments(comparison["windows"], "");
       write_increments(comparison["continuum_coarse"]["windows"], "coarse_");
-      for (const char *part : {"discrete_summary", "continuum_summary", "resolution_study", "cost"})
+      for (const char *part : {"discrete_summary", "continuum_summary", "resolution_study", "theory", "cost"})
         write_lines(out, comparison[part], std::string(",,") + part + ',', "");
       return out.str();
     }
@@ -85,6 +86,10 @@ namespace diptych::coupling
     root["continuum_summary"] = continuum_summary(scene, c, provenance);
     root["cost"]              = cost_json(provenance);
     root["resolution_study"]  = resolution_json(c.resolution);
+    root["theory"]            = nullptr;
+    if (c.theory)
+      root["theory"] = {
+        {"coulomb_deg", c.theory->coulomb_deg}, {"roscoe_deg", c.theory->roscoe_deg}, {"arthur_deg", c.theory->arthur_deg}};
     discrete::write_text(directory + "/comparison.json", root.dump(1) + "\n");
     discrete::write_text(directory + "/comparison.csv", comparison_csv(root));
   }

@@ -23,10 +23,11 @@ namespace diptych::coupling
       return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
     }
 
-    // What stands for a place, repeats a list, or changes from run to run of the same seed.
+    // What stands for a place, repeats a list, is an interval's end, or changes from run to run of the same seed.
     bool is_left_out(const std::string &key)
     {
-      static const std::set<std::string> keys = {"axial_strain", "from", "to", "strips", "ns_per_update", "solver_share_of_cpu"};
+      static const std::set<std::string> keys = {
+        "axial_strain", "from", "to", "strips", "low", "high", "resamples", "ns_per_update", "solver_share_of_cpu"};
       return keys.count(key) > 0 || ends_with(key, "_cpu_s") || ends_with(key, "_wall_s") || ends_with(key, "_seconds");
     }
 
@@ -113,18 +114,26 @@ namespace diptych::coupling
 
     std::string unit_of(const std::string &name)
     {
-      const std::string key = name.substr(name.rfind(' ') + 1);
+      // inside and outside are dissipations [energy / area].
+      static const std::map<std::string, std::string> units = {{"s1", "pressure"},
+                                                               {"s2", "pressure"},
+                                                               {"inside", "pressure"},
+                                                               {"outside", "pressure"},
+                                                               {"initial_height", "length"},
+                                                               {"radius", "length"},
+                                                               {"step", "time"},
+                                                               {"step_length", "time"},
+                                                               {"window_time", "time"},
+                                                               {"platen_speed", "length/time"}};
+      const std::string                               key   = name.substr(name.rfind(' ') + 1);
       if (ends_with(key, "_deg"))
         return "degrees";
       if (ends_with(key, "_d"))
         return "mean diameters";
-      if (key == "s1" || key == "s2" || name.find("grain_pressure") != std::string::npos)
+      if (name.find(" grain_pressure ") != std::string::npos && key != "grains")
         return "pressure";
-      if (key == "initial_height")
-        return "length";
-      if (key == "platen_speed")
-        return "length/time";
-      return key == "step" || key == "step_length" ? "time" : "-";
+      const auto found = units.find(key);
+      return found == units.end() ? "-" : found->second;
     }
 
     // Names in the order of their first appearance, with one value a member.

@@ -56,7 +56,8 @@ namespace diptych::coupling
       row.scatter_t = relative_scatter(t, area);
     }
 
-    // Squares over the bounding box of a region: those the grains cover, each with the area that it shares with the region.
+    // Squares over the bounding box of a region, each with the area that it shares with the region; `covered`: by grains, and in
+    // the region to at least a half.
     struct Grid
     {
       QuadMesh                  mesh;
@@ -80,7 +81,7 @@ namespace diptych::coupling
           for (const unsigned int t : triangles)
             if (t < region.mesh.triangle.size()) // the mesh itself, not its images
               grid.area[k] += std::max(0., shared_area(polygon, region.search.corners(t), scratch));
-          if (covered[k] && grid.area[k] > 0)
+          if (covered[k] && grid.area[k] >= 0.5 * polygon_area(polygon))
             grid.covered.push_back(k);
         }
       return grid;

@@ -40,7 +40,7 @@ namespace diptych::coupling
     // of the covered cells of a regular grid of 2 d.
     std::vector<ResolutionRow> kernel;
     // width: side of the cells of a regular grid, stress by `segments`. Values of the cell that holds the point, over the part of
-    // the cell inside the mesh.
+    // the cell inside the mesh, at least half of it.
     std::vector<ResolutionRow> cells;
 
     std::optional<std::array<double, 2>> plateau; // of kernel widths [mean diameters]

@@ -255,6 +255,14 @@ namespace diptych::coupling
       check_stages(file, scene, compares);
       try
         {
+          check_probe_options(scene.comparison.probes);
+        }
+      catch (const std::invalid_argument &error)
+        {
+          throw SceneError(file + ": section comparison: " + error.what() + places_of(error.what(), "comparison", entries));
+        }
+      try
+        {
           discrete::validate(scene.sample, discrete_loading(scene.loading), scene.discrete);
           discrete::check_sample_file(scene.sample,
                                       discrete::preparation_setting(discrete_loading(scene.loading), scene.discrete));

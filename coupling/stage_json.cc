@@ -149,6 +149,7 @@ namespace diptych::coupling
         {"volumetric_strain", panel.volumetric_strain},
         {"platen_resultants", {{"lower", vector_json(panel.lower_force)}, {"upper", vector_json(panel.upper_force)}}},
         {"dynamic_share", panel.dynamic_share},
+        {"minor_direction_deg", panel.minor_direction_deg},
         {"probes", json::array()},
         {"circular_probe", circle_json(panel.circle)},
         {"dissipation", dissipation_json(panel.dissipation)},
@@ -260,7 +261,8 @@ namespace diptych::coupling
              {{"method", averaging_method},
               {"total_relative_error", stage.mapping.total_relative_error},
               {"nodal_residual", stage.mapping.nodal_residual},
-              {"outside_share", stage.mapping.outside_share}}}};
+              {"outside_share", stage.mapping.outside_share},
+              {"window_time", stage.mapping.window_time}}}};
   }
 
   json window_json(const Increment &window, const double d)

@@ -3,6 +3,7 @@
 #include "coupling/stage_record.h"
 
 #include "coupling/homogenisation/periodic.h"
+#include "coupling/principal_axes.h"
 
 namespace diptych::coupling
 {
@@ -28,17 +29,23 @@ namespace diptych::coupling
     void map_fields(const StagePair &stage, const ComparisonOptions &options, StageRecord &record)
     {
       record.fields  = mesh_fields(record.increment.mesh, stage, options.averaging);
-      record.mapping = {record.fields.grains.total_relative_error, record.fields.grains.outside_share, NAN};
+      record.mapping = {record.fields.grains.total_relative_error, record.fields.grains.outside_share,
+                        stage.grains_to.window_time, NAN};
       if (options.averaging.method == "segments")
         {
           const MappedGrains mapped = map_grains(record.fields.mesh, stage.grains_to);
           record.mapping = {total_relative_error(mapped.moment, sum_of_moments(stage.grains_to)), outside_share(mapped.moment),
-                            mapped.nodal_residual};
+                            stage.grains_to.window_time, mapped.nodal_residual};
           take_stress_of_segments(mapped, record.fields);
         }
       record.grid = grid_fields(record.fields, stage, options.averaging, options.grid_size * stage.grains_to.mean_diameter);
       record.stress_differences = stress_differences(record.fields, stage, options.averaging);
       record.stress_verdict     = stress_verdict(record.stress_differences.back());
+    }
+
+    double minor_direction(const Eigen::Matrix2d &stress)
+    {
+      return line_turn(major_direction(stress) + 90, 0);
     }
 
     // What all probes of a stage look at.
@@ -111,6 +118,10 @@ namespace diptych::coupling
     for (const double term : stage.grains_to.mean_spin_term)
       spin += term;
     record.discrete.dynamic_share = spin / (0.5 * sum_of_moments(stage.grains_to).trace());
+
+    record.discrete.minor_direction_deg  = minor_direction(sum_of_moments(stage.grains_to));
+    record.continuum.minor_direction_deg = minor_direction(
+      (stage.nodes_from.mean_stress + stage.nodes_to.mean_stress).topLeftCorner<2, 2>());
 
     const ProbeOptions &probes = scene.comparison.probes;
     const ProbeView     view{

@@ -32,12 +32,13 @@ namespace diptych::coupling
 
   struct PanelRecord
   {
-    Interval                 stress_ratio; // mean over the last averaging_strain; the grains' with the interval of batch means
-    double                   volumetric_strain = 0;
-    Eigen::Vector2d          lower_force, upper_force; // on the sample, averaged likewise [pressure * length]
-    double                   dynamic_share = 0;        // grains: spin term / mean stress, over the stage
-    std::vector<ProbeRecord> probes;
-    CircularProbe            circle;
+    Interval        stress_ratio; // mean over the last averaging_strain; the grains' with the interval of batch means
+    double          volumetric_strain = 0;
+    Eigen::Vector2d lower_force, upper_force;  // on the sample, averaged likewise [pressure * length]
+    double          dynamic_share       = 0;   // grains: spin term / mean stress, over the stage
+    double          minor_direction_deg = NAN; // of the least compression of the mean stress over the stage, in (-90, 90]
+    std::vector<ProbeRecord>        probes;
+    CircularProbe                   circle;
     std::optional<DissipationSplit> dissipation; // by the grains' band; none where they show none
     std::optional<BandTraction>     traction;    // likewise
   };
@@ -45,6 +46,7 @@ namespace diptych::coupling
   struct MappingRecord
   {
     double total_relative_error = 0, outside_share = 0;
+    double window_time    = 0;   // over which the grains' forces are averaged: impulses / this time
     double nodal_residual = NAN; // of `segments` on the mesh; NaN for other methods, or where periodic.h says so
   };
 

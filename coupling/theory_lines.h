@@ -9,7 +9,7 @@
 namespace diptych::coupling
 {
   // Angle between a band and the direction of the minor principal stress (least compression) [degrees], the same to either
-  // side. Observed bands lie between Roscoe's and Coulomb's line (Vardoulakis & Sulem 1995, chapter 3): a range, no single value.
+  // side. Observed bands lie between Roscoe's and Coulomb's line (Vardoulakis & Sulem 1995): a range, no single value.
   struct TheoryLines
   {
     double coulomb_deg = 45; // 45 + phi/2: plane of greatest stress obliquity

@@ -51,13 +51,20 @@ namespace diptych::benchmarks
     std::vector<discrete::ContactForce> contacts; // body n_grains: the box around
   };
 
-  // A box filled with discs of radius 0.3 to 0.7 and mean 0.5 on a shaken square lattice of spacing 1. The discs' power cells
-  // touch along edges; what the stress transmits through an edge is the contact's force, at the point of the edge's line where
+  enum class Faces
+  {
+    power_cells, // of the discs, as touching discs have them
+    voronoi      // of their centres, whatever their radii
+  };
+
+  // A box filled with discs of radius 0.3 to 0.7 and mean 0.5 on a shaken square lattice of spacing 1, each with a cell round it.
+  // What the stress transmits through an edge between two cells is a contact's force, at the point of the edge's line where
   // it has the moment of the stress. Forces and moments on every grain add up to zero to round-off.
   inline AiryNetwork airy_network(const Eigen::Vector2d &lower,
                                   const Eigen::Vector2d &upper,
                                   const AiryFunction    &phi,
-                                  const std::uint64_t    seed)
+                                  const std::uint64_t    seed,
+                                  const Faces            faces = Faces::power_cells)
   {
     std::mt19937_64 random(seed);
     const auto      uniform = [&random](const double low, const double high) {
@@ -71,8 +78,9 @@ namespace diptych::benchmarks
           network.position.emplace_back(x + dx, y + dy);
           network.radius.push_back(uniform(0.3, 0.7));
         }
-    const int  n     = int(network.position.size());
-    const auto cells = coupling::power_cells(network.position, network.radius, n, lower, upper);
+    const int                 n = int(network.position.size());
+    const std::vector<double> equal(network.radius.size(), 0.5);
+    const auto cells = coupling::power_cells(network.position, faces == Faces::voronoi ? equal : network.radius, n, lower, upper);
     const auto cross = [](const Eigen::Vector2d &a, const Eigen::Vector2d &b) { return a.x() * b.y() - a.y() * b.x(); };
     for (int i = 0; i < n; ++i)
       for (std::size_t k = 0; k < cells[i].corner.size(); ++k)

@@ -72,31 +72,53 @@ namespace diptych::benchmarks
     }
   } // namespace
 
+  namespace
+  {
+    constexpr double margin    = 6;               // from the edge, of the cells called inside
+    constexpr double lengths[] = {0, 40, 20, 10}; // of the waves; 0: none
+
+    void print_errors(const QuadMesh &grid, const AveragingOptions &options, const Faces faces)
+    {
+      for (const double length : lengths)
+        {
+          const AiryFunction phi     = pressure_wave(length > 0 ? 0.3 : 0, length > 0 ? length : 1);
+          const AiryNetwork  network = airy_network(lower, upper, phi, 1, faces);
+          const auto         exact   = exact_means(grid, phi);
+          const CellSums     sums    = distribute(options, TargetCells(grid),
+                                                  moment_carriers(network.position, network.radius, network.contacts));
+          std::printf("  %5.2f (%5.2f)", 100 * relative_error(grid, sums, exact, 0),
+                      100 * relative_error(grid, sums, exact, margin));
+        }
+    }
+
+    void print_heading(const double size, const Faces faces, const char *last)
+    {
+      std::printf("cells of %g d, forces through %s: relative L2 error in %% (of cells %g d and more from the edge)\n", size,
+                  faces == Faces::voronoi ? "Voronoi cells" : "power cells", margin);
+      std::printf("  %-24s %14s %14s %14s %14s  %s\n", "", "uniform", "wave 40 d", "20 d", "10 d", last);
+    }
+  } // namespace
+
   void known_stress(const std::string &)
   {
-    const double lengths[] = {0, 40, 20, 10}; // of the waves; 0: none
     for (const double size : {2., 3., 6.})
       {
         const QuadMesh grid = regular_grid(lower, upper, size);
-        std::printf(
-          "cells of %g d: relative L2 error in %% (inside: %g d and more from the edge), centre of mass off the cell's centre\n",
-          size, 6.);
-        std::printf("  %-24s %15s %15s %15s %15s %8s\n", "", "uniform", "wave 40 d", "wave 20 d", "wave 10 d", "offset/d");
+        print_heading(size, Faces::power_cells, "centre of mass off the cell's centre [d]");
         for (const NamedMethod &method : methods)
           {
             std::printf("  %-24s", method.name);
-            for (const double length : lengths)
-              {
-                const AiryFunction phi     = pressure_wave(length > 0 ? 0.3 : 0, length > 0 ? length : 1);
-                const AiryNetwork  network = airy_network(lower, upper, phi, 1);
-                const auto         exact   = exact_means(grid, phi);
-                const CellSums     sums    = distribute(method.options, TargetCells(grid),
-                                                        moment_carriers(network.position, network.radius, network.contacts));
-                std::printf("  %5.2f (%5.2f)", 100 * relative_error(grid, sums, exact, 0),
-                            100 * relative_error(grid, sums, exact, 6));
-              }
+            print_errors(grid, method.options, Faces::power_cells);
             std::printf("  %6.2f\n", centre_offset(grid, airy_network(lower, upper, pressure_wave(0, 1), 1), method.options));
           }
+      }
+    const QuadMesh grid = regular_grid(lower, upper, 2);
+    print_heading(2, Faces::voronoi, "");
+    for (const NamedMethod &method : methods)
+      {
+        std::printf("  %-24s", method.name);
+        print_errors(grid, method.options, Faces::voronoi);
+        std::printf("\n");
       }
   }
 } // namespace diptych::benchmarks

@@ -76,18 +76,14 @@ namespace diptych::benchmarks
     return mesh;
   }
 
-  Eigen::Vector2d spacing_of_copies(const coupling::QuadMesh &mesh, const double mean_diameter)
-  {
-    Eigen::Vector2d lower = mesh.node.front(), upper = lower;
-    for (const Eigen::Vector2d &x : mesh.node)
-      lower = lower.cwiseMin(x), upper = upper.cwiseMax(x);
-    return upper - lower + Eigen::Vector2d::Constant(4 * mean_diameter);
-  }
-
-  discrete::Snapshot copies(const discrete::Snapshot &sample, const int n, const Eigen::Vector2d &spacing)
+  discrete::Snapshot copies(const discrete::Snapshot &sample, const int n)
   {
     discrete::Snapshot s      = sample;
     const int          n_once = int(sample.position.size());
+    Eigen::Vector2d    lower = sample.position.front(), upper = lower;
+    for (const Eigen::Vector2d &x : sample.position)
+      lower = lower.cwiseMin(x), upper = upper.cwiseMax(x);
+    const Eigen::Vector2d spacing = upper - lower + Eigen::Vector2d::Constant(2 * sample.mean_diameter);
     repeat(s.position, n);
     repeat(s.displacement, n), repeat(s.velocity, n), repeat(s.rotation, n), repeat(s.spin, n), repeat(s.radius, n);
     repeat(s.mass, n), repeat(s.rattler, n), repeat(s.mean_internal_moment, n), repeat(s.mean_spin_term, n);
@@ -106,24 +102,5 @@ namespace diptych::benchmarks
     for (std::size_t i = 0; i < s.position.size(); ++i)
       s.position[i] += Eigen::Vector2d(int(i) / n_once % n * spacing.x(), int(i) / n_once / n * spacing.y());
     return s;
-  }
-
-  coupling::QuadMesh copies(const coupling::QuadMesh &mesh, const int n, const Eigen::Vector2d &spacing)
-  {
-    coupling::QuadMesh result;
-    for (int copy = 0; copy < n * n; ++copy)
-      {
-        const unsigned int first = result.node.size();
-        for (const Eigen::Vector2d &x : mesh.node)
-          result.node.push_back(x + Eigen::Vector2d(copy % n * spacing.x(), copy / n * spacing.y()));
-        for (auto cell : mesh.cell)
-          {
-            for (unsigned int &node : cell)
-              node += first;
-            result.cell.push_back(cell);
-          }
-      }
-    triangulate(result);
-    return result;
   }
 } // namespace diptych::benchmarks

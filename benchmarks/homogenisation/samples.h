@@ -18,8 +18,6 @@ namespace diptych::benchmarks
   // columns x rows quadrilaterals between the sides of a sample's outline and its platens.
   coupling::QuadMesh outline_mesh(const discrete::Outline &outline, unsigned int columns, unsigned int rows);
 
-  // A sample or a mesh n x n times side by side, `spacing` apart. Copies of grains do not touch, those of meshes share no nodes.
-  Eigen::Vector2d    spacing_of_copies(const coupling::QuadMesh &mesh, double mean_diameter); // 4 d between them [length]
-  discrete::Snapshot copies(const discrete::Snapshot &sample, int n, const Eigen::Vector2d &spacing);
-  coupling::QuadMesh copies(const coupling::QuadMesh &mesh, int n, const Eigen::Vector2d &spacing);
+  // The sample n x n times side by side; copies do not touch.
+  discrete::Snapshot copies(const discrete::Snapshot &sample, int n);
 } // namespace diptych::benchmarks

@@ -89,7 +89,7 @@ namespace diptych::benchmarks
       "scatter of s over the cells / difference from the stress of 6 d cells averaged over 2 to 3.5 %% strain, in %%\n");
     for (const bool window : {true, false})
       {
-        std::printf("%s\n  %-24s %15s %15s %15s\n", window ? "mean forces of 3.5 to 4 %% strain" : "forces of the last step", "",
+        std::printf("%s\n  %-24s %15s %15s %15s\n", window ? "mean forces of 3.5 to 4 % strain" : "forces of the last step", "",
                     "cells of 2 d", "3 d", "6 d");
         for (const NamedMethod &method : methods)
           {

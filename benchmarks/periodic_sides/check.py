@@ -45,10 +45,10 @@ def forces(result):
 
 def difference_figures(name, result):
     columns, difference = forces(result)
-    load = numpy.abs(columns["lower_fy"])
+    load = numpy.abs(columns["lower_fy"]) / (result.prepared["area"] / result.prepared["upper_y"])  # the pressure is 1
     return {f"{name}: largest difference": difference.max(), f"{name}: median": numpy.median(difference),
             f"{name}: steps above 1 %": (difference > 0.01).mean(), f"{name}: steps above 50 %": (difference > 0.5).mean(),
-            f"{name}: least / largest load": load.min() / load.max()}
+            f"{name}: mean load / (P width)": load.mean(), f"{name}: steps below a tenth of P width": (load < 0.1).mean()}
 
 
 def continuum_difference(comparison):

@@ -70,7 +70,7 @@ def _continuum(result):
     summary, coarse = (result.comparison.get(key) or {} for key in ("continuum_summary", "continuum_coarse"))
     scene = result.scene["continuum"]
     rows = [["continuum: element size; tolerance of the equilibrium",
-             f"{number(summary.get('element_size_d'), ' d')}; {scene.get('tolerance', ABSENT)}", ""],
+             f"{number(summary.get('element_size_d'), ' d')}; {_text_number(scene.get('tolerance'))}", ""],
             ["continuum: platen forces out of balance, at the end", number(_unbalance(result), "", 2), "equilibrium: 0"]]
     if coarse:
         size = number(coarse.get("element_size_d"), " d")
@@ -81,6 +81,13 @@ def _continuum(result):
                      "a thickness counts only where both agree"])
     return rows + [["continuum: points where σ_zz is not intermediate", number(summary.get("share_zz_not_intermediate"), "%"),
                     "below 5 %: the in-plane yield surface is exact only where it is"]]
+
+
+def _text_number(text):
+    try:
+        return number(float(text))
+    except (TypeError, ValueError):
+        return text or ABSENT
 
 
 def _widths(result, coarse):

@@ -39,7 +39,7 @@ def traction(increment):
     figure = Figure(figsize=(4.5, 3.9))
     drawn = []
     for k, part in enumerate(("normal", "shear")):
-        axes = ruled(figure.add_axes([0.15, 0.56 - 0.43 * k, 0.825, 0.4]))
+        axes = ruled(figure.add_axes([0.15, 0.57 - 0.44 * k, 0.825, 0.385]))
         for panel, record in stored.items():
             edges, values = (np.array(record.get(name) or [], dtype=float) for name in ("edges_d", part))
             if len(edges) != len(values) + 1 or not np.isfinite(values).any():
@@ -50,8 +50,10 @@ def traction(increment):
                         label=label)
             error = record.get(part + "_error")
             if error and len(error) == len(values):
-                axes.errorbar((edges[1:] + edges[:-1]) / 2, values, np.array(error, dtype=float), fmt="none", elinewidth=0.8,
-                              capsize=1.5, color=PANEL_COLOURS[panel])
+                middle, error = (edges[1:] + edges[:-1]) / 2, np.array(error, dtype=float)
+                known = np.isfinite(error) & np.isfinite(values)
+                axes.errorbar(middle[known], values[known], error[known], fmt="none", elinewidth=0.8, capsize=1.5,
+                              color=PANEL_COLOURS[panel])
             drawn.append(panel)
         axes.set_ylabel(f"{part} traction (P)")
         axes.tick_params(labelbottom=k == 1)

@@ -20,16 +20,18 @@ def pair(increment):
         return Pair(None, None)
     spans = {}
     for part, _ in PARTS:
-        every = np.concatenate([np.concatenate([c[part], c["predicted_" + part]]) for c in known])
+        every = np.concatenate([np.concatenate([c[part] + sign * c[part + "_error"], c["predicted_" + part]])
+                                for c in known for sign in (-1, 1)])
         room = 0.08 * max(np.nanmax(every) - np.nanmin(every), 1e-6)
         spans[part] = (min(np.nanmin(every) - room, 0), np.nanmax(every) + room)
     return Pair(*[_panel(increment, panel, stored[panel], spans) for panel in PANEL_NAMES], caption=_sampling(increment))
 
 
 def _sampling(increment):
-    alone = plain((increment.panel("discrete").get("circular_probe") or {}).get("sampling_alone"))
-    return "" if alone is None else ("Bars: standard errors from blocks along the diameter. Sampling of the grains alone "
-                                     f"would give a difference of {100 * alone:.1f} %.")
+    """What the bars are: in equilibrium neighbouring blocks carry what one lacks, so the difference stays below them."""
+    alone = plain((increment.panel("discrete").get("circular_probe") or {}).get("independent_blocks"))
+    return "" if alone is None else ("Bars: standard errors, blocks along the diameter taken as independent; blocks that were so "
+                                     f"would differ from the mean stress by {100 * alone:.1f} %.")
 
 
 def _columns(circle):
@@ -42,7 +44,8 @@ def _columns(circle):
         return None
     for part, _ in PARTS:
         error = circle.get(part + "_error")
-        columns[part + "_error"] = np.array(error, dtype=float) if error and len(error) == len(columns[part]) else None
+        same = error and len(error) == len(columns[part])
+        columns[part + "_error"] = np.nan_to_num(np.array(error, dtype=float)) if same else np.zeros(len(columns[part]))
     columns["relative_l2"] = circle.get("relative_l2")
     return columns
 
@@ -52,7 +55,7 @@ def _panel(increment, panel, columns, spans):
         return None
     figure = Figure(figsize=(4.5, 3.9))
     for k, (part, label) in enumerate(PARTS):
-        axes = ruled(figure.add_axes([0.14, 0.545 - 0.425 * k, 0.835, 0.385]))
+        axes = ruled(figure.add_axes([0.14, 0.555 - 0.435 * k, 0.835, 0.375]))
         axes.errorbar(columns["angles_deg"], columns[part], columns[part + "_error"], fmt="o", markersize=3, elinewidth=0.8,
                       color=PANEL_COLOURS[panel], label="across the diameter")
         axes.plot(columns["angles_deg"], columns["predicted_" + part], color=INK, linewidth=1.3, label="by the mean stress")

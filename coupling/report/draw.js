@@ -172,7 +172,8 @@ function drawBar(canvas, width, pixels, quantity, limits, beyond) {
   c.fillStyle = "#ffffff";
   c.fillRect(0, 0, width, height);
   const long = width - 2 * inset, table = data.maps[quantity.map];
-  table.forEach((colour, k) => { c.fillStyle = colour; c.fillRect(inset + long * k / 256, 2, long / 256 + 0.7, 10); });
+  // Each colour runs to the end and the next paints over it: no seams at any scale.
+  table.forEach((colour, k) => { c.fillStyle = colour; c.fillRect(inset + long * k / 256, 2, long * (1 - k / 256), 10); });
   [[0, -1], [1, 1]].forEach(([end, sense]) => {
     if (!beyond[end]) return;
     const x = inset + end * long;

@@ -65,7 +65,7 @@ def solver(result):
         return None, caption
     figure = Figure(figsize=(4.5, 3.1))
     for k, ((strain, values), label) in enumerate(((sweeps, "sweeps"), (residual, "residual"))):
-        axes = ruled(figure.add_axes([0.15, 0.56 - 0.4 * k, 0.825, 0.37]))
+        axes = ruled(figure.add_axes([0.15, 0.6 - 0.43 * k, 0.825, 0.36]))
         good = values > 0
         axes.plot(*thin(result.across(strain[good]), values[good]), color=PANEL_COLOURS["discrete"], linewidth=0.6)
         axes.set(ylabel=label, yscale="log", ylim=decades(values[good]))

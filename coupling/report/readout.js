@@ -78,13 +78,15 @@ function fillSheet() {
 }
 
 window.addEventListener("beforeprint", () => {
-  pixels = 2;
+  paper = 310;
+  pixels = 2.5;
   hideReadout();
   refreshAll();
   fillSheet();
   all("details.printed").forEach((d) => { d.dataset.was = d.open ? "yes" : ""; d.open = true; });
 });
 window.addEventListener("afterprint", () => {
+  paper = 0;
   pixels = Math.min(3, Math.max(2, window.devicePixelRatio || 1));
   document.getElementById("sheet").replaceChildren();
   document.getElementById("sheet").hidden = true;

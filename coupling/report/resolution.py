@@ -28,7 +28,7 @@ def verdict(result):
 
 
 def _frame(figure, k, label, study, widths):
-    axes = ruled(figure.add_axes([0.15, 0.56 - 0.43 * k, 0.825, 0.4]))
+    axes = ruled(figure.add_axes([0.15, 0.57 - 0.44 * k, 0.825, 0.385]))
     plateau = study.get("plateau_d")
     if plateau:
         axes.axvspan(plateau[0], plateau[1], color=FAINT, alpha=0.22, linewidth=0)

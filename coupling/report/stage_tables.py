@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Every table is None where nothing of it is stored."""
 
-from increments import plain
+from increments import interval, plain
 from style import PANEL_NAMES
 from wording import ABSENT, number, rounded
 
@@ -30,7 +30,7 @@ def _fabric(probe):
 
 def _with_error(probe, key, error, unit):
     text = rounded(probe.get(key), unit)
-    return text if probe.get(error) is None or isinstance(probe.get(key), dict) else f"{text} ± {rounded(probe[error], unit)}"
+    return text if probe.get(error) is None or interval(probe.get(key)) else f"{text} ± {rounded(probe[error], unit)}"
 
 
 def _turn(probe):

@@ -72,6 +72,9 @@ def band_notes(result, increment):
         notes.append("In brackets: 95 % intervals by block bootstrap" + (
             f", {'/'.join(map(str, sorted(samples)))} resamples" if samples else "") + ". Difference: continuum − grains; "
             "of inclinations the angle between the lines.")
+    lost = max((plain(b.get("lost_share")) or 0.0 for panel in PANEL_NAMES for b in increment.bands(panel)), default=0.0)
+    if lost > 0:
+        notes.append(f"In up to {rounded(lost, '%', 0)} of the resamples a band was lost: its interval holds for the rest.")
     return _thickness(result, increment) + _theory_note(result, increment) + notes
 
 

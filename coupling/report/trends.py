@@ -98,7 +98,7 @@ def _dissipation(result):
     if area:
         axes.plot(*zip(*area), color=FAINT, linestyle="--", linewidth=1.2, label="share of the area")
     axes.set_ylim(0, 100)
-    axes.legend(loc="lower right")
+    axes.legend(loc="best")
     return svg(figure, "Share of dissipation inside the grains' band against the loading, both panels."), caption
 
 

@@ -3,6 +3,7 @@
 const increments = new Map(data.increments.map((increment) => [increment.key, increment]));
 const chosen = { quantity: data.quantities[0], place: data.quantities[0].home, arrows: "increment" };
 const all = (selector, root) => Array.from((root || document).querySelectorAll(selector));
+let paper = 0;  // width of a map in a print [CSS pixels]; 0 on a screen
 let pixels = Math.min(3, Math.max(2, window.devicePixelRatio || 1));
 
 // Numbers of one panel of the chosen quantity; place discs: the continuum's panel shows its cells.
@@ -76,7 +77,7 @@ function drawPair(pair, key) {
 
 function drawMap(canvas, drawing, increment) {
   const panel = canvas.dataset.panel, frame = canvas.parentElement;
-  const view = viewOf(canvas, frame.clientWidth || parseInt(frame.style.width) || 400, pixels);
+  const view = viewOf(canvas, parseInt(frame.style.width) || paper || frame.clientWidth || 400, pixels);
   clipToAxes(view);
   const words = DRAWINGS[drawing](view, increment, panel, canvas);
   drawAxes(view);
@@ -90,7 +91,7 @@ function drawMap(canvas, drawing, increment) {
 }
 
 function drawBarOf(bar, increment) {
-  const width = bar.parentElement.clientWidth || 400;
+  const width = paper * (bar.dataset.of === "pair" ? 1.5 : 1) || bar.parentElement.clientWidth || 400;
   if (bar.dataset.of !== "pair") {
     const found = differenceOf(increment, bar.dataset.of);
     bar.hidden = !found || !found.numbers;

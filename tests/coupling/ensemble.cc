@@ -192,7 +192,11 @@ namespace
   json comparison(const int seed, const std::vector<json> &grains_bands, const std::vector<json> &continuum_bands)
   {
     json discrete      = panel(grains_bands);
-    discrete["probes"] = json::array({{{"name", "zone"}, {"t_over_s", {{"value", 0.4}}}, {"polygon", {{0, 0}, {1, 1}}}}});
+    discrete["probes"] = json::array({{{"name", "zone"},
+                                       {"t_over_s", {{"value", 0.4}}},
+                                       {"interval", {{"low", 1}, {"high", 2}}},
+                                       {"s1", 2},
+                                       {"polygon", {{0, 0}, {1, 1}}}}});
     const json stage   = {
         {"axial_strain", 0.04 * (1 + 1e-9 * seed)},
         {"discrete", discrete},
@@ -260,6 +264,7 @@ namespace
     EXPECT_NEAR(quantity(e, "window 0-0.04 discrete band angle_deg").statistics.mean, -45, 1e-12);
     EXPECT_EQ(quantity(e, "window 0-0.04 discrete band angle_deg").unit, "degrees");
     EXPECT_EQ(quantity(e, "stage 0.04 discrete probe zone t_over_s").statistics.mean, 0.4);
+    EXPECT_EQ(quantity(e, "stage 0.04 discrete probe zone s1").unit, "pressure");
     EXPECT_EQ(quantity(e, "stage 0.04 difference stress 6 d relative_l2").statistics.mean, 0.2);
     EXPECT_NEAR(quantity(e, "discrete_summary peak_stress_ratio").statistics.mean, 0.3615, 1e-12);
   }
@@ -268,7 +273,8 @@ namespace
   {
     const Ensemble e = ensemble_of({comparison(1, {}, {})});
     for (const Quantity &q : e.quantities)
-      for (const char *word : {"cpu", "ns_per_update", "message", "finished", "strips", "polygon", "axial_strain", "offset_d"})
+      for (const char *word :
+           {"cpu", "ns_per_update", "message", "finished", "strips", "polygon", "axial_strain", "offset_d", "interval"})
         EXPECT_EQ(q.name.find(word), std::string::npos) << q.name;
   }
 

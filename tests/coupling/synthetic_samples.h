@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -110,6 +111,17 @@ namespace diptych::coupling::synthetic
     return frame;
   }
 
+  // Lower left corner at the origin.
+  inline SampleFrame frame_of(const double width, const double height, const Eigen::Vector2d &platen_increment)
+  {
+    SampleFrame frame;
+    frame.centre           = {0.5 * width, 0.5 * height};
+    frame.width            = width;
+    frame.height           = height;
+    frame.platen_increment = platen_increment;
+    return frame;
+  }
+
   inline Eigen::Vector2d band_displacement(const Truth &truth, const SampleFrame &frame, const Eigen::Vector2d &x)
   {
     Band axes;
@@ -147,6 +159,69 @@ namespace diptych::coupling::synthetic
         const double radius = uniform(random, 0.3, 0.7);
         field.weight.push_back(M_PI * radius * radius);
       }
+    return field;
+  }
+
+  // Adds noise that is smooth over a length L: correlation exp(-pi r^2/L^2), so that its integral over the plane is L^2 (one
+  // independent sample per L x L). White noise on a grid of spacing w = L/sqrt(4 pi), smoothed with exp(-r^2/(2 w^2)); the
+  // squares of these weights sum to pi. The deviation is a share of the platen increment.
+  inline void add_correlated_noise(DisplacementField  &field,
+                                   const SampleFrame  &frame,
+                                   const double        length,
+                                   const double        deviation,
+                                   const std::uint64_t seed)
+  {
+    constexpr int         reach = 4;
+    const double          w = length / std::sqrt(4 * M_PI), scale = deviation * frame.platen_increment.norm() / std::sqrt(M_PI);
+    const Eigen::Vector2d low     = frame.centre - Eigen::Vector2d(0.5 * frame.width + reach * w, 0.5 * frame.height + reach * w);
+    const int             columns = int(frame.width / w) + 2 * reach + 2, rows = int(frame.height / w) + 2 * reach + 2;
+    std::mt19937_64       random(seed);
+    std::vector<Eigen::Vector2d> white(columns * rows);
+    for (Eigen::Vector2d &value : white)
+      {
+        value.x() = normal(random);
+        value.y() = normal(random);
+      }
+    for (std::size_t i = 0; i < field.position.size(); ++i)
+      {
+        const Eigen::Vector2d place = (field.position[i] - low) / w;
+        for (int c = std::max(0, int(place.x()) - reach); c <= std::min(columns - 1, int(place.x()) + reach + 1); ++c)
+          for (int r = std::max(0, int(place.y()) - reach); r <= std::min(rows - 1, int(place.y()) + reach + 1); ++r)
+            field.increment[i] += scale * std::exp(-0.5 * (place - Eigen::Vector2d(c, r)).squaredNorm()) * white[c + columns * r];
+      }
+  }
+
+  // Gives a share of the points an increment of 0.5 to 3 platen increments in any direction, as rattlers may have.
+  inline void add_outliers(DisplacementField &field, const SampleFrame &frame, const double share, const std::uint64_t seed)
+  {
+    std::mt19937_64 random(seed);
+    for (Eigen::Vector2d &u : field.increment)
+      if (uniform(random, 0, 1) < share)
+        {
+          const double angle = uniform(random, 0, 2 * M_PI), length = uniform(random, 0.5, 3) * frame.platen_increment.norm();
+          u += length * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+        }
+  }
+
+  // Nodes of a regular grid over the frame, area as weight; no background, no noise.
+  inline DisplacementField node_field(const SampleFrame        &frame,
+                                      const std::vector<Truth> &bands,
+                                      const int                 columns,
+                                      const int                 rows)
+  {
+    DisplacementField field;
+    for (int r = 0; r <= rows; ++r)
+      for (int c = 0; c <= columns; ++c)
+        {
+          const Eigen::Vector2d share(double(c) / columns - 0.5, double(r) / rows - 0.5);
+          const Eigen::Vector2d x = frame.centre + Eigen::Vector2d(share.x() * frame.width, share.y() * frame.height);
+          Eigen::Vector2d       u = Eigen::Vector2d::Zero();
+          for (const Truth &band : bands)
+            u += band_displacement(band, frame, x);
+          field.position.push_back(x);
+          field.increment.push_back(u);
+          field.weight.push_back((r % rows == 0 ? 0.5 : 1) * (c % columns == 0 ? 0.5 : 1));
+        }
     return field;
   }
 } // namespace diptych::coupling::synthetic

@@ -13,13 +13,13 @@ namespace
 
   constexpr double degree = M_PI / 180;
 
-  // s1 = 3 s3 is the failure of phi = 30 degrees: (s1 - s3)/(s1 + s3) = sin phi. On a plane at the angle a to the minor direction
-  // the traction has the obliquity tau/sigma = (s1 - s3) sin(2a) / (s1 + s3 - (s1 - s3) cos(2a + 180)), largest on Coulomb's
-  // plane and equal to tan phi there.
+  // s1 = 3 s3 is failure at phi = 30 degrees: (s1 - s3)/(s1 + s3) = sin phi. On a plane at the angle a to the minor direction,
+  // its normal at a to the major one, Mohr's circle gives sigma = s + t cos 2a and tau = t sin 2a. tau/sigma is largest on
+  // Coulomb's plane, and there it is tan phi.
   TEST(TheoryLines, CoulombPlaneHasTheGreatestObliquity)
   {
     const auto obliquity = [](const double a_deg) {
-      const double s1 = 3, s3 = 1, a = a_deg * degree; // the plane's normal lies at 90 - a to the minor direction
+      const double s1 = 3, s3 = 1, a = a_deg * degree;
       return 0.5 * (s1 - s3) * std::sin(2 * a) / (0.5 * (s1 + s3) + 0.5 * (s1 - s3) * std::cos(2 * a));
     };
     const double coulomb = theory_lines(30, 10).coulomb_deg;

@@ -21,6 +21,11 @@ SMALL = ["--set", "sample/grains=300", "--set", "loading/axial_strain=0.01", "--
          "--set", "discrete/step=0.1", "--set", "comparison/window_edges=0,0.01"]
 
 
+def number(value):
+    """A number of comparison.json, with or without its interval."""
+    return value["value"] if isinstance(value, dict) else value
+
+
 def listing(folder):
     return sorted(os.path.join(root, name) for root, _, names in os.walk(folder) for name in names)
 
@@ -43,7 +48,7 @@ class QuickScene(unittest.TestCase):
 
     def test_every_promised_file_is_there_and_no_half_file(self):
         for name in ["scene.prm", "provenance.json", "discrete.h5", "discrete.xdmf", "discrete.csv", "continuum.h5",
-                     "continuum.xdmf", "continuum.pvd", "continuum.csv", "comparison.json", "comparison.csv", "fields.vtu",
+                     "continuum.xdmf", "continuum.pvd", "continuum.csv", "comparison.json", "comparison.csv", "fields.vtu", "grid.vtu",
                      "report.html"]:
             self.assertTrue(os.path.getsize(os.path.join(self.folder, name)) > 0, name)
         self.assertEqual([path for path in listing(self.folder) if path.endswith(".part")], [])
@@ -53,13 +58,15 @@ class QuickScene(unittest.TestCase):
         for stage in self.comparison["stages"]:
             self.assertLess(stage["mapping"]["total_relative_error"], 1e-12)
             self.assertLess(stage["mapping"]["outside_share"], 0.05)
+            self.assertLess(stage["mapping"]["nodal_residual"], 1e-12)
 
     def test_one_straight_zone_near_45_degrees_in_the_grains(self):
         """P26, P27. Four seeds of this scene: see benchmarks/moreau_quick/README.md."""
         bands = self.comparison["windows"][0]["discrete"]["bands"]
         self.assertEqual(len(bands), 1)
-        self.assertLess(abs(abs(bands[0]["angle_deg"]) - 46), 10)
-        self.assertLess(bands[0]["angle_deg"], 0)  # the upper platen moves right and down
+        angle = number(bands[0]["angle_deg"])
+        self.assertLess(abs(abs(angle) - 46), 10)
+        self.assertLess(angle, 0)  # the upper platen moves right and down
         self.assertGreater(bands[0]["r_squared_strips"], 0.97)
 
     def test_strength_and_ledgers(self):
@@ -78,6 +85,44 @@ class QuickScene(unittest.TestCase):
         last = rows[-1]
         self.assertAlmostEqual(float(last["axial_strain"]), 0.03, places=9)
         self.assertLess(abs(float(last["lower_fy"]) + float(last["upper_fy"])), 1e-3 * abs(float(last["upper_fy"])))
+
+    def test_friction_inside_and_outside_the_band_adds_up_to_the_ledger(self):
+        """Every stage shows a band here; what its contacts dissipate is what the ledger counted."""
+        splits = [stage["discrete"]["dissipation"] for stage in self.comparison["stages"]]
+        with open(os.path.join(self.folder, "discrete.csv")) as file:
+            ledger = [float(row["friction_dissipation"]) for row in csv.DictReader(file)][-1]
+        self.assertAlmostEqual(sum(split["inside"] + split["outside"] for split in splits) / ledger, 1, places=6)
+        for split in splits:  # shear localises friction
+            self.assertGreater(split["share_inside"], split["area_share"])
+
+    def test_stress_differs_less_over_larger_cells(self):
+        """Sampling scatter falls with the number of grains; the difference of the panels holds it."""
+        for stage in self.comparison["stages"]:
+            rows = stage["difference"]["stress"]
+            self.assertEqual([row["label"] for row in rows], ["cells", "3 d", "6 d"])
+            for name in ["relative_l2", "sampling_alone", "lowest_scatter"]:
+                self.assertGreater(rows[0][name], rows[1][name])
+                self.assertGreater(rows[1][name], rows[2][name])
+            for row in rows:  # independent grains are the lower bound
+                self.assertGreater(row["sampling_alone"], row["lowest_scatter"])
+
+    def test_the_csv_holds_every_number_of_the_json(self):
+        def count(value):
+            if isinstance(value, dict) and "value" in value and "low" in value:
+                return 1
+            if isinstance(value, (dict, list)):
+                return sum(count(part) for part in (value.values() if isinstance(value, dict) else value))
+            return int(isinstance(value, (int, float)) and not isinstance(value, bool))
+        c = self.comparison
+        parts = [panel for stage in c["stages"] for panel in stage.values() if isinstance(panel, dict)]
+        parts += [panel for window in c["windows"] for panel in window.values() if isinstance(panel, dict)]
+        parts += [window["bands"] for window in c["continuum_coarse"]["windows"]]
+        parts += [c[name] for name in ["discrete_summary", "continuum_summary", "resolution_study", "theory", "cost"]]
+        with open(os.path.join(self.folder, "comparison.csv")) as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), sum(count(part) for part in parts))
+        peak = [row for row in rows if row["quantity"] == "peak_stress_ratio" and row["panel"] == "discrete_summary"]
+        self.assertEqual(float(peak[0]["value"]), c["discrete_summary"]["peak_stress_ratio"])
 
     def test_tensors_are_tensors_in_the_vtu(self):
         root = xml.etree.ElementTree.parse(os.path.join(self.folder, "fields.vtu")).getroot()
@@ -117,11 +162,13 @@ class ReferenceScene(unittest.TestCase):
         self.assertLess(grains["spin_term_share"], 1e-4)
         self.assertGreater(grains["platen_difference_share_below_1_percent"], 0.98)
         last = comparison["windows"][-1]
-        self.assertLess(abs(last["discrete"]["bands"][0]["angle_deg"] + 47), 5)
-        self.assertTrue(12 < last["discrete"]["bands"][0]["width_10_90_d"] < 25)
+        self.assertLess(abs(number(last["discrete"]["bands"][0]["angle_deg"]) + 47), 5)
+        self.assertTrue(12 < number(last["discrete"]["bands"][0]["width_10_90_d"]) < 25)
         self.assertGreater(last["discrete"]["bands"][0]["r_squared_strips"], 0.97)
         coarse = comparison["continuum_coarse"]["windows"][-1]["bands"][0]
-        self.assertGreater(coarse["width_10_90_d"], 1.5 * last["continuum"]["bands"][0]["width_10_90_d"])  # the mesh sets it
+        fine = last["continuum"]["bands"][0]
+        # The internal length sets it, not the mesh: elements of 2 and 3 d agree (benchmarks/moreau_1997/README.md).
+        self.assertLess(abs(number(coarse["width_10_90_d"]) / number(fine["width_10_90_d"]) - 1), 0.05)
 
 
 class WrongInput(unittest.TestCase):

@@ -18,7 +18,8 @@ STRIPS = {"angle_deg": -45.0, "edges_d": list(np.linspace(-4, 4, 17)), "mean": [
           "deviation": [None] + [0.1] * 15, "count": [0] + [2] * 15}
 ANGLES = list(range(0, 180, 30))
 CIRCLE = {"centre": [2.5, 4.0], "radius": 2.0, "angles_deg": ANGLES, "normal": [2.0] * 6, "tangential": [0.0] * 6,
-          "predicted_normal": [1.9] * 6, "predicted_tangential": [None] + [0.1] * 5}
+          "predicted_normal": [1.9] * 6, "predicted_tangential": [None] + [0.1] * 5, "normal_error": [0.1] * 5 + [None],
+          "independent_blocks": 0.1}
 
 
 def within(value, low, high):
@@ -43,7 +44,8 @@ def grains(bands):
     found["stress_ratio"] = within(0.3, 0.28, 0.33)
     for entry in found["probes"]:
         entry.update(s1=within(2.0, 1.8, 2.3), direction_deg=within(90.0, 85.0, None),
-                     fabric_to_stress_deg=within(2.0, -3.0, 7.0), grain_pressure={"mean": 1.5, "deviation": 0.7, "percentiles": {"5": 0.1, "50": 1.4, "95": 3.0}})
+                     fabric_to_stress_deg=within(2.0, -3.0, 7.0),
+                     grain_pressure={"mean": 1.5, "deviation": 0.7, "percentiles": {"5": 0.1, "50": 1.4, "95": 3.0}})
     found["probe_differences"] = [{"of": "zone", "and": "upper", "t_over_s": within(0.0, -0.1, 0.1), "verdict": "do not differ",
                                    "anisotropy": within(0.1, 0, 0.2), "direction_deg": within(1.0, -4, 6)}]
     side = {"grains": 20, "mean": 1.0, "share_above_mean": 0.4, "values": [0.1, 0.8, 2.0]}
@@ -60,7 +62,7 @@ def _common(found):
     return {**found, "circular_probe": {**CIRCLE, "relative_l2": within(0.05, 0.02, 0.09)},
             "dissipation": {"inside": 3.0, "outside": 1.0, "share_inside": 0.75, "area_share": 0.5},
             "band_traction": {"edges_d": [-2, 0, 2], "normal": [1.0, 1.2], "shear": [0.4, 0.5], "variation_normal": 0.1,
-                              "variation_shear": 0.2}}
+                              "variation_shear": 0.2, "normal_error": [None, 0.1]}}
 
 
 def write_group(file, name, start, end, stress):
@@ -118,7 +120,7 @@ def comparison_of_two_stages():
                         "stress": [{"resolution_d": 3.0, "label": "3 d", "relative_l2": 0.3, "sampling_alone": 0.2,
                                     "direction_deg": 9.0}]}}
         for end, bands in ((0.005, []), (0.01, [BAND]))]
-    first = dict(BAND, angle_deg=within(-45.0, -46.5, -43.5), jump=within(0.9, 0.8, 1.0), resamples=200)
+    first = dict(BAND, angle_deg=within(-45.0, -46.5, -43.5), jump=within(0.9, 0.8, 1.0), resamples=200, lost_share=0.02)
     record["windows"] = [{"from": 0.0, "to": 0.01, "discrete": panel([first]),
                           "continuum": panel([BAND, dict(BAND, angle_deg=44.0)])}]
     record["continuum_coarse"] = {"element_size_d": 4.0, "windows": [{"from": 0.0, "to": 0.01, "bands": [BAND]}]}
