@@ -83,7 +83,7 @@ def angles(bands):
 
 
 def running_mean(strain, quantity):
-    """(strain at the end, mean) over every PEAK_WINDOW of strain. The steps are equal."""
+    """(strain at the end, mean) of every PEAK_WINDOW of strain. The steps are equal."""
     n_steps = max(1, round(PEAK_WINDOW / (strain[1] - strain[0])))
     return strain[n_steps - 1:], numpy.convolve(quantity, numpy.ones(n_steps) / n_steps, "valid")
 
@@ -94,9 +94,10 @@ def between(strain, quantity, low, high):
 
 
 def platen_difference(columns):
-    """|F_upper + F_lower| / mean size of the two, of the vertical platen forces of every step: zero in statics."""
+    """|F_upper + F_lower| / mean size of the two, of the vertical platen forces of every step: zero in statics, at most 2."""
     lower, upper = columns["lower_fy"], columns["upper_fy"]
-    return numpy.abs(lower + upper) / (0.5 * (numpy.abs(lower) + numpy.abs(upper)))
+    size = 0.5 * (numpy.abs(lower) + numpy.abs(upper))
+    return numpy.divide(numpy.abs(lower + upper), size, out=numpy.zeros_like(size), where=size > 0)
 
 
 def stage_means(comparison, panel, name="stress_ratio"):

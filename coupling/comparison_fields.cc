@@ -128,7 +128,7 @@ namespace diptych::coupling
       {
         out << "<DataArray type=\"Float64\" Name=\"" << name << "\" format=\"ascii\">\n";
         for (const Number value : values)
-          out << (std::isfinite(double(value)) ? std::to_string(value) : "nan") << '\n';
+          (std::isfinite(double(value)) ? out << double(value) : out << "nan") << '\n';
         out << "</DataArray>\n";
       }
 

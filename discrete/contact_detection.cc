@@ -88,6 +88,22 @@ namespace diptych::discrete
           }
     }
 
+    // What of a grain decides whether it is near another one, side by side in memory.
+    struct Disc
+    {
+      Eigen::Vector2d position;
+      double          radius, margin;
+    };
+
+    Contact contact_of_discs(const Contact &pair, const Disc &a, const Disc &b, const Eigen::Vector2d &branch)
+    {
+      const double distance = branch.norm();
+      // Coinciding centres have no normal; any fixed direction separates them.
+      const Eigen::Vector2d normal = distance > 0 ? Eigen::Vector2d(branch / distance) : Eigen::Vector2d::UnitX();
+      const double          gap    = distance - a.radius - b.radius;
+      return {pair.i, pair.j, gap, normal, a.position - (a.radius + 0.5 * gap) * normal, pair.image};
+    }
+
     bool moves(const State &state, const int body)
     {
       const int n = int(state.grains.size());
@@ -109,11 +125,7 @@ namespace diptych::discrete
     Eigen::Vector2d branch = g.position[i] - g.position[j];
     if (image != 0)
       branch.x() -= image * state.cell->width;
-    const double distance = branch.norm();
-    // Coinciding centres have no normal; any fixed direction separates them.
-    const Eigen::Vector2d normal = distance > 0 ? Eigen::Vector2d(branch / distance) : Eigen::Vector2d::UnitX();
-    const double          gap    = distance - g.radius[i] - g.radius[j];
-    return {i, j, gap, normal, g.position[i] - (g.radius[i] + 0.5 * gap) * normal, image};
+    return contact_of_discs({i, j, 0, {}, {}, image}, {g.position[i], g.radius[i], 0}, {g.position[j], g.radius[j], 0}, branch);
   }
 
   bool NeighbourList::covers(const State &state, const std::vector<double> &margin) const
@@ -183,21 +195,29 @@ namespace diptych::discrete
     if (!covers(state, margin))
       build(state, margin);
     contacts.reserve(pairs_.size());
-    const int n = int(g.size());
+    const int         n = int(g.size());
+    std::vector<Disc> disc(n);
+    for (int i = 0; i < n; ++i)
+      disc[i] = {g.position[i], g.radius[i], margin[i]};
     for (const Pair &pair : pairs_)
       {
-        double alert = margin[pair.i];
-        if (pair.j < n)
+        const Disc &a = disc[pair.i];
+        if (pair.j >= n)
           {
-            alert += margin[pair.j];
-            Eigen::Vector2d branch = g.position[pair.i] - g.position[pair.j];
-            if (state.cell)
-              branch.x() -= nearest_image(state.cell, g.position[pair.i].x(), g.position[pair.j].x()) * state.cell->width;
-            const double distance = g.radius[pair.i] + g.radius[pair.j] + alert;
-            if (branch.squaredNorm() >= distance * distance)
-              continue;
+            const Contact contact = make_contact(state, pair.i, pair.j);
+            if (contact.gap < a.margin)
+              contacts.push_back(contact);
+            continue;
           }
-        const Contact contact = make_contact(state, pair.i, pair.j);
+        const Disc     &b      = disc[pair.j];
+        const int       image  = nearest_image(state.cell, a.position.x(), b.position.x());
+        Eigen::Vector2d branch = a.position - b.position;
+        if (image != 0)
+          branch.x() -= image * state.cell->width;
+        const double alert = a.margin + b.margin, distance = a.radius + b.radius + alert;
+        if (branch.squaredNorm() >= distance * distance)
+          continue;
+        const Contact contact = contact_of_discs({pair.i, pair.j, 0, {}, {}, image}, a, b, branch);
         if (contact.gap < alert)
           contacts.push_back(contact);
       }

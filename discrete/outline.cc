@@ -21,10 +21,11 @@ namespace diptych::discrete
           const int              first = std::max(0, int(std::ceil((x.y() - r - bottom) / dy)));
           const int              last  = std::min(n - 1, int(std::floor((x.y() + r - bottom) / dy)));
           for (int k = first; k <= last; ++k)
-            {
-              const double a = bottom + k * dy - x.y();
-              edge[k]        = std::max(edge[k], sign * x.x() + std::sqrt(std::max(0., r * r - a * a)));
-            }
+            if (sign * x.x() + r > edge[k]) // nearly all discs lie inside: no root for them
+              {
+                const double a = bottom + k * dy - x.y();
+                edge[k]        = std::max(edge[k], sign * x.x() + std::sqrt(std::max(0., r * r - a * a)));
+              }
         }
       // A line that meets no disc takes the value below it (above it, at the bottom).
       for (int k = 1; k < n; ++k)
@@ -38,17 +39,25 @@ namespace diptych::discrete
       return edge;
     }
 
-    std::vector<double> smooth(const std::vector<double> &x, const double standard_deviation_in_samples)
+    // Normalised weights at -reach .. reach, cut at four standard deviations.
+    std::vector<double> gauss_weights(const double standard_deviation_in_samples)
     {
-      const int           n = int(x.size()), reach = int(std::ceil(4 * standard_deviation_in_samples));
+      const int           reach = int(std::ceil(4 * standard_deviation_in_samples));
       std::vector<double> weight(2 * reach + 1);
       double              sum = 0;
       for (int a = -reach; a <= reach; ++a)
         sum += weight[a + reach] = std::exp(-0.5 * a * a / (standard_deviation_in_samples * standard_deviation_in_samples));
-      std::vector<double> y(n, 0.);
-      for (int k = 0; k < n; ++k)
-        for (int a = -reach; a <= reach; ++a)
-          y[k] += weight[a + reach] / sum * x[std::clamp(k + a, 0, n - 1)];
+      for (double &w : weight)
+        w /= sum;
+      return weight;
+    }
+
+    double smoothed(const std::vector<double> &x, const std::vector<double> &weight, const int k)
+    {
+      const int n = int(x.size()), reach = int(weight.size()) / 2;
+      double    y = 0;
+      for (int a = -reach; a <= reach; ++a)
+        y += weight[a + reach] * x[std::clamp(k + a, 0, n - 1)];
       return y;
     }
 
@@ -57,14 +66,14 @@ namespace diptych::discrete
       const double              bottom = state.walls[0].point.y(), height = state.walls[1].point.y() - bottom;
       const int                 n  = std::max(2, int(std::lround(height / (0.1 * mean_diameter))) + 1);
       const double              dy = height / (n - 1);
-      const std::vector<double> x  = smooth(raw_envelope(state.grains, bottom, dy, n, sign), mean_diameter / dy);
+      const std::vector<double> x = raw_envelope(state.grains, bottom, dy, n, sign), weight = gauss_weights(mean_diameter / dy);
 
       const int                    n_points = std::max(2, int(std::lround(height / (2 * mean_diameter))) + 1);
       std::vector<Eigen::Vector2d> points;
       for (int p = 0; p < n_points; ++p)
         {
           const int k = int(std::lround(double(p) * (n - 1) / (n_points - 1)));
-          points.emplace_back(x[k], bottom + k * dy);
+          points.emplace_back(smoothed(x, weight, k), bottom + k * dy);
         }
       points.back().y() = state.walls[1].point.y();
       return points;

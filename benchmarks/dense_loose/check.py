@@ -71,13 +71,13 @@ def draw(folder, path):
         grains, continuum = result.grains, result.continuum
         end, mean = claims.running_mean(grains["axial_strain"], grains["stress_ratio"])
         axes[0].plot(100 * grains["axial_strain"], grains["stress_ratio"], color=colour, alpha=0.25, linewidth=0.5)
-        axes[0].plot(100 * end, mean, color=colour, label=f"{name}, grains")
+        axes[0].plot(100 * (end - claims.PEAK_WINDOW / 2), mean, color=colour, label=f"{name}, grains")
         axes[1].plot(100 * grains["axial_strain"], 100 * grains["volumetric_strain"], color=colour)
         for axis, column, scale in ((axes[0], "stress_ratio", 1), (axes[1], "volumetric_strain", 100)):
             axis.plot(100 * continuum["axial_strain"], scale * continuum[column], color=colour, linestyle="--",
                       label=f"{name}, continuum")
     axes[0].set(xlabel="axial strain [%]", ylabel="t/s", ylim=(0, None))
-    axes[1].set(xlabel="axial strain [%]", ylabel="volumetric strain [%], dilation negative")
+    axes[1].set(xlabel="axial strain [%]", ylabel="volumetric strain [%]")
     axes[0].legend(loc="lower right", fontsize=8)
     for axis in axes:
         axis.grid(alpha=0.3)

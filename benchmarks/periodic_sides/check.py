@@ -18,12 +18,20 @@ import claims  # noqa: E402
 SCENE = os.path.join(HERE, "scene.prm")
 SETTLED = 0.002  # strain from which on platen forces are compared
 
+SWITCHES = {"variants": "a free height, a free width and a dense sample, too"}
 # Settings on top of the scene's.
 VARIANTS = {"free height": ["loading/mode=plane_shear"],
             "free width": ["discrete/side_motion=pressure", "loading/mode=descent", "loading/horizontal_over_vertical=1"],
             "dense": ["sample/target_solid_fraction=0", "sample/box_solid_fraction=0.835"]}
 
-CLAIMS = []
+# Six seeds (README) reach 1.98 to 2 with the period and 0.02 to 0.06 without: 0.5 is the paper's figure, a ratio of 10 a third of the
+# least seen. The continuum's stress is uniform: t = s sin(phi) + c cos(phi) with s = P, 0.2936 at 16.5 degrees and c = 0.01 P.
+CLAIMS = [("periodic: largest difference", 0.5, 2.001), ("free sides: largest difference", 0, 0.08),
+          ("periodic / free sides: largest difference", 10, 1e3), ("periodic: steps above 50 %", 0.05, 0.8),
+          ("free sides: steps above 50 %", 0, 0), ("free sides: steps below a tenth of P width", 0, 0),
+          ("periodic: steps below a tenth of P width", 0.3, 1), ("solid fraction prepared", 0.815, 0.819),
+          ("periodic: largest change of volume", 0, 1e-12), ("periodic, continuum: largest difference", 0, 1e-4),
+          ("periodic, continuum: t/s of the last stage", 0.2926, 0.2946)]
 
 
 def as_sample(result, path):
@@ -90,8 +98,8 @@ def draw(folder, path):
         width = result.prepared["area"] / result.prepared["upper_y"]
         axes[0].plot(strain, numpy.abs(columns["lower_fy"]) / width, color=colour, label=label)
         axes[1].plot(strain, 100 * difference, color=colour, linewidth=0.6)
-    axes[0].set(ylabel="force on the lower platen / (P width)", ylim=(0, None))
-    axes[1].set(ylabel="difference of the platen forces [%]", yscale="log", xlabel="shear strain [%]", ylim=(1e-3, 300))
+    axes[0].set(ylabel="lower platen: force / (P width)", ylim=(0, 1.7))
+    axes[1].set(ylabel="difference of platen forces [%]", yscale="log", xlabel="shear strain [%]", ylim=(1e-3, 300))
     axes[0].legend(loc="upper right")
     for axis in axes:
         axis.grid(alpha=0.3)
@@ -99,4 +107,4 @@ def draw(folder, path):
 
 
 if __name__ == "__main__":
-    sys.exit(claims.main(__doc__, measure, CLAIMS, draw, {"variants": "a free height, a free width and a dense sample, too"}))
+    sys.exit(claims.main(__doc__, measure, CLAIMS, draw, SWITCHES))

@@ -83,7 +83,25 @@ def platen_speed(increment, result):
 
 def _moved_cells(increment, place, panel, _=None):
     values = _field(increment, place, panel, "displacement_increment")
+    if values is None and (place, panel) == ("cells", "continuum"):
+        values = _mean_of_corners(increment)
     return None if values is None else np.linalg.norm(values, axis=1) / platen_unit(increment)
+
+
+def _mean_of_corners(increment):
+    """Displacement increment of each cell [d]: mean of its corners, which are mesh nodes; None where one is not stored."""
+    names = ("cells/corners", "nodes/position", "nodes/displacement_increment")
+    corners, position, moved = (increment.arrays.get(name) for name in names)
+    if corners is None or position is None or moved is None or not len(position):
+        return None
+    # Both were written from the same numbers; rounding makes whole numbers of them, which can be searched.
+    wanted, known = (np.rint(1e6 * x.reshape(-1, x.shape[-1])[:, :2]).astype("i8").copy().view("i8,i8").ravel()
+                     for x in (corners, position))
+    order = np.argsort(known, kind="stable")
+    at = order[np.minimum(np.searchsorted(known, wanted, sorter=order), len(order) - 1)]
+    if (known[at] != wanted).any():
+        return None
+    return moved[at, :2].reshape(-1, 4, 2).mean(axis=1)
 
 
 def _moved_discs(increment, _):

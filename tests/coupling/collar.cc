@@ -280,7 +280,8 @@ namespace
     expect_momentum_balance(sample, true);
   }
 
-  // Forces applied to the grains are no round-off: leaving out the containing action is seen.
+  // An end grain carries 0.6 on average (w P over five grains); the node nearest to it has at least a third of that, and others
+  // on the same side add to it.
   TEST(Collar, MomentumBalanceMissesAnAppliedForceThatIsLeftOut)
   {
     Sheared sample            = sheared("end_grains", 0);
@@ -288,6 +289,6 @@ namespace
     for (auto &f : sample.grains.applied_force)
       f.setZero();
     EXPECT_GT(momentum_residual(regular_grid(lower, upper, 1.72), sample.grains, sample.acceleration),
-              0.01 / largest_contact_force(sample.grains));
+              0.2 / largest_contact_force(sample.grains));
   }
 } // namespace

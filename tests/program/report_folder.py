@@ -97,7 +97,8 @@ def write_state(group, corners):
         for panel_name, factor in (("discrete", 1.0), ("continuum", 0.5)):
             group[f"{place}/{panel_name}_rotation_increment"] = factor * np.linspace(-0.01, 0.01, 6)
             group[f"{place}/{panel_name}_spin_increment"] = factor * np.linspace(-0.008, 0.012, 6)
-            group[f"{place}/{panel_name}_displacement_increment"] = factor * np.full((6, 2), 0.01)
+            if place == "grid":  # on the mesh's cells the corners' own is taken
+                group[f"{place}/{panel_name}_displacement_increment"] = factor * np.full((6, 2), 0.01)
             group[f"{place}/{panel_name}_couple_stress"] = factor * np.full((6, 2), 0.1)
             group[f"{place}/{panel_name}_dissipation"] = factor * np.linspace(0, 0.001, 6)
         group[place + "/discrete_velocity"] = np.full((6, 2), 0.001)
