@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "coupling/cell_overlap.h"
+#include "coupling/continuum_averaging.h"
 #include "coupling/strain_increment.h"
 
 namespace diptych::coupling
@@ -34,17 +35,6 @@ namespace diptych::coupling
       return regular_grid(lower, upper, size);
     }
 
-    ContinuumFields carried(const CellOverlap &overlap, const ContinuumFields &fields)
-    {
-      const Eigen::Matrix2d no_tensor = Eigen::Matrix2d::Constant(NAN);
-      const Eigen::Vector2d no_vector = Eigen::Vector2d::Constant(NAN);
-      return {carried_over<Eigen::Matrix2d>(overlap, fields.stress, no_tensor),
-              carried_over<Eigen::Vector2d>(overlap, fields.couple_stress, no_vector),
-              carried_over<Eigen::Vector2d>(overlap, fields.displacement_increment, no_vector),
-              carried_over<double>(overlap, fields.rotation_increment, NAN),
-              carried_over<double>(overlap, fields.dissipation, NAN)};
-    }
-
     // Whether a cell lies in the mesh to at least nine tenths.
     std::vector<bool> mostly_inside(const CellOverlap &overlap)
     {
@@ -59,21 +49,24 @@ namespace diptych::coupling
       return inside;
     }
 
+    SampleScale scale_of(const StagePair &stage)
+    {
+      return {stage.grains_to.mean_diameter, stage.grains_to.cell_width};
+    }
+
     StressDifference difference_on_grid(const CellFields       &on_mesh,
                                         const StagePair        &stage,
                                         const AveragingOptions &averaging,
                                         const double            size)
     {
-      const QuadMesh          grid    = grid_over(on_mesh.mesh, size);
-      const CellOverlap       overlap = cell_overlap(grid, on_mesh.mesh);
-      const std::vector<bool> inside  = mostly_inside(overlap);
-      const GrainFields       grains  = grain_fields(grid, stage.grains_from, stage.grains_to, averaging);
-      const Eigen::Matrix2d   none    = Eigen::Matrix2d::Constant(NAN);
-      StressPair              pair{grains.stress, carried_over<Eigen::Matrix2d>(overlap, on_mesh.continuum.stress, none),
+      const QuadMesh          grid   = grid_over(on_mesh.mesh, size);
+      const std::vector<bool> inside = mostly_inside(cell_overlap(grid, on_mesh.mesh));
+      const GrainFields       grains = grain_fields(grid, stage.grains_from, stage.grains_to, averaging);
+      StressPair pair{grains.stress, averaged_continuum({on_mesh.mesh, on_mesh.own}, grid, scale_of(stage), averaging).stress,
                       grains.stress_standard_error};
       for (std::size_t k = 0; k < inside.size(); ++k)
         if (!inside[k])
-          pair.grains[k] = none;
+          pair.grains[k].setConstant(NAN);
       return stress_difference(grid, pair);
     }
   } // namespace
@@ -83,7 +76,8 @@ namespace diptych::coupling
     CellFields fields;
     fields.mesh      = mesh;
     fields.grains    = grain_fields(mesh, stage.grains_from, stage.grains_to, averaging);
-    fields.continuum = continuum_fields(stage.nodes_from, stage.nodes_to);
+    fields.own       = continuum_fields(stage.nodes_from, stage.nodes_to);
+    fields.continuum = averaged_continuum({fields.mesh, fields.own}, fields.mesh, scale_of(stage), averaging);
     add_kinematics(stage, fields);
     return fields;
   }
@@ -93,11 +87,18 @@ namespace diptych::coupling
     CellFields fields;
     fields.mesh      = grid_over(on_mesh.mesh, size);
     fields.grains    = grain_fields(fields.mesh, stage.grains_from, stage.grains_to, averaging);
-    fields.continuum = carried(cell_overlap(fields.mesh, on_mesh.mesh), on_mesh.continuum);
+    fields.own       = averaged_continuum({on_mesh.mesh, on_mesh.own}, fields.mesh, scale_of(stage), {});
+    fields.continuum = averaged_continuum({on_mesh.mesh, on_mesh.own}, fields.mesh, scale_of(stage), averaging);
     add_kinematics(stage, fields);
     for (std::size_t k = 0; k < fields.mesh.cell.size(); ++k)
-      if (!fields.continuum.stress[k].allFinite()) // outside the mesh the fit would extrapolate
-        fields.continuum_shear[k] = fields.continuum_spin[k] = NAN;
+      if (!fields.own.stress[k].allFinite()) // outside the mesh: a fit would extrapolate, a kernel fade out
+        {
+          fields.continuum_shear[k] = fields.continuum_spin[k] = fields.continuum.dissipation[k] = NAN;
+          fields.continuum.rotation_increment[k]                                                 = NAN;
+          fields.continuum.stress[k].setConstant(NAN);
+          fields.continuum.couple_stress[k].setConstant(NAN);
+          fields.continuum.displacement_increment[k].setConstant(NAN);
+        }
     return fields;
   }
 

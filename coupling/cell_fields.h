@@ -25,7 +25,8 @@ namespace diptych::coupling
   {
     QuadMesh            mesh;
     GrainFields         grains;
-    ContinuumFields     continuum;
+    ContinuumFields     own;             // the continuum's, as it is on these cells
+    ContinuumFields     continuum;       // through the same averaging as the grains
     std::vector<double> continuum_shear; // eps_1 - eps_2 of the displacement increment, by the grains' operator
     std::vector<double> continuum_spin;  // half the curl of the same increment, anticlockwise [radians]
   };
@@ -33,7 +34,7 @@ namespace diptych::coupling
   // On the continuum's own mesh in its shape at the end of the stage.
   CellFields mesh_fields(const QuadMesh &mesh, const StagePair &stage, const AveragingOptions &averaging);
 
-  // On a regular grid over the mesh, its cells about `size` [length]; the continuum's values are means by shared area.
+  // On a regular grid over the mesh, its cells about `size` [length].
   CellFields grid_fields(const CellFields &on_mesh, const StagePair &stage, const AveragingOptions &averaging, double size);
 
   // Stresses at three resolutions: the mesh's own cells, and grids of 3 and 6 mean diameters, of which only cells that lie in

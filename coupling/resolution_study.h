@@ -50,7 +50,8 @@ namespace diptych::coupling
   inline const std::vector<double> kernel_widths = {0.5, 0.75, 1, 1.5, 2, 3, 4};    // mean diameters
   inline const std::vector<double> cell_sizes    = {0.5, 0.75, 1, 1.5, 2, 3, 4, 6}; // mean diameters
 
-  // Of the window forces of a snapshot. mesh: the region that the sample fills. kernel: gauss or lucy (homogenisation/kernel.h).
+  // Of the window forces of a snapshot, without the dynamic part of the stress. mesh: the region that the sample fills. kernel:
+  // gauss or lucy (homogenisation/kernel.h).
   ResolutionStudy resolution_study(const QuadMesh                &mesh,
                                    const discrete::Snapshot      &grains,
                                    const std::vector<StudyPoint> &points,

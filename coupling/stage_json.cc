@@ -200,14 +200,34 @@ namespace diptych::coupling
       return result;
     }
 
+    // b - a of independent numbers: the distances of the ends from the values add up in squares.
+    Interval difference_of(const Interval &a, const Interval &b)
+    {
+      const double value = b.value - a.value;
+      return {value, value - std::hypot(b.value - b.low, a.high - a.value),
+              value + std::hypot(b.high - b.value, a.value - a.low)};
+    }
+
+    // Continuum minus grains, of the strongest band of each; angles as a turn of lines, anticlockwise.
     json band_difference(const Increment &increment, const double d)
     {
-      const std::vector<Band> &a = increment.discrete.band.bands, &b = increment.continuum.band.bands;
-      if (a.empty() || b.empty())
-        return {{"angle_deg", nullptr}, {"width_10_90_d", nullptr}, {"offset_d", nullptr}};
-      return {{"angle_deg", std::abs(line_turn(b[0].angle_deg, a[0].angle_deg))},
-              {"width_10_90_d", (b[0].width_10_90 - a[0].width_10_90) / d},
-              {"offset_d", (b[0].offset - a[0].offset) / d}};
+      const std::vector<Band> &grains = increment.discrete.band.bands, &nodes = increment.continuum.band.bands;
+      const char *const        names[] = {"angle_deg", "half_width_d", "width_10_90_d", "offset_d", "jump", "dilation_deg"};
+      json                     result;
+      for (const char *name : names)
+        result[name] = nullptr;
+      if (grains.empty() || nodes.empty())
+        return result;
+      const BandIntervals &a = grains[0].interval, &b = nodes[0].interval;
+      Interval             turn = difference_of(a.angle_deg, b.angle_deg);
+      const double         line = line_turn(turn.value, 0) - turn.value; // whole half turns
+      result["angle_deg"]       = interval_json({turn.value + line, turn.low + line, turn.high + line});
+      result["half_width_d"]    = interval_json(difference_of(a.half_width, b.half_width), d);
+      result["width_10_90_d"]   = interval_json(difference_of(a.width_10_90, b.width_10_90), d);
+      result["offset_d"]        = interval_json(difference_of(a.offset, b.offset), d);
+      result["jump"]            = interval_json(difference_of(a.jump, b.jump));
+      result["dilation_deg"]    = interval_json(difference_of(a.dilation_deg, b.dilation_deg));
+      return result;
     }
 
     json difference_json(const StageRecord &stage, const double d)
@@ -221,11 +241,13 @@ namespace diptych::coupling
                           {"direction_deg", at.direction_deg},
                           {"sampling_alone", at.sampling_alone},
                           {"lowest_scatter", at.lowest_scatter}});
-      json result = {{"stress_ratio", stage.continuum.stress_ratio.value - stage.discrete.stress_ratio.value},
-                     {"volumetric_strain", stage.continuum.volumetric_strain - stage.discrete.volumetric_strain},
-                     {"stress_l2_relative", stage.stress_differences.front().relative_l2},
-                     {"stress", stress},
-                     {"stress_verdict", stage.stress_verdict}};
+      const Interval exact{stage.continuum.stress_ratio.value, stage.continuum.stress_ratio.value,
+                           stage.continuum.stress_ratio.value}; // but for the mesh and the step
+      json           result = {{"stress_ratio", interval_json(difference_of(stage.discrete.stress_ratio, exact))},
+                               {"volumetric_strain", stage.continuum.volumetric_strain - stage.discrete.volumetric_strain},
+                               {"stress_l2_relative", stage.stress_differences.front().relative_l2},
+                               {"stress", stress},
+                               {"stress_verdict", stage.stress_verdict}};
       result.update(band_difference(stage.increment, d));
       return result;
     }

@@ -17,27 +17,13 @@ namespace diptych::coupling
       return sum;
     }
 
-    // Branches outside the mesh go where the nodal identity wants them, to the cell that the collar round the mesh belongs to.
-    void take_stress_of_segments(const MappedGrains &mapped, CellFields &fields)
-    {
-      const std::vector<Eigen::Matrix2d> stress = cell_stress(fields.mesh, mapped.moment);
-      for (std::size_t k = 0; k < stress.size(); ++k)
-        if (fields.grains.covered[k])
-          fields.grains.stress[k] = stress[k];
-    }
-
     void map_fields(const StagePair &stage, const ComparisonOptions &options, StageRecord &record)
     {
       record.fields  = mesh_fields(record.increment.mesh, stage, options.averaging);
       record.mapping = {record.fields.grains.total_relative_error, record.fields.grains.outside_share,
                         stage.grains_to.window_time, NAN};
       if (options.averaging.method == "segments")
-        {
-          const MappedGrains mapped = map_grains(record.fields.mesh, stage.grains_to);
-          record.mapping = {total_relative_error(mapped.moment, sum_of_moments(stage.grains_to)), outside_share(mapped.moment),
-                            stage.grains_to.window_time, mapped.nodal_residual};
-          take_stress_of_segments(mapped, record.fields);
-        }
+        record.mapping.nodal_residual = map_grains(record.fields.mesh, stage.grains_to).nodal_residual;
       record.grid = grid_fields(record.fields, stage, options.averaging, options.grid_size * stage.grains_to.mean_diameter);
       record.stress_differences = stress_differences(record.fields, stage, options.averaging);
       record.stress_verdict     = stress_verdict(record.stress_differences.back());
@@ -70,7 +56,7 @@ namespace diptych::coupling
              probe_fabric(region, view.network.contacts), probe_intervals(blocks.back(), view.bootstrap),
              grain_pressure(region, view.network)});
           record.continuum.probes.push_back(
-            {region, cell_probe_stress(region, record.fields.mesh, record.fields.continuum.stress), {}, {}, {}});
+            {region, cell_probe_stress(region, record.fields.mesh, record.fields.own.stress), {}, {}, {}});
         }
       record.probe_differences = probe_differences(regions, blocks, view.bootstrap);
     }
@@ -82,7 +68,7 @@ namespace diptych::coupling
         return;
       record.discrete.circle  = grain_circular_probe(circle, view.network, view.bootstrap);
       record.continuum.circle = cell_circular_probe(circle, record.fields.mesh, TriangleSearch(record.fields.mesh),
-                                                    record.fields.continuum.stress);
+                                                    record.fields.own.stress);
     }
 
     void look_across_the_band(const ProbeView &view, const StagePair &stage, StageRecord &record)
@@ -96,13 +82,13 @@ namespace diptych::coupling
         points.push_back(contact.point);
       if (stage.grains_to.window_dissipation.size() == points.size())
         record.discrete.dissipation = contact_dissipation_split(zone, view.outline, points, stage.grains_to.window_dissipation);
-      record.continuum.dissipation = cell_dissipation_split(zone, record.fields.mesh, record.fields.continuum.dissipation);
+      record.continuum.dissipation = cell_dissipation_split(zone, record.fields.mesh, record.fields.own.dissipation);
 
       const TractionStrips strips = traction_strips(view.outline, view.frame, band.angle_deg,
                                                     strip_edges(view.frame, band.angle_deg, band.offset));
       record.discrete.traction    = grain_band_traction(strips, view.network, view.bootstrap.block);
       record.continuum.traction   = cell_band_traction(strips, record.fields.mesh, TriangleSearch(record.fields.mesh),
-                                                       record.fields.continuum.stress);
+                                                       record.fields.own.stress);
       record.force_chains = grain_force_chains(zone, view.outline, view.network, 2 * view.frame.mean_diameter, view.bootstrap);
     }
   } // namespace

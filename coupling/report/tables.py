@@ -71,7 +71,7 @@ def band_notes(result, increment):
     if any(interval(band.get("angle_deg")) for panel in PANEL_NAMES for band in increment.bands(panel)):
         notes.append("In brackets: 95 % intervals by block bootstrap" + (
             f", {'/'.join(map(str, sorted(samples)))} resamples" if samples else "") + ". Difference: continuum − grains; "
-            "of inclinations the angle between the lines.")
+            "of inclinations the turn from the grains' line to the continuum's, anticlockwise positive.")
     lost = max((plain(b.get("lost_share")) or 0.0 for panel in PANEL_NAMES for b in increment.bands(panel)), default=0.0)
     if lost > 0:
         notes.append(f"In up to {rounded(lost, '%', 0)} of the resamples a band was lost: its interval holds for the rest.")
@@ -112,7 +112,7 @@ def stages(result):
     """The comparison table, as two of readable width: stress and volume; bands. Differences are the program's own."""
     stress = {"head": [result.progress.word, "t/s, grains", "t/s, continuum", "difference", "volumetric strain, grains",
                        "volumetric strain, continuum", "difference"], "rows": []}
-    inclined = {"head": [result.progress.word, "inclination, grains", "inclination, continuum", "angle between",
+    inclined = {"head": [result.progress.word, "inclination, grains", "inclination, continuum", "turn",
                          "10–90 % width, grains", "10–90 % width, continuum", "difference", "R², grains",
                          "R², continuum"], "rows": []}
     inclined["head"][5] = (inclined["head"][5], thickness_note(result))

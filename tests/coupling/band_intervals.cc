@@ -65,16 +65,16 @@ namespace
   // where the noise is shorter than the block, and for the uncertainty of few blocks, they may be half as long again.
   TEST(BandIntervals, CoverTheTruthUnderCorrelatedNoise)
   {
-    constexpr int               n       = 100;
-    const std::array<double, 5> truth   = {oblique.angle_deg, oblique.half_width, oblique.offset, oblique.jump,
-                                           oblique.dilation_deg};
-    std::array<int, 5>          covered = {};
-    std::array<double, 5>       squares = {}, lengths = {};
+    constexpr int               n     = 100;
+    const std::array<double, 5> truth = {
+      {oblique.angle_deg, oblique.half_width, oblique.offset, oblique.jump, oblique.dilation_deg}};
+    std::array<int, 5>    covered = {};
+    std::array<double, 5> squares = {}, lengths = {};
     for (int k = 0; k < n; ++k)
       {
         const BandData                data      = scaled(noisy_field(oblique, k % 2 ? 8 : 10, 0.05, k));
         const BandIntervals           band      = band_intervals(data, fitted(data, oblique), sample(), {10, 120, 1}, always)[0];
-        const std::array<Interval, 5> intervals = {band.angle_deg, band.half_width, band.offset, band.jump, band.dilation_deg};
+        const std::array<Interval, 5> intervals = {{band.angle_deg, band.half_width, band.offset, band.jump, band.dilation_deg}};
         for (int q = 0; q < 5; ++q)
           {
             covered[q] += intervals[q].low <= truth[q] && truth[q] <= intervals[q].high;
