@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """For the check.py of a folder: runs of the program, what they leave, and a table of figures against their intervals.
 
-A check.py gives a function that makes its runs for one seed and returns {name: figure}, and CLAIMS, a list of (name, low, high)."""
+A check.py gives a function that makes its runs for one seed and returns {name: figure}, and a list of (name, low, high)."""
 import argparse
 import csv
 import json

@@ -10,7 +10,8 @@ from claims import value
 
 
 def draw_bands(axis, panel, points):
-    """Middle of every band, and where a tenth and nine tenths of its jump are done. Offsets are from the middle of the sample's box."""
+    """Middle of every band, and where a tenth and nine tenths of its jump are done. Offsets count from the middle of the box that
+    holds `points`."""
     centre = 0.5 * (points.min(axis=0) + points.max(axis=0))
     reach = numpy.linalg.norm(numpy.ptp(points, axis=0))
     for band in panel["bands"]:
@@ -20,6 +21,12 @@ def draw_bands(axis, panel, points):
             middle = centre + across * (value(band["offset_d"]) + side * value(band["width_10_90_d"]))
             ends = numpy.stack((middle - reach * along, middle + reach * along))
             axis.plot(*ends.T, color="white", linestyle=style, linewidth=1.2 if side == 0 else 0.8)
+
+
+def mesh_at(file, strain):
+    """Corners of the cells at a strain: a window ends with a stage, which has the mesh."""
+    stages = [group for name, group in file.items() if name.startswith("stage_")]
+    return min(stages, key=lambda group: abs(group.attrs["axial_strain"] - strain))["cells/corners"][()]
 
 
 def draw_window(folder, window, path):
@@ -35,7 +42,7 @@ def draw_window(folder, window, path):
         group = file[f"window_{window}"]
         position, radius = group["discrete/position"][()][:, :2], group["discrete/radius"][()]
         grains = group["discrete/shear_strain_increment"][()]
-        corners, cells = group["cells/corners"][()], group["cells/continuum_shear_strain_increment"][()]
+        corners, cells = mesh_at(file, group.attrs["axial_strain"]), group["cells/continuum_shear_strain_increment"][()]
     top = numpy.nanpercentile(grains, 97)
     figure, axes = pyplot.subplots(1, 2, figsize=(8.4, 5.6), constrained_layout=True, sharey=True)
     axes[0].add_collection(EllipseCollection(2 * radius, 2 * radius, numpy.zeros_like(radius), units="xy", offsets=position,
@@ -48,5 +55,6 @@ def draw_window(folder, window, path):
         axis.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal", xlabel="x / d",
                  title="grains" if name == "discrete" else "continuum", facecolor="0.85")
     axes[0].set_ylabel("y / d")
-    figure.colorbar(drawn, ax=axes, shrink=0.6, label=f"shear strain increment, {100 * record['from']:g} to {100 * record['to']:g} %")
-    figure.savefig(path, dpi=100)
+    span = f"{100 * record['from']:g} to {100 * record['to']:g} %"
+    figure.colorbar(drawn, ax=axes, shrink=0.6, label=f"shear strain increment, {span}")
+    figure.savefig(path, dpi=100, bbox_inches="tight")

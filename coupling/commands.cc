@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "coupling/comparison.h"
-#include "coupling/comparison_output.h"
+#include "coupling/comparison/comparison.h"
+#include "coupling/comparison/comparison_output.h"
 #include "coupling/continuum_command.h"
 #include "coupling/continuum_loading.h"
 #include "coupling/discrete_command.h"

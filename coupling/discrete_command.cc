@@ -14,7 +14,7 @@
 #include "coupling/progress.h"
 #include "coupling/provenance.h"
 #include "coupling/result_folder.h"
-#include "coupling/step_comparison.h"
+#include "coupling/comparison/step_comparison.h"
 #include "coupling/stop_signal.h"
 #include "discrete/checkpoint.h"
 #include "discrete/output.h"

@@ -8,8 +8,8 @@
 #include <deal.II/base/mpi.h>
 
 #include "coupling/commands.h"
-#include "coupling/ensemble_command.h"
-#include "coupling/ensemble_folder.h"
+#include "coupling/ensembles/ensemble_command.h"
+#include "coupling/ensembles/ensemble_folder.h"
 #include "coupling/processes.h"
 #include "coupling/scene.h"
 #include "coupling/solve_command.h"

@@ -39,8 +39,8 @@ namespace diptych::coupling
                                                   "material_point.csv"};
   }
 
-  const std::vector<std::string> comparison_files = {"comparison.json", "comparison.csv", "comparison.h5", "fields.vtu", "grid.vtu",
-                                                     "report.html"};
+  const std::vector<std::string> comparison_files = {"comparison.json", "comparison.csv", "comparison.h5",
+                                                     "fields.vtu",      "grid.vtu",       "report.html"};
 
   void remove_results(const std::string &directory, const std::vector<std::string> &names)
   {

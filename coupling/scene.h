@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "continuum/panel.h"
-#include "coupling/band.h"
-#include "coupling/equivalence.h"
+#include "coupling/bands/band.h"
+#include "coupling/statistics/equivalence.h"
 #include "coupling/homogenisation/averaging.h"
-#include "coupling/probes.h"
+#include "coupling/probes/probes.h"
 #include "discrete/panel.h"
 
 namespace diptych::coupling

@@ -4,7 +4,7 @@
 
 #include "benchmarks/homogenisation/airy_network.h"
 #include "benchmarks/homogenisation/sections.h"
-#include "coupling/mesh_cells.h"
+#include "coupling/cells/mesh_cells.h"
 
 namespace diptych::benchmarks
 {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/mesh_cells.h"
+#include "coupling/cells/mesh_cells.h"
 #include "discrete/snapshot.h"
 
 namespace diptych::benchmarks

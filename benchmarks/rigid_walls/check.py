@@ -16,8 +16,8 @@ import claims  # noqa: E402
 
 SCENE = os.path.join(HERE, "scene.prm")
 
-# Grains and prediction: mean and four standard deviations over ten seeds (README). The mean forces on opposite walls differ by the
-# grains' momentum at the end over the time: 0.3 % to the sides.
+# Grains and prediction: mean and four standard deviations over the first ten seeds of the README. The mean forces on opposite
+# walls differ by the grains' momentum at the end over the time: 0.3 % to the sides.
 CLAIMS = [("grains: peak t/s", 0.356, 0.445), ("grains: t/s, 1.5-4 %", 0.339, 0.414), ("grains: t/s, 7-8 %", 0.266, 0.378),
           ("grains: volumetric strain at the end", -0.0373, -0.0214), ("right wall: mean force / (P height)", 0.999, 1.001),
           ("left / right wall: mean force", 1, 1.006), ("lower / upper wall: mean force", 0.999, 1.001),

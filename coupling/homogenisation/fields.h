@@ -9,7 +9,7 @@
 
 #include "coupling/homogenisation/averaging.h"
 #include "coupling/homogenisation/cell_cover.h"
-#include "coupling/mesh_cells.h"
+#include "coupling/cells/mesh_cells.h"
 #include "discrete/snapshot.h"
 
 namespace diptych::coupling

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "coupling/homogenisation/target_cells.h"
-#include "coupling/strain_increment.h"
+#include "coupling/homogenisation/strain_increment.h"
 #include "discrete/snapshot.h"
 
 namespace diptych::coupling

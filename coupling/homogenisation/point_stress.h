@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "coupling/mesh_cells.h"
+#include "coupling/cells/mesh_cells.h"
 #include "discrete/snapshot.h"
 
 namespace diptych::coupling

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "coupling/polygon.h"
+#include "coupling/cells/polygon.h"
 
 namespace diptych::coupling
 {

@@ -6,8 +6,8 @@
 
 #include <Eigen/Core>
 
-#include "coupling/mesh_cells.h"
-#include "coupling/triangle_search.h"
+#include "coupling/cells/mesh_cells.h"
+#include "coupling/cells/triangle_search.h"
 #include "discrete/snapshot.h"
 
 namespace diptych::coupling

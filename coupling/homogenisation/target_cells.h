@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
-#include "coupling/mesh_cells.h"
-#include "coupling/triangle_search.h"
+#include "coupling/cells/mesh_cells.h"
+#include "coupling/cells/triangle_search.h"
 
 namespace diptych::coupling
 {

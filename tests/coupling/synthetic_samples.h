@@ -9,8 +9,8 @@
 
 #include <Eigen/Core>
 
-#include "coupling/band.h"
-#include "coupling/mesh_cells.h"
+#include "coupling/bands/band.h"
+#include "coupling/cells/mesh_cells.h"
 #include "discrete/snapshot.h"
 
 namespace diptych::coupling::synthetic

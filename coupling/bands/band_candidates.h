@@ -1,0 +1,44 @@
+// diptych: where band fits start: scans over lines and pairs of lines
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "coupling/bands/band_fit.h"
+
+namespace diptych::coupling
+{
+  // Means over square blocks of the given size [mean diameters]: scans need no more.
+  BandData block_means(const BandData &data, double size);
+
+  // Whether two lines differ by at least the angle [radians] or, if not, by the separation of their offsets [mean diameters].
+  bool distinct(const BandShape &a, const BandShape &b, double angle, double separation);
+
+  // Radon-like scan: profiles along every line of every angle (4 degrees apart) at three half widths, tried on the blocks
+  // beside the affine background.
+  class LineScan
+  {
+  public:
+    LineScan(const BandData &blocks, const BandFitOptions &sample);
+
+    // The lines that explain most beside the known bands and differ from one another, best first.
+    std::vector<BandShape> best_lines(const std::vector<BandShape> &known, std::size_t n_best) const;
+
+    // The pair of lines that together explain most, or none: needed where neither line of a crossing pair is the best single one.
+    std::vector<BandShape> best_pair() const;
+
+  private:
+    Eigen::VectorXd affine_free_profile(const BandShape &shape) const;
+
+    Eigen::VectorXd        root_weight; // a factor of every row of affine, profiles and data
+    Eigen::MatrixXd        position;    // of the blocks [mean diameters]
+    Eigen::MatrixXd        affine;      // orthonormal basis of the background
+    std::vector<BandShape> lines;
+    Eigen::MatrixXd        profiles; // of the lines, affine background taken off, one a column
+    Eigen::MatrixXd        data;     // u_x, u_y
+    double                 smallest_square;
+  };
+} // namespace diptych::coupling

@@ -1,0 +1,74 @@
+// diptych: which triangle of a mesh holds a point, and which ones a segment runs through
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "coupling/cells/mesh_cells.h"
+
+namespace diptych::coupling
+{
+  // Finds triangles through a uniform grid of bins. A point on an edge belongs to the triangle of lowest number (tolerance
+  // 1e-12 of the edge); a point outside the mesh to the triangle at the nearest boundary edge.
+  class TriangleSearch
+  {
+  public:
+    struct Place
+    {
+      unsigned int triangle;
+      bool         inside;
+    };
+
+    // A part of a segment a-b: parameters 0 <= from < to <= 1.
+    struct Piece
+    {
+      unsigned int triangle;
+      double       from, to;
+      bool         inside;
+    };
+
+    // Throws std::invalid_argument for a mesh without triangles or a triangle without positive area.
+    explicit TriangleSearch(const QuadMesh &mesh);
+
+    Place locate(const Eigen::Vector2d &point) const;
+
+    // Cuts a-b where it enters or leaves a triangle. The pieces are in order and each begins where the one before ends, the
+    // first at 0 and the last at 1: their sum is the segment, whatever rounding does to the cuts.
+    void cut(const Eigen::Vector2d &a, const Eigen::Vector2d &b, std::vector<Piece> &pieces) const;
+
+    // Triangles whose bounding box meets the given box, ascending, each once.
+    void triangles_in_box(const Eigen::Vector2d &lower, const Eigen::Vector2d &upper, std::vector<unsigned int> &triangles) const;
+
+    // Numbers of the points in an order in which neighbours in space follow one another: bin by bin.
+    std::vector<unsigned int> in_spatial_order(const std::vector<Eigen::Vector2d> &points) const;
+
+    const std::array<Eigen::Vector2d, 3> &corners(const unsigned int triangle) const { return triangles[triangle].corner; }
+
+  private:
+    struct Triangle
+    {
+      std::array<Eigen::Vector2d, 3> corner;
+      Eigen::Vector2d                lower, upper;
+    };
+
+    struct BinRange
+    {
+      int column_begin, column_end, row_begin, row_end;
+    };
+
+    BinRange     bins(const Eigen::Vector2d &lower, const Eigen::Vector2d &upper) const;
+    unsigned int nearest_boundary_triangle(const Eigen::Vector2d &point) const;
+
+    std::vector<Triangle>                       triangles;
+    std::vector<BoundaryEdge>                   boundary;
+    std::vector<std::array<Eigen::Vector2d, 2>> boundary_ends;
+
+    Eigen::Vector2d           origin;
+    double                    bin_size  = 1;
+    int                       n_columns = 1, n_rows = 1;
+    std::vector<unsigned int> bin_begin, bin_triangle; // triangles of bin b: bin_triangle[bin_begin[b] .. bin_begin[b+1])
+  };
+} // namespace diptych::coupling

@@ -1,0 +1,91 @@
+// diptych: displacement increments of both panels between two instants, seen through the same operators
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/comparison/increment.h"
+
+#include <cmath>
+
+#include "coupling/homogenisation/periodic.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    SampleFrame make_frame(const discrete::Snapshot &from, const discrete::Snapshot &to)
+    {
+      Eigen::Vector2d low = to.outline.left.front(), high = to.outline.right.front();
+      for (const auto *side : {&to.outline.left, &to.outline.right})
+        for (const Eigen::Vector2d &x : *side)
+          low = low.cwiseMin(x), high = high.cwiseMax(x);
+      SampleFrame frame;
+      frame.centre           = 0.5 * (low + high);
+      frame.width            = high.x() - low.x();
+      frame.height           = high.y() - low.y();
+      frame.mean_diameter    = to.mean_diameter;
+      frame.platen_increment = to.upper_platen_displacement - from.upper_platen_displacement;
+      return frame;
+    }
+
+    std::vector<Eigen::Vector2d> cell_centres(const QuadMesh &mesh)
+    {
+      std::vector<Eigen::Vector2d> centres;
+      for (unsigned int k = 0; k < mesh.cell.size(); ++k)
+        centres.push_back(cell_centre(mesh, k));
+      return centres;
+    }
+
+    // Both panels' strips lie along the grains' band; where they show none along the continuum's, else along the
+    // platen's travel.
+    Strips cut_strips(const DisplacementField &field, const Increment &increment)
+    {
+      const std::vector<Band> &grains = increment.discrete.band.bands, &nodes = increment.continuum.band.bands;
+      const Eigen::Vector2d   &travel = increment.frame.platen_increment;
+      double                   angle = std::atan2(travel.y(), travel.x()) * 180 / M_PI, offset = 0;
+      if (!grains.empty())
+        angle = grains[0].angle_deg, offset = grains[0].offset;
+      else if (!nodes.empty())
+        angle = nodes[0].angle_deg, offset = nodes[0].offset;
+      if (angle <= -90)
+        angle += 180;
+      return strip_means(field, increment.frame, angle, strip_edges(increment.frame, angle, offset));
+    }
+  } // namespace
+
+  Increment make_increment(const StagePair &pair, const BandOptions &options, std::uint64_t seed)
+  {
+    const double radius = strain_radius(pair.grains_to.mean_diameter);
+    Increment    result;
+    result.from            = pair.grains_from.axial_strain;
+    result.to              = pair.grains_to.axial_strain;
+    result.frame           = make_frame(pair.grains_from, pair.grains_to);
+    result.mesh            = quad_mesh(pair.nodes_to);
+    result.discrete.field  = displacement_field(pair.grains_from, pair.grains_to);
+    result.continuum.field = displacement_field(pair.nodes_from, pair.nodes_to);
+    result.cover           = grain_cover(result.mesh, pair.grains_to);
+
+    const std::vector<Eigen::Vector2d> centres = cell_centres(result.mesh);
+    for (PanelIncrement *panel : {&result.discrete, &result.continuum})
+      {
+        panel->band       = find_bands(panel->field, result.frame, options, seed);
+        panel->cell_shear = shear_strain_increment(panel->field, centres, radius);
+      }
+    for (PanelIncrement *panel : {&result.discrete, &result.continuum})
+      panel->strips = cut_strips(panel->field, result);
+    for (std::size_t k = 0; k < centres.size(); ++k)
+      if (!result.cover.covered[k])
+        result.discrete.cell_shear[k] = NAN;
+    result.grain_shear = shear_strain_increment(result.discrete.field, result.discrete.field.position, radius);
+    return result;
+  }
+
+  PanelIncrement continuum_increment(const continuum::Snapshot &from,
+                                     const continuum::Snapshot &to,
+                                     const SampleFrame         &frame,
+                                     const BandOptions         &options,
+                                     std::uint64_t              seed)
+  {
+    PanelIncrement panel;
+    panel.field = displacement_field(from, to);
+    panel.band  = find_bands(panel.field, frame, options, seed);
+    return panel;
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,46 @@
+// diptych: displacement increments of both panels between two instants, seen through the same operators
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "continuum/snapshot.h"
+#include "coupling/bands/band.h"
+#include "coupling/comparison/cell_fields.h"
+#include "coupling/homogenisation/cell_cover.h"
+#include "coupling/cells/mesh_cells.h"
+#include "coupling/bands/strips.h"
+#include "discrete/snapshot.h"
+
+namespace diptych::coupling
+{
+  // Displacement increments of one panel between two stages.
+  struct PanelIncrement
+  {
+    DisplacementField   field;
+    BandReport          band;
+    Strips              strips;
+    std::vector<double> cell_shear; // shear strain increment at the cell centres of the continuum's mesh, n_cells
+  };
+
+  struct Increment
+  {
+    double              from = 0, to = 0; // axial strain
+    SampleFrame         frame;
+    QuadMesh            mesh;  // of the continuum at `to`
+    CellCover           cover; // by the grains at `to`
+    PanelIncrement      discrete, continuum;
+    std::vector<double> grain_shear; // shear strain increment at the grains
+  };
+
+  // seed: of the resamples that give the bands' intervals.
+  Increment make_increment(const StagePair &pair, const BandOptions &options, std::uint64_t seed);
+
+  // The continuum alone, in the frame of another increment.
+  PanelIncrement continuum_increment(const continuum::Snapshot &from,
+                                     const continuum::Snapshot &to,
+                                     const SampleFrame         &frame,
+                                     const BandOptions         &options,
+                                     std::uint64_t              seed);
+} // namespace diptych::coupling

@@ -1,0 +1,124 @@
+// diptych: what is compared at one stage
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/comparison/stage_record.h"
+
+#include "coupling/homogenisation/periodic.h"
+#include "coupling/cells/principal_axes.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    Eigen::Matrix2d sum_of_moments(const discrete::Snapshot &grains)
+    {
+      Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+      for (const Eigen::Matrix2d &moment : grains.mean_internal_moment)
+        sum += moment;
+      return sum;
+    }
+
+    void map_fields(const StagePair &stage, const ComparisonOptions &options, StageRecord &record)
+    {
+      record.fields  = mesh_fields(record.increment.mesh, stage, options.averaging);
+      record.mapping = {record.fields.grains.total_relative_error, record.fields.grains.outside_share,
+                        stage.grains_to.window_time, NAN};
+      if (options.averaging.method == "segments")
+        record.mapping.nodal_residual = map_grains(record.fields.mesh, stage.grains_to).nodal_residual;
+      record.grid = grid_fields(record.fields, stage, options.averaging, options.grid_size * stage.grains_to.mean_diameter);
+      record.stress_differences = stress_differences(record.fields, stage, options.averaging);
+      record.stress_verdict     = stress_verdict(record.stress_differences.back());
+    }
+
+    double minor_direction(const Eigen::Matrix2d &stress)
+    {
+      return line_turn(major_direction(stress) + 90, 0);
+    }
+
+    // What all probes of a stage look at.
+    struct ProbeView
+    {
+      std::vector<Eigen::Vector2d> outline;
+      GrainNetwork                 network;
+      BootstrapOptions             bootstrap;
+      const SampleFrame           &frame;
+      const std::vector<Band>     &bands; // of the grains
+    };
+
+    void take_rectangles(const ProbeView &view, const ProbeOptions &options, StageRecord &record)
+    {
+      const std::vector<ProbeRegion> regions = place_probes(view.outline, view.frame, view.bands, options);
+      std::vector<ProbeBlocks>       blocks;
+      for (const ProbeRegion &region : regions)
+        {
+          blocks.push_back(probe_blocks(region, view.network, view.bootstrap.block));
+          record.discrete.probes.push_back(
+            {region, grain_probe_stress(region, view.network.position, view.network.radius, view.network.moment),
+             probe_fabric(region, view.network.contacts), probe_intervals(blocks.back(), view.bootstrap),
+             grain_pressure(region, view.network)});
+          record.continuum.probes.push_back(
+            {region, cell_probe_stress(region, record.fields.mesh, record.fields.own.stress), {}, {}, {}});
+        }
+      record.probe_differences = probe_differences(regions, blocks, view.bootstrap);
+    }
+
+    void take_circle(const ProbeView &view, const ProbeOptions &options, StageRecord &record)
+    {
+      const Circle circle = place_circle(view.outline, view.frame, view.bands, options);
+      if (!(circle.radius > 0))
+        return;
+      record.discrete.circle  = grain_circular_probe(circle, view.network, view.bootstrap);
+      record.continuum.circle = cell_circular_probe(circle, record.fields.mesh, TriangleSearch(record.fields.mesh),
+                                                    record.fields.own.stress);
+    }
+
+    void look_across_the_band(const ProbeView &view, const StagePair &stage, StageRecord &record)
+    {
+      if (view.bands.empty())
+        return;
+      const Band                  &band = view.bands[0];
+      const BandZone               zone = band_zone(view.frame, band);
+      std::vector<Eigen::Vector2d> points;
+      for (const discrete::ContactForce &contact : view.network.forces)
+        points.push_back(contact.point);
+      if (stage.grains_to.window_dissipation.size() == points.size())
+        record.discrete.dissipation = contact_dissipation_split(zone, view.outline, points, stage.grains_to.window_dissipation);
+      record.continuum.dissipation = cell_dissipation_split(zone, record.fields.mesh, record.fields.own.dissipation);
+
+      const TractionStrips strips = traction_strips(view.outline, view.frame, band.angle_deg,
+                                                    strip_edges(view.frame, band.angle_deg, band.offset));
+      record.discrete.traction    = grain_band_traction(strips, view.network, view.bootstrap.block);
+      record.continuum.traction   = cell_band_traction(strips, record.fields.mesh, TriangleSearch(record.fields.mesh),
+                                                       record.fields.own.stress);
+      record.force_chains = grain_force_chains(zone, view.outline, view.network, 2 * view.frame.mean_diameter, view.bootstrap);
+    }
+  } // namespace
+
+  StageRecord stage_record(Increment increment, const StagePair &stage, const Scene &scene)
+  {
+    StageRecord record;
+    record.axial_strain = stage.grains_to.axial_strain;
+    record.increment    = std::move(increment);
+    map_fields(stage, scene.comparison, record);
+
+    double spin = 0;
+    for (const double term : stage.grains_to.mean_spin_term)
+      spin += term;
+    record.discrete.dynamic_share = spin / (0.5 * sum_of_moments(stage.grains_to).trace());
+
+    record.discrete.minor_direction_deg  = minor_direction(sum_of_moments(stage.grains_to));
+    record.continuum.minor_direction_deg = minor_direction(
+      (stage.nodes_from.mean_stress + stage.nodes_to.mean_stress).topLeftCorner<2, 2>());
+
+    const ProbeOptions &probes = scene.comparison.probes;
+    const ProbeView     view{
+      outline_polygon(stage.grains_to.outline),
+      grain_network(stage.grains_to),
+      {probes.probe_block * stage.grains_to.mean_diameter, probes.probe_resamples, std::uint64_t(scene.sample.seed)},
+      record.increment.frame,
+      record.increment.discrete.band.bands};
+    take_rectangles(view, probes, record);
+    take_circle(view, probes, record);
+    look_across_the_band(view, stage, record);
+    return record;
+  }
+} // namespace diptych::coupling

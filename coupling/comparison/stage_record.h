@@ -1,0 +1,71 @@
+// diptych: what is compared at one stage
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coupling/probes/band_traction.h"
+#include "coupling/comparison/cell_fields.h"
+#include "coupling/probes/circular_probe.h"
+#include "coupling/probes/dissipation_split.h"
+#include "coupling/probes/force_chains.h"
+#include "coupling/comparison/increment.h"
+#include "coupling/statistics/interval.h"
+#include "coupling/probes/probe_statistics.h"
+#include "coupling/probes/probes.h"
+#include "coupling/scene.h"
+#include "coupling/comparison/stress_difference.h"
+
+namespace diptych::coupling
+{
+  struct ProbeRecord
+  {
+    ProbeRegion region;
+    ProbeStress stress;
+    // of grains only
+    ProbeFabric    fabric;
+    ProbeIntervals intervals;
+    GrainPressure  pressure;
+  };
+
+  struct PanelRecord
+  {
+    Interval        stress_ratio; // mean over the last averaging_strain; the grains' with the interval of batch means
+    double          volumetric_strain = 0;
+    Eigen::Vector2d lower_force, upper_force;  // on the sample, averaged likewise [pressure * length]
+    double          dynamic_share       = 0;   // grains: spin term / mean stress, over the stage
+    double          minor_direction_deg = NAN; // of the least compression of the mean stress over the stage, in (-90, 90]
+    std::vector<ProbeRecord>        probes;
+    CircularProbe                   circle;
+    std::optional<DissipationSplit> dissipation; // by the grains' band; none where they show none
+    std::optional<BandTraction>     traction;    // likewise
+  };
+
+  struct MappingRecord
+  {
+    double total_relative_error = 0, outside_share = 0;
+    double window_time    = 0;   // over which the grains' forces are averaged: impulses / this time
+    double nodal_residual = NAN; // of `segments` on the mesh; NaN for other methods, or where periodic.h says so
+  };
+
+  struct StageRecord
+  {
+    double      axial_strain = 0;
+    Increment   increment; // since the preceding stage
+    PanelRecord discrete, continuum;
+
+    std::vector<ProbeDifference> probe_differences; // of the grains
+    std::optional<ForceChains>   force_chains;      // of single grains, by the grains' band
+
+    CellFields                    fields; // on the continuum's mesh
+    CellFields                    grid;   // on the regular grid
+    MappingRecord                 mapping;
+    std::vector<StressDifference> stress_differences; // cells, 3 d, 6 d
+    std::string                   stress_verdict;
+  };
+
+  // increment: of the stage. Histories and intervals of the stress ratio are the caller's.
+  StageRecord stage_record(Increment increment, const StagePair &stage, const Scene &scene);
+} // namespace diptych::coupling

@@ -1,0 +1,142 @@
+// diptych: one sample loaded with several lengths of the step, compared
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/comparison/step_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+#include "discrete/text_file.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    const std::vector<std::string> cumulated = {"external_work", "friction_dissipation", "impact_dissipation"};
+
+    constexpr int    n_instants = 200; // at which runs are compared
+    constexpr double margin     = 0.05;
+
+    // A cumulated column at an instant, along the broken line through its rows, from 0 at the start.
+    double value_at(const HistoryTable &table, const std::string &name, const double time)
+    {
+      const std::vector<double> &x = column(table, "time"), &y = column(table, name);
+      const std::size_t          k = std::size_t(std::lower_bound(x.begin(), x.end(), time) - x.begin());
+      if (k >= x.size())
+        return y.back();
+      const double x0 = k == 0 ? 0. : x[k - 1], y0 = k == 0 ? 0. : y[k - 1];
+      return x[k] > x0 ? y0 + (y[k] - y0) * (time - x0) / (x[k] - x0) : y[k];
+    }
+
+    double measured(const HistoryTable &table, const std::string &name, const double time, const double window)
+    {
+      if (name == "stress_ratio")
+        return mean_over(table, {"time", name}, std::max(0., time - window), time);
+      return value_at(table, name, time);
+    }
+
+    // The strain that a loading drives: descent or travel of the upper platen; where neither advances, none.
+    std::string driven_strain(const HistoryTable &table)
+    {
+      for (const std::string name : {"axial_strain", "shear_strain"})
+        if (table.count(name) > 0 && std::abs(column(table, name).back()) > 1e-12)
+          return name;
+      return "";
+    }
+
+    // Instants that all runs have reached, from one averaging window on.
+    std::vector<double> instants(const std::vector<StepRun> &runs, const double window)
+    {
+      double end = column(runs.front().history, "time").back();
+      for (const StepRun &run : runs)
+        end = std::min(end, column(run.history, "time").back());
+      const double        from = std::min(window, 0.5 * end);
+      std::vector<double> x;
+      for (int k = 0; k <= n_instants; ++k)
+        x.push_back(from + (end - from) * k / n_instants);
+      return x;
+    }
+  } // namespace
+
+  StepComparison compare_steps(const std::vector<StepRun> &runs, const double averaging_strain)
+  {
+    if (runs.size() < 2)
+      throw std::invalid_argument("a study of the step needs at least two runs");
+    const HistoryTable &finest = runs.back().history;
+    const std::string   strain = driven_strain(finest);
+    const double        end    = column(finest, "time").back();
+    // Without a driven strain a tenth of the loading is averaged over.
+    const double              window = strain.empty() ? 0.1 * end
+                                                      : end * std::min(1., averaging_strain / std::abs(column(finest, strain).back()));
+    const std::vector<double> x      = instants(runs, window);
+    std::vector<std::string>  names{"stress_ratio"};
+    names.insert(names.end(), cumulated.begin(), cumulated.end());
+    StepComparison comparison;
+    for (const std::string &name : names)
+      {
+        StepComparison::Quantity q{name, {}, 0};
+        double                   scale     = 0;
+        const std::string        scaled_by = name == "stress_ratio" ? name : "external_work";
+        for (const double time : x)
+          scale = std::max(scale, std::abs(measured(finest, scaled_by, time, window)));
+        for (const StepRun &run : runs)
+          {
+            double largest = 0;
+            for (const double time : x)
+              {
+                const double difference = std::abs(measured(run.history, name, time, window) -
+                                                   measured(finest, name, time, window));
+                if (difference > largest && &run == &runs.front())
+                  q.at_strain = strain.empty() ? time : value_at(finest, strain, time);
+                largest = std::max(largest, difference);
+              }
+            q.largest_difference.push_back(scale > 0 ? largest / scale : 0);
+          }
+        comparison.largest = std::max(comparison.largest, q.largest_difference.front());
+        comparison.quantities.push_back(q);
+      }
+    const auto worst = std::max_element(
+      comparison.quantities.begin(), comparison.quantities.end(),
+      [](const auto &a, const auto &b) { return a.largest_difference.front() < b.largest_difference.front(); });
+    std::ostringstream text;
+    text.precision(3);
+    text << "step " << runs.front().step << " against " << runs.back().step << ": "
+         << (comparison.largest <= margin ? "the step does not matter" : "the step matters") << ", largest difference "
+         << 100 * comparison.largest << " % (" << worst->name << ", at " << 100 * worst->at_strain << " % axial strain; margin "
+         << 100 * margin << " %)";
+    comparison.verdict = text.str();
+    return comparison;
+  }
+
+  void write_step_comparison(const std::string &directory, const std::vector<StepRun> &runs, const StepComparison &comparison)
+  {
+    const std::vector<std::string> columns = {"stress_ratio",       "external_work",  "friction_dissipation",
+                                              "impact_dissipation", "kinetic_energy", "max_penetration"};
+    std::ostringstream             csv;
+    csv.precision(10);
+    csv << "step,time,axial_strain";
+    for (const std::string &name : columns)
+      csv << ',' << name;
+    csv << '\n';
+    for (const StepRun &run : runs)
+      for (std::size_t k = 0; k < column(run.history, "time").size(); ++k)
+        {
+          csv << run.step << ',' << column(run.history, "time")[k] << ',' << column(run.history, "axial_strain")[k];
+          for (const std::string &name : columns)
+            csv << ',' << column(run.history, name)[k];
+          csv << '\n';
+        }
+    discrete::write_text(directory + "/study_step.csv", csv.str());
+
+    nlohmann::json root = {{"verdict", comparison.verdict}, {"largest_difference", comparison.largest}, {"margin", margin}};
+    for (const StepRun &run : runs)
+      root["steps"].push_back(run.step);
+    for (const StepComparison::Quantity &q : comparison.quantities)
+      root["quantities"].push_back(
+        {{"name", q.name}, {"largest_difference", q.largest_difference}, {"at_axial_strain", q.at_strain}});
+    discrete::write_text(directory + "/study_step.json", root.dump(1) + "\n");
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,70 @@
+// diptych: what the realisations of an ensemble have in common: means, intervals, verdicts
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "coupling/statistics/equivalence.h"
+#include "coupling/scene.h"
+
+namespace diptych::coupling
+{
+  // The numbers of one comparison.json that may be averaged over realisations.
+  struct Member
+  {
+    int                                         seed = 0;
+    std::vector<std::pair<std::string, double>> numbers;     // by name, in the order of the file
+    std::vector<std::pair<std::string, int>>    band_counts; // "window 0-0.01 discrete": bands found there
+  };
+
+  // Names are made of the place and the key: "stage 0.04 discrete stress_ratio", "stage 0.04 discrete probe zone t_over_s",
+  // "window 0.02-0.04 continuum band angle_deg" (of the strongest band; absent where none was found), "discrete_summary
+  // peak_stress_ratio". Of {"value", "low", "high"} the value is taken; lists, texts, nulls, strips and what a clock measured are
+  // left out. Throws std::runtime_error naming what is missing.
+  Member member_of(const nlohmann::json &comparison);
+
+  // Whether nothing but chance tells left from right: vertical descent, no horizontal gravity, no wall driven by a key of its
+  // own.
+  bool is_mirror_symmetric(const Scene &scene);
+
+  // Brings mirror images of a band together: angle_deg and offset_d become their absolute values, jump changes its sign with the
+  // angle. Differences of the panels' bands, which were taken between mirror images, are removed.
+  void fold(Member &member);
+
+  struct Quantity
+  {
+    std::string         name, unit;
+    SampleStatistics    statistics; // of lines where the name is a line's angle
+    std::vector<double> values;     // one a member; NaN where it has none
+  };
+
+  struct BandCount
+  {
+    std::string name;                   // "window 0-0.01 discrete"
+    int         members[3] = {0, 0, 0}; // in which no, one, two bands were found
+  };
+
+  // Continuum minus grains, member by member.
+  struct PanelVerdict
+  {
+    std::string         quantity, unit; // of the margin and the difference
+    double              margin   = 0;
+    bool                relative = false; // to the grains' mean
+    Equivalence         equivalence;
+    std::vector<double> discrete, continuum; // one a member; NaN where it has none
+  };
+
+  struct Ensemble
+  {
+    std::vector<int>          seeds; // of the members, ascending
+    std::vector<Quantity>     quantities;
+    std::vector<BandCount>    bands;
+    std::vector<PanelVerdict> verdicts; // peak stress ratio, volumetric strain, angle and thickness of each window
+  };
+
+  Ensemble evaluate(const std::vector<Member> &members, const EquivalenceMargins &margins);
+} // namespace diptych::coupling

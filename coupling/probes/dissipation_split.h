@@ -1,0 +1,31 @@
+// diptych: how much is dissipated inside the band, beside the share of the area that the band covers
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "coupling/bands/band_zone.h"
+#include "coupling/cells/mesh_cells.h"
+
+namespace diptych::coupling
+{
+  // Energies per unit thickness [pressure * length^2]. Shares are of the whole sample; NaN where nothing is dissipated.
+  struct DissipationSplit
+  {
+    double inside = 0, outside = 0;
+    double share_inside = NAN, area_share = NAN;
+  };
+
+  // Contacts by their point. dissipation: n_contacts energies; outline: of the sample, counter-clockwise. Throws
+  // std::invalid_argument where there is not one energy a point, or no outline.
+  DissipationSplit contact_dissipation_split(const BandZone                     &zone,
+                                             const std::vector<Eigen::Vector2d> &outline,
+                                             const std::vector<Eigen::Vector2d> &points,
+                                             const std::vector<double>          &dissipation);
+
+  // Cells by the exact part of their area. dissipation: n_cells energies per area [pressure]; cells without a value (NaN) count
+  // neither in the energy nor in the area. Throws std::invalid_argument where there is not one value a cell.
+  DissipationSplit cell_dissipation_split(const BandZone &zone, const QuadMesh &mesh, const std::vector<double> &dissipation);
+} // namespace diptych::coupling

@@ -1,0 +1,80 @@
+// diptych: statistics over realisations, and whether two panels are equivalent within a margin
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "coupling/statistics/interval.h"
+
+namespace diptych::coupling
+{
+  // How far the continuum may be from the grains and still count as equivalent. Chosen by the user, before looking at results.
+  struct EquivalenceMargins
+  {
+    double angle             = 3;
+    double thickness         = 0.2;
+    double peak_stress_ratio = 0.03;
+    double volumetric_strain = 0.002;
+  };
+
+  template <class Visitor> void visit_parameters(EquivalenceMargins &o, Visitor &&visitor)
+  {
+    visitor("margin_angle", o.angle, "degrees", {1e-6, 90.},
+            "ensembles of seeds: inclinations of the bands that differ by less count as equivalent");
+    visitor("margin_thickness", o.thickness, "-", {1e-6, 10.},
+            "likewise 10-90 % widths of the bands, relative to the mean of the grains");
+    visitor("margin_peak_stress_ratio", o.peak_stress_ratio, "-", {1e-6, 10.},
+            "likewise peak stress ratios, relative to the mean of the grains");
+    visitor("margin_volumetric_strain", o.volumetric_strain, "-", {1e-9, 1.},
+            "likewise volumetric strains at the end, as they are");
+  }
+
+  // Of independent realisations. NaN where n is too small: mean from 1 on, the rest from 2 on.
+  struct SampleStatistics
+  {
+    int    n         = 0;
+    double mean      = std::numeric_limits<double>::quiet_NaN();
+    double deviation = std::numeric_limits<double>::quiet_NaN(); // of one realisation: n - 1 in the denominator
+    double low       = std::numeric_limits<double>::quiet_NaN(); // ends of the 95 % Student interval of the mean
+    double high      = std::numeric_limits<double>::quiet_NaN();
+  };
+
+  [[nodiscard]] SampleStatistics statistics(const std::vector<double> &values);
+
+  // Of angles of lines [degrees], which repeat after 180: the mean is half the direction of the sum of the unit vectors of the
+  // doubled angles, in (-90, 90], the deviation that of the turns from it; low and high are not brought back into that range.
+  // NaN where the lines have no mean direction. Source: Mardia and Jupp, Directional Statistics (2000), section 2.2.
+  [[nodiscard]] SampleStatistics line_statistics(const std::vector<double> &degrees);
+
+  enum class Verdict
+  {
+    equivalent, // two one-sided tests at 5 %: the 90 % interval of the difference lies within (-margin, margin)
+    different,  // the 95 % interval lies beyond the margin
+    cannot_tell // neither, or less than two pairs
+  };
+
+  std::string text_of(Verdict verdict); // "equivalent", "different", "cannot tell"
+
+  // Source of the test: Schuirmann, J. Pharmacokinet. Biopharm. 15 (1987) 657.
+  struct Equivalence
+  {
+    int      n = 0;         // pairs
+    Interval difference;    // 95 %
+    Interval difference_90; // of which the verdict `equivalent` speaks
+    Verdict  verdict = Verdict::cannot_tell;
+  };
+
+  // differences: second panel minus first, one of each realisation, in the unit of the margin.
+  [[nodiscard]] Equivalence compare_differences(const std::vector<double> &differences, double margin);
+
+  // The same for turns of lines [degrees].
+  [[nodiscard]] Equivalence compare_turns(const std::vector<double> &turns, double margin);
+
+  // The difference is (mean of second) / (mean of first) - 1, with Fieller's interval, so that the scatter of the first panel
+  // counts in the margin, too; entry k of both lists belongs to one realisation. Interval ends are NaN, and the verdict
+  // cannot_tell, where the mean of `first` is not told from 0. Sources: Fieller, J. R. Stat. Soc. B 16 (1954) 175; for the test
+  // Hauschke et al., J. Biopharm. Stat. 9 (1999) 89. Throws std::invalid_argument for lists of different lengths.
+  [[nodiscard]] Equivalence compare_relative(const std::vector<double> &first, const std::vector<double> &second, double margin);
+} // namespace diptych::coupling

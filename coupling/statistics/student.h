@@ -1,0 +1,14 @@
+// diptych: quantiles of Student's distribution
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <boost/math/distributions/students_t.hpp>
+
+namespace diptych::coupling
+{
+  // probability in (0, 1), degrees_of_freedom from 1 on.
+  [[nodiscard]] inline double student_quantile(const double probability, const int degrees_of_freedom)
+  {
+    return boost::math::quantile(boost::math::students_t(degrees_of_freedom), probability);
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,164 @@
+// diptych: what a study of the step says of synthetic histories
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "coupling/comparison/step_comparison.h"
+
+namespace
+{
+  using namespace diptych::coupling;
+
+  // A loading to 4 % in n rows: stress ratio 0.3, work 10 x strain, of which friction takes 8 and impacts 1.
+  HistoryTable history(const int n)
+  {
+    HistoryTable table;
+    for (int k = 1; k <= n; ++k)
+      {
+        const double strain = 0.04 * k / n;
+        table["time"].push_back(100 * strain), table["axial_strain"].push_back(strain);
+        table["stress_ratio"].push_back(0.3), table["external_work"].push_back(10 * strain);
+        table["friction_dissipation"].push_back(8 * strain), table["impact_dissipation"].push_back(1 * strain);
+        table["kinetic_energy"].push_back(0.01), table["max_penetration"].push_back(1e-3);
+      }
+    return table;
+  }
+
+  std::vector<StepRun> three_runs()
+  {
+    return {{0.1, history(100)}, {0.05, history(200)}, {0.025, history(400)}};
+  }
+
+  const StepComparison::Quantity &quantity(const StepComparison &comparison, const std::string &name)
+  {
+    for (const StepComparison::Quantity &q : comparison.quantities)
+      if (q.name == name)
+        return q;
+    throw std::runtime_error("no quantity " + name);
+  }
+
+  bool says(const StepComparison &comparison, const std::string &words)
+  {
+    return comparison.verdict.find(words) != std::string::npos;
+  }
+
+  // Straight lines through rows at other strains are the same lines.
+  TEST(StepComparison, EqualRunsDoNotDifferHoweverTheirRowsLie)
+  {
+    const StepComparison c = compare_steps(three_runs(), 0.005);
+    EXPECT_LT(c.largest, 1e-12);
+    EXPECT_TRUE(says(c, "the step does not matter")) << c.verdict;
+    ASSERT_EQ(c.quantities.size(), 4u);
+    for (const StepComparison::Quantity &q : c.quantities)
+      {
+        ASSERT_EQ(q.largest_difference.size(), 3u);
+        EXPECT_EQ(q.largest_difference.back(), 0) << q.name;
+      }
+  }
+
+  // 10 % of 0.4 at the end, where the finest run has its largest value, 0.4.
+  TEST(StepComparison, TenPerCentMoreWorkMattersAndIsNamedWithItsStrain)
+  {
+    std::vector<StepRun> runs = three_runs();
+    for (double &work : runs[0].history["external_work"])
+      work *= 1.1;
+    for (double &work : runs[1].history["external_work"])
+      work *= 0.96;
+    const StepComparison c = compare_steps(runs, 0.005);
+    EXPECT_NEAR(c.largest, 0.1, 1e-9);
+    EXPECT_NEAR(quantity(c, "external_work").largest_difference[1], 0.04, 1e-9);
+    EXPECT_NEAR(quantity(c, "external_work").at_strain, 0.04, 1e-9);
+    EXPECT_LT(quantity(c, "friction_dissipation").largest_difference[0], 1e-12);
+    EXPECT_TRUE(says(c, "step 0.1 against 0.025: the step matters")) << c.verdict;
+    EXPECT_TRUE(says(c, "10 % (external_work, at 4 % axial strain")) << c.verdict;
+  }
+
+  // A bump of dissipation about 2 %, triangular, 1 % wide and 0.1 high: the strain named is that of its top.
+  TEST(StepComparison, TheStrainOfTheLargestDifferenceIsFound)
+  {
+    std::vector<StepRun> runs = three_runs();
+    for (std::size_t k = 0; k < 100; ++k)
+      {
+        const double strain = runs[0].history["axial_strain"][k];
+        runs[0].history["impact_dissipation"][k] += 0.1 * std::max(0., 1 - std::abs(strain - 0.02) / 0.005);
+      }
+    const StepComparison c = compare_steps(runs, 0.005);
+    EXPECT_NEAR(quantity(c, "impact_dissipation").at_strain, 0.02, 2e-4);
+    EXPECT_NEAR(c.largest, 0.1 / 0.4, 0.01); // dissipations are measured against the work
+    EXPECT_TRUE(says(c, "impact_dissipation, at 2")) << c.verdict;
+  }
+
+  // Stress ratios that jump by +-30 % from row to row have the mean of every window of many rows: 0.5 % are 12 rows, of which
+  // one half of a row at the ends may be left over, at most 0.3/12/2 of 1.
+  TEST(StepComparison, SingleStepsMayScatter)
+  {
+    std::vector<StepRun> runs = three_runs();
+    for (std::size_t k = 0; k < 100; ++k)
+      runs[0].history["stress_ratio"][k] *= k % 2 ? 1.3 : 0.7;
+    const StepComparison c = compare_steps(runs, 0.005);
+    EXPECT_LT(c.largest, 0.3 / 12);
+    EXPECT_TRUE(says(c, "does not matter")) << c.verdict;
+    // Without the mean they would not pass: one row's width shows the scatter.
+    EXPECT_GT(compare_steps(runs, 0.0004).largest, 0.1);
+  }
+
+  // A shift that lasts is not scatter.
+  TEST(StepComparison, AShiftedStressRatioMatters)
+  {
+    std::vector<StepRun> runs = three_runs();
+    for (double &ratio : runs[0].history["stress_ratio"])
+      ratio *= 1.06;
+    const StepComparison c = compare_steps(runs, 0.005);
+    EXPECT_NEAR(c.largest, 0.06, 1e-9);
+    EXPECT_TRUE(says(c, "matters, largest difference 6 % (stress_ratio")) << c.verdict;
+  }
+
+  // Modes shear, plane_shear and time leave the axial strain where it is: what differs must be found all the same.
+  TEST(StepComparison, ShearAtConstantHeightIsComparedToo)
+  {
+    std::vector<StepRun> runs = three_runs();
+    for (StepRun &run : runs)
+      {
+        run.history["shear_strain"] = run.history["axial_strain"];
+        run.history["axial_strain"].assign(run.history["axial_strain"].size(), 0.);
+      }
+    for (double &work : runs[0].history["external_work"])
+      work *= work > 0.2 ? 2 : 1; // the first half is the same
+    const StepComparison c = compare_steps(runs, 0.005);
+    EXPECT_TRUE(says(c, "the step matters")) << c.verdict;
+    EXPECT_NEAR(quantity(c, "external_work").largest_difference[0], 1, 1e-6);
+  }
+
+  TEST(StepComparison, OneRunIsNoStudy)
+  {
+    EXPECT_THROW((void)compare_steps({{0.1, history(10)}}, 0.005), std::invalid_argument);
+  }
+
+  TEST(StepComparison, FilesHoldEveryRowAndTheVerdict)
+  {
+    const std::filesystem::path directory = std::filesystem::path(testing::TempDir()) /
+                                            ("step_comparison" + std::to_string(::getpid()));
+    std::filesystem::create_directories(directory);
+    const std::vector<StepRun> runs = three_runs();
+    const StepComparison       c    = compare_steps(runs, 0.005);
+    write_step_comparison(directory.string(), runs, c);
+    const HistoryTable table = read_history((directory / "study_step.csv").string());
+    EXPECT_EQ(column(table, "step").size(), 700u);
+    EXPECT_EQ(column(table, "step").front(), 0.1);
+    EXPECT_EQ(column(table, "step").back(), 0.025);
+    EXPECT_NEAR(column(table, "external_work").back(), 0.4, 1e-9);
+    const nlohmann::json root = nlohmann::json::parse(std::ifstream(directory / "study_step.json"));
+    EXPECT_EQ(root["verdict"], c.verdict);
+    EXPECT_EQ(root["steps"], (std::vector<double>{0.1, 0.05, 0.025}));
+    EXPECT_EQ(root["quantities"].size(), 4u);
+    EXPECT_EQ(root["margin"], 0.05);
+    std::filesystem::remove_all(directory);
+  }
+} // namespace

@@ -1,0 +1,156 @@
+// diptych: tractions on planes parallel to a band, on states of known equilibrium
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/probes/band_traction.h"
+
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "coupling/bands/strips.h"
+#include "tests/coupling/homogenisation/hexagonal_lattice.h"
+#include "tests/coupling/synthetic_samples.h"
+
+namespace
+{
+  using namespace diptych::coupling;
+
+  const std::vector<Eigen::Vector2d> box = {{0, 0}, {52, 0}, {52, 75}, {0, 75}};
+
+  Eigen::Matrix2d known_stress()
+  {
+    Eigen::Matrix2d stress;
+    stress << 1, 0.3, 0.3, 2;
+    return stress;
+  }
+
+  // A line of length L meets the branches of one direction L times their density, to less than one (they lie end to end on
+  // parallel lines); so does the mean over the lines of a strip. The traction misses sigma.n by less than sum |f_k| / L.
+  TEST(BandTraction, OfALatticeIsUniformToOneBranchPerLine)
+  {
+    const GrainNetwork    network = synthetic::hexagonal_network(53, 88, known_stress());
+    const SampleFrame     frame   = synthetic::frame_52_75();
+    const double          angle   = -40;
+    const TractionStrips  strips  = traction_strips(box, frame, angle, strip_edges(frame, angle, 2));
+    const BandTraction    result  = grain_band_traction(strips, network, 5);
+    const auto            forces  = synthetic::lattice_forces(known_stress());
+    const Eigen::Vector2d s(std::cos(angle * M_PI / 180), std::sin(angle * M_PI / 180)), n(-s.y(), s.x());
+    int                   carrying = 0;
+    ASSERT_EQ(result.normal.size(), 16u);
+    for (int k = 0; k < 16; ++k)
+      if (std::isfinite(result.normal[k]))
+        {
+          ++carrying;
+          const double bound = (std::abs(forces[0]) + std::abs(forces[1]) + std::abs(forces[2])) /
+                               (strips.to[k] - strips.from[k]);
+          EXPECT_LT(std::abs(result.normal[k] - n.dot(known_stress() * n)), bound);
+          EXPECT_LT(std::abs(result.shear[k] - s.dot(known_stress() * n)), bound);
+        }
+    EXPECT_GE(carrying, 10);
+    EXPECT_LT(result.variation_normal, 0.05);
+  }
+
+  // Equilibrium leaves the stress along a band free: rows of a lattice may carry any force along x, from row to row another, and
+  // planes y = const still transmit the oblique contacts' forces only, the same in every strip: two contacts a disc, each
+  // f sin 60, per diameter. The strips hold whole rows and whole columns: 7 rows are 7 sqrt(3)/2 high.
+  TEST(BandTraction, DoesNotSeeTheStressAlongTheBand)
+  {
+    std::mt19937_64 random(2);
+    const auto      network = synthetic::hexagonal_network(
+           53, 88, [&](const int k, int) { return k == 0 ? synthetic::uniform(random, 0.2, 3) : 0.7; });
+    TractionStrips strips;
+    strips.origin = {26, 37.5};
+    for (int k = -3; k <= 3; ++k)
+      strips.edges.push_back(7 * k * std::sqrt(0.75) + 0.1);
+    strips.from.assign(6, -20);
+    strips.to.assign(6, 20);
+    const BandTraction result = grain_band_traction(strips, network, 5);
+    for (int k = 0; k < 6; ++k)
+      {
+        EXPECT_NEAR(result.normal[k], 2 * 0.7 * std::sqrt(0.75), 1e-12);
+        EXPECT_NEAR(result.shear[k], 0, 1e-12);
+        EXPECT_LT(result.normal_error[k], 1e-12);
+      }
+    EXPECT_LT(result.variation_normal, 1e-12);
+  }
+
+  TEST(BandTraction, CellStressThatJumpsAlongTheBandOnlyIsInEquilibrium)
+  {
+    const SampleFrame            frame = synthetic::frame_52_75();
+    const QuadMesh               mesh  = synthetic::box_mesh({0, 0}, {52, 75}, 26, 37, 0.2);
+    const double                 angle = -46 * M_PI / 180;
+    const Eigen::Vector2d        s(std::cos(angle), std::sin(angle)), n(-s.y(), s.x());
+    std::mt19937_64              random(3);
+    std::vector<Eigen::Matrix2d> stress;
+    for (unsigned int c = 0; c < mesh.cell.size(); ++c)
+      stress.push_back(synthetic::uniform(random, 0.5, 2) * s * s.transpose() + 1.5 * n * n.transpose() -
+                       0.4 * (s * n.transpose() + n * s.transpose()));
+    const TractionStrips strips = traction_strips(box, frame, -46, strip_edges(frame, -46, 2));
+    const BandTraction   result = cell_band_traction(strips, mesh, TriangleSearch(mesh), stress);
+    for (int k = 4; k < 12; ++k)
+      {
+        EXPECT_NEAR(result.normal[k], 1.5, 1e-12);
+        EXPECT_NEAR(result.shear[k], -0.4, 1e-12);
+      }
+    EXPECT_LT(result.variation_normal, 1e-12);
+    EXPECT_LT(result.variation_shear, 1e-12);
+  }
+
+  // Normal traction 1 in three strips and 2 in three: mean 1.5, deviation sqrt(6 * 0.25 / 5); the strip edge is a cell edge.
+  TEST(BandTraction, VariationOfAStepOutOfEquilibrium)
+  {
+    const QuadMesh               mesh = synthetic::box_mesh({0, 0}, {40, 60}, 10, 30);
+    std::vector<Eigen::Matrix2d> stress;
+    for (unsigned int c = 0; c < mesh.cell.size(); ++c)
+      stress.push_back((cell_centre(mesh, c).y() > 30 ? 2 : 1) * Eigen::Matrix2d::Identity());
+    SampleFrame frame;
+    frame.centre      = {20, 30};
+    frame.width       = 40;
+    frame.height      = 60;
+    const auto strips = traction_strips({{0, 0}, {40, 0}, {40, 60}, {0, 60}}, frame, 0, {-15, -10, -5, 0, 5, 10, 15});
+    EXPECT_NEAR(strips.to[0] - strips.from[0], 0.7 * (40 - 2 * 2), 1e-12); // two diameters clear of either side
+    const auto result = cell_band_traction(strips, mesh, TriangleSearch(mesh), stress);
+    EXPECT_NEAR(result.variation_normal, std::sqrt(0.3) / 1.5, 1e-12);
+    EXPECT_NEAR(result.variation_shear, 0, 1e-12);
+  }
+
+  // Traction errors of independent forces: each of the eight blocks of a strip is an independent mean.
+  // Mean over all strips of (traction - true)^2 against that of the squared errors; chance leaves sqrt(2 / (30 * 6)) = 0.1,
+  // twice of which is allowed.
+  TEST(BandTraction, ErrorsAreThoseOfIndependentBlocks)
+  {
+    std::mt19937_64 random(11);
+    double          squares = 0, errors = 0;
+    for (int sample = 0; sample < 30; ++sample)
+      {
+        auto network = synthetic::hexagonal_network(53, 88, known_stress());
+        for (auto &contact : network.forces)
+          contact.force *= 1 + 0.8 * synthetic::normal(random);
+        TractionStrips strips;
+        strips.origin = {26, 37.5};
+        for (int k = -3; k <= 3; ++k)
+          strips.edges.push_back(7 * k * std::sqrt(0.75) + 0.1);
+        strips.from.assign(6, -20);
+        strips.to.assign(6, 20);
+        const BandTraction result = grain_band_traction(strips, network, 5);
+        for (int k = 0; k < 6; ++k)
+          {
+            squares += std::pow(result.normal[k] - 2, 2);
+            errors += std::pow(result.normal_error[k], 2);
+          }
+      }
+    EXPECT_NEAR(squares / errors, 1, 0.2);
+  }
+
+  TEST(BandTraction, StripsBesideTheSampleOrTooShortCarryNothing)
+  {
+    const SampleFrame    frame  = synthetic::frame_52_75();
+    const TractionStrips strips = traction_strips(box, frame, 45, {-60, -50, -40, 0, 10});
+    EXPECT_TRUE(std::isnan(strips.from[0])); // the sample ends at 44.9
+    EXPECT_TRUE(std::isnan(strips.from[1]));
+    EXPECT_FALSE(std::isnan(strips.from[3]));
+    const BandTraction result = grain_band_traction(strips, synthetic::hexagonal_network(53, 88, known_stress()), 5);
+    EXPECT_TRUE(std::isnan(result.normal[0]));
+    EXPECT_GT(result.normal[3], 0);
+    EXPECT_THROW(traction_strips(box, frame, 45, {1, 0}), std::invalid_argument);
+  }
+} // namespace

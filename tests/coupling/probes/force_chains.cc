@@ -1,0 +1,134 @@
+// diptych: force chains inside against outside a zone, on values of known distribution
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/probes/force_chains.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/coupling/synthetic_samples.h"
+
+namespace
+{
+  using namespace diptych::coupling;
+
+  const std::vector<Eigen::Vector2d> box = {{0, 0}, {60, 0}, {60, 60}, {0, 60}};
+
+  // A horizontal zone y = 20 .. 40.
+  BandZone zone()
+  {
+    return {{30, 30}, 0, 10};
+  }
+
+  // One grain a unit square; moment of the major principal stress value(x), the minor one a third of it.
+  template <class Value> GrainNetwork grains(const Value &value)
+  {
+    GrainNetwork network;
+    for (int row = 0; row < 60; ++row)
+      for (int column = 0; column < 60; ++column)
+        {
+          network.position.emplace_back(column + 0.5, row + 0.5);
+          network.radius.push_back(0.5);
+          Eigen::Matrix2d moment = Eigen::Vector2d(value(network.position.back()), 0).asDiagonal();
+          moment(1, 1)           = moment(0, 0) / 3;
+          network.moment.push_back(moment * M_PI / 4);
+        }
+    return network;
+  }
+
+  double exponential(std::mt19937_64 &random)
+  {
+    return -std::log(1 - synthetic::uniform(random, 0, 1));
+  }
+
+  // Shares 1 - exp(-x/a) of values a times an exponential one: inside a = 1.5, outside 1. The largest difference lies at
+  // x = 3 ln 1.5, exp(-2 ln 1.5) - exp(-3 ln 1.5) = 4/9 - 8/27 = 4/27, whatever the common unit. 1200 inside, 2400 outside.
+  // The scatter is that of Kolmogorov and Smirnov, 1.36 sqrt(1/1200 + 1/2400) = 0.048, times the factor of Student's t for the
+  // 48 blocks that hold something inside (1.04); exact to the 5 % quantile of 400 resamples (10 %).
+  TEST(ForceChains, StrongerInsideIsFoundAndMeasured)
+  {
+    std::mt19937_64    random(1);
+    const GrainNetwork network = grains(
+      [&](const Eigen::Vector2d &x) { return (zone().holds(x) ? 1.5 : 1) * exponential(random); });
+    const ForceChains chains = grain_force_chains(zone(), box, network, 0, {5, 400, 1});
+    EXPECT_EQ(chains.inside.count, 1200);
+    EXPECT_EQ(chains.outside.count, 2400);
+    EXPECT_EQ(chains.blocks, 48);
+    const double c = 0.5 * (chains.largest_distance.high - chains.largest_distance.low);
+    EXPECT_NEAR(c, 0.048 * 1.04, 0.1 * 0.05);
+    EXPECT_NEAR(chains.largest_distance.value, 4. / 27, c);
+    EXPECT_EQ(chains.verdict.rfind("differs", 0), 0u) << chains.verdict;
+    // the scatter of the means: 1/sqrt(1200) and 1/sqrt(2400), 4 % in the ratio
+    EXPECT_NEAR(chains.inside.mean / chains.outside.mean, 1.5, 0.12);
+    // medians a ln 2
+    EXPECT_NEAR(chains.inside.values[5] / chains.outside.values[5], 1.5, 0.15);
+  }
+
+  // Values that are the same over patches of 5 x 5, each patch one draw: 3600 grains, but 144 samples. Kolmogorov's bound for
+  // grains taken as independent would find a difference in most such samples; blocks of the patches' size find one in 5 %, as
+  // they ought to. 100 samples: 5 +- 2.2.
+  TEST(ForceChains, PatternThatIgnoresTheZoneIsRarelySaidToDiffer)
+  {
+    std::mt19937_64 random(4);
+    int             differs = 0, naive = 0;
+    for (int sample = 0; sample < 100; ++sample)
+      {
+        std::vector<double> patch(144);
+        for (double &value : patch)
+          value = exponential(random);
+        const ForceChains chains = grain_force_chains(
+          zone(), box, grains([&](const Eigen::Vector2d &x) { return patch[int(x.y() / 5) * 12 + int(x.x() / 5)]; }), 0,
+          {5, 100, 1});
+        differs += chains.verdict.rfind("differs", 0) == 0;
+        naive += chains.largest_distance.value > 0.048;
+      }
+    EXPECT_LE(differs, 11);
+    EXPECT_GE(naive, 80);
+  }
+
+  TEST(ForceChains, EqualGrainsIgnoreTheZone)
+  {
+    const ForceChains chains = grain_force_chains(zone(), box, grains([](const auto &) { return 2; }), 0, {5, 100, 1});
+    EXPECT_EQ(chains.largest_distance.value, 0);
+    EXPECT_EQ(chains.largest_distance.high, 0);
+    EXPECT_EQ(chains.verdict.rfind("ignores the zone", 0), 0u) << chains.verdict;
+    EXPECT_NEAR(chains.inside.mean, 1, 1e-9);
+    EXPECT_EQ(chains.inside.share_above_mean, 0);
+  }
+
+  // A rim of 2.9 mean diameters is left out: 54 x 54 grains remain, the rows 20 .. 39 of them inside.
+  TEST(ForceChains, RimOfTheSampleIsLeftOut)
+  {
+    const ForceChains chains = grain_force_chains(zone(), box, grains([](const auto &) { return 2; }), 2.9, {5, 100, 1});
+    EXPECT_EQ(chains.inside.count, 20 * 54);
+    EXPECT_EQ(chains.inside.count + chains.outside.count, 54 * 54);
+  }
+
+  // Forces 1 and 3 in turn inside, 2 outside: the common mean is 2; half of the forces inside lie above it. Up to 1 the shares
+  // are 1/2 and 0, from 2 on 1/2 and 1.
+  TEST(ForceChains, OfContactsCompareTheSizesOfForces)
+  {
+    GrainNetwork network;
+    for (int k = 0; k < 3600; ++k)
+      {
+        const Eigen::Vector2d point(k % 60 + 0.5, k / 60 + 0.5);
+        const double          size = zone().holds(point) ? (k % 2 == 0 ? 1 : 3) : 2;
+        network.forces.push_back({0, 1, point, {1, 0}, {0.6 * size, -0.8 * size}});
+      }
+    network.forces.push_back({0, 1, {30, 30}, {1, 0}, {0, 0}}); // bears nothing
+    const ForceChains chains = contact_force_chains(zone(), box, network, 0, {5, 100, 1});
+    EXPECT_EQ(chains.inside.count, 1200);
+    EXPECT_NEAR(chains.inside.mean, 1, 1e-12);
+    EXPECT_NEAR(chains.inside.share_above_mean, 0.5, 1e-12);
+    EXPECT_NEAR(chains.largest_distance.value, 0.5, 1e-12);
+    EXPECT_NEAR(chains.inside.values[0], 0.5, 1e-12);
+    EXPECT_NEAR(chains.inside.values[10], 1.5, 1e-12);
+  }
+
+  TEST(ForceChains, ZoneBesideTheSampleTellsNothing)
+  {
+    const BandZone    beside{{30, 90}, 0, 10};
+    const ForceChains chains = grain_force_chains(beside, box, grains([](const auto &) { return 2; }), 0, {5, 100, 1});
+    EXPECT_EQ(chains.inside.count, 0);
+    EXPECT_TRUE(std::isnan(chains.largest_distance.value));
+    EXPECT_EQ(chains.verdict, "too few blocks to tell");
+  }
+} // namespace
