@@ -47,8 +47,11 @@ namespace diptych::coupling
 
     json increment_json(const PanelIncrement &panel, const double d)
     {
-      return {
-        {"bands", bands_json(panel.band, d)}, {"band_verdict", panel.band.verdict}, {"strips", strips_json(panel.strips, d)}};
+      return {{"bands", bands_json(panel.band, d)},
+              {"band_verdict", panel.band.verdict},
+              {"bic_of_0_1_2_bands", panel.band.bic},
+              {"independent_samples", panel.band.n_effective},
+              {"strips", strips_json(panel.strips, d)}};
     }
 
     json probe_json(const ProbeRecord &probe)
