@@ -66,6 +66,7 @@ namespace diptych::coupling
     EquivalenceMargins  margins;
     AveragingOptions    averaging;
     double              grid_size = 3;
+    std::string         parameters_from;
   };
 
   template <class Visitor> void visit_parameters(ComparisonOptions &o, Visitor &&visitor)
@@ -84,6 +85,9 @@ namespace diptych::coupling
     visit_parameters(o.probes, visitor);
     visit_parameters(o.margins, visitor);
     visit_parameters(o.averaging, visitor);
+    visitor(
+      "parameters_from", o.parameters_from, "-", {},
+      "where the continuum's parameters come from (fitted on what, or predicted): the report says it beside every comparison");
     visitor("grid_size", o.grid_size, "mean diameters", {0.5, 1000.},
             "about the side of the regular grid's cells, on which all fields are given beside the continuum's mesh");
   }

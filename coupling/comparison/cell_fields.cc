@@ -18,9 +18,9 @@ namespace diptych::coupling
       std::vector<Eigen::Vector2d> centres;
       for (unsigned int k = 0; k < fields.mesh.cell.size(); ++k)
         centres.push_back(cell_centre(fields.mesh, k));
-      const auto gradient = displacement_gradient(displacement_field(stage.nodes_from, stage.nodes_to), centres,
-                                                  strain_radius(stage.grains_to.mean_diameter));
-      for (const Eigen::Matrix2d &g : gradient)
+      fields.continuum_gradient = displacement_gradient(displacement_field(stage.nodes_from, stage.nodes_to), centres,
+                                                        strain_radius(stage.grains_to.mean_diameter));
+      for (const Eigen::Matrix2d &g : fields.continuum_gradient)
         {
           fields.continuum_shear.push_back(std::hypot(g(0, 0) - g(1, 1), g(0, 1) + g(1, 0)));
           fields.continuum_spin.push_back(0.5 * (g(1, 0) - g(0, 1)));
@@ -71,6 +71,14 @@ namespace diptych::coupling
     }
   } // namespace
 
+  std::vector<Eigen::Matrix2d> strain_increments(const std::vector<Eigen::Matrix2d> &displacement_gradient)
+  {
+    std::vector<Eigen::Matrix2d> strain;
+    for (const Eigen::Matrix2d &g : displacement_gradient)
+      strain.push_back(-0.5 * (g + g.transpose()));
+    return strain;
+  }
+
   CellFields mesh_fields(const QuadMesh &mesh, const StagePair &stage, const AveragingOptions &averaging)
   {
     CellFields fields;
@@ -95,6 +103,7 @@ namespace diptych::coupling
         {
           fields.continuum_shear[k] = fields.continuum_spin[k] = fields.continuum.dissipation[k] = NAN;
           fields.continuum.rotation_increment[k]                                                 = NAN;
+          fields.continuum_gradient[k].setConstant(NAN);
           fields.continuum.stress[k].setConstant(NAN);
           fields.continuum.couple_stress[k].setConstant(NAN);
           fields.continuum.displacement_increment[k].setConstant(NAN);

@@ -23,13 +23,17 @@ namespace diptych::coupling
   // n_cells entries each, NaN where a panel has no value.
   struct CellFields
   {
-    QuadMesh            mesh;
-    GrainFields         grains;
-    ContinuumFields     own;             // the continuum's, as it is on these cells
-    ContinuumFields     continuum;       // through the same averaging as the grains
-    std::vector<double> continuum_shear; // eps_1 - eps_2 of the displacement increment, by the grains' operator
-    std::vector<double> continuum_spin;  // half the curl of the same increment, anticlockwise [radians]
+    QuadMesh                     mesh;
+    GrainFields                  grains;
+    ContinuumFields              own;                // the continuum's, as it is on these cells
+    ContinuumFields              continuum;          // through the same averaging as the grains
+    std::vector<Eigen::Matrix2d> continuum_gradient; // of the displacement increment, as GrainFields has it
+    std::vector<double>          continuum_shear;    // eps_1 - eps_2 of the displacement increment, by the grains' operator
+    std::vector<double>          continuum_spin;     // half the curl of the same increment, anticlockwise [radians]
   };
+
+  // Strain increments -sym(gradient), positive in compression.
+  std::vector<Eigen::Matrix2d> strain_increments(const std::vector<Eigen::Matrix2d> &displacement_gradient);
 
   // On the continuum's own mesh in its shape at the end of the stage.
   CellFields mesh_fields(const QuadMesh &mesh, const StagePair &stage, const AveragingOptions &averaging);

@@ -35,12 +35,24 @@ namespace diptych::coupling
       file.attribute(group, "axial_strain", increment.to);
     }
 
+    // Of the continuum: Cosserat rotation minus half the curl of the displacement increment [radians].
+    std::vector<double> relative_rotation(const CellFields &fields)
+    {
+      std::vector<double> difference;
+      for (std::size_t k = 0; k < fields.continuum_spin.size(); ++k)
+        difference.push_back(fields.continuum.rotation_increment[k] - fields.continuum_spin[k]);
+      return difference;
+    }
+
     void write_fields(discrete::Hdf5Writer &file, const std::string &group, const CellFields &fields)
     {
       const GrainFields     &grains    = fields.grains;
       const ContinuumFields &continuum = fields.continuum;
       file.write(group + "/corners", corners_of(fields.mesh), {fields.mesh.cell.size(), 4, 2});
       file.write(group + "/discrete_stress", grains.stress);
+      file.write(group + "/discrete_contact_stress", grains.contact_stress);
+      file.write(group + "/discrete_strain_increment", strain_increments(grains.displacement_gradient));
+      file.write(group + "/continuum_strain_increment", strain_increments(fields.continuum_gradient));
       file.write(group + "/discrete_displacement_increment", grains.displacement_increment);
       file.write(group + "/discrete_velocity", grains.velocity);
       file.write(group + "/discrete_rotation_increment", grains.rotation_increment);
@@ -58,6 +70,7 @@ namespace diptych::coupling
       file.write(group + "/continuum_displacement_increment", continuum.displacement_increment);
       file.write(group + "/continuum_rotation_increment", continuum.rotation_increment);
       file.write(group + "/continuum_spin_increment", fields.continuum_spin);
+      file.write(group + "/continuum_relative_rotation", relative_rotation(fields));
       file.write(group + "/continuum_couple_stress", continuum.couple_stress);
       file.write(group + "/continuum_dissipation", continuum.dissipation);
     }
@@ -168,8 +181,11 @@ namespace diptych::coupling
         difference.push_back(continuum.stress[k] - grains.stress[k]);
       VtuText vtu(fields.mesh);
       vtu.tensor("stress_discrete", grains.stress);
+      vtu.tensor("contact_stress_discrete", grains.contact_stress); // without the dynamic part
       vtu.tensor("stress_continuum", continuum.stress);
       vtu.tensor("stress_difference", difference);
+      vtu.tensor("strain_increment_discrete", strain_increments(grains.displacement_gradient));
+      vtu.tensor("strain_increment_continuum", strain_increments(fields.continuum_gradient));
       vtu.tensor("fabric", grains.fabric);
       vtu.vector("displacement_increment_discrete", grains.displacement_increment);
       vtu.vector("displacement_increment_continuum", continuum.displacement_increment);
@@ -182,6 +198,8 @@ namespace diptych::coupling
       vtu.scalar("spin_increment_continuum", fields.continuum_spin);
       vtu.scalar("rotation_increment_discrete", grains.rotation_increment);
       vtu.scalar("rotation_increment_continuum", continuum.rotation_increment);
+      vtu.scalar("relative_rotation_discrete", grains.relative_rotation);
+      vtu.scalar("relative_rotation_continuum", relative_rotation(fields));
       vtu.scalar("dissipation_discrete", grains.dissipation);
       vtu.scalar("dissipation_continuum", continuum.dissipation);
       vtu.scalar("coordination_number", grains.coordination_number);

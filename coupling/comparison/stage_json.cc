@@ -182,8 +182,9 @@ namespace diptych::coupling
       result["stress_ratio"] = interval_json(stage.discrete.stress_ratio);
       for (const ProbeRecord &probe : stage.discrete.probes)
         result["probes"].push_back(grain_probe_json(probe));
-      result["force_chains"]      = chains_json(stage.force_chains);
-      result["probe_differences"] = json::array();
+      result["acceleration_share"] = stage.discrete.acceleration_share;
+      result["force_chains"]       = chains_json(stage.force_chains);
+      result["probe_differences"]  = json::array();
       for (const ProbeDifference &difference : stage.probe_differences)
         result["probe_differences"].push_back({{"of", difference.first},
                                                {"and", difference.second},

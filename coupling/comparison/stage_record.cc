@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/comparison/stage_record.h"
 
+#include <stdexcept>
+
 #include "coupling/homogenisation/periodic.h"
 #include "coupling/cells/principal_axes.h"
 
@@ -29,6 +31,33 @@ namespace diptych::coupling
       record.stress_verdict     = stress_verdict(record.stress_differences.back());
     }
 
+    // |sum of m_i a_i (x) x_i| / |sum of M_i|, symmetric parts, of the last step: by how much the sum of the grains' moments
+    // misses what the forces from outside say of a body at rest (Moreau 1997, section 2). m a = contact forces + applied force;
+    // places from the middle of the grains.
+    double acceleration_share(const discrete::Snapshot &grains)
+    {
+      const int                    n     = int(grains.position.size());
+      std::vector<Eigen::Vector2d> force = grains.applied_force;
+      force.resize(n, Eigen::Vector2d::Zero());
+      for (const discrete::ContactForce &contact : grains.contacts)
+        {
+          force[contact.i] += contact.force;
+          if (contact.j < n)
+            force[contact.j] -= contact.force;
+        }
+      Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+      for (const Eigen::Vector2d &x : grains.position)
+        middle += x / double(n);
+      Eigen::Matrix2d term = Eigen::Matrix2d::Zero(), moment = Eigen::Matrix2d::Zero();
+      for (int i = 0; i < n; ++i)
+        {
+          if (grains.fixed.empty() || grains.fixed[i] == 0)
+            term += force[i] * (grains.position[i] - middle).transpose();
+          moment += grains.internal_moment[i];
+        }
+      return (term + term.transpose()).norm() / (moment + moment.transpose()).norm();
+    }
+
     double minor_direction(const Eigen::Matrix2d &stress)
     {
       return line_turn(major_direction(stress) + 90, 0);
@@ -50,6 +79,8 @@ namespace diptych::coupling
       std::vector<ProbeBlocks>       blocks;
       for (const ProbeRegion &region : regions)
         {
+          if (region.polygon.empty() && !options.probe_rectangles.empty())
+            throw std::invalid_argument("comparison/probe_rectangles: nothing of " + region.name + " lies in the sample");
           blocks.push_back(probe_blocks(region, view.network, view.bootstrap.block));
           record.discrete.probes.push_back(
             {region, grain_probe_stress(region, view.network.position, view.network.radius, view.network.moment),
@@ -64,6 +95,8 @@ namespace diptych::coupling
     void take_circle(const ProbeView &view, const ProbeOptions &options, StageRecord &record)
     {
       const Circle circle = place_circle(view.outline, view.frame, view.bands, options);
+      if (!(circle.radius > 0) && !options.probe_circle.empty())
+        throw std::invalid_argument("comparison/probe_circle: nothing of it lies in the sample");
       if (!(circle.radius > 0))
         return;
       record.discrete.circle  = grain_circular_probe(circle, view.network, view.bootstrap);
@@ -105,6 +138,7 @@ namespace diptych::coupling
       spin += term;
     record.discrete.dynamic_share = spin / (0.5 * sum_of_moments(stage.grains_to).trace());
 
+    record.discrete.acceleration_share   = acceleration_share(stage.grains_to);
     record.discrete.minor_direction_deg  = minor_direction(sum_of_moments(stage.grains_to));
     record.continuum.minor_direction_deg = minor_direction(
       (stage.nodes_from.mean_stress + stage.nodes_to.mean_stress).topLeftCorner<2, 2>());

@@ -36,6 +36,7 @@ namespace diptych::coupling
     double          volumetric_strain = 0;
     Eigen::Vector2d lower_force, upper_force;  // on the sample, averaged likewise [pressure * length]
     double          dynamic_share       = 0;   // grains: spin term / mean stress, over the stage
+    double          acceleration_share  = NAN; // grains: acceleration term / mean stress, in the last step
     double          minor_direction_deg = NAN; // of the least compression of the mean stress over the stage, in (-90, 90]
     std::vector<ProbeRecord>        probes;
     CircularProbe                   circle;

@@ -101,6 +101,7 @@ namespace diptych::coupling
                                    {"viscous_share", largest(column(h, "viscous_share"))},
                                    {"max_equivalent_plastic_strain", column(h, "max_equivalent_plastic_strain").back()}};
     summary.update(law_json(scene));
+    summary["parameters_from"] = scene.comparison.parameters_from;
     summary.update(provenance.value("continuum", json::object()));
     return summary;
   }

@@ -14,7 +14,7 @@ import ensemble_figures as figures  # noqa: E402
 import style  # noqa: E402
 from ensemble_load import MOST_HISTORIES, load  # noqa: E402
 from load import InputError  # noqa: E402
-from wording import DECIMALS, FITTED, number, rounded  # noqa: E402
+from wording import DECIMALS, number, origin, rounded  # noqa: E402
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 PANELS = ("discrete", "continuum")
@@ -173,7 +173,7 @@ def page(results):
     return environment.get_template("ensemble.html").render(
         record=results.record, verdicts=rows, differences=figures.differences(labelled), dots=pictures(results),
         curves=histories(results), bands=band_table(results), members=members(results), quantities=quantity_table(results),
-        provenance=provenance(results), fitted=FITTED)
+        provenance=provenance(results), fitted=origin(results.scene.get("comparison/parameters_from")))
 
 
 def main(arguments):

@@ -210,7 +210,7 @@ QUANTITIES = (
              **{**_of_tensor(lambda xx, yy, xy: xy), "colour_map": "RdBu_r"}),
     Quantity("couple", "Stress", "couple stress", "couple stress |μ| (P d)", _state("couple_stress"), home="cells",
              colour_map="cividis", from_zero=True),
-    Quantity("dissipation", "Stress", "dissipation since the stage before", "dissipation (P)", _state("dissipation"),
+    Quantity("dissipation", "Stress", "dissipation since the stage before (grains: friction alone)", "dissipation (P)", _state("dissipation"),
              home="cells", from_zero=True),
     Quantity("solid_fraction", "Grains only", "solid fraction", "solid fraction", _solid_fraction, home="cells"),
     Quantity("coordination", "Grains only", "coordination number", "coordination number",

@@ -97,7 +97,7 @@ def page(result):
         coarse=comparison.get("continuum_coarse") or {}, cost=accounts.cost(result),
         provenance=accounts.provenance(result),
         law=accounts.law_parameters(result), scene_text=result.scene_text, number=wording.number,
-        fitted=wording.FITTED, absent=wording.ABSENT, thickness_note=tables.thickness_note(result),
+        fitted=wording.origin((comparison.get("continuum_summary") or {}).get("parameters_from")), absent=wording.ABSENT, thickness_note=tables.thickness_note(result),
         thickness_reason=wording.MESH_SET_REASON if tables.internal_length(result) is None else wording.LENGTH_SET_REASON,
         progress=result.progress,
         averaging=result.progress.text(result.averaging_strain))

@@ -88,7 +88,8 @@ def _band_curve(result, key, label, words):
 
 def _dissipation(result):
     caption = ("Share of the energy dissipated in a stage that is dissipated within the 10–90 % width of the grains' band; "
-               "dashed: that band's share of the area.")
+               "dashed: that band's share of the area. Grains: by friction, without what impacts take; continuum: all plastic "
+               "work. Shares may be compared, amounts may not.")
     figure, axes = chart(result, "dissipated inside the band (%)")
     of = lambda stage, panel: scaled((stage.panel(panel).get("dissipation") or {}).get("share_inside"), 100)  # noqa: E731
     if not _points(axes, result, of):
@@ -104,7 +105,8 @@ def _dissipation(result):
 
 def _stress_difference(result):
     caption = ("Relative difference of the stress of the two panels (L2 over cells that carry both), at three sizes of cell. "
-               "Dashed: what sampling of the grains alone would give.")
+               "Dashed: the grains' scatter about their own quadratic surface, a narrow band in it included: what sampling alone "
+               "would give, and rather more.")
     rows = {}
     for stage in result.stages:
         for row in (stage.record.get("difference") or {}).get("stress") or []:

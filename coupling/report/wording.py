@@ -8,7 +8,6 @@ ABSENT = "not computed"
 MESH_SET = "set by the mesh (local law)"
 MESH_SET_REASON = "It is no property of the material unless it stays the same on two meshes."
 LENGTH_SET_REASON = "It depends on that length, the size of the sample and the softening, all of them chosen or fitted."
-FITTED = "fitted, not predicted"
 
 # key of a summary -> (words, unit, what to hold it against), in the order of the page
 WORDS = {
@@ -66,6 +65,11 @@ WORDS = {
 
 # key -> what null says, where it does say something
 NULLS = {"internal_length_d": "none", "localisation_strain": "never", "localisation_angle_deg": "–"}
+
+
+def origin(text):
+    """Where the continuum's parameters come from, in the scene's own words (key comparison/parameters_from)."""
+    return text or "the scene does not say whether its parameters are fitted or predicted"
 
 
 def number(value, unit="", digits=4):

@@ -136,7 +136,7 @@ class CompleteFolder(unittest.TestCase):
             self.assertEqual(offered[key], ["cells", "grid"])
 
     def test_what_is_fitted_and_what_the_mesh_sets_is_said(self):
-        self.assertIn("fitted, not predicted", self.text)
+        self.assertIn("the scene does not say whether its parameters are fitted or predicted", self.text)
         self.assertIn("Thickness of the continuum&#39;s band: set by the mesh (local law); elements of 2 d. "
                       "On the coarse mesh, elements of 4 d: 2.2 d at −45.0°.", self.text)
 
