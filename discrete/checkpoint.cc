@@ -100,17 +100,18 @@ namespace diptych::discrete
     void write_pairs(Hdf5Writer &file, const Progress &p)
     {
       std::vector<int>    body, window_body;
-      std::vector<double> impulse, window_impulse, window_dissipation;
+      std::vector<double> impulse, window_impulse, window_dissipation, window_impact;
       for (const PairImpulse &r : p.state.impulses)
         body.insert(body.end(), {r.i, r.j}), impulse.insert(impulse.end(), {r.normal, r.tangential});
       for (const WindowForces::PairSum &s : p.window.sums)
         window_body.insert(window_body.end(), {s.i, s.j}), window_dissipation.push_back(s.dissipation),
-          window_impulse.insert(window_impulse.end(), {s.impulse.x(), s.impulse.y()});
+          window_impact.push_back(s.impact), window_impulse.insert(window_impulse.end(), {s.impulse.x(), s.impulse.y()});
       file.write("impulses/body", body);
       file.write("impulses/impulse", impulse);
       file.write("window/body", window_body);
       file.write("window/impulse", window_impulse);
       file.write("window/dissipation", window_dissipation);
+      file.write("window/impact", window_impact);
       file.write("window/spin", p.window.spin);
     }
 
@@ -118,12 +119,15 @@ namespace diptych::discrete
     {
       const std::vector<int>    body = file.read_int("impulses/body"), window_body = file.read_int("window/body");
       const std::vector<double> impulse = file.read("impulses/impulse"), window_impulse = file.read("window/impulse"),
-                                window_dissipation = file.read("window/dissipation");
+                                window_dissipation = file.read("window/dissipation"), window_impact = file.read("window/impact");
       for (std::size_t k = 0; k + 1 < body.size(); k += 2)
         p.state.impulses.push_back({body[k], body[k + 1], impulse.at(k), impulse.at(k + 1)});
       for (std::size_t k = 0; k + 1 < window_body.size(); k += 2)
-        p.window.sums.push_back(
-          {window_body[k], window_body[k + 1], window_dissipation.at(k / 2), {window_impulse.at(k), window_impulse.at(k + 1)}});
+        p.window.sums.push_back({window_body[k],
+                                 window_body[k + 1],
+                                 window_dissipation.at(k / 2),
+                                 window_impact.at(k / 2),
+                                 {window_impulse.at(k), window_impulse.at(k + 1)}});
       p.window.spin = file.read("window/spin");
     }
   } // namespace

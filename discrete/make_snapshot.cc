@@ -70,14 +70,15 @@ namespace diptych::discrete
     for (std::size_t i = 0; i < g.size(); ++i)
       s.displacement.push_back(g.position[i] - reference.position[i]);
     add_contacts(state, result, setting, s);
-    s.internal_moment      = internal_moments(g.position, s.contacts, spin_terms(g));
-    s.window_forces        = window.time > 0 ? window.mean_forces(state) : s.contacts;
-    s.mean_spin_term       = window.time > 0 ? window.mean_spin_term() : spin_terms(g);
-    s.window_time          = window.time;
-    s.window_dissipation   = window.time > 0 ? window.dissipation() : std::vector<double>(s.contacts.size(), 0.);
-    s.mean_internal_moment = internal_moments(g.position, s.window_forces, s.mean_spin_term);
-    s.rattler              = rattlers(result, g);
-    s.applied_force        = result.applied_force;
+    s.internal_moment           = internal_moments(g.position, s.contacts, spin_terms(g));
+    s.window_forces             = window.time > 0 ? window.mean_forces(state) : s.contacts;
+    s.mean_spin_term            = window.time > 0 ? window.mean_spin_term() : spin_terms(g);
+    s.window_time               = window.time;
+    s.window_dissipation        = window.time > 0 ? window.dissipation() : std::vector<double>(s.contacts.size(), 0.);
+    s.window_impact_dissipation = window.time > 0 ? window.impact_dissipation() : std::vector<double>(s.contacts.size(), 0.);
+    s.mean_internal_moment      = internal_moments(g.position, s.window_forces, s.mean_spin_term);
+    s.rattler                   = rattlers(result, g);
+    s.applied_force             = result.applied_force;
     if (result.accuracy)
       s.stress_error = result.accuracy->stress_error, s.stress_change = result.accuracy->stress_change;
     add_boundary(state, result, reference, s);

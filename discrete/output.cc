@@ -117,6 +117,7 @@ namespace diptych::discrete
       file.write(contacts + "/status", integers(s.status));
       write_forces(file, window, s.window_forces);
       file.write(window + "/dissipation", s.window_dissipation);
+      file.write(window + "/impact_dissipation", s.window_impact_dissipation);
       file.write(group + "/outline/left", s.outline.left);
       file.write(group + "/outline/right", s.outline.right);
       write_attributes(file, group, s);
@@ -171,6 +172,8 @@ namespace diptych::discrete
       grid += xdmf_attribute(file, group, "force", "Vector", n, 3, false);
       if (s.window_dissipation.size() == n)
         grid += xdmf_attribute(file, group, "dissipation", "Scalar", n, 1, false);
+      if (s.window_impact_dissipation.size() == n)
+        grid += xdmf_attribute(file, group, "impact_dissipation", "Scalar", n, 1, false);
       return grid + "      </Grid>\n";
     }
 
@@ -262,6 +265,8 @@ namespace diptych::discrete
         s.window_forces = read_forces(file, group + "/window");
         if (const std::string dissipation = group + "/window/dissipation"; file.has(dissipation)) // else of an earlier version
           s.window_dissipation = file.read(dissipation);
+        if (const std::string impact = group + "/window/impact_dissipation"; file.has(impact))
+          s.window_impact_dissipation = file.read(impact);
         s.outline = {file.read_vectors(group + "/outline/left"), file.read_vectors(group + "/outline/right")};
         snapshots.push_back(std::move(s));
       }

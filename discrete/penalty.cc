@@ -71,7 +71,8 @@ namespace diptych::discrete
       return ft * (spring - ft) / law.kt;
     }
 
-    // The ledger of a step takes all tangential work for friction; here only sliding is, the rest is elastic.
+    // The ledger of a step takes all tangential work for friction; here only sliding is, the rest is elastic and counts with the
+    // work along the normal.
     void take_ledger(StepLedger ledger, StepResult &result)
     {
       const std::vector<double> &each    = result.contact_dissipation;
@@ -79,9 +80,12 @@ namespace diptych::discrete
       result.energies                    = ledger.energies;
       result.energies.impact_dissipation += result.energies.friction_dissipation - sliding;
       result.energies.friction_dissipation = sliding;
-      result.wall_force                    = std::move(ledger.wall_force);
-      result.momentum_residual             = ledger.momentum_residual;
-      result.unbalanced_force              = ledger.unbalanced_force;
+      result.contact_impact                = std::move(ledger.contact_impact);
+      for (std::size_t k = 0; k < each.size(); ++k)
+        result.contact_impact[k] += ledger.contact_dissipation[k] - each[k];
+      result.wall_force        = std::move(ledger.wall_force);
+      result.momentum_residual = ledger.momentum_residual;
+      result.unbalanced_force  = ledger.unbalanced_force;
     }
   } // namespace
 

@@ -75,6 +75,7 @@ namespace diptych::discrete
     // all entries of all windows sum up to friction_dissipation of discrete.csv. The law makes -r_t (u_t' + e_t u_t) >= 0, so
     // single entries may be negative unless e_t = 1 (discrete/README.md: how much).
     std::vector<double> window_dissipation;
+    std::vector<double> window_impact_dissipation; // likewise -r_n (u_n + u_n')/2: impact_dissipation of discrete.csv
 
     // platens: lower and upper, force on the sample
     double          lower_y = 0, upper_y = 0;

@@ -49,7 +49,7 @@ namespace diptych::discrete
       double impact = 0, friction = 0, correction = 0; // work, split by direction
     };
 
-    // Sums over the acting contacts; friction of each contact and the forces of the walls go to the ledger.
+    // Sums over the acting contacts; work of each contact and the forces of the walls go to the ledger.
     ContactSums sum_contacts(const SolvedStep       &s,
                              const std::vector<int> &acting,
                              const bool              corrects_by_velocity,
@@ -67,10 +67,12 @@ namespace diptych::discrete
           const RelativeVelocity next = relative_velocity(c, s.v_new);
           sum.impulse += std::sqrt(r.normal * r.normal + r.tangential * r.tangential);
           sum.normal += r.normal;
-          sum.impact += 0.5 * r.normal * (u.normal + next.normal);
+          const double impact = 0.5 * r.normal * (u.normal + next.normal);
+          sum.impact += impact;
           const double friction = 0.5 * r.tangential * (u.tangential + next.tangential);
           sum.friction += friction;
           ledger.contact_dissipation[k] = 0 - friction;
+          ledger.contact_impact[k]      = 0 - impact;
           if (corrects_by_velocity && c.normal_term < 0 && s.contacts[k].gap < 0)
             sum.correction += 0.5 * r.normal * c.normal_term;
           if (std::size_t(c.j) >= n)
@@ -149,6 +151,7 @@ namespace diptych::discrete
     StepLedger        ledger;
     ledger.wall_force.assign(s.state.walls.size(), Eigen::Vector2d::Zero());
     ledger.contact_dissipation.assign(s.contacts.size(), 0.);
+    ledger.contact_impact.assign(s.contacts.size(), 0.);
     const std::vector<int> acting        = acting_contacts(s.impulses);
     const ContactSums      contacts      = sum_contacts(s, acting, corrects_by_velocity, ledger);
     ledger.energies.impact_dissipation   = 0 - contacts.impact;

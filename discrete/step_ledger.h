@@ -22,6 +22,7 @@ namespace diptych::discrete
   {
     StepEnergies                 energies;
     std::vector<Eigen::Vector2d> wall_force;           // of each wall on the sample = impulse / step
+    std::vector<double>          contact_impact;       // likewise energies.impact_dissipation [energy]
     std::vector<double>          contact_dissipation;  // of each contact, their sum is energies.friction_dissipation [energy]
     double                       unbalanced_force = 0; // mean over grains of |m dv/h| / mean normal contact force
     double momentum_residual = 0; // |sum m dv - h F - impulses of walls and fixed grains| / (sum |r| + sum m |v|)

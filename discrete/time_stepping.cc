@@ -81,6 +81,7 @@ namespace diptych::discrete
     result.energies   = ledger.energies;
     result.wall_force = std::move(ledger.wall_force);
     result.contact_dissipation = std::move(ledger.contact_dissipation);
+    result.contact_impact      = std::move(ledger.contact_impact);
     result.momentum_residual   = ledger.momentum_residual;
     result.unbalanced_force    = ledger.unbalanced_force;
 

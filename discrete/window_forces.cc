@@ -12,7 +12,7 @@ namespace diptych::discrete
     std::vector<PairSum> now; // ascending, as the contacts are
     for (std::size_t k = 0; k < result.contacts.size(); ++k)
       if (const Contact &c = result.contacts[k]; result.impulses[k].normal > 0)
-        now.push_back({c.i, c.j, result.contact_dissipation[k], impulse_vector(c, result.impulses[k])});
+        now.push_back({c.i, c.j, result.contact_dissipation[k], result.contact_impact[k], impulse_vector(c, result.impulses[k])});
     std::vector<PairSum> merged;
     merged.reserve(sums.size() + now.size());
     auto a = sums.begin();
@@ -22,7 +22,7 @@ namespace diptych::discrete
           merged.push_back(*a++);
         if (a != sums.end() && a->i == b.i && a->j == b.j)
           {
-            merged.push_back({b.i, b.j, a->dissipation + b.dissipation, a->impulse + b.impulse});
+            merged.push_back({b.i, b.j, a->dissipation + b.dissipation, a->impact + b.impact, a->impulse + b.impulse});
             ++a;
           }
         else
@@ -57,12 +57,25 @@ namespace diptych::discrete
     return forces;
   }
 
+  namespace
+  {
+    std::vector<double> member_of(const std::vector<WindowForces::PairSum> &sums, double WindowForces::PairSum::*member)
+    {
+      std::vector<double> values;
+      values.reserve(sums.size());
+      for (const WindowForces::PairSum &s : sums)
+        values.push_back(s.*member);
+      return values;
+    }
+  } // namespace
+
   std::vector<double> WindowForces::dissipation() const
   {
-    std::vector<double> sum;
-    sum.reserve(sums.size());
-    for (const PairSum &s : sums)
-      sum.push_back(s.dissipation);
-    return sum;
+    return member_of(sums, &PairSum::dissipation);
+  }
+
+  std::vector<double> WindowForces::impact_dissipation() const
+  {
+    return member_of(sums, &PairSum::impact);
   }
 } // namespace diptych::discrete

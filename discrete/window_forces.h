@@ -15,7 +15,8 @@ namespace diptych::discrete
     struct PairSum
     {
       int             i, j;
-      double          dissipation; // [energy]
+      double          dissipation; // by friction [energy]
+      double          impact;      // dissipated along the normal [energy]
       Eigen::Vector2d impulse;     // on i
     };
     std::vector<PairSum> sums;     // ascending in (i, j)
@@ -30,5 +31,6 @@ namespace diptych::discrete
     std::vector<ContactForce> mean_forces(const State &state) const;
     // Sum, not mean, of each entry of mean_forces(). [energy]
     std::vector<double> dissipation() const;
+    std::vector<double> impact_dissipation() const;
   };
 } // namespace diptych::discrete

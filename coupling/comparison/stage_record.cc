@@ -104,6 +104,18 @@ namespace diptych::coupling
                                                     record.fields.own.stress);
     }
 
+    // By friction and by impacts, as the continuum's plastic work is by all that dissipates. Empty where the file does not tell.
+    std::vector<double> dissipation_of_pairs(const discrete::Snapshot &grains)
+    {
+      std::vector<double>        sum    = grains.window_dissipation;
+      const std::vector<double> &impact = grains.window_impact_dissipation;
+      if (sum.size() != grains.window_forces.size() || impact.size() != sum.size())
+        return {};
+      for (std::size_t k = 0; k < sum.size(); ++k)
+        sum[k] += impact[k];
+      return sum;
+    }
+
     void look_across_the_band(const ProbeView &view, const StagePair &stage, StageRecord &record)
     {
       if (view.bands.empty())
@@ -113,8 +125,8 @@ namespace diptych::coupling
       std::vector<Eigen::Vector2d> points;
       for (const discrete::ContactForce &contact : view.network.forces)
         points.push_back(contact.point);
-      if (stage.grains_to.window_dissipation.size() == points.size())
-        record.discrete.dissipation = contact_dissipation_split(zone, view.outline, points, stage.grains_to.window_dissipation);
+      if (const std::vector<double> dissipation = dissipation_of_pairs(stage.grains_to); !dissipation.empty())
+        record.discrete.dissipation = contact_dissipation_split(zone, view.outline, points, dissipation);
       record.continuum.dissipation = cell_dissipation_split(zone, record.fields.mesh, record.fields.own.dissipation);
 
       const TractionStrips strips = traction_strips(view.outline, view.frame, band.angle_deg,

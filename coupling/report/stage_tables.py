@@ -90,7 +90,7 @@ def dissipation(increment):
         if found:
             rows.append([words, rounded(found.get("share_inside"), "%", 1), rounded(found.get("area_share"), "%", 1),
                          _density(found)])
-    return {"head": ["dissipation since the stage before (grains: friction; continuum: plastic work)", "inside the grains' band", "the band's share of the area",
+    return {"head": ["dissipation since the stage before (grains: friction and impacts; continuum: plastic work)", "inside the grains' band", "the band's share of the area",
                      "dissipated per area, inside over outside"], "rows": rows} if rows else None
 
 

@@ -88,8 +88,7 @@ def _band_curve(result, key, label, words):
 
 def _dissipation(result):
     caption = ("Share of the energy dissipated in a stage that is dissipated within the 10–90 % width of the grains' band; "
-               "dashed: that band's share of the area. Grains: by friction, without what impacts take; continuum: all plastic "
-               "work. Shares may be compared, amounts may not.")
+               "dashed: that band's share of the area. Grains: friction and impacts; continuum: plastic work.")
     figure, axes = chart(result, "dissipated inside the band (%)")
     of = lambda stage, panel: scaled((stage.panel(panel).get("dissipation") or {}).get("share_inside"), 100)  # noqa: E731
     if not _points(axes, result, of):

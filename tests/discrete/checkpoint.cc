@@ -35,7 +35,10 @@ namespace
     }
     void operator()(const ContactStatus &status) { (*this)(double(status)); }
     void operator()(const PairImpulse &r) { (*this)(r.i), (*this)(r.j), (*this)(r.normal), (*this)(r.tangential); }
-    void operator()(const WindowForces::PairSum &s) { (*this)(s.i), (*this)(s.j), (*this)(s.dissipation), (*this)(s.impulse); }
+    void operator()(const WindowForces::PairSum &s)
+    {
+      (*this)(s.i), (*this)(s.j), (*this)(s.dissipation), (*this)(s.impact), (*this)(s.impulse);
+    }
     void operator()(const Wall &w)
     {
       (*this)(w.point), (*this)(w.normal), (*this)(w.velocity), (*this)(w.mass), (*this)(double(w.kind));
@@ -65,7 +68,7 @@ namespace
       s.error_over_residual);
     b(s.position, s.displacement, s.velocity, s.rotation, s.spin, s.radius, s.mass, s.internal_moment, s.mean_internal_moment);
     b(s.mean_spin_term, s.rattler, s.fixed, s.contacts, s.gap, s.status, s.applied_force, s.window_forces, s.window_time,
-      s.window_dissipation);
+      s.window_dissipation, s.window_impact_dissipation);
     b(s.lower_y, s.upper_y, s.upper_platen_displacement, s.lower_platen_force, s.upper_platen_force, s.left_x, s.right_x);
     b(s.cell_width, s.outline.left, s.outline.right, s.area);
     return b.words;
@@ -170,7 +173,7 @@ namespace
     p.reference.grain_area = dice(), p.reference.kinetic_energy = dice(), p.reference.platen_kinetic_energy = dice();
     p.reference.strain_rate = dice(), p.reference.mean_density = dice();
     for (int k = 0; k < 6; ++k)
-      p.window.sums.push_back({dice.whole(), dice.whole(), dice(), dice.vector()});
+      p.window.sums.push_back({dice.whole(), dice.whole(), dice(), dice(), dice.vector()});
     p.window.time = dice(), p.stage = 3, p.steps_left = 77, p.step = dice(), p.interval = 5;
     p.row = random_row(dice);
     for (int k = 0; k < 4; ++k)

@@ -52,6 +52,7 @@ namespace
         for (std::size_t c = 0; c < a.window_forces.size(); ++c)
           EXPECT_EQ(a.window_forces[c].force, b.window_forces[c].force);
         EXPECT_EQ(a.window_dissipation, b.window_dissipation);
+        EXPECT_EQ(a.window_impact_dissipation, b.window_impact_dissipation);
       }
     EXPECT_FALSE(std::filesystem::exists(path + ".h5.part"));
     std::filesystem::remove(path + ".h5"), std::filesystem::remove(path + ".xdmf");

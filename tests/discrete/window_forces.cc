@@ -1,4 +1,4 @@
-// diptych: friction dissipation of single pairs over a window: closed forms, and the ledger they make up
+// diptych: dissipation of single pairs over a window: closed forms, and the ledger they make up
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <cmath>
@@ -84,22 +84,27 @@ namespace
     ASSERT_EQ(r.report.status, Status::finished) << r.report.message;
     ASSERT_EQ(r.snapshots.size(), 3u);
     EXPECT_EQ(r.snapshots[0].window_dissipation, std::vector<double>(r.snapshots[0].window_forces.size(), 0.));
-    double before = 0;
-    for (std::size_t k = 1; k < r.snapshots.size(); ++k)
-      {
-        const Snapshot &s = r.snapshots[k];
-        ASSERT_EQ(s.window_dissipation.size(), s.window_forces.size());
-        const auto   row  = std::find_if(r.rows.begin(), r.rows.end(), [&](const HistoryRow &at) { return at.time == s.time; });
-        const double sum  = std::accumulate(s.window_dissipation.begin(), s.window_dissipation.end(), 0.);
-        double       size = 0;
-        for (const double x : s.window_dissipation)
-          size += std::abs(x);
-        ASSERT_NE(row, r.rows.end());
-        EXPECT_GT(sum, 0);
-        EXPECT_NEAR(sum, row->friction_dissipation - before, 3e-12 * (size + before));
-        before = row->friction_dissipation;
-      }
-    EXPECT_EQ(before, r.rows.back().friction_dissipation);
+    const auto expect_ledger = [&r](const auto window, const auto ledger) {
+      double before = 0;
+      for (std::size_t k = 1; k < r.snapshots.size(); ++k)
+        {
+          const Snapshot            &s    = r.snapshots[k];
+          const std::vector<double> &each = s.*window;
+          ASSERT_EQ(each.size(), s.window_forces.size());
+          const auto   row  = std::find_if(r.rows.begin(), r.rows.end(), [&](const HistoryRow &at) { return at.time == s.time; });
+          const double sum  = std::accumulate(each.begin(), each.end(), 0.);
+          double       size = 0;
+          for (const double x : each)
+            size += std::abs(x);
+          ASSERT_NE(row, r.rows.end());
+          EXPECT_GT(sum, 0);
+          EXPECT_NEAR(sum, (*row).*ledger - before, 3e-12 * (size + before));
+          before = (*row).*ledger;
+        }
+      EXPECT_EQ(before, r.rows.back().*ledger);
+    };
+    expect_ledger(&Snapshot::window_dissipation, &HistoryRow::friction_dissipation);
+    expect_ledger(&Snapshot::window_impact_dissipation, &HistoryRow::impact_dissipation);
   }
 
   TEST(WindowDissipation, OfAllPairsIsTheGrowthOfTheLedgersFriction)
