@@ -15,11 +15,8 @@ namespace diptych::coupling
     // The affine fit at the cells' centres that GrainFields has of the grains.
     void add_kinematics(const StagePair &stage, CellFields &fields)
     {
-      std::vector<Eigen::Vector2d> centres;
-      for (unsigned int k = 0; k < fields.mesh.cell.size(); ++k)
-        centres.push_back(cell_centre(fields.mesh, k));
-      fields.continuum_gradient = displacement_gradient(displacement_field(stage.nodes_from, stage.nodes_to), centres,
-                                                        strain_radius(stage.grains_to.mean_diameter));
+      fields.continuum_gradient = displacement_gradient(displacement_field(stage.nodes_from, stage.nodes_to),
+                                                        cell_centres(fields.mesh), strain_radius(stage.grains_to.mean_diameter));
       for (const Eigen::Matrix2d &g : fields.continuum_gradient)
         {
           fields.continuum_shear.push_back(std::hypot(g(0, 0) - g(1, 1), g(0, 1) + g(1, 0)));
@@ -70,6 +67,14 @@ namespace diptych::coupling
       return stress_difference(grid, pair);
     }
   } // namespace
+
+  std::vector<Eigen::Vector2d> cell_centres(const QuadMesh &mesh)
+  {
+    std::vector<Eigen::Vector2d> centres;
+    for (unsigned int k = 0; k < mesh.cell.size(); ++k)
+      centres.push_back(cell_centre(mesh, k));
+    return centres;
+  }
 
   std::vector<Eigen::Matrix2d> strain_increments(const std::vector<Eigen::Matrix2d> &displacement_gradient)
   {

@@ -25,14 +25,6 @@ namespace diptych::coupling
       return frame;
     }
 
-    std::vector<Eigen::Vector2d> cell_centres(const QuadMesh &mesh)
-    {
-      std::vector<Eigen::Vector2d> centres;
-      for (unsigned int k = 0; k < mesh.cell.size(); ++k)
-        centres.push_back(cell_centre(mesh, k));
-      return centres;
-    }
-
     // Both panels' strips lie along the grains' band; where they show none along the continuum's, else along the
     // platen's travel.
     Strips cut_strips(const DisplacementField &field, const Increment &increment)
