@@ -25,7 +25,8 @@ namespace
                                   {"whole_step", "seconds a step and memory, 500 to 64000 discs", whole_step},
                                   {"threads", "two threads, wall clock", threads},
                                   {"accuracy", "grain-stress error against residual", accuracy},
-                                  {"warm_start", "with and without the impulses of the preceding step", warm_start}};
+                                  {"warm_start", "with and without the impulses of the preceding step", warm_start},
+                                  {"wandering", "a step on which the sweeps do not converge", wandering}};
 
   int usage()
   {

@@ -16,4 +16,5 @@ namespace diptych::benchmarks
   void threads(const std::string &states);         // two threads, wall clock
   void accuracy(const std::string &states);        // grain-stress error against residual
   void warm_start(const std::string &states);      // with and without the impulses of the preceding step
+  void wandering(const std::string &states);       // what the sweeps do where they do not converge
 } // namespace diptych::benchmarks
