@@ -20,7 +20,7 @@ namespace
   constexpr Section sections[] = {{"update_cost", "ns per update, 4000 discs", update_cost},
                                   {"stored_problems", "contact problems in files", stored_problems},
                                   {"step_solve", "one step's solve, 4000 discs", step_solve},
-                                  {"how_far", "smallest residuals reached (20 min)", how_far},
+                                  {"how_far", "smallest residuals reached (25 min)", how_far},
                                   {"sweep_orders", "order of the sweeps and omega by status", sweep_orders},
                                   {"whole_step", "seconds a step and memory, 500 to 64000 discs", whole_step},
                                   {"threads", "two threads, wall clock", threads},

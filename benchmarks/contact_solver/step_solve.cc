@@ -47,26 +47,37 @@ namespace diptych::benchmarks
       return measured;
     }
 
-    void print_far(const std::string &states, const int grains, const double tolerance, const int budget)
+    // Of `n` consecutive steps, each solved to `tolerance` or as far as `budget` sweeps go.
+    void print_far(Sheared         sheared,
+                   const LoadCase &load,
+                   const char     *solver,
+                   const double    tolerance,
+                   const int       budget,
+                   const int       n)
     {
-      for (const LoadCase &load : {state_a, state_b})
+      Measured            measured;
+      std::vector<double> residuals;
+      for (int step = 0; step < n; ++step)
         {
-          const NextStep next = next_step(sheared_state(states, grains, load));
-          for (const char *solver : {"psor", "nsgs"})
-            {
-              SolverOptions options;
-              options.solver              = solver;
-              options.tolerance           = tolerance;
-              options.max_sweeps          = budget;
-              std::vector<Impulse> r      = next.guess;
-              const double         begin  = cpu_seconds();
-              const SolveReport    report = solve(next.problem, options, r);
-              std::printf("%6d %-5s %-5s %9.0e %9.1e %9ld %9.2f  %s\n", grains, load.name, solver, tolerance, report.residual,
-                          report.sweeps, cpu_seconds() - begin,
-                          report.status == SolveStatus::converged ? "converged" : "NOT converged");
-              std::fflush(stdout);
-            }
+          const NextStep next = next_step(sheared);
+          SolverOptions  options;
+          options.solver              = solver;
+          options.tolerance           = tolerance;
+          options.max_sweeps          = budget;
+          std::vector<Impulse> r      = next.guess;
+          const double         begin  = cpu_seconds();
+          const SolveReport    report = solve(next.problem, options, r);
+          measured.seconds.push_back(cpu_seconds() - begin);
+          measured.sweeps.push_back(double(report.sweeps));
+          measured.converged += report.status == SolveStatus::converged;
+          residuals.push_back(report.residual);
+          (void)advance(sheared);
         }
+      const Spread s = spread(measured.seconds), sweeps = spread(measured.sweeps), reached = spread(residuals);
+      std::printf("%6zu %-5s %-5s %9.0e   %2d of %2d   %8.1e %8.1e %8.1e   %8.0f %8.0f %8.0f   %8.2f %8.2f %8.2f\n",
+                  sheared.state.grains.size(), load.name, solver, tolerance, measured.converged, n, reached.least, reached.median,
+                  reached.most, sweeps.least, sweeps.median, sweeps.most, s.least, s.median, s.most);
+      std::fflush(stdout);
     }
   } // namespace
 
@@ -95,10 +106,21 @@ namespace diptych::benchmarks
 
   void how_far(const std::string &states)
   {
-    std::printf("one step, warm start, CPU time; at most 1e6 sweeps (16000 discs: 3e5)\n");
-    std::printf(" discs state solver  wanted   reached    sweeps   seconds\n");
-    print_far(states, 1000, 1e-8, 1000000);
-    print_far(states, 4000, 1e-8, 1000000);
-    print_far(states, 16000, 1e-6, 300000);
+    constexpr int n = 7;
+    std::printf(
+      "%d consecutive steps (nsgs: one), warm start, CPU time; at most 1e6 sweeps (16000 discs: 3e5); residual, sweeps and "
+      "seconds: least, median, most\n",
+      n);
+    std::printf(
+      " discs state solver  wanted  converged     reached: residual                sweeps                     seconds\n");
+    for (const int grains : {1000, 4000})
+      for (const LoadCase &load : {state_a, state_b})
+        {
+          const Sheared sheared = sheared_state(states, grains, load);
+          print_far(sheared, load, "psor", 1e-8, 1000000, n);
+          print_far(sheared, load, "nsgs", 1e-8, 1000000, 1);
+        }
+    for (const LoadCase &load : {state_a, state_b})
+      print_far(sheared_state(states, 16000, load), load, "psor", 1e-6, 300000, n);
   }
 } // namespace diptych::benchmarks

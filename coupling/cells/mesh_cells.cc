@@ -85,6 +85,14 @@ namespace diptych::coupling
     return 0.25 * (mesh.node[c[0]] + mesh.node[c[1]] + mesh.node[c[2]] + mesh.node[c[3]]);
   }
 
+  std::vector<Eigen::Vector2d> cell_centres(const QuadMesh &mesh)
+  {
+    std::vector<Eigen::Vector2d> centres;
+    for (unsigned int k = 0; k < mesh.cell.size(); ++k)
+      centres.push_back(cell_centre(mesh, k));
+    return centres;
+  }
+
   std::vector<double> cell_areas(const QuadMesh &mesh)
   {
     std::vector<double> areas(mesh.cell.size(), 0.);

@@ -44,9 +44,10 @@ namespace diptych::coupling
   // std::invalid_argument for an empty box or a size that is not positive.
   QuadMesh regular_grid(const Eigen::Vector2d &lower, const Eigen::Vector2d &upper, double size);
 
-  std::array<unsigned int, 3> triangle_nodes(const QuadMesh &mesh, unsigned int triangle);
-  double                      triangle_area(const QuadMesh &mesh, unsigned int triangle);
-  Eigen::Vector2d             cell_centre(const QuadMesh &mesh, unsigned int cell); // mean of the four corners
+  std::array<unsigned int, 3>  triangle_nodes(const QuadMesh &mesh, unsigned int triangle);
+  double                       triangle_area(const QuadMesh &mesh, unsigned int triangle);
+  Eigen::Vector2d              cell_centre(const QuadMesh &mesh, unsigned int cell); // mean of the four corners
+  std::vector<Eigen::Vector2d> cell_centres(const QuadMesh &mesh);                   // n_cells entries
 
   // n_cells entries [length^2]: of the polygons.
   std::vector<double> cell_areas(const QuadMesh &mesh);

@@ -5,16 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupling/cells/cross_product.h"
+
 namespace diptych::coupling
 {
-  namespace
-  {
-    double cross(const Eigen::Vector2d &a, const Eigen::Vector2d &b)
-    {
-      return a.x() * b.y() - a.y() * b.x();
-    }
-  } // namespace
-
   double polygon_area(const std::vector<Eigen::Vector2d> &polygon)
   {
     double area = 0; // about the first corner: far from the origin the terms would cancel

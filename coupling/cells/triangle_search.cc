@@ -9,16 +9,13 @@
 #include <string>
 #include <utility>
 
+#include "coupling/cells/cross_product.h"
+
 namespace diptych::coupling
 {
   namespace
   {
     constexpr double edge_tolerance = 1e-12; // of an edge's length: points closer to it count as on it
-
-    double cross(const Eigen::Vector2d &a, const Eigen::Vector2d &b)
-    {
-      return a.x() * b.y() - a.y() * b.x();
-    }
 
     bool contains(const std::array<Eigen::Vector2d, 3> &corner, const Eigen::Vector2d &point)
     {

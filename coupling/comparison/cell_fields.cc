@@ -68,14 +68,6 @@ namespace diptych::coupling
     }
   } // namespace
 
-  std::vector<Eigen::Vector2d> cell_centres(const QuadMesh &mesh)
-  {
-    std::vector<Eigen::Vector2d> centres;
-    for (unsigned int k = 0; k < mesh.cell.size(); ++k)
-      centres.push_back(cell_centre(mesh, k));
-    return centres;
-  }
-
   std::vector<Eigen::Matrix2d> strain_increments(const std::vector<Eigen::Matrix2d> &displacement_gradient)
   {
     std::vector<Eigen::Matrix2d> strain;

@@ -32,8 +32,6 @@ namespace diptych::coupling
     std::vector<double>          continuum_spin;     // half the curl of the same increment, anticlockwise [radians]
   };
 
-  std::vector<Eigen::Vector2d> cell_centres(const QuadMesh &mesh); // n_cells: means of the four corners [length]
-
   // Strain increments -sym(gradient), positive in compression.
   std::vector<Eigen::Matrix2d> strain_increments(const std::vector<Eigen::Matrix2d> &displacement_gradient);
 

@@ -7,15 +7,12 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "coupling/cells/cross_product.h"
+
 namespace diptych::coupling
 {
   namespace
   {
-    double cross(const Eigen::Vector2d &a, const Eigen::Vector2d &b)
-    {
-      return a.x() * b.y() - a.y() * b.x();
-    }
-
     // Signed area of a disc about the origin inside the triangle origin-a-b: a triangle where a-b runs inside, sectors where it
     // runs outside the disc.
     double disc_edge_area(const double radius, const Eigen::Vector2d &a, const Eigen::Vector2d &b)

@@ -5,15 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupling/cells/cross_product.h"
+
 namespace diptych::coupling
 {
   namespace
   {
-    double cross(const Eigen::Vector2d &a, const Eigen::Vector2d &b)
-    {
-      return a.x() * b.y() - a.y() * b.x();
-    }
-
     // Swept from the direction of a to that of b. Moment: integral of r^2 (cos, sin) dr dtheta = r^3/3 [(sin, -cos)].
     void add_sector(const double radius, const Eigen::Vector2d &a, const Eigen::Vector2d &b, DiscPart &part)
     {

@@ -194,10 +194,8 @@ namespace diptych::coupling
                         const discrete::Snapshot &to,
                         GrainFields              &fields)
     {
-      const double                 radius = strain_radius(to.mean_diameter);
-      std::vector<Eigen::Vector2d> centres;
-      for (unsigned int k = 0; k < target.n_cells(); ++k)
-        centres.push_back(cell_centre(target.mesh, k));
+      const double                       radius  = strain_radius(to.mean_diameter);
+      const std::vector<Eigen::Vector2d> centres = cell_centres(target.mesh);
       fields.displacement_gradient = displacement_gradient(periodic_displacement_field(target, from, to, radius), centres,
                                                            radius);
       for (std::size_t k = 0; k < centres.size(); ++k)

@@ -6,17 +6,13 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "coupling/cells/cross_product.h"
 #include "coupling/homogenisation/point_bins.h"
 
 namespace diptych::coupling
 {
   namespace
   {
-    double cross(const Eigen::Vector2d &a, const Eigen::Vector2d &b)
-    {
-      return a.x() * b.y() - a.y() * b.x();
-    }
-
     // Keeps what lies where normal . x <= bound. The new edge looks at `neighbour`. scratch keeps its memory between calls.
     void clip(PowerCell &cell, const Eigen::Vector2d &normal, const double bound, const int neighbour, PowerCell &scratch)
     {

@@ -7,15 +7,12 @@
 #include <limits>
 #include <numeric>
 
+#include "coupling/cells/cross_product.h"
+
 namespace diptych::coupling
 {
   namespace
   {
-    double cross(const Eigen::Vector2d &a, const Eigen::Vector2d &b)
-    {
-      return a.x() * b.y() - a.y() * b.x();
-    }
-
     // The half plane to the left of a-b cut out of a convex polygon.
     void keep_left(const Eigen::Vector2d &a, const Eigen::Vector2d &b, std::vector<Eigen::Vector2d> &polygon)
     {
