@@ -7,7 +7,8 @@ import matplotlib.pyplot as pyplot
 import numpy
 from matplotlib.collections import PolyCollection
 
-from band import (ARMS, LENGTHS, LOCAL_ELEMENTS, SIZES, Increment, length_runs, measure, power, size_runs, thicknesses)
+from runs import ARMS, LENGTHS, LOCAL_ELEMENTS, SIZES, length_runs, power, size_runs, thicknesses
+from width import Increment, measure
 
 BLUE, VERMILION, GREEN, BLACK = "#0072b2", "#d55e00", "#009e73", "black"
 STRAINS = (0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08)
