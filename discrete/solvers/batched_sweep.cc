@@ -63,7 +63,7 @@ namespace diptych::discrete
            same(c.inverse_wtt, c.inverse_wnn * disc_wnn_over_wtt);
   }
 
-  BatchedContacts::BatchedContacts(const ContactProblem &problem)
+  BatchedContacts::BatchedContacts(const ContactProblem &problem, const std::vector<int> &held)
       : problem_(problem),
         v_(problem.free_velocity),
         batch_of_(problem.free_velocity.size(), -2)
@@ -75,8 +75,14 @@ namespace diptych::discrete
         order.resize(problem.contacts.size());
         std::iota(order.begin(), order.end(), 0);
       }
+    std::vector<bool> is_held(problem.contacts.size(), false);
+    for (const int row : held)
+      is_held[row] = true;
     for (const int row : order)
-      (fits_a_batch(problem.contacts[row]) ? rows : rest_).push_back(row);
+      if (!is_held[row])
+        (fits_a_batch(problem.contacts[row]) ? rows : rest_).push_back(row);
+    n_swept_rest_ = rest_.size();
+    rest_.insert(rest_.end(), held.begin(), held.end());
     rest_impulses_.resize(rest_.size());
     int n_blocks = std::clamp(int(rows.size()) / rows_of_a_block, 1, most_blocks);
     while (!cut(rows, n_blocks))
@@ -244,7 +250,7 @@ namespace diptych::discrete
 
   void BatchedContacts::sweep_rest(const double omega_sticking, const double omega_slipping)
   {
-    for (std::size_t row = 0; row < rest_.size(); ++row)
+    for (std::size_t row = 0; row < n_swept_rest_; ++row)
       {
         const ContactRow &c     = problem_.contacts[rest_[row]];
         Impulse          &r     = rest_impulses_[row];
@@ -281,7 +287,7 @@ namespace diptych::discrete
               sweep_part(between_[b], omega_sticking, omega_slipping);
               between[b].advance_to(k + 1);
             }
-          if (rest_.empty())
+          if (n_swept_rest_ == 0)
             continue;
           team.barrier();
           if (rank == 0)

@@ -18,14 +18,17 @@ namespace diptych::discrete
   class BatchedContacts
   {
   public:
-    // The problem must outlive this. One too small or too tangled to be cut is one block.
-    explicit BatchedContacts(const ContactProblem &problem);
+    // The problem must outlive this. One too small or too tangled to be cut is one block. Rows in `held` are not swept.
+    explicit BatchedContacts(const ContactProblem &problem, const std::vector<int> &held = {});
 
     void                 set_impulses(const std::vector<Impulse> &impulses); // one per row; velocities are taken from them
     std::vector<Impulse> impulses() const;
 
     // `n` sweeps. Contacts at their Coulomb bound (judged on their old impulse) take omega_slipping.
     void sweep(double omega_sticking, double omega_slipping, int n, ThreadTeam &team);
+
+    // Calls solve(velocities, impulses of the held rows in the order given), which may change both, in step with each other.
+    template <class Solve> void solve_held(Solve &&solve) { solve(v_, rest_impulses_.data() + n_swept_rest_); }
 
     // Velocities taken afresh from the impulses, so that round-off does not pile up.
     void refresh_velocities();
@@ -57,7 +60,8 @@ namespace diptych::discrete
 
     const ContactProblem &problem_;
     std::vector<Part>     blocks_, between_; // between_[b] lies between blocks b and b + 1
-    std::vector<int>      rest_;             // rows taken one by one
+    std::vector<int>      rest_;             // rows taken one by one, then those held
+    std::size_t           n_swept_rest_ = 0; // without those held
     std::vector<Impulse>  rest_impulses_;
     // Velocities of all bodies of the problem, then for each part its own copies of the bodies that do not move, so that no
     // two threads write to one.

@@ -14,10 +14,10 @@ namespace diptych::discrete
     // Plain sweeps within every hundred over-relaxed ones: they take out what over-relaxation leaves at the Coulomb bound.
     constexpr int plain_sweeps = 10, cycle = 100;
 
-    // Sheared rigid grains hang on just enough contacts, some of which slide without a stable balance: the sweeps then wander
-    // from one set of sliding contacts to the next before they find one on which they converge, and plain ones wander longest.
-    // Where the residual has not halved within `patience` sweeps, omega moves on to another of a few values, for ever: what
-    // one value circles around another leaves.
+    // Sheared rigid grains hang on just enough contacts, some of which slide without a stable balance. Where those are few, they
+    // are solved together (exact_patch.h); else the sweeps wander from one set of sliding contacts to the next before they find
+    // one on which they converge, and plain ones wander longest: omega moves on to another of a few values, for ever, as what one
+    // value circles around another leaves. Either where the residual has not halved within `patience` sweeps.
     class StagnationControl
     {
     public:
@@ -27,20 +27,30 @@ namespace diptych::discrete
 
       double omega() const { return 1 + shares[turn_ % 4] * (omega_ - 1); }
 
-      void observe(const long sweeps, const double residual)
+      bool stagnates(const long sweeps, const double residual)
       {
         if (residual < 0.5 * reference_)
           reference_ = residual, since_ = sweeps;
-        else if (sweeps - since_ >= patience)
-          ++turn_, reference_ = residual, since_ = sweeps;
+        return sweeps - since_ >= patience_;
+      }
+
+      void change_omega(const long sweeps, const double residual)
+      {
+        ++turn_, reference_ = residual, since_ = sweeps, patience_ = long_patience;
+      }
+
+      // Beside exact contacts the sweeps soon show whether they converge.
+      void start_again(const long sweeps, const double residual)
+      {
+        turn_ = 0, reference_ = 2 * residual, since_ = sweeps, patience_ = short_patience;
       }
 
     private:
-      static constexpr long   patience  = 3000;
+      static constexpr long   long_patience = 3000, short_patience = 1000;
       static constexpr double shares[4] = {1, 0.75, 0.875, 0.625};
 
       double omega_, reference_ = std::numeric_limits<double>::infinity();
-      long   since_ = 0, turn_ = 0;
+      long   since_ = 0, turn_ = 0, patience_ = long_patience;
     };
   } // namespace
 
@@ -79,7 +89,12 @@ namespace diptych::discrete
         measure(report.sweeps - refreshed >= sweeps_per_refresh);
         if (report.residual <= options.tolerance && refreshed != report.sweeps)
           measure(true);
-        control.observe(report.sweeps, report.residual);
+        if (!control.stagnates(report.sweeps, report.residual))
+          continue;
+        if (iteration.unstall && report.residual > options.tolerance && iteration.unstall())
+          control.start_again(report.sweeps, report.residual);
+        else
+          control.change_omega(report.sweeps, report.residual);
       }
     if (refreshed != report.sweeps)
       measure(true);

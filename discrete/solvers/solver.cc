@@ -4,8 +4,8 @@
 
 #include <ctime>
 
-#include "discrete/solvers/batched_sweep.h"
 #include "discrete/solvers/iteration.h"
+#include "discrete/solvers/patched_sweep.h"
 #include "discrete/solvers/sweeps.h"
 
 namespace diptych::discrete
@@ -38,18 +38,19 @@ namespace diptych::discrete
                            const StopTest       &stop_test)
     {
       const std::clock_t begin = std::clock();
-      BatchedContacts    batches(problem);
-      batches.set_impulses(impulses);
-      Iteration iteration;
-      iteration.refresh = [&] { batches.refresh_velocities(); };
+      PatchedSweeps      sweeps(problem, impulses);
+      Iteration          iteration;
+      iteration.refresh = [&] { sweeps.refresh_velocities(); };
       iteration.sweep   = [&](const double sticking, const double slipping, const int n) {
-        batches.sweep(sticking, slipping, n, team);
+        sweeps.sweep(sticking, slipping, n, team);
       };
-      iteration.residual = [&] { return batches.residual(team); };
+      iteration.residual = [&] { return sweeps.residual(team); };
+      iteration.unstall  = [&] { return sweeps.patch_stalled(); };
       if (stop_test)
-        iteration.good_enough = [&](const SolveReport &report) { return stop_test(report, [&] { return batches.impulses(); }); };
+        iteration.good_enough = [&](const SolveReport &report) { return stop_test(report, [&] { return sweeps.impulses(); }); };
       SolveReport report = iterate(options, iteration);
-      impulses           = batches.impulses();
+      impulses           = sweeps.impulses();
+      report.patched     = sweeps.n_patched();
       report.cpu_s       = double(std::clock() - begin) / CLOCKS_PER_SEC;
       return report;
     }
