@@ -127,14 +127,15 @@ namespace diptych::discrete
         result.largest_penetration = std::max(result.largest_penetration, -gap);
       }
 
-    const std::vector<BodyVelocity> v_new = velocities(problem, result.impulses);
-    take_ledger(step_ledger({trial, problem, result.contacts, result.impulses, result.applied_force, v, v_new, h}, false),
+    const std::vector<int>          acting = acting_contacts(result.impulses);
+    const std::vector<BodyVelocity> v_new  = velocities(problem, result.impulses, acting);
+    take_ledger(step_ledger({trial, problem, result.contacts, result.impulses, acting, result.applied_force, v, v_new, h}, false),
                 result);
     take_velocities(v_new, trial);
     drift(trial, 0.5 * h);
     if (has_blown_up(trial, h))
       return blown_up();
-    keep_impulses(result.contacts, result.impulses, trial);
+    keep_impulses(result.contacts, result.impulses, acting, trial);
     trial.time += h;
     state                = std::move(trial);
     penalty.impulse_step = h;

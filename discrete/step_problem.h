@@ -7,6 +7,7 @@
 
 namespace diptych::discrete
 {
+  struct StepOptions;
   struct StepSetting;
 
   // Velocities of all bodies in the form of the contact problem: grains, walls, the cell if its width is free.
@@ -33,6 +34,9 @@ namespace diptych::discrete
   {
     return {c.normal.x() * r.normal - c.normal.y() * r.tangential, c.normal.y() * r.normal + c.normal.x() * r.tangential};
   }
+
+  // What a closed contact takes back of its penetration within the step through its normal term, as a share.
+  double corrected_share(const StepOptions &time);
 
   // Coulomb coefficient between a grain and body j.
   double friction_of(const State &state, const StepSetting &setting, int body_j);

@@ -75,9 +75,10 @@ namespace diptych::discrete
     if (result.solve.status != SolveStatus::converged && !setting.accept_unconverged)
       return result;
 
-    const std::vector<BodyVelocity> v_new = velocities(problem, result.impulses);
-    StepLedger ledger = step_ledger({trial, problem, result.contacts, result.impulses, result.applied_force, v, v_new, h},
-                                    setting.law.normal_restitution == 0);
+    const std::vector<int>          acting = acting_contacts(result.impulses);
+    const std::vector<BodyVelocity> v_new  = velocities(problem, result.impulses, acting);
+    StepLedger ledger = step_ledger({trial, problem, result.contacts, result.impulses, acting, result.applied_force, v, v_new, h},
+                                    setting.law.normal_restitution == 0 && corrected_share(setting.time) > 0);
     result.energies   = ledger.energies;
     result.wall_force = std::move(ledger.wall_force);
     result.contact_dissipation = std::move(ledger.contact_dissipation);
@@ -89,7 +90,7 @@ namespace diptych::discrete
     drift(trial, 0.5 * h);
     if (setting.time.penetration_correction == "projection")
       project_positions(trial, result.contacts, 1e-4 * setting.mean_diameter);
-    keep_impulses(result.contacts, result.impulses, trial);
+    keep_impulses(result.contacts, result.impulses, acting, trial);
     trial.time += h;
     state = std::move(trial);
     return result;
