@@ -22,7 +22,7 @@ namespace diptych::discrete
 
   // One contact between bodies i and j: normal n from j to i, tangent t = n turned by +90 degrees, relative velocity
   //   u_n = n.(v_i - v_j),  u_t = t.(v_i - v_j) - s_i - s_j.
-  struct ContactRow
+  struct alignas(64) ContactRow
   {
     // What velocities follow from: 64 bytes, for they are read apart from the rest.
     double nx, ny;

@@ -21,11 +21,11 @@ namespace diptych::discrete
       return (c.gap < 0 ? share * c.gap : c.gap) / h;
     }
 
-    // Geometry and mobilities of a row: all but the terms of the law.
+    // Geometry and mobilities of a row, whatever it held: all but the terms of the law.
     void set_kinematics(const State &state, const Contact &c, const std::vector<BodyVelocity> &v, ContactRow &row)
     {
       const int n = int(state.grains.size());
-      row.nx = c.normal.x(), row.ny = c.normal.y(), row.i = c.i, row.j = c.j, row.cell = -1;
+      row.nx = c.normal.x(), row.ny = c.normal.y(), row.i = c.i, row.j = c.j, row.image = 0, row.cell = -1;
       const double wi = v[c.i].inverse_mass;
       row.ki          = 2 * wi; // r^2/I of a disc
       if (c.j < n)
@@ -35,7 +35,10 @@ namespace diptych::discrete
           row.kj          = 2 * wj;
         }
       else
-        row.jx = state.walls[c.j - n].inverse_mass().x(), row.jy = state.walls[c.j - n].inverse_mass().y();
+        {
+          const Eigen::Vector2d wj = state.walls[c.j - n].inverse_mass();
+          row.jx = wj.x(), row.jy = wj.y(), row.kj = 0;
+        }
       double wnn = wi + row.jx * row.nx * row.nx + row.jy * row.ny * row.ny;
       double wtt = wi + row.jx * row.ny * row.ny + row.jy * row.nx * row.nx + row.ki + row.kj;
       if (c.image != 0 && state.cell && state.cell->moves())
@@ -104,16 +107,15 @@ namespace diptych::discrete
                               const StepSetting               &setting,
                               const std::vector<Contact>      &contacts,
                               const std::vector<BodyVelocity> &v,
-                              std::vector<BodyVelocity>        free_velocity)
+                              ContactProblem                   problem)
   {
-    ContactProblem problem;
-    problem.free_velocity = std::move(free_velocity);
-    problem.order         = sweep_order(contacts, setting.mean_diameter);
-    problem.contacts.reserve(contacts.size());
+    problem.order = sweep_order(contacts, setting.mean_diameter);
+    problem.contacts.resize(contacts.size());
     const double share = corrected_share(setting.time);
-    for (const Contact &c : contacts)
+    for (std::size_t k = 0; k < contacts.size(); ++k)
       {
-        ContactRow &row = problem.contacts.emplace_back(); // made in place: a copy of 112 bytes costs as much again
+        const Contact &c   = contacts[k];
+        ContactRow    &row = problem.contacts[k];
         set_kinematics(state, c, v, row);
         const RelativeVelocity u = relative_velocity(row, v);
         row.friction             = friction_of(state, setting, c.j);

@@ -19,12 +19,13 @@ namespace diptych::discrete
                                             const std::vector<Eigen::Vector2d> &force,
                                             const StepSetting                  &setting);
 
-  // Rows in the order of `contacts`, swept upward. `v`: velocities at the beginning of the step, for impacts.
+  // Rows in the order of `contacts`, swept upward. `v`: velocities at the beginning of the step, for impacts. `problem` brings the
+  // free velocities, and maybe rows of the preceding step, whose memory is used again.
   ContactProblem make_problem(const State                     &state,
                               const StepSetting               &setting,
                               const std::vector<Contact>      &contacts,
                               const std::vector<BodyVelocity> &v,
-                              std::vector<BodyVelocity>        free_velocity);
+                              ContactProblem                   problem);
 
   // Impulses of the preceding step by body pair; new contacts start from zero.
   std::vector<Impulse> first_guess(const std::vector<PairImpulse> &previous, const std::vector<Contact> &contacts);

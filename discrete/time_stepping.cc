@@ -62,8 +62,8 @@ namespace diptych::discrete
       result.largest_penetration = std::max(result.largest_penetration, -c.gap);
 
     const std::vector<BodyVelocity> v       = body_velocities(trial);
-    const ContactProblem            problem = make_problem(trial, setting, result.contacts, v,
-                                                           free_velocities(trial, v, result.applied_force, setting));
+    cache.problem.free_velocity = free_velocities(trial, v, result.applied_force, setting);
+    const ContactProblem           &problem = cache.problem = make_problem(trial, setting, result.contacts, v, std::move(cache.problem));
     result.impulses                         = first_guess(state.impulses, result.contacts);
     if (sample && sample->options.snapshot_max_sweeps > 0)
       result.solve = solve_sampled({problem, trial.grains.radius, result.contacts}, setting.solver, *sample, *cache.team,
