@@ -185,7 +185,7 @@ namespace diptych::discrete
     if (worst <= enough)
       return;
     // Parting one pair may close a neighbour that stands open by less.
-    near.erase(std::remove_if(near.begin(), near.end(), [&](const Pair &c) { return c.gap >= 2 * worst; }), near.end());
+    near.erase(std::remove_if(near.begin(), near.end(), [worst](const Pair &c) { return c.gap >= 2 * worst; }), near.end());
 
     const Rounds      rounds = make_rounds(state, near);
     std::vector<Disc> discs  = discs_of(state.grains);

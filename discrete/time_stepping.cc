@@ -15,6 +15,7 @@ namespace diptych::discrete
   {
     std::vector<double> detection_margins(const State                        &state,
                                           const StepSetting                  &setting,
+                                          const std::vector<BodyVelocity>    &v,
                                           const std::vector<Eigen::Vector2d> &force)
     {
       const double        h = setting.step;
@@ -31,10 +32,17 @@ namespace diptych::discrete
         }
       for (std::size_t i = 0; i < g.size(); ++i)
         margin[i] = 0.04 * setting.mean_diameter +
-                    1.2 * h * (std::max(g.velocity[i].norm(), wall_speed) + h * force[i].norm() * g.inverse_mass(i));
+                    1.2 * h * (std::max(std::sqrt(v[i].x * v[i].x + v[i].y * v[i].y), wall_speed) + h * force[i].norm() * v[i].inverse_mass);
       return margin;
     }
 
+    double largest_penetration(const std::vector<Contact> &contacts)
+    {
+      double largest = 0;
+      for (const Contact &c : contacts)
+        largest = std::max(largest, -c.gap);
+      return largest;
+    }
   } // namespace
 
   std::vector<Eigen::Vector2d> applied_forces(const State &state, const StepSetting &setting)
@@ -57,11 +65,9 @@ namespace diptych::discrete
 
     StepResult result;
     result.applied_force = applied_forces(trial, setting);
-    result.contacts      = cache.neighbours.find_contacts(trial, detection_margins(trial, setting, result.applied_force));
-    for (const Contact &c : result.contacts)
-      result.largest_penetration = std::max(result.largest_penetration, -c.gap);
-
-    const std::vector<BodyVelocity> v       = body_velocities(trial);
+    const std::vector<BodyVelocity> v = body_velocities(trial);
+    result.contacts = cache.neighbours.find_contacts(trial, detection_margins(trial, setting, v, result.applied_force));
+    result.largest_penetration = largest_penetration(result.contacts);
     cache.problem.free_velocity = free_velocities(trial, v, result.applied_force, setting);
     const ContactProblem           &problem = cache.problem = make_problem(trial, setting, result.contacts, v, std::move(cache.problem));
     result.impulses                         = first_guess(state.impulses, result.contacts);
