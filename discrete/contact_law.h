@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 
 #include "discrete/contact_problem.h"
@@ -46,7 +45,7 @@ namespace diptych::discrete
                                                          const std::size_t              at)
   {
     constexpr std::size_t ahead = 12;
-    const char           *row = reinterpret_cast<const char *>(&rows[acting[std::min(at + ahead, acting.size() - 1)]]);
+    const char           *row   = reinterpret_cast<const char *>(&rows[acting[std::min(at + ahead, acting.size() - 1)]]);
     __builtin_prefetch(row);
   }
 

@@ -27,7 +27,7 @@ namespace diptych::discrete
   std::vector<int> sweep_order(const std::vector<Contact> &contacts, const double length)
   {
     const std::vector<int> layers = layers_of(contacts, length);
-    std::vector<int>       start(layers.empty() ? 1 : 2 + *std::max_element(layers.begin(), layers.end()), 0), order(layers.size());
+    std::vector<int> start(layers.empty() ? 1 : 2 + *std::max_element(layers.begin(), layers.end()), 0), order(layers.size());
     for (const int layer : layers)
       ++start[layer + 1];
     for (std::size_t k = 1; k < start.size(); ++k)

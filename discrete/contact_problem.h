@@ -24,7 +24,7 @@ namespace diptych::discrete
   //   u_n = n.(v_i - v_j),  u_t = t.(v_i - v_j) - s_i - s_j.
   struct alignas(64) ContactRow
   {
-    // What velocities follow from: 64 bytes, for they are read apart from the rest.
+    // What velocities follow from: a cache line of its own, for it is read apart from the rest.
     double nx, ny;
     int    i = 0, j = 0; // i is a grain
     int    image = 0;    // j takes part as its image this many cell widths away, which moves with the width

@@ -120,7 +120,7 @@ namespace diptych::discrete
           Rounds::Count &p = place[round[k]];
           if (is_of_discs(c, n))
             {
-              FourPairs &four = rounds.discs[p.discs / pairs_at_once];
+              FourPairs &four                 = rounds.discs[p.discs / pairs_at_once];
               four.i[p.discs % pairs_at_once] = c.i, four.j[p.discs % pairs_at_once] = c.j, ++p.discs;
             }
           else

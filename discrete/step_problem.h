@@ -19,8 +19,8 @@ namespace diptych::discrete
                                             const std::vector<Eigen::Vector2d> &force,
                                             const StepSetting                  &setting);
 
-  // Rows in the order of `contacts`, swept upward. `v`: velocities at the beginning of the step, for impacts. `problem` brings the
-  // free velocities, and maybe rows of the preceding step, whose memory is used again.
+  // Rows in the order of `contacts`, swept upward. `v`: velocities at the beginning of the step, for impacts. `problem` brings
+  // the free velocities, and maybe rows of the preceding step, whose memory is used again.
   ContactProblem make_problem(const State                     &state,
                               const StepSetting               &setting,
                               const std::vector<Contact>      &contacts,

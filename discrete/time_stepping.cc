@@ -19,8 +19,7 @@ namespace diptych::discrete
                                           const std::vector<Eigen::Vector2d> &force)
     {
       const double        h = setting.step;
-      const Grains       &g = state.grains;
-      std::vector<double> margin(g.size());
+      std::vector<double> margin(state.grains.size());
       double              wall_speed = state.cell ? std::abs(state.cell->velocity) : 0;
       for (std::size_t w = 0; w < state.walls.size(); ++w)
         {
@@ -30,9 +29,11 @@ namespace diptych::discrete
           wall_speed += std::min(h * applied_wall_force(state, w, state.time).cwiseProduct(wall.inverse_mass()).norm(),
                                  0.1 * setting.mean_diameter / h);
         }
-      for (std::size_t i = 0; i < g.size(); ++i)
-        margin[i] = 0.04 * setting.mean_diameter +
-                    1.2 * h * (std::max(std::sqrt(v[i].x * v[i].x + v[i].y * v[i].y), wall_speed) + h * force[i].norm() * v[i].inverse_mass);
+      for (std::size_t i = 0; i < margin.size(); ++i)
+        {
+          const double speed = std::max(std::sqrt(v[i].x * v[i].x + v[i].y * v[i].y), wall_speed);
+          margin[i]          = 0.04 * setting.mean_diameter + 1.2 * h * (speed + h * force[i].norm() * v[i].inverse_mass);
+        }
       return margin;
     }
 
@@ -64,13 +65,14 @@ namespace diptych::discrete
     drift(trial, 0.5 * h);
 
     StepResult result;
-    result.applied_force = applied_forces(trial, setting);
+    result.applied_force              = applied_forces(trial, setting);
     const std::vector<BodyVelocity> v = body_velocities(trial);
     result.contacts = cache.neighbours.find_contacts(trial, detection_margins(trial, setting, v, result.applied_force));
-    result.largest_penetration = largest_penetration(result.contacts);
-    cache.problem.free_velocity = free_velocities(trial, v, result.applied_force, setting);
-    const ContactProblem           &problem = cache.problem = make_problem(trial, setting, result.contacts, v, std::move(cache.problem));
-    result.impulses                         = first_guess(state.impulses, result.contacts);
+    result.largest_penetration    = largest_penetration(result.contacts);
+    cache.problem.free_velocity   = free_velocities(trial, v, result.applied_force, setting);
+    cache.problem                 = make_problem(trial, setting, result.contacts, v, std::move(cache.problem));
+    const ContactProblem &problem = cache.problem;
+    result.impulses               = first_guess(state.impulses, result.contacts);
     if (sample && sample->options.snapshot_max_sweeps > 0)
       result.solve = solve_sampled({problem, trial.grains.radius, result.contacts}, setting.solver, *sample, *cache.team,
                                    result.impulses, result.accuracy.emplace());
