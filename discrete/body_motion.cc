@@ -35,9 +35,11 @@ namespace diptych::discrete
       state.cell->velocity = v.back().x;
   }
 
-  void keep_impulses(const std::vector<Contact> &contacts, const std::vector<Impulse> &impulses, State &state)
+  void keep_impulses(const std::vector<Contact> &contacts,
+                     const std::vector<Impulse> &impulses,
+                     const std::vector<int>     &acting,
+                     State                      &state)
   {
-    const std::vector<int> acting = acting_contacts(impulses);
     state.impulses.clear();
     state.impulses.reserve(acting.size());
     for (const int k : acting)

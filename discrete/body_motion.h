@@ -15,6 +15,9 @@ namespace diptych::discrete
   // Velocities of a solved problem to grains that are not fixed, walls and the cell.
   void take_velocities(const std::vector<BodyVelocity> &v, State &state);
 
-  // Keeps the impulses that are not zero for the next step's first guess. `contacts` ascend in (i, j).
-  void keep_impulses(const std::vector<Contact> &contacts, const std::vector<Impulse> &impulses, State &state);
+  // Keeps the impulses of the contacts that act for the next step's first guess. `contacts` ascend in (i, j).
+  void keep_impulses(const std::vector<Contact> &contacts,
+                     const std::vector<Impulse> &impulses,
+                     const std::vector<int>     &acting,
+                     State                      &state);
 } // namespace diptych::discrete

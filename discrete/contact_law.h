@@ -38,15 +38,15 @@ namespace diptych::discrete
     return {normal, std::min(bound, std::max(-bound, stick))};
   }
 
-  // Asks for the row some contacts ahead of acting[at]: after the sweeps rows are far from the processor, and acting ones lie
-  // apart by no pattern that it would see by itself.
+  // Asks for the row some contacts ahead of acting[at], as far as velocities need it: after the sweeps rows are far from the
+  // processor, and acting ones lie apart by no pattern that it would see by itself.
   inline __attribute__((always_inline)) void fetch_ahead(const std::vector<ContactRow> &rows,
                                                          const std::vector<int>        &acting,
                                                          const std::size_t              at)
   {
-    constexpr std::size_t ahead = 12, cache_line = 64;
-    const char           *row = reinterpret_cast<const char *>(&rows[acting[std::min(at + ahead, acting.size() - 1)]]);
-    __builtin_prefetch(row), __builtin_prefetch(row + cache_line), __builtin_prefetch(row + sizeof(ContactRow) - 1);
+    constexpr std::size_t ahead = 12;
+    const char           *row   = reinterpret_cast<const char *>(&rows[acting[std::min(at + ahead, acting.size() - 1)]]);
+    __builtin_prefetch(row);
   }
 
   // Adds M^-1 H dr of one contact to the velocities of its bodies.

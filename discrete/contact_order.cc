@@ -7,24 +7,32 @@
 
 namespace diptych::discrete
 {
+  namespace
+  {
+    // Layer in which each contact lies, counted from the lowest.
+    std::vector<int> layers_of(const std::vector<Contact> &contacts, const double length)
+    {
+      std::vector<int> layers(contacts.size());
+      double           low = std::numeric_limits<double>::infinity(), high = -low;
+      for (const Contact &c : contacts)
+        low = std::min(low, c.point.y()), high = std::max(high, c.point.y());
+      // Far flung grains must not ask for more layers than there are contacts to sort.
+      const double layer = std::max(0.1 * length, (high - low) / (4. * contacts.size() + 1.));
+      for (std::size_t k = 0; k < contacts.size(); ++k)
+        layers[k] = int((contacts[k].point.y() - low) / layer);
+      return layers;
+    }
+  } // namespace
+
   std::vector<int> sweep_order(const std::vector<Contact> &contacts, const double length)
   {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const Contact &c : contacts)
-      low = std::min(low, c.point.y()), high = std::max(high, c.point.y());
-    // Far flung grains must not ask for more layers than there are contacts to sort.
-    const double layer    = std::max(0.1 * length, (high - low) / (4. * contacts.size() + 1.));
-    const auto   layer_of = [&](const double y) { return int((y - low) / layer); };
-
-    std::vector<int> start(contacts.empty() ? 1 : layer_of(high) + 2, 0), layers(contacts.size()), order(contacts.size());
-    for (std::size_t k = 0; k < contacts.size(); ++k)
-      {
-        layers[k] = layer_of(contacts[k].point.y());
-        ++start[layers[k] + 1];
-      }
+    const std::vector<int> layers = layers_of(contacts, length);
+    std::vector<int> start(layers.empty() ? 1 : 2 + *std::max_element(layers.begin(), layers.end()), 0), order(layers.size());
+    for (const int layer : layers)
+      ++start[layer + 1];
     for (std::size_t k = 1; k < start.size(); ++k)
       start[k] += start[k - 1];
-    for (std::size_t k = 0; k < contacts.size(); ++k)
+    for (std::size_t k = 0; k < layers.size(); ++k)
       order[start[layers[k]]++] = int(k);
     return order;
   }

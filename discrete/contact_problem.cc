@@ -22,8 +22,14 @@ namespace diptych::discrete
 
   std::vector<BodyVelocity> velocities(const ContactProblem &problem, const std::vector<Impulse> &impulses)
   {
-    std::vector<BodyVelocity> v      = problem.free_velocity;
-    const std::vector<int>    acting = acting_contacts(impulses);
+    return velocities(problem, impulses, acting_contacts(impulses));
+  }
+
+  std::vector<BodyVelocity> velocities(const ContactProblem       &problem,
+                                       const std::vector<Impulse> &impulses,
+                                       const std::vector<int>     &acting)
+  {
+    std::vector<BodyVelocity> v = problem.free_velocity;
     for (std::size_t a = 0; a < acting.size(); ++a)
       {
         fetch_ahead(problem.contacts, acting, a);

@@ -22,19 +22,21 @@ namespace diptych::discrete
 
   // One contact between bodies i and j: normal n from j to i, tangent t = n turned by +90 degrees, relative velocity
   //   u_n = n.(v_i - v_j),  u_t = t.(v_i - v_j) - s_i - s_j.
-  struct ContactRow
+  struct alignas(64) ContactRow
   {
+    // What velocities follow from: a cache line of its own, for it is read apart from the rest.
     double nx, ny;
+    int    i = 0, j = 0; // i is a grain
+    int    image = 0;    // j takes part as its image this many cell widths away, which moves with the width
+    int    cell  = -1;   // body whose x is d width/dt, where the image moves
+    double ki, kj;       // r^2/I of each side, 2/m for a disc, 0 for a wall [1/mass]
+    double jx, jy;       // inverse mass of body j along x and y; equal but for walls with one free component [1/mass]
+    // The law.
     double normal_term;     // c_n of  0 <= u_n' + c_n  _|_  r_n >= 0   [length/time]
     double tangential_term; // c_t = e_t u_t of the friction law        [length/time]
     double friction;        // mu
     double inverse_wnn;     // 1 / (1/m_i + 1/m_j)                      [mass]
     double inverse_wtt;     // 1 / (1/m_i + 1/m_j + k_i + k_j)          [mass]
-    double ki, kj;          // r^2/I of each side, 2/m for a disc, 0 for a wall [1/mass]
-    double jx, jy;          // inverse mass of body j along x and y; equal but for walls with one free component [1/mass]
-    double image = 0;       // j takes part as its image this many cell widths away, which moves with the width
-    int    i = 0, j = 0;    // i is a grain
-    int    cell = -1;       // body whose x is d width/dt, where the image moves
   };
 
   // Find impulses r and velocities v = v_free + M^-1 H r such that every contact obeys Signorini's condition and
@@ -51,8 +53,11 @@ namespace diptych::discrete
   // Contacts whose impulse does not vanish, ascending.
   std::vector<int> acting_contacts(const std::vector<Impulse> &impulses);
 
-  // v = v_free + M^-1 H r for all bodies.
+  // v = v_free + M^-1 H r for all bodies; the same with acting_contacts() at hand.
   std::vector<BodyVelocity> velocities(const ContactProblem &problem, const std::vector<Impulse> &impulses);
+  std::vector<BodyVelocity> velocities(const ContactProblem       &problem,
+                                       const std::vector<Impulse> &impulses,
+                                       const std::vector<int>     &acting);
 
   // Natural map ||r - P(r)||_2 / ||r||_2: P solves every contact for itself with its own W_nn and W_tt, all others held, v
   // computed afresh from r. Returns 0 where nothing acts and nothing should; infinity where r vanishes but P(r) does not.

@@ -94,7 +94,8 @@ namespace diptych::discrete
       const double mi = g.inverse_mass[3 * i], jx = g.inverse_mass[3 * j], jy = g.inverse_mass[3 * j + 1];
       const auto   spin = [&](const int b) { return g.is_disc(b) ? g.radius[b] * g.radius[b] * g.inverse_mass[3 * b + 2] : 0.; };
       const double wnn = mi + nx * nx * jx + ny * ny * jy, wtt = mi + ny * ny * jx + nx * nx * jy + spin(i) + spin(j);
-      return {nx, ny, g.offset[2 * k], g.offset[2 * k + 1], friction, 1 / wnn, 1 / wtt, spin(i), spin(j), jx, jy, 0., i, j};
+      const double cn = g.offset[2 * k], ct = g.offset[2 * k + 1];
+      return {nx, ny, i, j, 0, -1, spin(i), spin(j), jx, jy, cn, ct, friction, 1 / wnn, 1 / wtt};
     }
 
     // The largest |W_nt| / sqrt(W_nn W_tt) of a contact's own block.

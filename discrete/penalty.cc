@@ -116,7 +116,7 @@ namespace diptych::discrete
 
     const std::vector<BodyVelocity> v       = body_velocities(trial);
     const ContactProblem            problem = make_problem(trial, setting, result.contacts, v,
-                                                           free_velocities(trial, v, result.applied_force, setting));
+                                                           {free_velocities(trial, v, result.applied_force, setting), {}, {}});
     const SpringLaw                 law{kn, tangential_over_normal_stiffness * kn, options.damping,
                         penalty.impulse_step > 0 ? penalty.impulse_step : h};
     for (std::size_t k = 0; k < result.contacts.size(); ++k)
@@ -127,14 +127,15 @@ namespace diptych::discrete
         result.largest_penetration = std::max(result.largest_penetration, -gap);
       }
 
-    const std::vector<BodyVelocity> v_new = velocities(problem, result.impulses);
-    take_ledger(step_ledger({trial, problem, result.contacts, result.impulses, result.applied_force, v, v_new, h}, false),
+    const std::vector<int>          acting = acting_contacts(result.impulses);
+    const std::vector<BodyVelocity> v_new  = velocities(problem, result.impulses, acting);
+    take_ledger(step_ledger({trial, problem, result.contacts, result.impulses, acting, result.applied_force, v, v_new, h}, false),
                 result);
     take_velocities(v_new, trial);
     drift(trial, 0.5 * h);
     if (has_blown_up(trial, h))
       return blown_up();
-    keep_impulses(result.contacts, result.impulses, trial);
+    keep_impulses(result.contacts, result.impulses, acting, trial);
     trial.time += h;
     state                = std::move(trial);
     penalty.impulse_step = h;

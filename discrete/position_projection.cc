@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
 #include "discrete/position_kernel.h"
 
@@ -13,7 +11,14 @@ namespace diptych::discrete
 {
   namespace
   {
-    double gap_of(const State &state, const Contact &c)
+    // What of a contact the sweeps need: they look at many.
+    struct Pair
+    {
+      int    i, j, image;
+      double gap; // now
+    };
+
+    template <class ContactOrPair> double gap_of(const State &state, const ContactOrPair &c)
     {
       const Grains &g = state.grains;
       if (std::size_t(c.j) >= g.size())
@@ -27,7 +32,7 @@ namespace diptych::discrete
     }
 
     // Returns the penetration found.
-    double part(State &state, const Contact &pair)
+    double part(State &state, const Pair &pair)
     {
       if (gap_of(state, pair) >= 0)
         return 0;
@@ -55,17 +60,22 @@ namespace diptych::discrete
     // share one with it. Taken round by round they give the same bits as one by one, but four at a time.
     struct Rounds
     {
-      struct End
+      struct Count
       {
-        std::size_t discs, others;
+        std::size_t discs = 0, others = 0;
       };
       std::vector<FourPairs> discs;  // two grains each, neither an image
-      std::vector<Contact>   others; // with walls, across the edge of a cell
-      std::vector<End>       ends;   // of each round
+      std::vector<Pair>      others; // with walls, across the edge of a cell
+      std::vector<Count>     ends;   // of each round that has others, and of the last
     };
 
+    bool is_of_discs(const Pair &c, const int n_grains)
+    {
+      return c.j < n_grains && c.image == 0;
+    }
+
     // Round of each pair, the earliest possible.
-    std::vector<int> earliest_rounds(const State &state, const std::vector<Contact> &pairs)
+    std::vector<int> earliest_rounds(const State &state, const std::vector<Pair> &pairs)
     {
       const int        n = int(state.grains.size()), cell = n + int(state.walls.size());
       const bool       free_width = state.cell && state.cell->inverse_mass() > 0;
@@ -73,8 +83,8 @@ namespace diptych::discrete
       const auto stands = [&](const int j) { return j >= n && state.walls[j - n].inverse_mass() == Eigen::Vector2d::Zero(); };
       for (std::size_t k = 0; k < pairs.size(); ++k)
         {
-          const Contact &c = pairs[k];
-          int           &i = next[c.i], &j = stands(c.j) ? i : next[c.j], &width = free_width && c.image != 0 ? next[cell] : i;
+          const Pair &c = pairs[k];
+          int        &i = next[c.i], &j = stands(c.j) ? i : next[c.j], &width = free_width && c.image != 0 ? next[cell] : i;
           round[k] = std::max({i, j, width});
           i = j = width = round[k] + 1;
         }
@@ -82,38 +92,39 @@ namespace diptych::discrete
     }
 
     // Empty lanes take the disc after the last grain.
-    Rounds make_rounds(const State &state, const std::vector<Contact> &pairs)
+    Rounds make_rounds(const State &state, const std::vector<Pair> &pairs)
     {
-      const int              n        = int(state.grains.size());
-      const std::vector<int> round    = earliest_rounds(state, pairs);
-      const int              n_rounds = 1 + *std::max_element(round.begin(), round.end());
-      std::vector<int>       start(n_rounds + 1, 0), order(pairs.size());
-      for (const int r : round)
-        ++start[r + 1];
-      std::partial_sum(start.begin(), start.end(), start.begin());
-      std::vector<int> next(start.begin(), start.end() - 1);
+      const int                  n     = int(state.grains.size());
+      const std::vector<int>     round = earliest_rounds(state, pairs);
+      std::vector<Rounds::Count> place(1 + *std::max_element(round.begin(), round.end())); // in each round
       for (std::size_t k = 0; k < pairs.size(); ++k)
-        order[next[round[k]]++] = int(k);
+        ++(is_of_discs(pairs[k], n) ? place[round[k]].discs : place[round[k]].others);
 
-      Rounds rounds;
-      rounds.discs.reserve(pairs.size() / pairs_at_once + n_rounds);
-      for (int r = 0; r < n_rounds; ++r)
+      // From the number in each round to the lane where it begins.
+      Rounds        rounds;
+      Rounds::Count end;
+      for (Rounds::Count &c : place)
         {
-          int filled = pairs_at_once;
-          for (int k = start[r]; k < start[r + 1]; ++k)
+          const Rounds::Count begin{end.discs * pairs_at_once, end.others};
+          end.discs += (c.discs + pairs_at_once - 1) / pairs_at_once, end.others += c.others;
+          if (c.others > 0)
+            rounds.ends.push_back(end);
+          c = begin;
+        }
+      rounds.ends.push_back(end);
+      rounds.discs.assign(end.discs, {{n, n, n, n}, {n, n, n, n}});
+      rounds.others.resize(end.others);
+      for (std::size_t k = 0; k < pairs.size(); ++k)
+        {
+          const Pair    &c = pairs[k];
+          Rounds::Count &p = place[round[k]];
+          if (is_of_discs(c, n))
             {
-              const Contact &c = pairs[order[k]];
-              if (c.j >= n || c.image != 0)
-                {
-                  rounds.others.push_back(c);
-                  continue;
-                }
-              if (filled == pairs_at_once)
-                rounds.discs.push_back({{n, n, n, n}, {n, n, n, n}}), filled = 0;
-              rounds.discs.back().i[filled] = c.i, rounds.discs.back().j[filled] = c.j;
-              ++filled;
+              FourPairs &four                 = rounds.discs[p.discs / pairs_at_once];
+              four.i[p.discs % pairs_at_once] = c.i, four.j[p.discs % pairs_at_once] = c.j, ++p.discs;
             }
-          rounds.ends.push_back({rounds.discs.size(), rounds.others.size()});
+          else
+            rounds.others[p.others++] = c;
         }
       return rounds;
     }
@@ -128,7 +139,7 @@ namespace diptych::discrete
     }
 
     // part() where `discs` and not the state know the present positions.
-    double part(State &state, const Contact &pair, std::vector<Disc> &discs)
+    double part(State &state, const Pair &pair, std::vector<Disc> &discs)
     {
       const int n = int(state.grains.size());
       for (const int body : {pair.i, pair.j})
@@ -144,9 +155,9 @@ namespace diptych::discrete
     // Returns the largest penetration that it met.
     double sweep(const Rounds &rounds, State &state, std::vector<Disc> &discs)
     {
-      double      worst = 0;
-      Rounds::End begin{0, 0};
-      for (const Rounds::End &end : rounds.ends)
+      double        worst = 0;
+      Rounds::Count begin;
+      for (const Rounds::Count &end : rounds.ends)
         {
           worst = part_discs(rounds.discs.data() + begin.discs, end.discs - begin.discs, discs.data(), worst);
           for (std::size_t k = begin.others; k < end.others; ++k)
@@ -161,21 +172,20 @@ namespace diptych::discrete
   {
     constexpr int sweeps = 10;
     // g + h u' >= 0 at mid-step leaves at least g/2 now: pairs that stood open by much cannot have closed.
-    const double        far   = 100 * enough;
-    double              worst = 0;
-    std::vector<double> gap(contacts.size()); // now
-    for (std::size_t k = 0; k < contacts.size(); ++k)
-      {
-        gap[k] = contacts[k].gap < far ? gap_of(state, contacts[k]) : std::numeric_limits<double>::infinity();
-        worst  = std::max(worst, -gap[k]);
-      }
+    const double      far   = 100 * enough;
+    double            worst = 0;
+    std::vector<Pair> near;
+    near.reserve(contacts.size());
+    for (const Contact &c : contacts)
+      if (c.gap < far)
+        {
+          near.push_back({c.i, c.j, c.image, gap_of(state, c)});
+          worst = std::max(worst, -near.back().gap);
+        }
     if (worst <= enough)
       return;
     // Parting one pair may close a neighbour that stands open by less.
-    std::vector<Contact> near;
-    for (std::size_t k = 0; k < contacts.size(); ++k)
-      if (gap[k] < 2 * worst)
-        near.push_back(contacts[k]);
+    near.erase(std::remove_if(near.begin(), near.end(), [worst](const Pair &c) { return c.gap >= 2 * worst; }), near.end());
 
     const Rounds      rounds = make_rounds(state, near);
     std::vector<Disc> discs  = discs_of(state.grains);

@@ -50,17 +50,14 @@ namespace diptych::discrete
     };
 
     // Sums over the acting contacts; work of each contact and the forces of the walls go to the ledger.
-    ContactSums sum_contacts(const SolvedStep       &s,
-                             const std::vector<int> &acting,
-                             const bool              corrects_by_velocity,
-                             StepLedger             &ledger)
+    ContactSums sum_contacts(const SolvedStep &s, const bool corrects_by_velocity, StepLedger &ledger)
     {
       const std::size_t n = s.state.grains.size();
       ContactSums       sum;
-      for (std::size_t a = 0; a < acting.size(); ++a)
+      for (std::size_t a = 0; a < s.acting.size(); ++a)
         {
-          fetch_ahead(s.problem.contacts, acting, a);
-          const int              k    = acting[a];
+          fetch_ahead(s.problem.contacts, s.acting, a);
+          const int              k    = s.acting[a];
           const ContactRow      &c    = s.problem.contacts[k];
           const Impulse         &r    = s.impulses[k];
           const RelativeVelocity u    = relative_velocity(c, s.v);
@@ -152,8 +149,7 @@ namespace diptych::discrete
     ledger.wall_force.assign(s.state.walls.size(), Eigen::Vector2d::Zero());
     ledger.contact_dissipation.assign(s.contacts.size(), 0.);
     ledger.contact_impact.assign(s.contacts.size(), 0.);
-    const std::vector<int> acting        = acting_contacts(s.impulses);
-    const ContactSums      contacts      = sum_contacts(s, acting, corrects_by_velocity, ledger);
+    const ContactSums contacts           = sum_contacts(s, corrects_by_velocity, ledger);
     ledger.energies.impact_dissipation   = 0 - contacts.impact;
     ledger.energies.friction_dissipation = 0 - contacts.friction;
     ledger.energies.correction_work      = 0 - contacts.correction;
@@ -173,7 +169,7 @@ namespace diptych::discrete
         }
     for (const Eigen::Vector2d &f : ledger.wall_force)
       balance -= s.step * f;
-    ledger.unbalanced_force  = acting.empty() ? 0 : (unbalanced / double(n)) / (contacts.normal / double(acting.size()));
+    ledger.unbalanced_force  = s.acting.empty() ? 0 : (unbalanced / double(n)) / (contacts.normal / double(s.acting.size()));
     ledger.momentum_residual = contacts.impulse > 0 ? balance.norm() / (contacts.impulse + momentum_sum) : 0;
     return ledger;
   }

@@ -35,6 +35,7 @@ namespace diptych::discrete
     const ContactProblem               &problem;
     const std::vector<Contact>         &contacts;
     const std::vector<Impulse>         &impulses;
+    const std::vector<int>             &acting;        // acting_contacts() of them
     const std::vector<Eigen::Vector2d> &applied_force; // on each grain
     const std::vector<BodyVelocity>    &v, &v_new;
     double                              step;

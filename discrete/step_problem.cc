@@ -13,14 +13,6 @@ namespace diptych::discrete
 {
   namespace
   {
-    // What a closed contact takes back of its penetration within the step.
-    double corrected_share(const StepOptions &time)
-    {
-      if (time.penetration_correction == "velocity")
-        return 1;
-      return time.penetration_correction == "soft_velocity" ? 0.2 : 0.;
-    }
-
     // c_n; `share`: of corrected_share().
     double normal_term(const Contact &c, const double un, const double en, const double share, const double h)
     {
@@ -29,12 +21,11 @@ namespace diptych::discrete
       return (c.gap < 0 ? share * c.gap : c.gap) / h;
     }
 
-    // Geometry and mobilities of a row: all but the terms of the law.
-    ContactRow kinematic_row(const State &state, const Contact &c, const std::vector<BodyVelocity> &v)
+    // Geometry and mobilities of a row, whatever it held: all but the terms of the law.
+    void set_kinematics(const State &state, const Contact &c, const std::vector<BodyVelocity> &v, ContactRow &row)
     {
-      const int  n = int(state.grains.size());
-      ContactRow row{};
-      row.nx = c.normal.x(), row.ny = c.normal.y(), row.i = c.i, row.j = c.j, row.cell = -1;
+      const int n = int(state.grains.size());
+      row.nx = c.normal.x(), row.ny = c.normal.y(), row.i = c.i, row.j = c.j, row.image = 0, row.cell = -1;
       const double wi = v[c.i].inverse_mass;
       row.ki          = 2 * wi; // r^2/I of a disc
       if (c.j < n)
@@ -44,7 +35,10 @@ namespace diptych::discrete
           row.kj          = 2 * wj;
         }
       else
-        row.jx = state.walls[c.j - n].inverse_mass().x(), row.jy = state.walls[c.j - n].inverse_mass().y();
+        {
+          const Eigen::Vector2d wj = state.walls[c.j - n].inverse_mass();
+          row.jx = wj.x(), row.jy = wj.y(), row.kj = 0;
+        }
       double wnn = wi + row.jx * row.nx * row.nx + row.jy * row.ny * row.ny;
       double wtt = wi + row.jx * row.ny * row.ny + row.jy * row.nx * row.nx + row.ki + row.kj;
       if (c.image != 0 && state.cell && state.cell->moves())
@@ -55,7 +49,6 @@ namespace diptych::discrete
         }
       row.inverse_wnn = 1 / wnn;
       row.inverse_wtt = row.cell < 0 && row.jx == row.jy && row.kj == 2 * row.jx ? row.inverse_wnn * disc_wnn_over_wtt : 1 / wtt;
-      return row;
     }
   } // namespace
 
@@ -95,6 +88,13 @@ namespace diptych::discrete
     return free;
   }
 
+  double corrected_share(const StepOptions &time)
+  {
+    if (time.penetration_correction == "velocity")
+      return 1;
+    return time.penetration_correction == "soft_velocity" ? 0.2 : 0.;
+  }
+
   double friction_of(const State &state, const StepSetting &setting, const int body_j)
   {
     const int n = int(state.grains.size());
@@ -107,21 +107,20 @@ namespace diptych::discrete
                               const StepSetting               &setting,
                               const std::vector<Contact>      &contacts,
                               const std::vector<BodyVelocity> &v,
-                              std::vector<BodyVelocity>        free_velocity)
+                              ContactProblem                   problem)
   {
-    ContactProblem problem;
-    problem.free_velocity = std::move(free_velocity);
-    problem.order         = sweep_order(contacts, setting.mean_diameter);
-    problem.contacts.reserve(contacts.size());
+    problem.order = sweep_order(contacts, setting.mean_diameter);
+    problem.contacts.resize(contacts.size());
     const double share = corrected_share(setting.time);
-    for (const Contact &c : contacts)
+    for (std::size_t k = 0; k < contacts.size(); ++k)
       {
-        ContactRow             row = kinematic_row(state, c, v);
-        const RelativeVelocity u   = relative_velocity(row, v);
-        row.friction               = friction_of(state, setting, c.j);
-        row.normal_term            = normal_term(c, u.normal, setting.law.normal_restitution, share, setting.step);
-        row.tangential_term        = setting.law.tangential_restitution * u.tangential;
-        problem.contacts.push_back(row);
+        const Contact &c   = contacts[k];
+        ContactRow    &row = problem.contacts[k];
+        set_kinematics(state, c, v, row);
+        const RelativeVelocity u = relative_velocity(row, v);
+        row.friction             = friction_of(state, setting, c.j);
+        row.normal_term          = normal_term(c, u.normal, setting.law.normal_restitution, share, setting.step);
+        row.tangential_term      = setting.law.tangential_restitution * u.tangential;
       }
     return problem;
   }

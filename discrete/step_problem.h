@@ -7,6 +7,7 @@
 
 namespace diptych::discrete
 {
+  struct StepOptions;
   struct StepSetting;
 
   // Velocities of all bodies in the form of the contact problem: grains, walls, the cell if its width is free.
@@ -18,12 +19,13 @@ namespace diptych::discrete
                                             const std::vector<Eigen::Vector2d> &force,
                                             const StepSetting                  &setting);
 
-  // Rows in the order of `contacts`, swept upward. `v`: velocities at the beginning of the step, for impacts.
+  // Rows in the order of `contacts`, swept upward. `v`: velocities at the beginning of the step, for impacts. `problem` brings
+  // the free velocities, and maybe rows of the preceding step, whose memory is used again.
   ContactProblem make_problem(const State                     &state,
                               const StepSetting               &setting,
                               const std::vector<Contact>      &contacts,
                               const std::vector<BodyVelocity> &v,
-                              std::vector<BodyVelocity>        free_velocity);
+                              ContactProblem                   problem);
 
   // Impulses of the preceding step by body pair; new contacts start from zero.
   std::vector<Impulse> first_guess(const std::vector<PairImpulse> &previous, const std::vector<Contact> &contacts);
@@ -33,6 +35,9 @@ namespace diptych::discrete
   {
     return {c.normal.x() * r.normal - c.normal.y() * r.tangential, c.normal.y() * r.normal + c.normal.x() * r.tangential};
   }
+
+  // What a closed contact takes back of its penetration within the step through its normal term, as a share.
+  double corrected_share(const StepOptions &time);
 
   // Coulomb coefficient between a grain and body j.
   double friction_of(const State &state, const StepSetting &setting, int body_j);

@@ -15,11 +15,11 @@ namespace diptych::discrete
   {
     std::vector<double> detection_margins(const State                        &state,
                                           const StepSetting                  &setting,
+                                          const std::vector<BodyVelocity>    &v,
                                           const std::vector<Eigen::Vector2d> &force)
     {
       const double        h = setting.step;
-      const Grains       &g = state.grains;
-      std::vector<double> margin(g.size());
+      std::vector<double> margin(state.grains.size());
       double              wall_speed = state.cell ? std::abs(state.cell->velocity) : 0;
       for (std::size_t w = 0; w < state.walls.size(); ++w)
         {
@@ -29,12 +29,21 @@ namespace diptych::discrete
           wall_speed += std::min(h * applied_wall_force(state, w, state.time).cwiseProduct(wall.inverse_mass()).norm(),
                                  0.1 * setting.mean_diameter / h);
         }
-      for (std::size_t i = 0; i < g.size(); ++i)
-        margin[i] = 0.04 * setting.mean_diameter +
-                    1.2 * h * (std::max(g.velocity[i].norm(), wall_speed) + h * force[i].norm() * g.inverse_mass(i));
+      for (std::size_t i = 0; i < margin.size(); ++i)
+        {
+          const double speed = std::max(std::sqrt(v[i].x * v[i].x + v[i].y * v[i].y), wall_speed);
+          margin[i]          = 0.04 * setting.mean_diameter + 1.2 * h * (speed + h * force[i].norm() * v[i].inverse_mass);
+        }
       return margin;
     }
 
+    double largest_penetration(const std::vector<Contact> &contacts)
+    {
+      double largest = 0;
+      for (const Contact &c : contacts)
+        largest = std::max(largest, -c.gap);
+      return largest;
+    }
   } // namespace
 
   std::vector<Eigen::Vector2d> applied_forces(const State &state, const StepSetting &setting)
@@ -56,15 +65,14 @@ namespace diptych::discrete
     drift(trial, 0.5 * h);
 
     StepResult result;
-    result.applied_force = applied_forces(trial, setting);
-    result.contacts      = cache.neighbours.find_contacts(trial, detection_margins(trial, setting, result.applied_force));
-    for (const Contact &c : result.contacts)
-      result.largest_penetration = std::max(result.largest_penetration, -c.gap);
-
-    const std::vector<BodyVelocity> v       = body_velocities(trial);
-    const ContactProblem            problem = make_problem(trial, setting, result.contacts, v,
-                                                           free_velocities(trial, v, result.applied_force, setting));
-    result.impulses                         = first_guess(state.impulses, result.contacts);
+    result.applied_force              = applied_forces(trial, setting);
+    const std::vector<BodyVelocity> v = body_velocities(trial);
+    result.contacts = cache.neighbours.find_contacts(trial, detection_margins(trial, setting, v, result.applied_force));
+    result.largest_penetration    = largest_penetration(result.contacts);
+    cache.problem.free_velocity   = free_velocities(trial, v, result.applied_force, setting);
+    cache.problem                 = make_problem(trial, setting, result.contacts, v, std::move(cache.problem));
+    const ContactProblem &problem = cache.problem;
+    result.impulses               = first_guess(state.impulses, result.contacts);
     if (sample && sample->options.snapshot_max_sweeps > 0)
       result.solve = solve_sampled({problem, trial.grains.radius, result.contacts}, setting.solver, *sample, *cache.team,
                                    result.impulses, result.accuracy.emplace());
@@ -75,9 +83,10 @@ namespace diptych::discrete
     if (result.solve.status != SolveStatus::converged && !setting.accept_unconverged)
       return result;
 
-    const std::vector<BodyVelocity> v_new = velocities(problem, result.impulses);
-    StepLedger ledger = step_ledger({trial, problem, result.contacts, result.impulses, result.applied_force, v, v_new, h},
-                                    setting.law.normal_restitution == 0);
+    const std::vector<int>          acting = acting_contacts(result.impulses);
+    const std::vector<BodyVelocity> v_new  = velocities(problem, result.impulses, acting);
+    StepLedger ledger = step_ledger({trial, problem, result.contacts, result.impulses, acting, result.applied_force, v, v_new, h},
+                                    setting.law.normal_restitution == 0 && corrected_share(setting.time) > 0);
     result.energies   = ledger.energies;
     result.wall_force = std::move(ledger.wall_force);
     result.contact_dissipation = std::move(ledger.contact_dissipation);
@@ -89,7 +98,7 @@ namespace diptych::discrete
     drift(trial, 0.5 * h);
     if (setting.time.penetration_correction == "projection")
       project_positions(trial, result.contacts, 1e-4 * setting.mean_diameter);
-    keep_impulses(result.contacts, result.impulses, trial);
+    keep_impulses(result.contacts, result.impulses, acting, trial);
     trial.time += h;
     state = std::move(trial);
     return result;

@@ -71,6 +71,7 @@ namespace diptych::discrete
   struct StepCache
   {
     NeighbourList               neighbours;
+    ContactProblem              problem; // for its memory
     std::shared_ptr<ThreadTeam> team = std::make_shared<ThreadTeam>(1);
   };
 

@@ -94,9 +94,10 @@ namespace diptych::benchmarks
       wall.point += 0.5 * sheared.setting.step * wall.velocity;
     const std::vector<BodyVelocity>    v     = body_velocities(middle);
     const std::vector<Eigen::Vector2d> force = applied_forces(middle, sheared.setting);
-    next.problem = make_problem(middle, sheared.setting, next.contacts, v, free_velocities(middle, v, force, sheared.setting));
-    next.radius  = middle.grains.radius;
-    next.guess   = first_guess(middle.impulses, next.contacts);
+    next.problem                             = make_problem(middle, sheared.setting, next.contacts, v,
+                                                            {free_velocities(middle, v, force, sheared.setting), {}, {}});
+    next.radius                              = middle.grains.radius;
+    next.guess                               = first_guess(middle.impulses, next.contacts);
     return next;
   }
 

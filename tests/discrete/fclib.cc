@@ -383,8 +383,8 @@ namespace
     ContactProblem problem;
     problem.free_velocity = {{0.1, -1, 0.2, 1}, {-0.3, 0, 0, 0.5}, {-0.2, 0, 0, 0.25}}; // disc, disc, cell
     const double c = 0.6, s = 0.8;
-    problem.contacts                 = {{c, s, 0.1, 0, 0.4, 1 / 1.5, 1 / 4.5, 2, 1, 0.5, 0.5, 1., 0, 1, 2},
-                                        {1, 0, 0, 0.2, 0.4, 1 / 1.5, 1 / 4.5, 2, 1, 0.5, 0.5, 0., 0, 1, -1}};
+    problem.contacts                 = {{c, s, 0, 1, 1, 2, 2, 1, 0.5, 0.5, 0.1, 0, 0.4, 1 / 1.5, 1 / 4.5},
+                                        {1, 0, 0, 1, 0, -1, 2, 1, 0.5, 0.5, 0, 0.2, 0.4, 1 / 1.5, 1 / 4.5}};
     const DelassusProblem      local = delassus_form(problem);
     const std::vector<Impulse> r     = {{0.7, 0.1}, {0.2, -0.05}};
     // v = v_free + M^-1 H r by hand is what velocities() does; u + c must be the same.

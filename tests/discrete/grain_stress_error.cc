@@ -104,7 +104,7 @@ namespace
     const std::vector<Eigen::Vector2d> force = applied_forces(step.state, setting);
     const std::vector<BodyVelocity>    v     = body_velocities(step.state);
     step.contacts                            = find_contacts(step.state, std::vector<double>(now.grains.size(), 0.05));
-    step.problem = make_problem(step.state, setting, step.contacts, v, free_velocities(step.state, v, force, setting));
+    step.problem = make_problem(step.state, setting, step.contacts, v, {free_velocities(step.state, v, force, setting), {}, {}});
     step.first   = first_guess(now.impulses, step.contacts);
     return step;
   }

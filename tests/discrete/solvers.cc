@@ -22,7 +22,7 @@ namespace
     const auto row        = [&](const int i, const int j, const double nx, const double ny) {
       const double wi = problem.free_velocity[i].inverse_mass, wj = problem.free_velocity[j].inverse_mass;
       problem.contacts.push_back(
-               {nx, ny, 0, 0, friction, 1 / (wi + wj), 1 / (wi + wj) * disc_wnn_over_wtt, 2 * wi, 2 * wj, wj, wj, 0, i, j, -1});
+               {nx, ny, i, j, 0, -1, 2 * wi, 2 * wj, wj, wj, 0, 0, friction, 1 / (wi + wj), 1 / (wi + wj) * disc_wnn_over_wtt});
     };
     row(0, 3, 0, 1), row(1, 3, 0, 1), row(2, 0, c, s), row(2, 1, -c, s);
     return problem;
@@ -97,8 +97,8 @@ namespace
       {
         const double wi = problem.free_velocity[c.i].inverse_mass, wj = problem.free_velocity[c.j].inverse_mass;
         const double wnn = 1 / (wi + wj);
-        problem.contacts.push_back({c.normal.x(), c.normal.y(), 0.001, tangential_term * double(c.i % 3), 0.4, wnn,
-                                    wnn * disc_wnn_over_wtt, 2 * wi, 2 * wj, wj, wj, 0, c.i, c.j, -1});
+        problem.contacts.push_back({c.normal.x(), c.normal.y(), c.i, c.j, 0, -1, 2 * wi, 2 * wj, wj, wj, 0.001,
+                                    tangential_term * double(c.i % 3), 0.4, wnn, wnn * disc_wnn_over_wtt});
       }
     problem.order = sweep_order(contacts, 1.);
     return problem;
