@@ -148,6 +148,12 @@ namespace diptych::discrete
       apply_impulse(problem_.contacts[rows_[k]], {factor * impulses[k].normal, factor * impulses[k].tangential}, v);
   }
 
+  double ExactPatch::work() const
+  {
+    const double n = 3. * double(rows_.size());
+    return double(pairs_.n_pivots()) * n * 2 * n;
+  }
+
   bool ExactPatch::solve(std::vector<BodyVelocity> &v, Impulse *impulses)
   {
     const Index n = Index(rows_.size());

@@ -22,7 +22,9 @@ namespace diptych::discrete
 
     // Replaces `impulses` (one a row) by a solution for the velocities `v`, which contain them and follow the change. False, with
     // nothing changed, where the pivots find none.
-    bool solve(std::vector<BodyVelocity> &v, Impulse *impulses);
+    [[nodiscard]] bool solve(std::vector<BodyVelocity> &v, Impulse *impulses);
+
+    double work() const; // multiplications in all pivots so far
 
   private:
     void add_impulses(const Impulse *impulses, double factor, std::vector<BodyVelocity> &v) const;

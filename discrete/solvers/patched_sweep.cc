@@ -24,15 +24,21 @@ namespace diptych::discrete
     batches_->set_impulses(impulses);
   }
 
-  void PatchedSweeps::solve_patches()
+  // False where a patch has no solution, or where all together have cost as much as many sweeps.
+  bool PatchedSweeps::solve_patches()
   {
+    constexpr double sweeps = 10000, multiplications_of_an_update = 30;
+    bool             solved = true;
+    double           work   = 0;
     batches_->solve_held([&](std::vector<BodyVelocity> &v, Impulse *impulses) {
       for (ExactPatch &patch : patches_)
         {
-          patch.solve(v, impulses); // one without a solution keeps its impulses: the residual says so
+          solved = patch.solve(v, impulses) && solved;
+          work += patch.work();
           impulses += patch.rows().size();
         }
     });
+    return solved && work < sweeps * multiplications_of_an_update * double(problem_.contacts.size());
   }
 
   // With patches: exact, then two plain sweeps to smooth what surrounds them, and exact again, for the residual to tell.
@@ -42,9 +48,11 @@ namespace diptych::discrete
     batches_->sweep(omega_sticking, omega_slipping, n - plain, team);
     if (patches_.empty())
       return;
-    solve_patches();
+    given_up_ = !solve_patches();
     batches_->sweep(1, 1, plain, team);
-    solve_patches();
+    given_up_ = !solve_patches() || given_up_;
+    if (given_up_)
+      hold({});
   }
 
   int PatchedSweeps::n_patched() const
@@ -67,6 +75,11 @@ namespace diptych::discrete
 
   bool PatchedSweeps::patch_stalled()
   {
+    if (given_up_)
+      {
+        given_up_ = false; // the next time may be another place
+        return false;
+      }
     std::vector<int> held;
     for (const ExactPatch &patch : patches_)
       held.insert(held.end(), patch.rows().begin(), patch.rows().end());

@@ -22,17 +22,19 @@ namespace diptych::discrete
     double               residual(ThreadTeam &team) const { return batches_->residual(team); }
     std::vector<Impulse> impulses() const { return batches_->impulses(); }
 
-    // To be called where the sweeps stall. False where that is not on a few contacts: then all are swept again.
+    // To be called where the sweeps stall. False where that is not on a few contacts, or where the last patches found no solution
+    // or took too many pivots: all contacts are swept then.
     bool patch_stalled();
 
     int n_patched() const; // contacts
 
   private:
-    void solve_patches();
+    bool solve_patches();
     void hold(const std::vector<std::vector<int>> &sets);
 
     const ContactProblem            &problem_;
     std::unique_ptr<BatchedContacts> batches_;
     std::vector<ExactPatch>          patches_;
+    bool                             given_up_ = false;
   };
 } // namespace diptych::discrete
