@@ -26,7 +26,8 @@ namespace
                                   {"threads", "two threads, wall clock", threads},
                                   {"accuracy", "grain-stress error against residual", accuracy},
                                   {"warm_start", "with and without the impulses of the preceding step", warm_start},
-                                  {"wandering", "a step on which the sweeps do not converge", wandering}};
+                                  {"wandering", "a step on which the sweeps do not converge", wandering},
+                                  {"stalls", "sweeps that stall on a few contacts", stalls}};
 
   int usage()
   {

@@ -17,4 +17,5 @@ namespace diptych::benchmarks
   void accuracy(const std::string &states);        // grain-stress error against residual
   void warm_start(const std::string &states);      // with and without the impulses of the preceding step
   void wandering(const std::string &states);       // what the sweeps do where they do not converge
+  void stalls(const std::string &states);          // sweeps that stall on a few contacts
 } // namespace diptych::benchmarks

@@ -15,9 +15,9 @@ namespace diptych::discrete
     constexpr int plain_sweeps = 10, cycle = 100;
 
     // Sheared rigid grains hang on just enough contacts, some of which slide without a stable balance. Where those are few, they
-    // are solved together (exact_patch.h); else the sweeps wander from one set of sliding contacts to the next before they find
-    // one on which they converge, and plain ones wander longest: omega moves on to another of a few values, for ever, as what one
-    // value circles around another leaves. Either where the residual has not halved within `patience` sweeps.
+    // are swept by themselves (stall_relief.h); else the sweeps wander from one set of sliding contacts to the next before they
+    // find one on which they converge, and plain ones wander longest: omega moves on to another of a few values, for ever, as
+    // what one value circles around another leaves. Either where the residual has not halved within `patience` sweeps.
     class StagnationControl
     {
     public:
@@ -39,7 +39,7 @@ namespace diptych::discrete
         ++turn_, reference_ = residual, since_ = sweeps, patience_ = long_patience;
       }
 
-      // Beside exact contacts the sweeps soon show whether they converge.
+      // With contacts that are swept by themselves it soon shows whether the others converge.
       void start_again(const long sweeps, const double residual)
       {
         turn_ = 0, reference_ = 2 * residual, since_ = sweeps, patience_ = short_patience;
@@ -91,7 +91,7 @@ namespace diptych::discrete
           measure(true);
         if (!control.stagnates(report.sweeps, report.residual))
           continue;
-        if (iteration.unstall && report.residual > options.tolerance && iteration.unstall())
+        if (iteration.relieve && report.residual > options.tolerance && iteration.relieve())
           control.start_again(report.sweeps, report.residual);
         else
           control.change_omega(report.sweeps, report.residual);

@@ -15,7 +15,7 @@ namespace diptych::discrete
     std::function<void(double omega_sticking, double omega_slipping, int n_sweeps)> sweep;
     std::function<double()>                  residual;         // natural map relative to |r|, at the present velocities
     std::function<bool(const SolveReport &)> good_enough = {}; // a further condition, asked where the residual is small enough
-    std::function<bool()> unstall = {}; // asked where the residual stagnates; false: it knows no remedy, and omega is changed
+    std::function<bool()> relieve = {}; // asked where the residual stagnates; false: it knows no remedy, and omega is changed
   };
 
   // Sweeps until the residual, confirmed with fresh velocities, is below options.tolerance or options.max_sweeps are done; a

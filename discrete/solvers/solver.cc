@@ -5,7 +5,7 @@
 #include <ctime>
 
 #include "discrete/solvers/iteration.h"
-#include "discrete/solvers/patched_sweep.h"
+#include "discrete/solvers/stall_relief.h"
 #include "discrete/solvers/sweeps.h"
 
 namespace diptych::discrete
@@ -38,19 +38,19 @@ namespace diptych::discrete
                            const StopTest       &stop_test)
     {
       const std::clock_t begin = std::clock();
-      PatchedSweeps      sweeps(problem, impulses);
+      RelievedSweeps     sweeps(problem, impulses);
       Iteration          iteration;
       iteration.refresh = [&] { sweeps.refresh_velocities(); };
       iteration.sweep   = [&](const double sticking, const double slipping, const int n) {
         sweeps.sweep(sticking, slipping, n, team);
       };
       iteration.residual = [&] { return sweeps.residual(team); };
-      iteration.unstall  = [&] { return sweeps.patch_stalled(); };
+      iteration.relieve  = [&] { return sweeps.relieve(); };
       if (stop_test)
         iteration.good_enough = [&](const SolveReport &report) { return stop_test(report, [&] { return sweeps.impulses(); }); };
       SolveReport report = iterate(options, iteration);
       impulses           = sweeps.impulses();
-      report.patched     = sweeps.n_patched();
+      report.relieved    = sweeps.n_relieved();
       report.cpu_s       = double(std::clock() - begin) / CLOCKS_PER_SEC;
       return report;
     }

@@ -48,7 +48,7 @@ namespace diptych::discrete
     SolveStatus status   = SolveStatus::converged;
     long        sweeps   = 0;
     double      residual = 0; // natural map, relative to |r|, measured outside the solver
-    int         patched  = 0; // psor: contacts solved together and exactly at the end, because the sweeps had stalled on them
+    int         relieved = 0; // psor: contacts that were swept by themselves at the end, because the sweeps had stalled on them
     double      cpu_s    = 0; // of all threads, making of batches and residual checks included
   };
 

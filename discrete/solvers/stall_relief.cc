@@ -1,0 +1,45 @@
+// diptych: over-relaxed sweeps with more of them where they stall
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/solvers/stall_relief.h"
+
+#include <algorithm>
+
+#include "discrete/solvers/stalled_contacts.h"
+
+namespace diptych::discrete
+{
+  RelievedSweeps::RelievedSweeps(const ContactProblem &problem, const std::vector<Impulse> &impulses)
+      : problem_(problem),
+        batches_(std::make_unique<BatchedContacts>(problem))
+  {
+    batches_->set_impulses(impulses);
+  }
+
+  // The held contacts, then two plain sweeps that smooth what surrounds them, and the held ones again, for the residual to tell.
+  void RelievedSweeps::sweep(const double omega_sticking, const double omega_slipping, const int n, ThreadTeam &team)
+  {
+    const int  plain   = held_.empty() ? 0 : std::min(n, 2);
+    const auto relieve = [&](std::vector<BodyVelocity> &v, Impulse *impulses) { sweep_alone(problem_, held_, v, impulses); };
+    batches_->sweep(omega_sticking, omega_slipping, n - plain, team);
+    if (held_.empty())
+      return;
+    batches_->solve_held(relieve);
+    batches_->sweep(1, 1, plain, team);
+    batches_->solve_held(relieve);
+  }
+
+  bool RelievedSweeps::relieve()
+  {
+    const std::vector<Impulse> impulses = batches_->impulses();
+    std::vector<int>           stalled  = stalled_contacts(problem_, impulses, held_);
+    if (stalled == held_)
+      stalled.clear(); // no help the second time
+    if (stalled != held_)
+      {
+        held_    = std::move(stalled);
+        batches_ = std::make_unique<BatchedContacts>(problem_, held_);
+        batches_->set_impulses(impulses);
+      }
+    return !held_.empty();
+  }
+} // namespace diptych::discrete

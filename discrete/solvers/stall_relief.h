@@ -1,0 +1,34 @@
+// diptych: over-relaxed sweeps with more of them where they stall
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "discrete/solvers/batched_sweep.h"
+
+namespace diptych::discrete
+{
+  // The batched sweeps of a problem. Where they stall on few contacts, these are taken out and swept by themselves, almost to
+  // their solution, between some sweeps of the others.
+  class RelievedSweeps
+  {
+  public:
+    RelievedSweeps(const ContactProblem &problem, const std::vector<Impulse> &impulses); // the problem must outlive this
+
+    void                 sweep(double omega_sticking, double omega_slipping, int n, ThreadTeam &team);
+    void                 refresh_velocities() { batches_->refresh_velocities(); }
+    double               residual(ThreadTeam &team) const { return batches_->residual(team); }
+    std::vector<Impulse> impulses() const { return batches_->impulses(); }
+
+    // To be called where the residual stagnates. False where that is not the doing of a few contacts: then all are swept alike.
+    bool relieve();
+
+    int n_relieved() const { return int(held_.size()); } // contacts swept by themselves at present
+
+  private:
+    const ContactProblem            &problem_;
+    std::unique_ptr<BatchedContacts> batches_;
+    std::vector<int>                 held_; // rows
+  };
+} // namespace diptych::discrete
