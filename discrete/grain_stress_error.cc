@@ -53,7 +53,7 @@ namespace diptych::discrete
 
   double GrainStressError::estimate() const
   {
-    constexpr double  least = 0.7, most = 0.9;
+    constexpr double  least = 0.7, most = 0.9, safety = 4;
     const std::size_t n = changes_.size();
     if (n < 3)
       return std::numeric_limits<double>::infinity();
@@ -61,7 +61,7 @@ namespace diptych::discrete
     if (last == 0)
       return 0;
     const double q = std::max({least, last / changes_[n - 2], changes_[n - 2] / changes_[n - 3]});
-    return q < most ? 2 * last * q / (1 - q) : std::numeric_limits<double>::infinity();
+    return q < most ? safety * last * q / (1 - q) : std::numeric_limits<double>::infinity();
   }
 
   SolveReport solve_sampled(const SampledProblem &sampled,

@@ -47,11 +47,12 @@ namespace diptych::discrete
   // move slowly the sweeps come near one near-solution after another, and at a residual of 1e-5 the grain stress may be wrong by
   // 2 or by 50 %. What the sweeps do to it goes on in the logarithm of their number: with D_k = ||M(2^k) - M(2^(k-1))|| /
   // ||M(2^k)|| the change in a doubling and q the larger of its last two ratios D_k / D_(k-1), at least 0.7,
-  //   E = 2 D_k q / (1 - q),   unknown (infinity) for q >= 0.9,
-  // twice the rest of a geometric series: without the factor it was too small in 28 of 92 cases tried at 300 discs, with it
-  // in 9 % of 55. It is no bound: where the iterates stand on a plateau before a last change (one case), the error may be six
-  // times as large. In slow flow the changes grow for 10^5 sweeps and the error stays unknown, as it must:
-  // there the warm start has hardly been left. Checked against solutions at 1e-9 (tests, benchmarks/contact_solver).
+  //   E = 4 D_k q / (1 - q),   unknown (infinity) for q >= 0.9,
+  // four times the rest of a geometric series: of 56 solves at 300 discs (eight samples) the error was above the rest itself
+  // doubled in 14, above E in 4. It is no bound: where the iterates stand on a plateau before a last change, or another exact
+  // solution is near, the error may be four times as large (once of 56). In slow flow the changes grow for 10^5 sweeps and the
+  // error stays unknown, as it must: there the warm start has hardly been left. Checked against solutions at 1e-9 (tests,
+  // benchmarks/contact_solver).
   class GrainStressError
   {
   public:

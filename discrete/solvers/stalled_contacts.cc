@@ -45,11 +45,11 @@ namespace diptych::discrete
                                     const std::vector<Impulse> &impulses,
                                     const std::vector<int>     &held)
   {
-    constexpr double      share = 0.8;
-    constexpr std::size_t most  = 250;
-    const auto            moves = [&](const int body) { return problem.free_velocity[body].inverse_mass != 0; };
-    std::vector<bool>     stalled(problem.free_velocity.size(), false);
-    const auto            mark = [&](const int row) {
+    constexpr double  share = 0.8;
+    const std::size_t most  = std::clamp<std::size_t>(problem.contacts.size() / 20, 60, 250);
+    const auto        moves = [&](const int body) { return problem.free_velocity[body].inverse_mass != 0; };
+    std::vector<bool> stalled(problem.free_velocity.size(), false);
+    const auto        mark = [&](const int row) {
       for (const int body : {problem.contacts[row].i, problem.contacts[row].j})
         stalled[body] = moves(body);
     };

@@ -9,7 +9,8 @@
 namespace diptych::discrete
 {
   // The contacts on which four fifths of |r - P(r)|^2 lie, with all others between the bodies of these and of the contacts in
-  // `held`, ascending. None where they would be more than 250: then the sweeps do not stall on a few contacts.
+  // `held`, ascending. None where they would be more than a twentieth of all (60 to 250):
+  // then the sweeps do not stall on a few contacts.
   std::vector<int> stalled_contacts(const ContactProblem       &problem,
                                     const std::vector<Impulse> &impulses,
                                     const std::vector<int>     &held);
