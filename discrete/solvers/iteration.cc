@@ -25,7 +25,6 @@ namespace diptych::discrete
           : omega_(omega)
       {}
 
-      bool   wants_relief() const { return reliefs_ < most_reliefs; } // before another omega
       double omega() const { return 1 + shares[turn_ % 4] * (omega_ - 1); }
 
       bool stagnates(const long sweeps, const double residual)
@@ -37,21 +36,21 @@ namespace diptych::discrete
 
       void change_omega(const long sweeps, const double residual)
       {
-        ++turn_, reliefs_ = 0, reference_ = residual, since_ = sweeps, patience_ = long_patience;
+        ++turn_, reference_ = residual, since_ = sweeps, patience_ = long_patience;
       }
 
       // With contacts that are swept by themselves it soon shows whether the others converge.
       void start_again(const long sweeps, const double residual)
       {
-        ++reliefs_, reference_ = 2 * residual, since_ = sweeps, patience_ = short_patience;
+        turn_ = 0, reference_ = 2 * residual, since_ = sweeps, patience_ = short_patience;
       }
 
     private:
-      static constexpr long   long_patience = 3000, short_patience = 1000, most_reliefs = 4;
+      static constexpr long   long_patience = 3000, short_patience = 1000;
       static constexpr double shares[4] = {1, 0.75, 0.875, 0.625};
 
       double omega_, reference_ = std::numeric_limits<double>::infinity();
-      long   since_ = 0, turn_ = 0, reliefs_ = 0, patience_ = long_patience;
+      long   since_ = 0, turn_ = 0, patience_ = long_patience;
     };
   } // namespace
 
@@ -92,7 +91,7 @@ namespace diptych::discrete
           measure(true);
         if (!control.stagnates(report.sweeps, report.residual))
           continue;
-        if (iteration.relieve && control.wants_relief() && iteration.relieve())
+        if (iteration.relieve && iteration.relieve())
           control.start_again(report.sweeps, report.residual);
         else
           control.change_omega(report.sweeps, report.residual);
