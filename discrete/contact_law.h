@@ -64,6 +64,14 @@ namespace diptych::discrete
       v[c.cell].x -= c.image * v[c.cell].inverse_mass * px;
   }
 
+  // Gives one contact its local solution; impulse and velocities follow.
+  inline void update(const ContactRow &c, const double omega, std::vector<BodyVelocity> &v, Impulse &r)
+  {
+    const Impulse next = local_solution(c, relative_velocity(c, v), r, omega);
+    apply_impulse(c, {next.normal - r.normal, next.tangential - r.tangential}, v);
+    r = next;
+  }
+
   // A contact at its Coulomb bound. The margin absorbs the rounding of mu r_n.
   inline constexpr double coulomb_margin = 0.9999;
 

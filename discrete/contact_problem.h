@@ -50,6 +50,12 @@ namespace diptych::discrete
     std::vector<int>          order; // rows in the order of the sweeps; empty: as they stand
   };
 
+  // True for grains that are not fixed and the cell of free width; false for walls, whose mobility stands in their rows.
+  inline bool moves(const ContactProblem &problem, const int body)
+  {
+    return problem.free_velocity[body].inverse_mass != 0;
+  }
+
   // Contacts whose impulse does not vanish, ascending.
   std::vector<int> acting_contacts(const std::vector<Impulse> &impulses);
 

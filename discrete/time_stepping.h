@@ -83,8 +83,8 @@ namespace diptych::discrete
     std::vector<Eigen::Vector2d>   applied_force; // on each grain: containing action and gravity
     std::vector<Eigen::Vector2d>   wall_force;    // of each wall on the sample = impulse / step
     StepEnergies                   energies;
-    std::vector<double>            contact_impact;          // likewise, normal to the contact; sum: energies.impact_dissipation
     std::vector<double>            contact_dissipation;     // by friction, of each contact; sum: energies.friction_dissipation
+    std::vector<double>            contact_impact;          // likewise, normal to the contact; sum: energies.impact_dissipation
     double                         largest_penetration = 0; // at mid-step [length]
     double                         momentum_residual   = 0; // see StepLedger
     double                         unbalanced_force    = 0; // mean over grains of |m dv/h| / mean normal contact force

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "benchmarks/contact_solver/measuring.h"
 #include "discrete/checkpoint.h"
 #include "discrete/grain_stress_error.h"
 #include "discrete/step_problem.h"
@@ -99,6 +100,17 @@ namespace diptych::benchmarks
     next.radius                              = middle.grains.radius;
     next.guess                               = first_guess(middle.impulses, next.contacts);
     return next;
+  }
+
+  void MeasuredSolves::add(const NextStep &next, const SolverOptions &options)
+  {
+    std::vector<Impulse> r      = next.guess;
+    const double         begin  = cpu_seconds();
+    const SolveReport    report = solve(next.problem, options, r);
+    seconds.push_back(cpu_seconds() - begin);
+    sweeps.push_back(double(report.sweeps));
+    residuals.push_back(report.residual);
+    converged += report.status == SolveStatus::converged;
   }
 
   double stress_difference(const NextStep &step, const std::vector<Impulse> &impulses, const std::vector<Impulse> &exact)

@@ -46,6 +46,15 @@ namespace diptych::benchmarks
   };
   NextStep next_step(const Sheared &sheared);
 
+  // Solves of several steps: CPU seconds with the making of the batches, sweeps, residuals, and how many converged.
+  struct MeasuredSolves
+  {
+    std::vector<double> seconds, sweeps, residuals;
+    int                 converged = 0;
+
+    void add(const NextStep &next, const discrete::SolverOptions &options); // from the impulses of the preceding step
+  };
+
   // Rms difference of the grains' stress, relative to its rms value in `exact`.
   double stress_difference(const NextStep                       &step,
                            const std::vector<discrete::Impulse> &impulses,

@@ -17,66 +17,37 @@ namespace diptych::benchmarks
       double tolerance, seconds;
     };
 
-    struct Measured
+    SolverOptions options_of(const char *solver, const double tolerance, const int max_sweeps)
     {
-      std::vector<double> seconds, sweeps;
-      int                 converged = 0;
-    };
+      SolverOptions options;
+      options.solver     = solver;
+      options.tolerance  = tolerance;
+      options.max_sweeps = max_sweeps;
+      return options;
+    }
 
-    // Of `n` consecutive steps, each solved to each tolerance from the impulses of the step before it.
-    std::vector<Measured> solve_steps(Sheared sheared, const std::vector<Target> &targets, const int n)
+    // Of `n` consecutive steps, each solved with each of the options.
+    std::vector<MeasuredSolves> solve_steps(Sheared sheared, const std::vector<SolverOptions> &options, const int n)
     {
-      std::vector<Measured> measured(targets.size());
+      std::vector<MeasuredSolves> measured(options.size());
       for (int step = 0; step < n; ++step)
         {
           const NextStep next = next_step(sheared);
-          for (std::size_t k = 0; k < targets.size(); ++k)
-            {
-              SolverOptions options;
-              options.tolerance           = targets[k].tolerance;
-              options.max_sweeps          = 200000;
-              std::vector<Impulse> r      = next.guess;
-              const double         begin  = cpu_seconds();
-              const SolveReport    report = solve(next.problem, options, r);
-              measured[k].seconds.push_back(cpu_seconds() - begin);
-              measured[k].sweeps.push_back(double(report.sweeps));
-              measured[k].converged += report.status == SolveStatus::converged;
-            }
+          for (std::size_t k = 0; k < options.size(); ++k)
+            measured[k].add(next, options[k]);
           (void)advance(sheared);
         }
       return measured;
     }
 
-    // Of `n` consecutive steps, each solved to `tolerance` or as far as `budget` sweeps go.
-    void print_far(Sheared         sheared,
-                   const LoadCase &load,
-                   const char     *solver,
-                   const double    tolerance,
-                   const int       budget,
-                   const int       n)
+    void print_far(const Sheared &sheared, const LoadCase &load, const SolverOptions &options, const int n)
     {
-      Measured            measured;
-      std::vector<double> residuals;
-      for (int step = 0; step < n; ++step)
-        {
-          const NextStep next = next_step(sheared);
-          SolverOptions  options;
-          options.solver              = solver;
-          options.tolerance           = tolerance;
-          options.max_sweeps          = budget;
-          std::vector<Impulse> r      = next.guess;
-          const double         begin  = cpu_seconds();
-          const SolveReport    report = solve(next.problem, options, r);
-          measured.seconds.push_back(cpu_seconds() - begin);
-          measured.sweeps.push_back(double(report.sweeps));
-          measured.converged += report.status == SolveStatus::converged;
-          residuals.push_back(report.residual);
-          (void)advance(sheared);
-        }
-      const Spread s = spread(measured.seconds), sweeps = spread(measured.sweeps), reached = spread(residuals);
+      const MeasuredSolves measured = solve_steps(sheared, {options}, n).front();
+      const Spread         s = spread(measured.seconds), sweeps = spread(measured.sweeps), reached = spread(measured.residuals);
       std::printf("%6zu %-5s %-5s %9.0e   %2d of %2d   %8.1e %8.1e %8.1e   %8.0f %8.0f %8.0f   %8.2f %8.2f %8.2f\n",
-                  sheared.state.grains.size(), load.name, solver, tolerance, measured.converged, n, reached.least, reached.median,
-                  reached.most, sweeps.least, sweeps.median, sweeps.most, s.least, s.median, s.most);
+                  sheared.state.grains.size(), load.name, options.solver.c_str(), options.tolerance, measured.converged, n,
+                  reached.least, reached.median, reached.most, sweeps.least, sweeps.median, sweeps.most, s.least, s.median,
+                  s.most);
       std::fflush(stdout);
     }
   } // namespace
@@ -91,8 +62,11 @@ namespace diptych::benchmarks
     std::printf("state tolerance   seconds: least median   most    sweeps: least median   most  converged  target\n");
     for (const LoadCase &load : {state_a, state_b})
       {
-        const std::vector<Target>  &wanted   = targets[load.name[0] == 'B'];
-        const std::vector<Measured> measured = solve_steps(sheared_state(states, 4000, load), wanted, n);
+        const std::vector<Target> &wanted = targets[load.name[0] == 'B'];
+        std::vector<SolverOptions> options;
+        for (const Target &target : wanted)
+          options.push_back(options_of("psor", target.tolerance, 200000));
+        const std::vector<MeasuredSolves> measured = solve_steps(sheared_state(states, 4000, load), options, n);
         for (std::size_t k = 0; k < wanted.size(); ++k)
           {
             const Spread s = spread(measured[k].seconds), sweeps = spread(measured[k].sweeps);
@@ -117,10 +91,10 @@ namespace diptych::benchmarks
       for (const LoadCase &load : {state_a, state_b})
         {
           const Sheared sheared = sheared_state(states, grains, load);
-          print_far(sheared, load, "psor", 1e-8, 1000000, n);
-          print_far(sheared, load, "nsgs", 1e-8, 1000000, 1);
+          print_far(sheared, load, options_of("psor", 1e-8, 1000000), n);
+          print_far(sheared, load, options_of("nsgs", 1e-8, 1000000), 1);
         }
     for (const LoadCase &load : {state_a, state_b})
-      print_far(sheared_state(states, 16000, load), load, "psor", 1e-6, 300000, n);
+      print_far(sheared_state(states, 16000, load), load, options_of("psor", 1e-6, 300000), n);
   }
 } // namespace diptych::benchmarks

@@ -23,12 +23,6 @@ namespace diptych::benchmarks
     constexpr const char *orders[]      = {"sorted", "rows", "random"};
     constexpr double      tolerances[]  = {1e-4, 1e-5};
 
-    struct Measured
-    {
-      std::vector<double> seconds, sweeps;
-      int                 converged = 0;
-    };
-
     // `rows`: ascending in (i, j), with grains numbered upward before the loading, so nearly sorted, too.
     void set_order(ContactProblem &problem, const std::string &name)
     {
@@ -41,25 +35,20 @@ namespace diptych::benchmarks
         std::swap(problem.order[k - 1], problem.order[random() % k]);
     }
 
-    void solve_one(const NextStep &next, const Relaxation &relaxation, const double tolerance, Measured &measured)
+    SolverOptions options_of(const Relaxation &relaxation, const double tolerance)
     {
       SolverOptions options;
-      options.omega_sticking      = relaxation.sticking;
-      options.omega_slipping      = relaxation.slipping;
-      options.tolerance           = tolerance;
-      options.max_sweeps          = 100000;
-      std::vector<Impulse> r      = next.guess;
-      const double         begin  = cpu_seconds();
-      const SolveReport    report = solve(next.problem, options, r);
-      measured.seconds.push_back(cpu_seconds() - begin);
-      measured.sweeps.push_back(double(report.sweeps));
-      measured.converged += report.status == SolveStatus::converged;
+      options.omega_sticking = relaxation.sticking;
+      options.omega_slipping = relaxation.slipping;
+      options.tolerance      = tolerance;
+      options.max_sweeps     = 100000;
+      return options;
     }
 
     void print_state(const std::string &states, const LoadCase &load, const int n)
     {
-      Measured measured[2][3][2];
-      Sheared  sheared = sheared_state(states, 4000, load);
+      MeasuredSolves measured[2][3][2];
+      Sheared        sheared = sheared_state(states, 4000, load);
       for (int step = 0; step < n; ++step)
         {
           for (int order = 0; order < 3; ++order)
@@ -68,7 +57,7 @@ namespace diptych::benchmarks
               set_order(next.problem, orders[order]);
               for (int omega = 0; omega < 2; ++omega)
                 for (int k = 0; k < 2; ++k)
-                  solve_one(next, relaxations[omega], tolerances[k], measured[omega][order][k]);
+                  measured[omega][order][k].add(next, options_of(relaxations[omega], tolerances[k]));
             }
           (void)advance(sheared);
         }
@@ -76,7 +65,7 @@ namespace diptych::benchmarks
         for (int order = 0; order < 3; ++order)
           {
             std::printf("%-5s %-18s %-7s", load.name, relaxations[omega].name, orders[order]);
-            for (const Measured &m : measured[omega][order])
+            for (const MeasuredSolves &m : measured[omega][order])
               std::printf(" %8.0f %8.4f  %2d of %d", spread(m.sweeps).median, spread(m.seconds).median, m.converged, n);
             std::printf("\n");
           }

@@ -21,11 +21,6 @@ namespace diptych::discrete
       return batch;
     }
 
-    bool moves(const ContactProblem &problem, const int body)
-    {
-      return problem.free_velocity[body].inverse_mass != 0;
-    }
-
     // Sweeps that a part has behind it, where other threads can see it. A cache line each.
     class alignas(64) Progress
     {
@@ -255,9 +250,7 @@ namespace diptych::discrete
         const ContactRow &c     = problem_.contacts[rest_[row]];
         Impulse          &r     = rest_impulses_[row];
         const double      omega = is_slipping(c.friction, r) ? omega_slipping : omega_sticking;
-        const Impulse     next  = local_solution(c, relative_velocity(c, v_), r, omega);
-        apply_impulse(c, {next.normal - r.normal, next.tangential - r.tangential}, v_);
-        r = next;
+        update(c, omega, v_, r);
       }
   }
 

@@ -47,11 +47,10 @@ namespace diptych::discrete
   {
     constexpr double  share = 0.8;
     const std::size_t most  = std::clamp<std::size_t>(problem.contacts.size() / 20, 60, 250);
-    const auto        moves = [&](const int body) { return problem.free_velocity[body].inverse_mass != 0; };
     std::vector<bool> stalled(problem.free_velocity.size(), false);
     const auto        mark = [&](const int row) {
       for (const int body : {problem.contacts[row].i, problem.contacts[row].j})
-        stalled[body] = moves(body);
+        stalled[body] = moves(problem, body);
     };
     const std::vector<int> worst = largest(natural_map_squares(problem, impulses), share);
     std::for_each(worst.begin(), worst.end(), mark);
@@ -60,7 +59,7 @@ namespace diptych::discrete
     for (std::size_t k = 0; k < problem.contacts.size(); ++k)
       {
         const int i = problem.contacts[k].i, j = problem.contacts[k].j;
-        if ((stalled[i] || stalled[j]) && (stalled[i] || !moves(i)) && (stalled[j] || !moves(j)))
+        if ((stalled[i] || stalled[j]) && (stalled[i] || !moves(problem, i)) && (stalled[j] || !moves(problem, j)))
           rows.push_back(int(k));
       }
     if (rows.size() > most)
@@ -82,9 +81,7 @@ namespace diptych::discrete
             Impulse          &r = impulses[k];
             if (check)
               squares.add(c, v, r);
-            const Impulse next = local_solution(c, relative_velocity(c, v), r, 1.);
-            apply_impulse(c, {next.normal - r.normal, next.tangential - r.tangential}, v);
-            r = next;
+            update(c, 1., v, r);
           }
         if (check && squares.difference <= tolerance * tolerance * squares.norm)
           return;

@@ -6,16 +6,6 @@
 
 namespace diptych::discrete
 {
-  namespace
-  {
-    inline void update(const ContactRow &c, const double omega, std::vector<BodyVelocity> &v, Impulse &r)
-    {
-      const Impulse next = local_solution(c, relative_velocity(c, v), r, omega);
-      apply_impulse(c, {next.normal - r.normal, next.tangential - r.tangential}, v);
-      r = next;
-    }
-  } // namespace
-
   void sweep_nsgs(const ContactProblem &problem, std::vector<BodyVelocity> &v, std::vector<Impulse> &impulses)
   {
     if (problem.order.empty())

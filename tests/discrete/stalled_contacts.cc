@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <limits>
 
 #include "discrete/boundary.h"
 #include "discrete/contact_law.h"
