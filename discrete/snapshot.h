@@ -8,6 +8,8 @@
 
 #include <Eigen/Core>
 
+#include "discrete/walk.h"
+
 namespace diptych::discrete
 {
   // A contact with the force it transmits. Bodies are numbered 0 .. n_grains-1 for grains, n_grains and above for platens;
@@ -37,7 +39,9 @@ namespace diptych::discrete
   // One instant of the discrete panel. Tensors are positive in compression.
   struct Snapshot
   {
-    double axial_strain  = 0; // platen descent / initial height
+    Walk   walk          = Walk::axial_strain; // what the loading walks along
+    double progress      = 0;                  // of it: one of axial_strain, shear_strain and time
+    double axial_strain  = 0;                  // platen descent / initial height
     double time          = 0;
     double step          = 0; // h of the last step
     double residual      = 0; // natural map relative to |r|, of the last step

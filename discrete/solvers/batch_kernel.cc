@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/solvers/batch_kernel.h"
 
-#include "discrete/contact_law.h"
-#include "discrete/four_lanes.h"
+#include "discrete/contacts/contact_law.h"
+#include "discrete/contacts/four_lanes.h"
 
 namespace diptych::discrete
 {
@@ -28,54 +28,40 @@ namespace diptych::discrete
       write(v + index[0], b.x), write(v + index[1], b.y), write(v + index[2], b.surface), write(v + index[3], b.inverse_mass);
     }
 
-    struct FourImpulses
+    DIPTYCH_INLINE Parts<Four> impulses_of(const ContactBatch &c)
     {
-      Four normal, tangential;
-    };
+      return {read(c.normal), read(c.tangential)};
+    }
 
-    // contact_law.h's relative velocity and local solution, line by line, on four contacts.
-    DIPTYCH_INLINE FourImpulses local_solution(const ContactBatch &c,
-                                               const double       *tangential_term,
-                                               const Bodies       &bi,
-                                               const Bodies       &bj,
-                                               const double        sticking,
-                                               const double        slipping)
+    // The law of contact_law.h on four contacts of discs.
+    DIPTYCH_INLINE Parts<Four> local_solution(const ContactBatch &c,
+                                              const double       *tangential_term,
+                                              const Bodies       &bi,
+                                              const Bodies       &bj,
+                                              const double        sticking,
+                                              const double        slipping)
     {
-      const Four zero{};
-      const Four nx = read(c.nx), ny = read(c.ny), mu = read(c.friction), rn = read(c.normal), rt = read(c.tangential);
-      const Four inverse_wnn = read(c.inverse_wnn);
-      const Four dx = bi.x - bj.x, dy = bi.y - bj.y;
-      const Four un = nx * dx + ny * dy;
-      Four       ut = nx * dy - ny * dx - bi.surface - bj.surface;
-      if (tangential_term)
-        ut += read(tangential_term);
-
-      const Four size_rt = rt < zero ? -rt : rt;
-      const Four omega   = size_rt > coulomb_margin * mu * rn ? zero + slipping : zero + sticking;
-
-      const Four pushed     = rn - omega * (un + read(c.normal_term)) * inverse_wnn;
-      const Four normal     = zero < pushed ? pushed : zero;
-      const Four bound      = mu * normal;
-      const Four stick      = rt - omega * ut * (inverse_wnn * disc_wnn_over_wtt);
-      const Four above      = -bound < stick ? stick : -bound;
-      const Four tangential = above < bound ? above : bound;
-      return {normal, tangential};
+      const Four           zero{}, inverse_wnn = read(c.inverse_wnn);
+      const LawTerms<Four> terms{read(c.normal_term), tangential_term ? read(tangential_term) : zero, read(c.friction),
+                                 inverse_wnn, inverse_wnn * disc_wnn_over_wtt};
+      const Parts<Four>    r = impulses_of(c);
+      const Parts<Four>    u = relative_velocity(read(c.nx), read(c.ny), bi.x - bj.x, bi.y - bj.y, bi.surface, bj.surface);
+      return signorini_coulomb(terms, u, r, relaxation(terms.friction, r, zero + sticking, zero + slipping));
     }
 
     // Adds M^-1 H dr to the velocities.
-    DIPTYCH_INLINE void apply(const ContactBatch &c, const Four &dn, const Four &dt, Bodies &bi, Bodies &bj)
+    DIPTYCH_INLINE void apply(const ContactBatch &c, const Parts<Four> &dr, Bodies &bi, Bodies &bj)
     {
-      const Four nx = read(c.nx), ny = read(c.ny);
-      const Four px = nx * dn - ny * dt, py = ny * dn + nx * dt;
-      bi.x += bi.inverse_mass * px, bi.y += bi.inverse_mass * py, bi.surface -= 2 * bi.inverse_mass * dt;
-      bj.x -= bj.inverse_mass * px, bj.y -= bj.inverse_mass * py, bj.surface -= 2 * bj.inverse_mass * dt;
+      const auto [px, py] = as_vector(read(c.nx), read(c.ny), dr);
+      bi.x += bi.inverse_mass * px, bi.y += bi.inverse_mass * py, bi.surface -= 2 * bi.inverse_mass * dr.tangential;
+      bj.x -= bj.inverse_mass * px, bj.y -= bj.inverse_mass * py, bj.surface -= 2 * bj.inverse_mass * dr.tangential;
     }
 
     DIPTYCH_INLINE void update(ContactBatch &c, const double *term, const double sticking, const double slipping, BodyVelocity *v)
     {
-      Bodies             bi = gather(v, c.i), bj = gather(v, c.j);
-      const FourImpulses r = local_solution(c, term, bi, bj, sticking, slipping);
-      apply(c, r.normal - read(c.normal), r.tangential - read(c.tangential), bi, bj);
+      Bodies            bi = gather(v, c.i), bj = gather(v, c.j);
+      const Parts<Four> r = local_solution(c, term, bi, bj, sticking, slipping);
+      apply(c, {r.normal - read(c.normal), r.tangential - read(c.tangential)}, bi, bj);
       scatter(bi, v, c.i);
       scatter(bj, v, c.j);
       write(c.normal, r.normal), write(c.tangential, r.tangential);
@@ -103,7 +89,7 @@ namespace diptych::discrete
       {
         const ContactBatch &c  = batches[b];
         Bodies              bi = gather(v, c.i), bj = gather(v, c.j);
-        apply(c, read(c.normal), read(c.tangential), bi, bj);
+        apply(c, impulses_of(c), bi, bj);
         scatter(bi, v, c.i);
         scatter(bj, v, c.j);
       }
@@ -122,7 +108,7 @@ namespace diptych::discrete
       {
         const ContactBatch &c  = batches[b];
         const Bodies        bi = gather(v, c.i), bj = gather(v, c.j);
-        const FourImpulses  p  = local_solution(c, terms ? terms[b].data() : nullptr, bi, bj, 1., 1.);
+        const Parts<Four>   p  = local_solution(c, terms ? terms[b].data() : nullptr, bi, bj, 1., 1.);
         const Four          rn = read(c.normal), rt = read(c.tangential);
         d += (rn - p.normal) * (rn - p.normal) + (rt - p.tangential) * (rt - p.tangential);
         s += rn * rn + rt * rt;

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-#include "discrete/contact_problem.h"
+#include "discrete/contacts/contact_problem.h"
 
 namespace diptych::discrete
 {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numeric>
 
-#include "discrete/contact_law.h"
+#include "discrete/contacts/contact_law.h"
 
 namespace diptych::discrete
 {

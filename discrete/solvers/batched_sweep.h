@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "discrete/contact_law.h"
+#include "discrete/contacts/contact_law.h"
 #include "discrete/solvers/batch_kernel.h"
 #include "discrete/solvers/thread_team.h"
 

@@ -56,9 +56,7 @@ namespace diptych::discrete
 
   SolveReport iterate(const SolverOptions &options, const Iteration &iteration)
   {
-    if (options.solver != "psor" && options.solver != "nsgs")
-      throw std::invalid_argument("unknown contact solver '" + options.solver + "': psor or nsgs");
-    const bool over_relaxed = options.solver == "psor";
+    const bool over_relaxed = options.solver == ContactSolver::psor;
 
     constexpr long     sweeps_per_refresh = 1000; // round-off of the running velocities stays below 1e-13
     const std::clock_t begin              = std::clock();

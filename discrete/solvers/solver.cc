@@ -62,8 +62,8 @@ namespace diptych::discrete
                     ThreadTeam           &team,
                     const StopTest       &stop_test)
   {
-    return options.solver == "nsgs" ? solve_nsgs(problem, options, impulses, stop_test)
-                                    : solve_psor(problem, options, impulses, team, stop_test);
+    return options.solver == ContactSolver::nsgs ? solve_nsgs(problem, options, impulses, stop_test)
+                                                 : solve_psor(problem, options, impulses, team, stop_test);
   }
 
   SolveReport solve(const ContactProblem &problem, const SolverOptions &options, std::vector<Impulse> &impulses)

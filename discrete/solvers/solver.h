@@ -3,26 +3,37 @@
 #pragma once
 
 #include <functional>
-#include <string>
 
-#include "discrete/contact_problem.h"
+#include "discrete/choices.h"
+#include "discrete/contacts/contact_problem.h"
 #include "discrete/solvers/thread_team.h"
 
 namespace diptych::discrete
 {
+  enum class ContactSolver
+  {
+    psor, // over-relaxed Gauss-Seidel, omega by contact status
+    nsgs  // plain Gauss-Seidel, the reference
+  };
+
+  constexpr auto choices(ContactSolver)
+  {
+    return std::array{std::pair{ContactSolver::psor, "psor"}, std::pair{ContactSolver::nsgs, "nsgs"}};
+  }
+
   struct SolverOptions
   {
-    std::string solver           = "psor";
-    double      tolerance        = 2e-5;
-    int         max_sweeps       = 50000;
-    double      omega_sticking   = 1.8;
-    double      omega_slipping   = 1.0;
-    int         sweeps_per_check = 20;
+    ContactSolver solver           = ContactSolver::psor;
+    double        tolerance        = 2e-5;
+    int           max_sweeps       = 50000;
+    double        omega_sticking   = 1.8;
+    double        omega_slipping   = 1.0;
+    int           sweeps_per_check = 20;
   };
 
   template <class Visitor> void visit_parameters(SolverOptions &o, Visitor &&visitor)
   {
-    visitor("solver", o.solver, "-", {"psor", "nsgs"},
+    visitor("solver", o.solver, "-",
             "psor: over-relaxed Gauss-Seidel, omega by contact status; nsgs: plain Gauss-Seidel, the reference");
     visitor("tolerance", o.tolerance, "-", {1e-14, 1.},
             "stop of a step: natural map residual relative to |r|; keep tolerance x step / inertial number below 0.7");
@@ -40,8 +51,15 @@ namespace diptych::discrete
   enum class SolveStatus
   {
     converged,
-    max_sweeps_reached
+    max_sweeps_reached,
+    blown_up // explicit springs, where nothing is swept: a body ran away
   };
+
+  constexpr auto choices(SolveStatus)
+  {
+    return std::array{std::pair{SolveStatus::converged, "converged"}, std::pair{SolveStatus::max_sweeps_reached, "max_sweeps_reached"},
+                      std::pair{SolveStatus::blown_up, "blown_up"}};
+  }
 
   struct [[nodiscard]] SolveReport
   {
@@ -57,8 +75,7 @@ namespace diptych::discrete
   using StopTest = std::function<bool(const SolveReport &, const std::function<std::vector<Impulse>()> &impulses)>;
 
   // Solves in place from the given first guess (one impulse per contact). A residual that is already below the tolerance
-  // costs one check and no sweep. Throws std::invalid_argument on an unknown solver. psor gives the same bits for every size
-  // of the team; nsgs uses one thread.
+  // costs one check and no sweep. psor gives the same bits for every size of the team; nsgs uses one thread.
   SolveReport solve(const ContactProblem &problem,
                     const SolverOptions  &options,
                     std::vector<Impulse> &impulses,

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "discrete/contact_law.h"
+#include "discrete/contacts/contact_law.h"
 
 namespace diptych::discrete
 {

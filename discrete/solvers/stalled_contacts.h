@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "discrete/contact_problem.h"
+#include "discrete/contacts/contact_problem.h"
 
 namespace diptych::discrete
 {

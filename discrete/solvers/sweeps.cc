@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/solvers/sweeps.h"
 
-#include "discrete/contact_law.h"
+#include "discrete/contacts/contact_law.h"
 
 namespace diptych::discrete
 {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include "discrete/contact_problem.h"
+#include "discrete/contacts/contact_problem.h"
 
 namespace diptych::discrete
 {

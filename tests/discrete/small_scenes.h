@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include "discrete/panel.h"
+#include "discrete/panel/panel.h"
 
 namespace diptych::tests
 {
@@ -14,7 +14,7 @@ namespace diptych::tests
     StepSetting setting;
     setting.step              = step;
     setting.law               = {0., 0., 0., 0., 0.};
-    setting.solver.solver     = "nsgs";
+    setting.solver.solver     = ContactSolver::nsgs;
     setting.solver.tolerance  = 1e-14;
     setting.solver.max_sweeps = 100000;
     setting.lateral           = NoSides{};
@@ -79,15 +79,34 @@ namespace diptych::tests
     Report                  report;
     std::vector<Snapshot>   snapshots;
     std::vector<HistoryRow> rows;
+    Grains                  prepared; // before the loading
   };
+
+  // Prepares the panel, if it is not under way, and loads it to its end; a snapshot for the start and every stage, and one where
+  // it ended early.
+  inline Report walked(Panel &panel, const int n_stages, std::vector<Snapshot> &snapshots, const bool under_way = false)
+  {
+    if (!under_way && panel.prepare() == Status::finished)
+      snapshots.push_back(panel.snapshot());
+    while (panel.stage() < n_stages && panel.report().status == Status::finished)
+      {
+        (void)panel.advance_to(panel.stage() + 1);
+        if (panel.has_snapshot())
+          snapshots.push_back(panel.snapshot());
+      }
+    return panel.report();
+  }
 
   inline Course loaded(const SampleOptions &sample, const Loading &loading, const Options &options)
   {
-    Course    course;
-    Callbacks callbacks;
-    callbacks.on_stage = [&](const Snapshot &s) { course.snapshots.push_back(s); };
-    callbacks.on_step  = [&](const HistoryRow &row) { course.rows.push_back(row); };
-    course.report      = run(sample, loading, options, callbacks);
+    Course course;
+    Hooks  hooks;
+    hooks.on_row = [&](const HistoryRow &row) { course.rows.push_back(row); };
+    Panel panel(sample, loading, options, hooks);
+    course.report = walked(panel, int(loading.stages.size()), course.snapshots);
+    if (!course.snapshots.empty())
+      for (std::size_t i = 0; i < course.snapshots[0].radius.size(); ++i)
+        add_grain(course.prepared, course.snapshots[0].position[i], course.snapshots[0].radius[i], sample.density);
     return course;
   }
 

@@ -1,0 +1,111 @@
+// diptych: outline of the grain sample between its platens
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/bodies/outline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace diptych::discrete
+{
+  namespace
+  {
+    // Outermost surface on lines y = bottom + k dy; sign = -1 for the left side, +1 for the right one.
+    std::vector<double> raw_envelope(const Grains &g, const double bottom, const double dy, const int n, const int sign)
+    {
+      std::vector<double> edge(n, -std::numeric_limits<double>::infinity());
+      for (std::size_t i = 0; i < g.size(); ++i)
+        {
+          const Eigen::Vector2d &x     = g.position[i];
+          const double           r     = g.radius[i];
+          const int              first = std::max(0, int(std::ceil((x.y() - r - bottom) / dy)));
+          const int              last  = std::min(n - 1, int(std::floor((x.y() + r - bottom) / dy)));
+          for (int k = first; k <= last; ++k)
+            if (sign * x.x() + r > edge[k]) // nearly all discs lie inside: no root for them
+              {
+                const double a = bottom + k * dy - x.y();
+                edge[k]        = std::max(edge[k], sign * x.x() + std::sqrt(std::max(0., r * r - a * a)));
+              }
+        }
+      // A line that meets no disc takes the value below it (above it, at the bottom).
+      for (int k = 1; k < n; ++k)
+        if (std::isinf(edge[k]))
+          edge[k] = edge[k - 1];
+      for (int k = n - 2; k >= 0; --k)
+        if (std::isinf(edge[k]))
+          edge[k] = edge[k + 1];
+      for (double &x : edge)
+        x *= sign;
+      return edge;
+    }
+
+    // Normalised weights at -reach .. reach, cut at four standard deviations.
+    std::vector<double> gauss_weights(const double standard_deviation_in_samples)
+    {
+      const int           reach = int(std::ceil(4 * standard_deviation_in_samples));
+      std::vector<double> weight(2 * reach + 1);
+      double              sum = 0;
+      for (int a = -reach; a <= reach; ++a)
+        sum += weight[a + reach] = std::exp(-0.5 * a * a / (standard_deviation_in_samples * standard_deviation_in_samples));
+      for (double &w : weight)
+        w /= sum;
+      return weight;
+    }
+
+    double smoothed(const std::vector<double> &x, const std::vector<double> &weight, const int k)
+    {
+      const int n = int(x.size()), reach = int(weight.size()) / 2;
+      double    y = 0;
+      for (int a = -reach; a <= reach; ++a)
+        y += weight[a + reach] * x[std::clamp(k + a, 0, n - 1)];
+      return y;
+    }
+
+    std::vector<Eigen::Vector2d> side(const State &state, const double mean_diameter, const int sign)
+    {
+      const double              bottom = state.walls[0].point.y(), height = state.walls[1].point.y() - bottom;
+      const int                 n  = std::max(2, int(std::lround(height / (0.1 * mean_diameter))) + 1);
+      const double              dy = height / (n - 1);
+      const std::vector<double> x = raw_envelope(state.grains, bottom, dy, n, sign), weight = gauss_weights(mean_diameter / dy);
+
+      const int                    n_points = std::max(2, int(std::lround(height / (2 * mean_diameter))) + 1);
+      std::vector<Eigen::Vector2d> points;
+      for (int p = 0; p < n_points; ++p)
+        {
+          const int k = int(std::lround(double(p) * (n - 1) / (n_points - 1)));
+          points.emplace_back(smoothed(x, weight, k), bottom + k * dy);
+        }
+      points.back().y() = state.walls[1].point.y();
+      return points;
+    }
+  } // namespace
+
+  Outline make_outline(const State &state, const double mean_diameter)
+  {
+    const double bottom = state.walls[0].point.y(), top = state.walls[1].point.y();
+    const auto   upright = [&](const double x) { return std::vector<Eigen::Vector2d>{{x, bottom}, {x, top}}; };
+    if (state.walls.size() >= 4)
+      return {upright(state.walls[2].point.x()), upright(state.walls[3].point.x())};
+    if (state.cell)
+      {
+        double mean = 0;
+        for (const Eigen::Vector2d &x : state.grains.position)
+          mean += x.x() / double(state.grains.size());
+        return {upright(mean - 0.5 * state.cell->width), upright(mean + 0.5 * state.cell->width)};
+      }
+    return {side(state, mean_diameter, -1), side(state, mean_diameter, +1)};
+  }
+
+  double outline_area(const Outline &outline)
+  {
+    std::vector<Eigen::Vector2d> polygon = outline.right;
+    polygon.insert(polygon.end(), outline.left.rbegin(), outline.left.rend());
+    double twice = 0;
+    for (std::size_t k = 0; k < polygon.size(); ++k)
+      {
+        const Eigen::Vector2d &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+        twice += a.x() * b.y() - a.y() * b.x();
+      }
+    return 0.5 * twice;
+  }
+} // namespace diptych::discrete

@@ -1,0 +1,231 @@
+// diptych: pairs of bodies that may touch within a step
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/contacts/contact_detection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace diptych::discrete
+{
+  namespace
+  {
+    // Grains sorted into cells; cell (a, b) holds grains[start[b * columns + a]] up to the next start. With a period the
+    // columns wrap around.
+    struct CellGrid
+    {
+      Eigen::Vector2d  origin, cell_size;
+      int              columns = 1, rows = 1;
+      double           period = 0; // 0: none
+      std::vector<int> start, grains;
+
+      // Not clamped and, with a period, not wrapped.
+      int raw_column(const double x) const { return int(std::floor((x - origin.x()) / cell_size.x())); }
+      int column(const double x) const { return period > 0 ? wrapped(raw_column(x)) : std::clamp(raw_column(x), 0, columns - 1); }
+      int wrapped(const int c) const { return ((c % columns) + columns) % columns; }
+      int row(const double y) const { return std::clamp(int(std::floor((y - origin.y()) / cell_size.y())), 0, rows - 1); }
+    };
+
+    CellGrid sort_into_cells(const State &state, const double smallest_size)
+    {
+      const Grains   &grains = state.grains;
+      CellGrid        grid;
+      Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+      for (const Eigen::Vector2d &x : grains.position)
+        low = low.cwiseMin(x), high = high.cwiseMax(x);
+      grid.origin    = low;
+      grid.cell_size = Eigen::Vector2d::Constant(smallest_size);
+      if (state.cell)
+        {
+          grid.period        = state.cell->width;
+          grid.columns       = std::max(1, int(grid.period / smallest_size));
+          grid.cell_size.x() = grid.period / grid.columns;
+          high.x()           = low.x() + grid.period;
+        }
+      // A grain that has flown far away must not blow the grid up: cells grow instead.
+      const double most_cells = 16. * grains.size() + 64.;
+      while (((high.x() - low.x()) / grid.cell_size.x() + 1) * ((high.y() - low.y()) / grid.cell_size.y() + 1) > most_cells)
+        {
+          grid.cell_size.y() *= 2;
+          if (!state.cell)
+            grid.cell_size.x() *= 2;
+        }
+      if (!state.cell)
+        grid.columns = int((high.x() - low.x()) / grid.cell_size.x()) + 1;
+      grid.rows = int((high.y() - low.y()) / grid.cell_size.y()) + 1;
+
+      std::vector<int> cell(grains.size());
+      grid.start.assign(std::size_t(grid.columns) * grid.rows + 1, 0);
+      for (std::size_t i = 0; i < grains.size(); ++i)
+        {
+          cell[i] = grid.row(grains.position[i].y()) * grid.columns + grid.column(grains.position[i].x());
+          ++grid.start[cell[i] + 1];
+        }
+      for (std::size_t c = 1; c < grid.start.size(); ++c)
+        grid.start[c] += grid.start[c - 1];
+      grid.grains.resize(grains.size());
+      std::vector<int> next(grid.start.begin(), grid.start.end() - 1);
+      for (std::size_t i = 0; i < grains.size(); ++i)
+        grid.grains[next[cell[i]]++] = int(i);
+      return grid;
+    }
+
+    // Calls visit(j) for all grains in cells within `reach` of x, each once.
+    template <class Visit> void visit_around(const CellGrid &grid, const Eigen::Vector2d &x, const double reach, Visit &&visit)
+    {
+      int from = grid.raw_column(x.x() - reach), to = grid.raw_column(x.x() + reach);
+      if (grid.period > 0 && to - from >= grid.columns)
+        from = 0, to = grid.columns - 1;
+      if (!(grid.period > 0))
+        from = std::max(0, std::min(from, grid.columns - 1)), to = std::max(0, std::min(to, grid.columns - 1));
+      for (int b = grid.row(x.y() - reach); b <= grid.row(x.y() + reach); ++b)
+        for (int a = from; a <= to; ++a)
+          {
+            const int cell = b * grid.columns + (grid.period > 0 ? grid.wrapped(a) : a);
+            for (int k = grid.start[cell]; k < grid.start[cell + 1]; ++k)
+              visit(grid.grains[k]);
+          }
+    }
+
+    // What of a grain decides whether it is near another one, side by side in memory.
+    struct Disc
+    {
+      Eigen::Vector2d position;
+      double          radius, margin;
+    };
+
+    Contact contact_of_discs(const Contact &pair, const Disc &a, const Disc &b, const Eigen::Vector2d &branch)
+    {
+      const double distance = branch.norm();
+      // Coinciding centres have no normal; any fixed direction separates them.
+      const Eigen::Vector2d normal = distance > 0 ? Eigen::Vector2d(branch / distance) : Eigen::Vector2d::UnitX();
+      const double          gap    = distance - a.radius - b.radius;
+      return {pair.i, pair.j, gap, normal, a.position - (a.radius + 0.5 * gap) * normal, pair.image};
+    }
+
+    bool moves(const State &state, const int body)
+    {
+      const int n = int(state.grains.size());
+      return body < n ? !state.grains.fixed[body] : state.walls[body - n].inverse_mass() != Eigen::Vector2d::Zero();
+    }
+  } // namespace
+
+  Contact make_contact(const State &state, const int i, const int j)
+  {
+    const Grains &g = state.grains;
+    const int     n = int(g.size());
+    if (j >= n)
+      {
+        const Wall  &wall = state.walls[j - n];
+        const double gap  = (g.position[i] - wall.point).dot(wall.normal) - g.radius[i];
+        return {i, j, gap, wall.normal, g.position[i] - (g.radius[i] + 0.5 * gap) * wall.normal};
+      }
+    const int       image  = nearest_image(state.cell, g.position[i].x(), g.position[j].x());
+    Eigen::Vector2d branch = g.position[i] - g.position[j];
+    if (image != 0)
+      branch.x() -= image * state.cell->width;
+    return contact_of_discs({i, j, 0, {}, {}, image}, {g.position[i], g.radius[i], 0}, {g.position[j], g.radius[j], 0}, branch);
+  }
+
+  bool NeighbourList::covers(const State &state, const std::vector<double> &margin) const
+  {
+    const Grains &g = state.grains;
+    if (position_.size() != g.size() || wall_point_.size() != state.walls.size())
+      return false;
+    double wall_motion = 0;
+    for (std::size_t w = 0; w < wall_point_.size(); ++w)
+      wall_motion = std::max(wall_motion, (state.walls[w].point - wall_point_[w]).norm());
+    if (state.cell)
+      wall_motion = std::max(wall_motion, std::abs(state.cell->width - width_));
+    for (std::size_t i = 0; i < g.size(); ++i)
+      {
+        const double left = reach_[i] - margin[i] - wall_motion;
+        if (left < 0 || (g.position[i] - position_[i]).squaredNorm() > left * left)
+          return false;
+      }
+    return true;
+  }
+
+  void NeighbourList::build(const State &state, const std::vector<double> &margin)
+  {
+    const Grains &g              = state.grains;
+    const int     n              = int(g.size());
+    const double  largest_radius = *std::max_element(g.radius.begin(), g.radius.end());
+    // The list lasts while a grain moves by a quarter of the largest radius beyond its margin.
+    reach_ = margin;
+    for (double &reach : reach_)
+      reach = 1.5 * reach + 0.25 * largest_radius;
+    position_ = g.position;
+    wall_point_.clear();
+    for (const Wall &wall : state.walls)
+      wall_point_.push_back(wall.point);
+    width_ = state.cell ? state.cell->width : 0;
+    if (state.cell && width_ < 4 * (largest_radius + *std::max_element(reach_.begin(), reach_.end())))
+      throw std::invalid_argument("the periodic cell is " + std::to_string(width_) + " wide: too narrow for grains of radius " +
+                                  std::to_string(largest_radius) + " at their present speed");
+
+    pairs_.clear();
+    const CellGrid grid = sort_into_cells(state, 2 * largest_radius);
+    for (int i = 0; i < n; ++i)
+      {
+        // A pair is found from its member with the larger reach, whose search circle therefore needs to know only its own.
+        visit_around(grid, g.position[i], g.radius[i] + largest_radius + 2 * reach_[i], [&](const int j) {
+          if (reach_[j] > reach_[i] || (reach_[j] == reach_[i] && j <= i))
+            return;
+          const double    alert  = g.radius[i] + g.radius[j] + reach_[i] + reach_[j];
+          Eigen::Vector2d branch = g.position[i] - g.position[j];
+          branch.x() -= nearest_image(state.cell, g.position[i].x(), g.position[j].x()) * width_;
+          if (branch.squaredNorm() < alert * alert && (moves(state, i) || moves(state, j)))
+            pairs_.push_back({std::min(i, j), std::max(i, j)});
+        });
+        for (int w = 0; w < int(state.walls.size()); ++w)
+          if (make_contact(state, i, n + w).gap < reach_[i] && (moves(state, i) || moves(state, n + w)))
+            pairs_.push_back({i, n + w});
+      }
+    std::sort(pairs_.begin(), pairs_.end(), [](const Pair &a, const Pair &b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
+  }
+
+  std::vector<Contact> NeighbourList::find_contacts(const State &state, const std::vector<double> &margin)
+  {
+    const Grains        &g = state.grains;
+    std::vector<Contact> contacts;
+    if (g.size() == 0)
+      return contacts;
+    if (!covers(state, margin))
+      build(state, margin);
+    contacts.reserve(pairs_.size());
+    const int         n = int(g.size());
+    std::vector<Disc> disc(n);
+    for (int i = 0; i < n; ++i)
+      disc[i] = {g.position[i], g.radius[i], margin[i]};
+    for (const Pair &pair : pairs_)
+      {
+        const Disc &a = disc[pair.i];
+        if (pair.j >= n)
+          {
+            const Contact contact = make_contact(state, pair.i, pair.j);
+            if (contact.gap < a.margin)
+              contacts.push_back(contact);
+            continue;
+          }
+        const Disc     &b      = disc[pair.j];
+        const int       image  = nearest_image(state.cell, a.position.x(), b.position.x());
+        Eigen::Vector2d branch = a.position - b.position;
+        if (image != 0)
+          branch.x() -= image * state.cell->width;
+        const double alert = a.margin + b.margin, distance = a.radius + b.radius + alert;
+        if (branch.squaredNorm() >= distance * distance)
+          continue;
+        const Contact contact = contact_of_discs({pair.i, pair.j, 0, {}, {}, image}, a, b, branch);
+        if (contact.gap < alert)
+          contacts.push_back(contact);
+      }
+    return contacts;
+  }
+
+  std::vector<Contact> find_contacts(const State &state, const std::vector<double> &margin)
+  {
+    return NeighbourList().find_contacts(state, margin);
+  }
+} // namespace diptych::discrete

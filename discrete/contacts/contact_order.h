@@ -1,0 +1,15 @@
+// diptych: the order in which contacts are swept
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <vector>
+
+#include "discrete/contacts/contact_detection.h"
+
+namespace diptych::discrete
+{
+  // Indices of the contacts sorted upward along y, the direction in which the platens load the sample, in layers a tenth of
+  // `length` thick; within a layer in the order given. The order is part of the definition of a result: it depends on nothing
+  // but the contacts. Cost O(n).
+  std::vector<int> sweep_order(const std::vector<Contact> &contacts, double length);
+} // namespace diptych::discrete

@@ -1,0 +1,55 @@
+// diptych: the contact problem of one step as data, and its residual
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/contacts/contact_problem.h"
+
+#include "discrete/contacts/contact_law.h"
+
+namespace diptych::discrete
+{
+  std::vector<int> acting_contacts(const std::vector<Impulse> &impulses)
+  {
+    // Which contacts act follows no pattern that a processor could foresee: no branch.
+    std::vector<int> acting(impulses.size());
+    std::size_t      n = 0;
+    for (std::size_t k = 0; k < impulses.size(); ++k)
+      {
+        acting[n] = int(k);
+        n += std::size_t(impulses[k].normal != 0) | std::size_t(impulses[k].tangential != 0);
+      }
+    acting.resize(n);
+    return acting;
+  }
+
+  std::vector<BodyVelocity> velocities(const ContactProblem &problem, const std::vector<Impulse> &impulses)
+  {
+    return velocities(problem, impulses, acting_contacts(impulses));
+  }
+
+  std::vector<BodyVelocity> velocities(const ContactProblem       &problem,
+                                       const std::vector<Impulse> &impulses,
+                                       const std::vector<int>     &acting)
+  {
+    std::vector<BodyVelocity> v = problem.free_velocity;
+    for (std::size_t a = 0; a < acting.size(); ++a)
+      {
+        fetch_ahead(problem.contacts, acting, a);
+        apply_impulse(problem.contacts[acting[a]], impulses[acting[a]], v);
+      }
+    return v;
+  }
+
+  double natural_map_residual(const ContactProblem &problem, const std::vector<Impulse> &impulses)
+  {
+    return natural_map_residual(problem, velocities(problem, impulses), impulses);
+  }
+
+  double natural_map_residual(const ContactProblem            &problem,
+                              const std::vector<BodyVelocity> &v,
+                              const std::vector<Impulse>      &impulses)
+  {
+    NaturalMapSquares squares;
+    for (std::size_t k = 0; k < problem.contacts.size(); ++k)
+      squares.add(problem.contacts[k], v, impulses[k]);
+    return relative_norm(squares.difference, squares.norm);
+  }
+} // namespace diptych::discrete

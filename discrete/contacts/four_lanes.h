@@ -1,0 +1,36 @@
+// diptych: four numbers side by side in a vector register
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cmath>
+
+#include "discrete/contacts/inlining.h"
+
+namespace diptych::discrete
+{
+  typedef double    Four __attribute__((vector_size(32)));
+  typedef long long Mask __attribute__((vector_size(32)));
+
+  // Transposes a 4x4 block; its own inverse. Turns four records of four numbers into columns.
+  DIPTYCH_INLINE void transpose(Four &a, Four &b, Four &c, Four &d)
+  {
+    const Four ab_low = __builtin_shuffle(a, b, Mask{0, 4, 2, 6}), ab_high = __builtin_shuffle(a, b, Mask{1, 5, 3, 7});
+    const Four cd_low = __builtin_shuffle(c, d, Mask{0, 4, 2, 6}), cd_high = __builtin_shuffle(c, d, Mask{1, 5, 3, 7});
+    a = __builtin_shuffle(ab_low, cd_low, Mask{0, 1, 4, 5});
+    b = __builtin_shuffle(ab_high, cd_high, Mask{0, 1, 4, 5});
+    c = __builtin_shuffle(ab_low, cd_low, Mask{2, 3, 6, 7});
+    d = __builtin_shuffle(ab_high, cd_high, Mask{2, 3, 6, 7});
+  }
+
+  DIPTYCH_INLINE Four read(const void *p)
+  {
+    Four value;
+    __builtin_memcpy(&value, p, sizeof value);
+    return value;
+  }
+
+  DIPTYCH_INLINE void write(void *p, const Four &value)
+  {
+    __builtin_memcpy(p, &value, sizeof value);
+  }
+} // namespace diptych::discrete

@@ -1,0 +1,29 @@
+// diptych: Moreau's internal moment of every grain
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "discrete/snapshot.h"
+#include "discrete/bodies/state.h"
+
+namespace diptych::discrete
+{
+  // M_i = -sym sum_c (x_c - x_i) (x) f_c - (1/2) omega_i^2 I_i 1, summed over the contacts of grain i (Moreau 1997, eq. 6).
+  // Positive in compression [pressure x length^2]. Forces applied at the centre have no moment about it. `spin_term` holds
+  // (1/2) omega^2 I of each grain (or its mean over a window).
+  std::vector<Eigen::Matrix2d> internal_moments(const std::vector<Eigen::Vector2d> &position,
+                                                const std::vector<ContactForce>    &forces,
+                                                const std::vector<double>          &spin_term);
+
+  // The moment about the centre before symmetrisation; its skew part is half the unbalanced couple of the grain.
+  std::vector<Eigen::Matrix2d> raw_contact_moments(const std::vector<Eigen::Vector2d> &position,
+                                                   const std::vector<ContactForce>    &forces);
+
+  std::vector<double> spin_terms(const Grains &grains); // (1/2) omega^2 I of each grain
+
+  // Invariants of a symmetric stress: s = (s1 + s2)/2, t = (s1 - s2)/2, t/s = sin of the mobilised friction angle.
+  double stress_ratio(const Eigen::Matrix2d &stress);
+} // namespace diptych::discrete

@@ -1,0 +1,99 @@
+// diptych: an HDF5 file that gains a stage at a time
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/files/staged_file.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+
+namespace diptych::discrete
+{
+  namespace fs = std::filesystem;
+
+  std::string stage_name(const std::size_t stage)
+  {
+    char name[32];
+    std::snprintf(name, sizeof name, "stage_%04zu", stage);
+    return name;
+  }
+
+  std::size_t count_stages(const Hdf5Reader &file)
+  {
+    std::size_t n = 0;
+    while (file.has(stage_name(n)))
+      ++n;
+    if (n == 0)
+      throw std::invalid_argument(file.path() + ": holds no group " + stage_name(0) + "; is it a result file of a panel?");
+    return n;
+  }
+
+  StagedFile::StagedFile(std::string path_without_ending)
+      : path(std::move(path_without_ending))
+  {
+    fs::remove(file());
+    remove_parts(0);
+  }
+
+  StagedFile::StagedFile(std::string path_without_ending, const std::size_t n)
+      : path(std::move(path_without_ending)),
+        n_stages(n)
+  {
+    {
+      const Hdf5Reader  whole(file());
+      const std::size_t found = count_stages(whole);
+      if (found < n)
+        throw std::invalid_argument(file() + ": holds " + std::to_string(found) + " stages, not the " + std::to_string(n) +
+                                    " that the checkpoint beside it goes on from");
+      for (std::size_t stage = 0; stage < n; ++stage)
+        if (!whole.is_link(stage_name(stage)))
+          {
+            fs::create_directories(path);
+            Hdf5Writer writer(part(stage));
+            writer.copy(whole, stage_name(stage));
+            writer.finish();
+          }
+    }
+    write_links();
+    remove_parts(n);
+  }
+
+  void StagedFile::add(const std::function<void(Hdf5Writer &, const std::string &)> &write)
+  {
+    fs::create_directories(path);
+    Hdf5Writer writer(part(n_stages));
+    write(writer, stage_name(n_stages));
+    writer.finish();
+    ++n_stages;
+    write_links();
+  }
+
+  void StagedFile::write_links() const
+  {
+    Hdf5Writer        links(file());
+    const std::string folder = fs::path(path).filename().string() + "/";
+    for (std::size_t stage = 0; stage < n_stages; ++stage)
+      links.link(stage_name(stage), folder + stage_name(stage) + ".h5", "/" + stage_name(stage));
+    links.finish();
+  }
+
+  void StagedFile::close()
+  {
+    std::size_t n_bytes = 0;
+    for (std::size_t stage = 0; stage < n_stages; ++stage)
+      n_bytes += fs::file_size(part(stage));
+    Hdf5Writer whole(file(), n_bytes);
+    for (std::size_t stage = 0; stage < n_stages; ++stage)
+      whole.copy(Hdf5Reader(part(stage)), stage_name(stage));
+    whole.finish();
+    remove_parts(0);
+  }
+
+  // The folder may hold other files.
+  void StagedFile::remove_parts(const std::size_t from) const
+  {
+    for (std::size_t stage = from; fs::remove(part(stage)); ++stage)
+      {}
+    std::error_code not_empty;
+    fs::remove(path, not_empty);
+  }
+} // namespace diptych::discrete

@@ -1,0 +1,19 @@
+// diptych: text files that are whole or absent, and tables that grow at their end
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+
+namespace diptych::discrete
+{
+  // Writes under `path`.part, then renames. Throws std::runtime_error naming the file and what the system says; the file of that
+  // name stays as it was.
+  void write_text(const std::string &path, const std::string &text);
+
+  // Adds whole lines to the end of a file, in one write; no earlier byte is touched. Throws std::runtime_error naming the file;
+  // what was written of the lines is cut off again.
+  void append_text(const std::string &path, const std::string &lines);
+
+  // Keeps the first n lines (all, where there are not so many). Throws std::runtime_error naming the file.
+  void keep_lines(const std::string &path, std::size_t n);
+} // namespace diptych::discrete

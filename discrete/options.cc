@@ -1,0 +1,105 @@
+// diptych: everything that a scene says of the discrete panel, checked
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/options.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace diptych::discrete
+{
+  namespace
+  {
+    // Collects the keys of one section that a condition leaves unread.
+    struct Unused
+    {
+      std::string             section;
+      std::vector<UnusedKey> &keys;
+
+      void unless(const bool read, const std::string &because, const std::vector<const char *> &names) const
+      {
+        for (const char *name : names)
+          if (!read)
+            keys.push_back({section + "/" + name, because});
+      }
+    };
+
+    void add_unused(const SampleOptions &o, std::vector<UnusedKey> &keys)
+    {
+      const Unused      unused{"sample", keys};
+      const bool        generated = o.file.empty(), prepared = generated || o.prepare_file;
+      const std::string file = generated ? "sample/file is empty" : "sample/file = " + o.file;
+      unused.unless(!generated, file, {"lower_platen", "upper_platen", "left_wall", "right_wall", "allowed_overlap", "prepare_file"});
+      unused.unless(generated, file,
+                    {"grains", "radius_distribution", "radius_min", "radius_max", "radius_table", "width_over_height", "height",
+                     "solid_fraction", "box_solid_fraction", "target_solid_fraction"});
+      unused.unless(prepared, "sample/prepare_file = false",
+                    {"preparation_steps", "preparation_tolerance", "preparation_max_sweeps", "quiet_unbalanced_force"});
+      unused.unless(!generated || !(o.width > 0 && o.height > 0), "sample/width and sample/height are given",
+                    {"grains", "width_over_height"});
+      unused.unless(!generated || o.radius_distribution != RadiusKind::table, "sample/radius_distribution = table",
+                    {"radius_min", "radius_max"});
+      unused.unless(!generated || !(o.target_solid_fraction > 0), "sample/target_solid_fraction = " + std::to_string(o.target_solid_fraction),
+                    {"preparation_friction"});
+    }
+
+    void add_unused(const Options &o, std::vector<UnusedKey> &keys)
+    {
+      const Unused      unused{"discrete", keys};
+      const bool        penalty = o.method.method == Method::penalty;
+      const std::string method = "discrete/method = " + name_of(o.method.method), lateral = "discrete/lateral = " + name_of(o.lateral.lateral);
+      const bool        moves = o.lateral.lateral == Lateral::rigid_walls || o.lateral.lateral == Lateral::periodic;
+      unused.unless(penalty, method, {"penalty_stiffness", "penalty_step_fraction", "penalty_damping"});
+      unused.unless(!penalty, method,
+                    {"step", "tolerance", "max_sweeps", "snapshot_accuracy", "snapshot_max_sweeps", "reference_sweeps"});
+      unused.unless(o.lateral.lateral == Lateral::end_grains, lateral, {"band_height", "end_grains"});
+      unused.unless(o.lateral.lateral == Lateral::rigid_walls, lateral, {"wall_friction"});
+      unused.unless(moves, lateral, {"side_motion", "side_velocity"});
+      unused.unless(!moves || o.lateral.side_motion == SideMotion::velocity, "discrete/side_motion = " + name_of(o.lateral.side_motion),
+                    {"side_velocity"});
+      unused.unless(penalty || o.sampling.snapshot_max_sweeps > 0, "discrete/snapshot_max_sweeps = 0",
+                    {"snapshot_accuracy", "reference_sweeps"});
+    }
+  } // namespace
+
+  std::vector<UnusedKey> unused_keys(const SampleOptions &sample, const Options &options)
+  {
+    std::vector<UnusedKey> keys;
+    add_unused(sample, keys);
+    add_unused(options, keys);
+    return keys;
+  }
+
+  void validate(const SampleOptions &sample, const Loading &loading, const Options &options)
+  {
+    validate(sample);
+    validate(options.drives);
+    for_each_drive(options.drives, [&](const int wall, int, const std::string &key, const DriveOption &drive) {
+      if (wall >= 2 && !drive.is_auto() && options.lateral.lateral != Lateral::rigid_walls)
+        throw std::invalid_argument("discrete/" + key + " = '" + text_of(drive) +
+                                    "': there is no such wall unless discrete/lateral = rigid_walls");
+    });
+    if (loading.stages.empty() || loading.stages.front() <= 0 ||
+        std::adjacent_find(loading.stages.begin(), loading.stages.end(), std::greater_equal<double>()) != loading.stages.end())
+      throw std::invalid_argument("the stages of the loading must be positive and in ascending order");
+    if (loading.mode == LoadingMode::plane_shear && options.lateral.lateral != Lateral::periodic &&
+        options.lateral.lateral != Lateral::rigid_walls)
+      throw std::invalid_argument("loading/mode = plane_shear: the normal force is normal_pressure x width, so discrete/lateral "
+                                  "must be periodic or rigid_walls, not " +
+                                  name_of(options.lateral.lateral));
+    const bool penalty = options.method.method == Method::penalty;
+    if (penalty && (options.law.normal_restitution != 0 || options.law.tangential_restitution != 0))
+      throw std::invalid_argument("discrete/method = penalty: discrete/normal_restitution and tangential_restitution must be 0; "
+                                  "what rebounds there follows from penalty_damping");
+    if (penalty && options.method.store_problems)
+      throw std::invalid_argument("discrete/method = penalty has no contact problems: discrete/store_problems must be false");
+    if (penalty && !(loading.pressure > 0))
+      throw std::invalid_argument(
+        "discrete/method = penalty: the stiffness is penalty_stiffness x loading/pressure, which must be positive");
+  }
+
+  PreparationSetting preparation_setting(const Loading &loading, const Options &options)
+  {
+    return {
+      lateral_condition(options.lateral), options.solver, loading.pressure, {options.time.gravity_x, options.time.gravity_y}};
+  }
+} // namespace diptych::discrete

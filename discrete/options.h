@@ -1,0 +1,82 @@
+// diptych: everything that a scene says of the discrete panel
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "discrete/panel/loading.h"
+#include "discrete/stepping/penalty.h"
+#include "discrete/samples/sample_preparation.h"
+#include "discrete/stepping/time_stepping.h"
+
+namespace diptych::discrete
+{
+  enum class Method
+  {
+    nscd,   // Non-Smooth Contact Dynamics
+    penalty // explicit springs, dashpots and Coulomb friction (Cundall & Strack 1979)
+  };
+
+  constexpr auto choices(Method)
+  {
+    return std::array{std::pair{Method::nscd, "nscd"}, std::pair{Method::penalty, "penalty"}};
+  }
+
+  struct MethodOptions
+  {
+    Method method             = Method::nscd;
+    int    history_interval   = 0;
+    double checkpoint_minutes = 10;
+    bool   store_problems     = false;
+  };
+
+  template <class Visitor> void visit_parameters(MethodOptions &o, Visitor &&visitor)
+  {
+    visitor(
+      "method", o.method, "-",
+      "nscd: Non-Smooth Contact Dynamics; penalty: explicit springs, dashpots and Coulomb friction (Cundall & Strack 1979)");
+    visitor("history_interval", o.history_interval, "steps", {0, 1000000000},
+            "between two rows of discrete.csv; 0: every step, penalty: about a thousand rows a stage");
+    visitor("checkpoint_minutes", o.checkpoint_minutes, "min", {0., 1e6},
+            "between two checkpoints of a run, from which --resume goes on; 0: at every step");
+    visitor("store_problems", o.store_problems, "-",
+            "write the contact problem of every snapshot's step with its solution to problem_NNNN.h5 (FCLIB layout, for "
+            "`diptych solve` and other solvers)");
+  }
+
+  // Everything of the scene's section `discrete`.
+  struct Options
+  {
+    MethodOptions     method;
+    StepOptions       time;
+    ContactLawOptions law;
+    SolverOptions     solver;
+    SamplingOptions   sampling;
+    LateralOptions    lateral;
+    WallDriveOptions  drives;
+    PenaltyOptions    penalty;
+    int               threads = 1; // of the command line; results do not depend on it
+  };
+
+  template <class Visitor> void visit_parameters(Options &o, Visitor &&visitor)
+  {
+    visit_parameters(o.method, visitor);
+    visit_parameters(o.time, visitor);
+    visit_parameters(o.law, visitor);
+    visit_parameters(o.solver, visitor);
+    visit_parameters(o.sampling, visitor);
+    visit_parameters(o.lateral, visitor);
+    visit_parameters(o.drives, visitor);
+    visit_parameters(o.penalty, visitor);
+  }
+
+  // A key that nothing reads as the others stand, and the one that says so. Section and name of both.
+  struct UnusedKey
+  {
+    std::string key, because; // "discrete/side_velocity", "discrete/lateral = end_grains"
+  };
+  std::vector<UnusedKey> unused_keys(const SampleOptions &sample, const Options &options);
+
+  // Throws std::invalid_argument on options that contradict each other or name wrong files.
+  void validate(const SampleOptions &sample, const Loading &loading, const Options &options);
+
+  PreparationSetting preparation_setting(const Loading &loading, const Options &options);
+} // namespace diptych::discrete

@@ -1,0 +1,202 @@
+// diptych: a loading put down in a file, to be taken up again
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/panel/checkpoint.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "discrete/files/hdf5_file.h"
+
+namespace diptych::discrete
+{
+  namespace
+  {
+    // Scalars are listed once for both directions: visit(name, member).
+    template <class Visit> void visit_scalars(Checkpoint &p, Visit &&visit)
+    {
+      Report &r = p.report;
+      visit("time", p.state.time), visit("stage", p.stage), visit("steps_left", p.steps_left), visit("step", p.step);
+      visit("interval", p.interval), visit("window_time", p.window.time);
+      visit("reference_height", p.reference.height), visit("reference_area", p.reference.area);
+      visit("reference_grain_area", p.reference.grain_area), visit("reference_kinetic_energy", p.reference.kinetic_energy);
+      visit("reference_platen_kinetic_energy", p.reference.platen_kinetic_energy);
+      visit("reference_strain_rate", p.reference.strain_rate), visit("reference_mean_density", p.reference.mean_density);
+      visit("reference_platen_x", p.reference.platen.x()), visit("reference_platen_y", p.reference.platen.y());
+      visit("progress", r.progress), visit("axial_strain", r.axial_strain), visit("shear_strain", r.shear_strain);
+      visit("report_step", r.step), visit("steps", r.steps), visit("sweeps", r.sweeps), visit("updates", r.updates);
+      visit("preparation_cpu_s", r.preparation_cpu_s), visit("loading_cpu_s", r.loading_cpu_s);
+      visit("solver_cpu_s", r.solver_cpu_s), visit("initial_height", r.initial_height), visit("platen_speed", r.platen_speed);
+      visit("error_over_residual", r.error_over_residual), visit("reference_residual", r.reference_residual);
+      visit("reference_error", r.reference_error), visit("estimated_error", r.estimated_error);
+      visit("halved_steps", r.halved_steps), visit("snapshots_sampled", r.snapshots_sampled),
+        visit("snapshots_accurate", r.snapshots_accurate);
+      visit("preparation_quiet", r.preparation.quiet), visit("preparation_steps", r.preparation.steps);
+      visit("preparation_residual", r.preparation.residual), visit("preparation_unbalanced", r.preparation.unbalanced_force);
+      visit("preparation_solid_fraction", r.preparation.solid_fraction), visit("preparation_overlap", r.preparation.soft_overlap);
+      visit("preparation_friction", r.preparation.friction);
+    }
+
+    std::vector<double> numbers(HistoryRow row)
+    {
+      std::vector<double> values;
+      visit_columns(row, [&](const char *, const auto &value, const char *, const char *) { values.push_back(double(value)); });
+      return values;
+    }
+
+    HistoryRow row_of(const double *values)
+    {
+      HistoryRow row;
+      visit_columns(
+        row, [&](const char *, auto &value, const char *, const char *) { value = std::decay_t<decltype(value)>(*values++); });
+      return row;
+    }
+
+    void write_grains(Hdf5Writer &file, const Grains &g)
+    {
+      file.write("grains/position", g.position);
+      file.write("grains/velocity", g.velocity);
+      file.write("grains/rotation", g.rotation);
+      file.write("grains/spin", g.spin);
+      file.write("grains/radius", g.radius);
+      file.write("grains/mass", g.mass);
+      file.write("grains/fixed", std::vector<int>(g.fixed.begin(), g.fixed.end()));
+    }
+
+    Grains read_grains(const Hdf5Reader &file)
+    {
+      Grains                 g;
+      const std::vector<int> fixed = file.read_int("grains/fixed");
+      g.position                   = file.read_vectors("grains/position");
+      g.velocity                   = file.read_vectors("grains/velocity");
+      g.rotation                   = file.read("grains/rotation");
+      g.spin                       = file.read("grains/spin");
+      g.radius                     = file.read("grains/radius");
+      g.mass                       = file.read("grains/mass");
+      g.fixed.assign(fixed.begin(), fixed.end());
+      return g;
+    }
+
+    // One row a wall: point, normal, velocity, mass, kind.
+    std::vector<double> wall_numbers(const std::vector<Wall> &walls)
+    {
+      std::vector<double> values;
+      for (const Wall &w : walls)
+        values.insert(values.end(), {w.point.x(), w.point.y(), w.normal.x(), w.normal.y(), w.velocity.x(), w.velocity.y(), w.mass,
+                                     w.kind == WallKind::platen ? 0. : 1.});
+      return values;
+    }
+    constexpr std::size_t numbers_a_wall = 8;
+
+    std::vector<Wall> walls_of(const std::vector<double> &v)
+    {
+      std::vector<Wall> walls;
+      for (std::size_t k = 0; k + numbers_a_wall <= v.size(); k += numbers_a_wall)
+        {
+          Wall wall{{v[k], v[k + 1]}, {v[k + 2], v[k + 3]}, {v[k + 4], v[k + 5]}, {}, {}, v[k + 6], WallKind::platen};
+          wall.kind = v[k + 7] == 0 ? WallKind::platen : WallKind::side;
+          walls.push_back(wall);
+        }
+      return walls;
+    }
+
+    void write_pairs(Hdf5Writer &file, const Checkpoint &p)
+    {
+      std::vector<int>    body, window_body;
+      std::vector<double> impulse, window_impulse, window_dissipation, window_impact;
+      for (const PairImpulse &r : p.state.impulses)
+        body.insert(body.end(), {r.i, r.j}), impulse.insert(impulse.end(), {r.normal, r.tangential});
+      for (const WindowForces::PairSum &s : p.window.sums)
+        window_body.insert(window_body.end(), {s.i, s.j}), window_dissipation.push_back(s.dissipation),
+          window_impact.push_back(s.impact), window_impulse.insert(window_impulse.end(), {s.impulse.x(), s.impulse.y()});
+      file.write("impulses/body", body);
+      file.write("impulses/impulse", impulse);
+      file.write("window/body", window_body);
+      file.write("window/impulse", window_impulse);
+      file.write("window/dissipation", window_dissipation);
+      file.write("window/impact", window_impact);
+      file.write("window/spin", p.window.spin);
+    }
+
+    void read_pairs(const Hdf5Reader &file, Checkpoint &p)
+    {
+      const std::vector<int>    body = file.read_int("impulses/body"), window_body = file.read_int("window/body");
+      const std::vector<double> impulse = file.read("impulses/impulse"), window_impulse = file.read("window/impulse"),
+                                window_dissipation = file.read("window/dissipation"), window_impact = file.read("window/impact");
+      for (std::size_t k = 0; k + 1 < body.size(); k += 2)
+        p.state.impulses.push_back({body[k], body[k + 1], impulse.at(k), impulse.at(k + 1)});
+      for (std::size_t k = 0; k + 1 < window_body.size(); k += 2)
+        p.window.sums.push_back({window_body[k],
+                                 window_body[k + 1],
+                                 window_dissipation.at(k / 2),
+                                 window_impact.at(k / 2),
+                                 {window_impulse.at(k), window_impulse.at(k + 1)}});
+      p.window.spin = file.read("window/spin");
+    }
+
+    // Every list is as long as the grains are many, and every pair names bodies that exist.
+    void check_sizes(const std::string &path, const Checkpoint &p, const bool row_is_whole)
+    {
+      const Grains     &g = p.state.grains;
+      const std::size_t n = g.size(), n_bodies = n + p.state.walls.size();
+      const auto        both = [&](const auto &pair) {
+        return pair.i >= 0 && std::size_t(pair.i) < n && pair.j >= 0 && std::size_t(pair.j) < n_bodies;
+      };
+      const bool whole = row_is_whole && p.state.walls.size() >= 2 && g.position.size() == n && g.velocity.size() == n &&
+                         g.rotation.size() == n && g.spin.size() == n && g.mass.size() == n && g.fixed.size() == n &&
+                         p.reference.position.size() == n && (p.window.spin.empty() || p.window.spin.size() == n) &&
+                         std::all_of(p.state.impulses.begin(), p.state.impulses.end(), both) &&
+                         std::all_of(p.window.sums.begin(), p.window.sums.end(), both);
+      if (!whole)
+        throw std::invalid_argument(path + " is no checkpoint of this version: its lists do not fit each other");
+    }
+  } // namespace
+
+  void write_checkpoint(const std::string &path, const StoredCheckpoint &checkpoint)
+  {
+    Checkpoint p = checkpoint.panel;
+    Hdf5Writer file(path);
+    write_grains(file, p.state.grains);
+    file.write("walls", wall_numbers(p.state.walls));
+    file.write("cell", p.state.cell ? std::vector<double>{p.state.cell->width, p.state.cell->velocity, p.state.cell->mass}
+                                    : std::vector<double>{});
+    write_pairs(file, p);
+    file.write("reference/position", p.reference.position);
+    file.write("row", numbers(p.row));
+    file.write("n_rows", std::vector<double>{double(checkpoint.n_rows)});
+    visit_scalars(p, [&](const char *name, const auto &value) {
+      file.write(std::string("scalars/") + name, std::vector<double>{double(value)});
+    });
+    file.write_string("scene", checkpoint.scene);
+    file.write_string("step_bound", p.report.step_bound);
+    file.finish();
+  }
+
+  StoredCheckpoint read_checkpoint(const std::string &path)
+  try
+    {
+      const Hdf5Reader file(path);
+      StoredCheckpoint checkpoint;
+      Checkpoint      &p = checkpoint.panel;
+      p.state.grains     = read_grains(file);
+      p.state.walls      = walls_of(file.read("walls"));
+      if (const std::vector<double> cell = file.read("cell"); cell.size() == 3)
+        p.state.cell = PeriodicCell{cell[0], cell[1], {}, cell[2]};
+      read_pairs(file, p);
+      p.reference.position            = file.read_vectors("reference/position");
+      const std::vector<double> row   = file.read("row");
+      const std::size_t         width = numbers({}).size();
+      check_sizes(path, p, row.size() == width);
+      p.row             = row_of(row.data());
+      checkpoint.n_rows = long(file.read("n_rows").at(0));
+      visit_scalars(p, [&](const char *name, auto &value) {
+        value = std::decay_t<decltype(value)>(file.read(std::string("scalars/") + name).at(0));
+      });
+      checkpoint.scene    = file.read_string("scene");
+      p.report.step_bound = file.read_string("step_bound");
+      return checkpoint;
+    }
+  catch (const std::out_of_range &)
+    {
+      throw std::invalid_argument(path + " is no checkpoint of this version: an array is shorter than it must be");
+    }
+} // namespace diptych::discrete

@@ -1,0 +1,160 @@
+// diptych: the ledger of a loading, one row a step
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/panel/history.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "discrete/contacts/contact_law.h"
+#include "discrete/contacts/internal_moment.h"
+#include "discrete/bodies/outline.h"
+#include "discrete/stepping/step_problem.h"
+
+namespace diptych::discrete
+{
+  namespace
+  {
+    // Sum of all grains' moments about their centres, and the norms behind the skew share.
+    struct MomentSums
+    {
+      Eigen::Matrix2d total       = Eigen::Matrix2d::Zero();
+      double          skew_square = 0, square = 0;
+    };
+
+    MomentSums sum_moments(const State &state, const StepResult &result, const double step)
+    {
+      const Grains                &g = state.grains;
+      std::vector<Eigen::Matrix2d> moment(g.size(), Eigen::Matrix2d::Zero());
+      for (std::size_t k = 0; k < result.contacts.size(); ++k)
+        {
+          if (result.impulses[k].normal == 0)
+            continue;
+          const Contact         c     = make_contact(state, result.contacts[k].i, result.contacts[k].j);
+          const Eigen::Vector2d force = impulse_vector(result.contacts[k], result.impulses[k]) / step;
+          // From i the contact lies at -(r_i + gap/2) n, from j at +(r_j + gap/2) n.
+          moment[c.i] += (g.radius[c.i] + 0.5 * c.gap) * c.normal * force.transpose();
+          if (std::size_t(c.j) < g.size())
+            moment[c.j] += (g.radius[c.j] + 0.5 * c.gap) * c.normal * force.transpose();
+        }
+      MomentSums sums;
+      for (const Eigen::Matrix2d &m : moment)
+        {
+          sums.total += m;
+          const double skew = 0.5 * (m(0, 1) - m(1, 0)), mean = 0.5 * (m(0, 1) + m(1, 0));
+          sums.skew_square += 2 * skew * skew;
+          sums.square += m(0, 0) * m(0, 0) + m(1, 1) * m(1, 1) + 2 * mean * mean;
+        }
+      sums.total = (0.5 * (sums.total + sums.total.transpose())).eval();
+      return sums;
+    }
+
+    double sliding_share(const StepResult &result, const State &state, const StepSetting &setting)
+    {
+      int       closed = 0, sliding = 0;
+      const int n = int(state.grains.size());
+      for (std::size_t k = 0; k < result.contacts.size(); ++k)
+        {
+          const int wall = result.contacts[k].j - n;
+          if (wall < 0 || state.walls[wall].kind != WallKind::platen || result.impulses[k].normal <= 0)
+            continue;
+          ++closed, sliding += is_slipping(setting.law.platen_friction, result.impulses[k]);
+        }
+      return closed > 0 ? double(sliding) / closed : 0;
+    }
+
+    double sum(const std::vector<double> &values)
+    {
+      double total = 0;
+      for (const double value : values)
+        total += value;
+      return total;
+    }
+  } // namespace
+
+  Reference make_reference(const State &state, const double mean_diameter, const double strain_rate)
+  {
+    Reference reference;
+    reference.position       = state.grains.position;
+    reference.platen         = state.walls[1].point;
+    reference.height         = sample_height(state);
+    reference.area           = outline_area(make_outline(state, mean_diameter));
+    reference.kinetic_energy = kinetic_energy(state);
+    for (const double r : state.grains.radius)
+      reference.grain_area += M_PI * r * r;
+    const double mass               = sum(state.grains.mass);
+    reference.mean_density          = mass / reference.grain_area;
+    reference.platen_kinetic_energy = 0.25 * mass * state.walls[1].velocity.squaredNorm();
+    reference.strain_rate           = strain_rate;
+    return reference;
+  }
+
+  std::vector<std::uint8_t> rattlers(const StepResult &result, const Grains &grains)
+  {
+    const std::size_t         n_grains = grains.size();
+    std::vector<std::uint8_t> free(n_grains);
+    for (std::size_t i = 0; i < n_grains; ++i)
+      free[i] = !grains.fixed[i];
+    for (std::size_t k = 0; k < result.contacts.size(); ++k)
+      if (result.impulses[k].normal > 0)
+        {
+          free[result.contacts[k].i] = 0;
+          if (std::size_t(result.contacts[k].j) < n_grains)
+            free[result.contacts[k].j] = 0;
+        }
+    return free;
+  }
+
+  void add_step(const StepResult &result, const StepSetting &setting, HistoryRow &row)
+  {
+    ++row.step;
+    row.sweeps += result.solve.sweeps;
+    row.residual          = result.solve.residual;
+    row.max_penetration   = std::max(row.max_penetration, result.largest_penetration / setting.mean_diameter);
+    row.momentum_residual = std::max(row.momentum_residual, result.momentum_residual);
+    row.friction_dissipation += result.energies.friction_dissipation;
+    row.impact_dissipation += result.energies.impact_dissipation;
+    row.external_work += result.energies.external_work;
+    row.correction_work += result.energies.correction_work;
+  }
+
+  void describe_state(const State       &state,
+                      const StepResult  &result,
+                      const Reference   &reference,
+                      const StepSetting &setting,
+                      HistoryRow        &row)
+  {
+    const double          area   = outline_area(make_outline(state, setting.mean_diameter));
+    const double          spin   = sum(spin_terms(state.grains));
+    const MomentSums      sums   = sum_moments(state, result, setting.step);
+    const Eigen::Vector2d travel = state.walls[1].point - reference.platen;
+
+    row.time              = state.time;
+    row.axial_strain      = (0. - travel.y()) / reference.height;
+    row.shear_strain      = travel.x() / reference.height;
+    row.stress            = (sums.total - spin * Eigen::Matrix2d::Identity()) / area;
+    row.stress_ratio      = stress_ratio(row.stress);
+    row.volumetric_strain = 1 - area / reference.area;
+    row.solid_fraction    = reference.grain_area / area;
+    row.lower_force       = result.wall_force[0];
+    row.upper_force       = result.wall_force[1];
+    if (result.wall_force.size() >= 4)
+      row.left_force = result.wall_force[2], row.right_force = result.wall_force[3];
+    row.contacts = int(
+      std::count_if(result.impulses.begin(), result.impulses.end(), [](const Impulse &r) { return r.normal > 0; }));
+    row.kinetic_energy       = result.energies.kinetic;
+    row.kinetic_energy_ratio = reference.platen_kinetic_energy > 0 ? row.kinetic_energy / reference.platen_kinetic_energy : 0;
+    const double change      = row.kinetic_energy - reference.kinetic_energy;
+    const double scale       = std::max({std::abs(row.external_work), std::abs(row.friction_dissipation),
+                                         std::abs(row.impact_dissipation), row.kinetic_energy, reference.kinetic_energy});
+    row.energy_residual = scale > 0 ? (change - row.external_work + row.friction_dissipation + row.impact_dissipation) / scale
+                                    : 0;
+    const double s      = 0.5 * row.stress.trace();
+    row.inertial_number = s > 0 ? reference.strain_rate * setting.mean_diameter * std::sqrt(reference.mean_density / s) : 0;
+    const std::vector<std::uint8_t> free = rattlers(result, state.grains);
+    row.rattlers                         = int(std::count(free.begin(), free.end(), 1));
+    row.spin_term_share                  = s > 0 ? spin / area / s : 0;
+    row.unbalanced_force                 = result.unbalanced_force;
+    row.platen_sliding                   = sliding_share(result, state, setting);
+    row.skew_moment                      = sums.square > 0 ? std::sqrt(sums.skew_square / sums.square) : 0;
+  }
+} // namespace diptych::discrete

@@ -1,0 +1,195 @@
+// diptych: how a prepared sample is loaded
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/panel/loading.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "discrete/samples/sample_file.h"
+#include "discrete/samples/sample_preparation.h"
+
+namespace diptych::discrete
+{
+  namespace
+  {
+    std::optional<double> number_of(const std::string &text)
+    {
+      char        *end    = nullptr;
+      const double number = std::strtod(text.c_str(), &end);
+      return end != text.c_str() && *end == '\0' && std::isfinite(number) ? std::optional<double>(number) : std::nullopt;
+    }
+
+    // A number, or the CSV file of that name.
+    TimeTable table_of(const std::string &key, const std::string &text, const std::string &column)
+    {
+      if (const std::optional<double> number = number_of(text))
+        return {{0.}, {*number}};
+      try
+        {
+          return read_time_table(text, column);
+        }
+      catch (const std::exception &error)
+        {
+          throw std::invalid_argument(key + " = '" + column + " " + text + "': " + error.what());
+        }
+    }
+
+    // Velocity of the upper platen in the modes that prescribe one.
+    Eigen::Vector2d platen_velocity(const Loading &loading, const double speed)
+    {
+      switch (loading.mode)
+        {
+        case LoadingMode::descent:
+          return {loading.horizontal_over_vertical * speed, -speed};
+        case LoadingMode::shear:
+        case LoadingMode::plane_shear:
+          return {speed, 0};
+        case LoadingMode::time:
+          break;
+        }
+      return {0, 0};
+    }
+
+    void set_lateral_drives(State &state, const LoadingStart &start)
+    {
+      const LateralCondition lateral = lateral_condition(start.lateral);
+      const double           mass    = start.lateral.wall_mass > 0 ? start.lateral.wall_mass : default_wall_mass(state.grains);
+      for (Wall &wall : state.walls)
+        wall.mass = mass;
+      if (const auto *sides = std::get_if<RigidSides>(&lateral))
+        {
+          if (sides->velocity)
+            state.walls[3].velocity.x() = *sides->velocity;
+          else
+            state.walls[3].drive_x = AppliedPressure{start.loading.pressure};
+        }
+      else if (const auto *periodic = std::get_if<PeriodicSides>(&lateral))
+        {
+          state.cell->mass = mass;
+          if (periodic->free_width)
+            state.cell->pressure = start.loading.pressure;
+          else
+            state.cell->velocity = periodic->velocity;
+        }
+    }
+
+    void set_wall_drives(State &state, const WallDriveOptions &o)
+    {
+      for_each_drive(o, [&](const std::size_t w, const int axis, const std::string &name, const DriveOption &option) {
+        if (option.is_auto())
+          return;
+        const std::string key = "discrete/" + name;
+        if (w >= state.walls.size())
+          throw std::invalid_argument(key + " = '" + text_of(option) + "': there is no such wall unless lateral = rigid_walls");
+        (axis == 0 ? state.walls[w].drive_x : state.walls[w].drive_y) = read_drive(key, option);
+      });
+    }
+  } // namespace
+
+  DriveOption::DriveOption(const std::string &text)
+  {
+    const std::size_t blank = text.find(' '), begin = text.find_first_not_of(' ', blank);
+    const std::string word = text.substr(0, blank);
+    value                  = begin == std::string::npos ? "" : text.substr(begin);
+    if (word == "auto" && value.empty())
+      return;
+    if ((word != "velocity" && word != "force") || value.empty())
+      throw std::invalid_argument("'" + text +
+                                  "' is not allowed: auto, velocity V or force F is, V and F a number or a CSV file");
+    kind = word == "velocity" ? Kind::velocity : Kind::force;
+  }
+
+  bool DriveOption::names_a_file() const
+  {
+    return !is_auto() && !number_of(value);
+  }
+
+  std::string text_of(const DriveOption &option)
+  {
+    if (option.is_auto())
+      return "auto";
+    return (option.kind == DriveOption::Kind::velocity ? "velocity " : "force ") + option.value;
+  }
+
+  Drive read_drive(const std::string &key, const DriveOption &option)
+  {
+    switch (option.kind)
+      {
+      case DriveOption::Kind::velocity:
+        return PrescribedVelocity{table_of(key, option.value, "velocity")};
+      case DriveOption::Kind::force:
+        return AppliedForce{table_of(key, option.value, "force")};
+      case DriveOption::Kind::automatic:
+        break;
+      }
+    return KeptVelocity{};
+  }
+
+  void validate(const WallDriveOptions &options)
+  {
+    for_each_drive(
+      options, [](int, int, const std::string &key, const DriveOption &option) { (void)read_drive("discrete/" + key, option); });
+  }
+
+  double strain_rate(const Loading &loading, const double mean_diameter, const double density)
+  {
+    if (loading.mode == LoadingMode::time)
+      return 1;
+    if (loading.strain_rate > 0)
+      return loading.strain_rate;
+    return loading.inertial_number / mean_diameter * std::sqrt(loading.pressure / density);
+  }
+
+  void set_drives(State &state, const LoadingStart &start)
+  {
+    for (Wall &wall : state.walls)
+      wall.drive_x = wall.drive_y = KeptVelocity{};
+    if (state.cell)
+      state.cell->pressure.reset();
+    set_lateral_drives(state, start);
+    if (start.loading.mode == LoadingMode::plane_shear)
+      state.walls[1].drive_y = AppliedPressure{start.loading.normal_pressure};
+    set_wall_drives(state, start.drives);
+    validate_walls(state);
+  }
+
+  void start_loading(State &state, const LoadingStart &start)
+  {
+    const Loading         &loading = start.loading;
+    const double           bottom = state.walls[0].point.y(), height = sample_height(state);
+    const Eigen::Vector2d  velocity = platen_velocity(loading, start.rate * height);
+    const LateralCondition lateral  = lateral_condition(start.lateral);
+    Grains                &g        = state.grains;
+    state.time                      = 0;
+    for (std::size_t i = 0; i < g.size(); ++i)
+      {
+        g.rotation[i] = 0;
+        if (loading.mode == LoadingMode::time || g.fixed[i])
+          continue; // as they were read or prepared
+        g.velocity[i] = loading.affine_start ? Eigen::Vector2d(velocity * (g.position[i].y() - bottom) / height)
+                                             : Eigen::Vector2d::Zero();
+        g.spin[i]     = loading.affine_start ? -0.5 * velocity.x() / height : 0.; // that of the field
+      }
+    for (Wall &wall : state.walls)
+      wall.velocity.setZero();
+    state.walls[1].velocity = velocity;
+    if (const auto *sides = std::get_if<RigidSides>(&lateral); sides && sides->velocity)
+      state.walls[3].velocity.x() = *sides->velocity;
+    if (const auto *periodic = std::get_if<PeriodicSides>(&lateral))
+      state.cell->velocity = periodic->free_width ? 0. : periodic->velocity;
+    set_drives(state, start);
+    for (Wall &wall : state.walls)
+      wall.velocity = prescribed_wall_velocity(wall, 0.);
+  }
+
+  double loading_progress(const State           &state,
+                          const LoadingMode      mode,
+                          const Eigen::Vector2d &initial_platen,
+                          const double           initial_height)
+  {
+    const Eigen::Vector2d travel = state.walls[1].point - initial_platen;
+    if (mode == LoadingMode::time)
+      return state.time;
+    return (mode == LoadingMode::descent ? -travel.y() : travel.x()) / initial_height;
+  }
+} // namespace diptych::discrete

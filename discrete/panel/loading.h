@@ -1,0 +1,120 @@
+// diptych: how a prepared sample is loaded
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "discrete/bodies/boundary.h"
+#include "discrete/choices.h"
+#include "discrete/walk.h"
+
+namespace diptych::discrete
+{
+  enum class LoadingMode
+  {
+    descent,     // the upper platen moves down and sideways at constant speed
+    shear,       // it moves sideways at constant height
+    plane_shear, // it moves sideways and carries normal_pressure x width, free to rise and sink
+    time         // walls move as their keys say; stages are times
+  };
+
+  constexpr auto choices(LoadingMode)
+  {
+    return std::array{std::pair{LoadingMode::descent, "descent"}, std::pair{LoadingMode::shear, "shear"},
+                      std::pair{LoadingMode::plane_shear, "plane_shear"}, std::pair{LoadingMode::time, "time"}};
+  }
+
+  constexpr Walk walk_of(const LoadingMode mode)
+  {
+    return mode == LoadingMode::descent ? Walk::axial_strain : mode == LoadingMode::time ? Walk::time : Walk::shear_strain;
+  }
+
+  struct Loading
+  {
+    double              pressure                 = 1;    // P of the lateral condition
+    double              inertial_number          = 3e-5; // I = rate d sqrt(rho/P), rate = speed of the upper platen / height
+    double              horizontal_over_vertical = 1;    // descent: travel to the right per descent; 1: 45 degrees
+    std::vector<double> stages; // strains (mode time: times) at which a snapshot is made, ascending; the last is the end
+    bool                affine_start    = true; // grains start with the velocities of the affine field between the platens
+    LoadingMode         mode            = LoadingMode::descent;
+    double              strain_rate     = 0; // if not 0, in the place of the one that follows from inertial_number [1/time]
+    double              normal_pressure = 1; // plane_shear, on the upper platen
+  };
+
+  // One component of a wall's motion as a scene says it: "auto" (what the loading and the lateral condition say), "velocity V"
+  // or "force F", V and F a number or a CSV file with the columns time, velocity (or force), piecewise linear; times count from
+  // the start of the loading. Forces act on the wall, per unit thickness.
+  struct DriveOption
+  {
+    enum class Kind
+    {
+      automatic,
+      velocity,
+      force
+    };
+    Kind        kind = Kind::automatic;
+    std::string value; // a number, or the path of a table
+
+    DriveOption() = default;
+    // Throws std::invalid_argument where the text is none of the three.
+    DriveOption(const std::string &text);
+    DriveOption(const char *text)
+        : DriveOption(std::string(text))
+    {}
+
+    bool is_auto() const { return kind == Kind::automatic; }
+    bool names_a_file() const; // the value is no number
+  };
+  std::string text_of(const DriveOption &option);
+
+  struct WallDriveOptions
+  {
+    DriveOption lower_x, lower_y, upper_x, upper_y, left_x, left_y, right_x, right_y;
+  };
+
+  // The one place that knows the eight of them: visit(wall as in State::walls, axis, key, option).
+  template <class Options, class Visit> void for_each_drive(Options &o, Visit &&visit)
+  {
+    visit(0, 0, "drive_lower_x", o.lower_x), visit(0, 1, "drive_lower_y", o.lower_y);
+    visit(1, 0, "drive_upper_x", o.upper_x), visit(1, 1, "drive_upper_y", o.upper_y);
+    visit(2, 0, "drive_left_x", o.left_x), visit(2, 1, "drive_left_y", o.left_y);
+    visit(3, 0, "drive_right_x", o.right_x), visit(3, 1, "drive_right_y", o.right_y);
+  }
+
+  template <class Visitor> void visit_parameters(WallDriveOptions &o, Visitor &&visitor)
+  {
+    constexpr const char *wall[] = {"lower platen", "upper platen", "left wall of lateral = rigid_walls",
+                                    "right wall of lateral = rigid_walls"};
+    for_each_drive(o, [&](const int w, const int axis, const char *key, DriveOption &option) {
+      const std::string meaning = std::string(axis == 0 ? "horizontal" : "vertical") + " motion of the " + wall[w] +
+                                  ": auto, velocity V or force F; V and F a number or a CSV file with the columns time and "
+                                  "velocity (or force). A component under a force moves freely";
+      visitor(key, option, "-", meaning.c_str());
+    });
+  }
+
+  // Throws std::invalid_argument naming the key and what is wrong with its value; `key` is for the message.
+  Drive read_drive(const std::string &key, const DriveOption &option);
+  void  validate(const WallDriveOptions &options);
+
+  // Strain rate of the loading: given, or from the inertial number [1/time]. Mode time: 1, so that stages are times.
+  double strain_rate(const Loading &loading, double mean_diameter, double density);
+
+  // Sets the drives of walls and cell, wall velocities and, where wanted, the affine velocity field of the grains. `height`:
+  // of the prepared sample.
+  struct LoadingStart
+  {
+    const Loading          &loading;
+    const LateralOptions   &lateral;
+    const WallDriveOptions &drives;
+    double                  rate; // of strain_rate()
+  };
+  void start_loading(State &state, const LoadingStart &start);
+
+  // The drives and masses alone; velocities stay as they are. For a loading that goes on.
+  void set_drives(State &state, const LoadingStart &start);
+
+  // How far the loading is at the present positions: descent or travel of the upper platen / initial height, or the time.
+  double loading_progress(const State &state, LoadingMode mode, const Eigen::Vector2d &initial_platen, double initial_height);
+} // namespace diptych::discrete

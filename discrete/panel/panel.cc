@@ -1,0 +1,403 @@
+// diptych: the discrete panel, a grain sample loaded through a list of stages
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/panel/panel.h"
+
+#include <cmath>
+#include <ctime>
+#include <sstream>
+#include <stdexcept>
+
+#include "discrete/contacts/internal_moment.h"
+#include "discrete/panel/make_snapshot.h"
+#include "discrete/stepping/step_rule.h"
+
+namespace diptych::discrete
+{
+  namespace
+  {
+    double cpu_seconds()
+    {
+      return double(std::clock()) / CLOCKS_PER_SEC;
+    }
+
+    void scale_impulses(State &state, const double factor)
+    {
+      if (factor == 1)
+        return;
+      for (PairImpulse &r : state.impulses)
+        r.normal *= factor, r.tangential *= factor;
+    }
+  } // namespace
+
+  // A sample under way: what changes is in `now`, the rest stays.
+  class Panel::Course
+  {
+  public:
+    Course(const SampleOptions         &sample,
+           const Loading               &loading,
+           const Options               &options,
+           Hooks                        hooks,
+           const std::optional<Grains> &grains)
+        : sample_(sample),
+          loading_(loading),
+          options_(options),
+          hooks_(std::move(hooks)),
+          grains_(grains),
+          rate_(strain_rate(loading, sample.mean_diameter, sample.density))
+    {
+      validate(sample, loading, options);
+      setting_.time          = options.time;
+      setting_.law           = options.law;
+      setting_.solver        = options.solver;
+      setting_.lateral       = lateral_condition(options.lateral);
+      setting_.pressure      = loading.pressure;
+      setting_.mean_diameter = sample.mean_diameter;
+      cache_.team            = std::make_shared<ThreadTeam>(options.threads);
+    }
+
+    Checkpoint now;
+
+    // False where it did not get quiet.
+    bool prepare()
+    {
+      const double   start    = cpu_seconds();
+      Report        &report   = now.report;
+      PreparedSample prepared = prepare_sample(
+        sample_, preparation_setting(loading_, options_),
+        [&](const int step, const int expected) {
+          tell("preparing the sample", std::min(1., double(step) / expected));
+          return !stop_requested();
+        },
+        grains_ ? &*grains_ : nullptr);
+      now.state                = std::move(prepared.state);
+      now.step                 = prepared.step; // that of the impulses
+      report.preparation       = prepared.report;
+      report.preparation_cpu_s = cpu_seconds() - start;
+      report.initial_height    = sample_height(now.state);
+      report.platen_speed      = loading_.mode == LoadingMode::time ? 0 : rate_ * report.initial_height;
+      if (!prepared.report.quiet)
+        {
+          note_unrest();
+          return false;
+        }
+      StepSetting setting;
+      setting.step          = prepared.step;
+      setting.law           = {prepared.report.friction, prepared.report.friction, 0, 0, prepared.report.friction};
+      setting.mean_diameter = setting_.mean_diameter;
+      prepared_       = make_snapshot(now.state, prepared.last_step, {}, make_reference(now.state, setting_.mean_diameter, 0.),
+                                      setting);
+      prepared_->walk = walk_of(loading_.mode);
+      start_loading(now.state, {loading_, options_.lateral, options_.drives, rate_});
+      now.reference = make_reference(now.state, setting_.mean_diameter, loading_.mode == LoadingMode::time ? 0. : rate_);
+      return true;
+    }
+
+    void resume(const Checkpoint &checkpoint)
+    {
+      now           = checkpoint;
+      setting_.step = now.step;
+      set_drives(now.state, {loading_, options_.lateral, options_.drives, rate_});
+    }
+
+    void load_to_stage(const int stage)
+    {
+      if (now.report.status == Status::stopped_by_user)
+        now.report.status = Status::finished; // and now it is to go on
+      while (now.stage < stage && now.report.status == Status::finished)
+        {
+          if (now.steps_left == 0)
+            plan_stage();
+          while (now.steps_left > 0 && now.report.status == Status::finished)
+            {
+              if (hooks_.before_step)
+                hooks_.before_step();
+              if (stop_requested())
+                now.report.status = Status::stopped_by_user;
+              else
+                step();
+            }
+          if (now.report.status == Status::finished)
+            ++now.stage;
+        }
+    }
+
+    bool has_snapshot() const { return prepared_ || (now.window.time > 0 && last_step_ > 0); }
+
+    Snapshot snapshot() const
+    {
+      if (prepared_)
+        return *prepared_;
+      StepSetting setting          = setting_;
+      setting.step                 = last_step_;
+      Snapshot snapshot            = make_snapshot(now.state, last_, now.window, now.reference, setting);
+      snapshot.error_over_residual = now.report.error_over_residual;
+      snapshot.progress            = now.report.progress;
+      snapshot.walk                = walk_of(loading_.mode);
+      return snapshot;
+    }
+
+  private:
+    bool penalty() const { return options_.method.method == Method::penalty; }
+    bool stop_requested() const { return hooks_.stop_requested && hooks_.stop_requested(); }
+
+    void tell(const std::string &phase, const double fraction) const
+    {
+      if (hooks_.on_progress)
+        hooks_.on_progress(phase, fraction);
+    }
+
+    void note_unrest()
+    {
+      now.report.status = stop_requested() ? Status::stopped_by_user : Status::not_converged;
+      std::ostringstream text;
+      text << "the sample was not quiet after " << now.report.preparation.steps << " preparation steps: residual "
+           << now.report.preparation.residual << ", unbalanced force " << now.report.preparation.unbalanced_force
+           << "; a little sample/preparation_friction quiets slender or tiny samples";
+      now.report.message = text.str();
+    }
+
+    // Begins the next stage: its step, in whole numbers, and a new window.
+    void plan_stage()
+    {
+      prepared_.reset();
+      now.window.reset();
+      const double from     = now.stage == 0 ? 0. : loading_.stages[now.stage - 1];
+      const double duration = (loading_.stages[now.stage] - from) / rate_;
+      const double wanted   = wanted_step();
+      now.steps_left        = std::max(1L, long(std::ceil(duration / wanted - 1e-9)));
+      const double fitted   = duration / double(now.steps_left);
+      if (now.step > 0)
+        scale_impulses(now.state, fitted / now.step);
+      springs_.impulse_step = fitted;
+      now.step = setting_.step = now.report.step = fitted;
+      now.interval                               = options_.method.history_interval > 0 ? options_.method.history_interval
+                                                   : penalty()                          ? std::max(1L, now.steps_left / 1000)
+                                                                                        : 1;
+    }
+
+    double wanted_step()
+    {
+      if (penalty())
+        return penalty_step(now.state.grains, options_.penalty.stiffness * loading_.pressure, options_.penalty.step_fraction);
+      if (options_.time.step)
+        return *options_.time.step;
+      const double     rate   = loading_.mode == LoadingMode::time ? 0 : rate_;
+      const double     stress = now.row.step > 0 ? 0.5 * now.row.stress.trace() : loading_.pressure;
+      const StepChoice choice = choose_step(now.state, setting_, stress, rate);
+      if (!std::isfinite(choice.step))
+        throw std::invalid_argument("discrete/step = auto: nothing moves and nothing presses, so no step follows; give one");
+      now.report.step_bound = choice.bound;
+      return choice.step;
+    }
+
+    StepResult next()
+    {
+      if (penalty())
+        return advance_penalty(now.state, springs_, setting_, options_.penalty);
+      SampleRequest request{options_.sampling, std::isnan(now.report.reference_residual)};
+      if (options_.method.store_problems && hooks_.on_problem)
+        request.on_problem = [this](const ContactProblem &problem, const std::vector<Contact> &contacts,
+                                    const std::vector<Impulse> &r) { store(problem, contacts, r); };
+      return advance(now.state, setting_, cache_, now.steps_left == 1 ? &request : nullptr);
+    }
+
+    void store(const ContactProblem &problem, const std::vector<Contact> &contacts, const std::vector<Impulse> &impulses) const
+    {
+      // Contacts were found at mid-step.
+      const Grains  &g = now.state.grains;
+      StoredGeometry geometry{setting_.step, {}, g.radius, g.position};
+      for (std::size_t i = 0; i < g.size(); ++i)
+        geometry.position[i] += 0.5 * setting_.step * g.velocity[i];
+      for (const Contact &c : contacts)
+        geometry.gap.push_back(c.gap);
+      hooks_.on_problem(now.stage + 1, problem, geometry, impulses);
+    }
+
+    void note_accuracy(const SampledAccuracy &accuracy)
+    {
+      ++now.report.snapshots_sampled;
+      now.report.snapshots_accurate += accuracy.reached;
+      if (std::isnan(accuracy.reference_residual))
+        return;
+      now.report.error_over_residual = accuracy.error_over_residual;
+      now.report.reference_residual  = accuracy.reference_residual;
+      now.report.reference_error     = accuracy.true_error;
+      now.report.estimated_error     = accuracy.stress_error;
+    }
+
+    // Impulses are given and taken in pairs: more than round-off means that the program is wrong.
+    void check_momentum(const double residual) const
+    {
+      constexpr double round_off = 1e-10;
+      if (residual <= round_off)
+        return;
+      std::ostringstream text;
+      text << "the balance of momentum is violated in step " << now.row.step + 1 << ": " << residual
+           << " of the contact impulses, more than round-off";
+      throw std::logic_error(text.str());
+    }
+
+    void note_failure(const SolveReport &solve)
+    {
+      now.report.status = Status::not_converged;
+      std::ostringstream text;
+      text << "step " << now.row.step + 1 << " at " << text_of(walk_of(loading_.mode), now.report.progress);
+      if (penalty())
+        text << " blew up: a grain went further than its radius in one step, penalty_step_fraction is "
+             << options_.penalty.step_fraction;
+      else
+        text << " did not converge: residual " << solve.residual << " after " << solve.sweeps << " sweeps, wanted "
+             << setting_.solver.tolerance << ", nor did its halves, down to a step of " << setting_.step
+             << "; a larger step, tolerance or max_sweeps may help";
+      now.report.message = text.str();
+    }
+
+    // Where nothing gives way between prescribed walls, rigid grains end up within each other.
+    bool interpenetrate(const double penetration)
+    {
+      constexpr double limit = 0.3; // mean diameters
+      if (penetration <= limit || penalty())
+        return false;
+      now.report.status = Status::not_converged;
+      std::ostringstream text;
+      text << "step " << now.row.step << ": grains interpenetrate by " << penetration << " mean diameters";
+      now.report.message = text.str();
+      return true;
+    }
+
+    // A step on which the sweeps stall is taken in two halves, these in halves again if need be: another problem, which
+    // they mostly solve. False, with the reason in the report, where the smallest does not converge either. On return the
+    // impulses of the state are those of a step of length h.
+    bool advance_by(const double h, const int halvings)
+    {
+      setting_.step     = h;
+      StepResult result = next();
+      now.report.solver_cpu_s += result.solve.cpu_s;
+      now.report.sweeps += result.solve.sweeps;
+      now.report.updates += result.solve.sweeps * long(result.contacts.size());
+      if (result.solve.status == SolveStatus::converged)
+        {
+          check_momentum(result.momentum_residual);
+          add_step(result, setting_, now.row);
+          now.window.add(result, spin_terms(now.state.grains), h);
+          if (result.accuracy)
+            note_accuracy(*result.accuracy);
+          const double penetration = result.largest_penetration / setting_.mean_diameter;
+          last_ = std::move(result), last_step_ = h;
+          return !interpenetrate(penetration);
+        }
+      if (halvings == 0)
+        {
+          note_failure(result.solve);
+          return false;
+        }
+      ++now.report.halved_steps;
+      scale_impulses(now.state, 0.5);
+      const bool done = advance_by(0.5 * h, halvings - 1) && advance_by(0.5 * h, halvings - 1);
+      scale_impulses(now.state, 2);
+      return done;
+    }
+
+    // One step, or the reason in the report why there is none.
+    void step()
+    {
+      constexpr int most_halvings = 3;
+      const double  begin         = cpu_seconds();
+      const bool    done          = advance_by(now.step, penalty() ? 0 : most_halvings);
+      now.report.loading_cpu_s += cpu_seconds() - begin;
+      const Eigen::Vector2d travel = now.state.walls[1].point - now.reference.platen;
+      now.report.axial_strain      = (0. - travel.y()) / now.reference.height;
+      now.report.shear_strain      = travel.x() / now.reference.height;
+      now.report.progress          = loading_progress(now.state, loading_.mode, now.reference.platen, now.reference.height);
+      if (!done)
+        return;
+      ++now.report.steps;
+      --now.steps_left;
+      if (now.steps_left % now.interval == 0)
+        {
+          describe_state(now.state, last_, now.reference, setting_, now.row);
+          now.row.progress = now.report.progress;
+          now.row.walk     = walk_of(loading_.mode);
+          if (hooks_.on_row)
+            hooks_.on_row(now.row);
+          now.row.max_penetration = now.row.momentum_residual = 0, now.row.sweeps = 0;
+        }
+      tell("loading the grains", now.report.progress / loading_.stages.back());
+    }
+
+    const SampleOptions         sample_;
+    const Loading               loading_;
+    const Options               options_;
+    const Hooks                 hooks_;
+    const std::optional<Grains> grains_;
+    const double                rate_;
+    StepSetting                 setting_;
+    StepCache                   cache_;
+    PenaltyState                springs_;
+    StepResult                  last_;
+    double                      last_step_ = 0; // its length
+    std::optional<Snapshot>     prepared_;      // until the first step
+  };
+
+  Panel::Panel(const SampleOptions         &sample,
+               const Loading               &loading,
+               const Options               &options,
+               Hooks                        hooks,
+               const std::optional<Grains> &grains)
+      : course(std::make_unique<Course>(sample, loading, options, std::move(hooks), grains))
+  {}
+
+  Panel::~Panel()                            = default;
+  Panel::Panel(Panel &&) noexcept            = default;
+  Panel &Panel::operator=(Panel &&) noexcept = default;
+
+  Status Panel::prepare()
+  {
+    (void)course->prepare(); // the report says why not
+    return course->now.report.status;
+  }
+
+  void Panel::resume(const Checkpoint &checkpoint)
+  {
+    course->resume(checkpoint);
+  }
+
+  Status Panel::advance_to(const int stage)
+  {
+    course->load_to_stage(stage);
+    return course->now.report.status;
+  }
+
+  Snapshot Panel::snapshot() const
+  {
+    return course->snapshot();
+  }
+
+  bool Panel::has_snapshot() const
+  {
+    return course->has_snapshot();
+  }
+
+  Checkpoint Panel::checkpoint() const
+  {
+    Checkpoint checkpoint    = course->now;
+    checkpoint.report.status = Status::finished;
+    checkpoint.report.message.clear();
+    return checkpoint;
+  }
+
+  const Report &Panel::report() const
+  {
+    return course->now.report;
+  }
+
+  int Panel::stage() const
+  {
+    return course->now.stage;
+  }
+
+  const Reference &Panel::reference() const
+  {
+    return course->now.reference;
+  }
+} // namespace diptych::discrete

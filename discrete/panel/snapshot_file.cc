@@ -1,0 +1,208 @@
+// diptych: result files of the discrete panel
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/panel/snapshot_file.h"
+
+#include <stdexcept>
+#include <type_traits>
+
+#include "discrete/files/field_arrays.h"
+#include "discrete/snapshot_fields.h"
+
+namespace diptych::discrete
+{
+  namespace
+  {
+    // What visit_contact_fields lists, as a function object.
+    const auto contact_fields = [](auto &entry, auto &&visit) { visit_contact_fields(entry, visit); };
+
+    void write_contacts(Hdf5Writer &file, const std::string &group, const std::vector<ContactForce> &contacts)
+    {
+      std::vector<int> body;
+      for (const ContactForce &c : contacts)
+        body.insert(body.end(), {c.i, c.j});
+      file.write(group + "/body", body, {contacts.size(), 2});
+      file.attribute(group + "/body", "meaning", contact_bodies);
+      for_each_column(contacts, contact_fields,
+                      [&](const std::string &name, const auto &values, const char *unit, const char *meaning) {
+                        write_field(file, group + "/" + name, values, unit, meaning);
+                      });
+    }
+
+    void write_impulses(Hdf5Writer &file, const std::string &name, const Snapshot &s)
+    {
+      std::vector<double> impulse;
+      for (const ContactForce &c : s.contacts)
+        {
+          const Eigen::Vector2d tangent(-c.normal.y(), c.normal.x());
+          impulse.insert(impulse.end(), {s.step * c.force.dot(c.normal), s.step * c.force.dot(tangent)});
+        }
+      file.write(name, impulse, {s.contacts.size(), 2});
+      file.attribute(name, "unit", "pressure length time");
+      file.attribute(name, "meaning", contact_impulses);
+    }
+
+    void write_stage(Hdf5Writer &file, const std::string &group, const Snapshot &s)
+    {
+      const auto write = [&](const std::string &name, const auto &values, const char *unit, const char *meaning) {
+        write_field(file, group + "/" + name, values, unit, meaning);
+      };
+      visit_grain_fields(s, write);
+      visit_contact_lists(s, [&](const std::string &name, const std::vector<ContactForce> &contacts, const char *, const char *) {
+        write_contacts(file, group + "/" + name, contacts);
+      });
+      write_impulses(file, group + "/contacts/impulse", s);
+      visit_contact_values(s, write);
+      visit_outline(
+        s, [&](const std::string &name, const std::vector<Eigen::Vector2d> &points, const char *unit, const char *meaning) {
+          file.write(group + "/" + name, points);
+          file.attribute(group + "/" + name, "unit", unit);
+          file.attribute(group + "/" + name, "meaning", meaning);
+        });
+      visit_attributes(s, [&](const char *name, const auto &value, const char *, const char *) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
+          file.attribute(group, name, value);
+        else
+          file.attribute(group, name, name_of(value));
+      });
+    }
+
+    std::vector<ContactForce> read_contacts(const Hdf5Reader  &file,
+                                            const std::string &group,
+                                            const std::size_t  n_grains,
+                                            const ArrayCheck  &check)
+    {
+      constexpr int          most_walls = 4;
+      const std::string      list       = group.substr(group.find_last_of('/') + 1) + "/";
+      const std::vector<int> body       = file.read_int(group + "/body");
+      if (body.size() % 2 != 0)
+        check.refuse(list + "body", "does not hold pairs");
+      std::vector<ContactForce> contacts(body.size() / 2);
+      for (std::size_t k = 0; k < contacts.size(); ++k)
+        {
+          contacts[k].i = body[2 * k], contacts[k].j = body[2 * k + 1];
+          if (contacts[k].i < 0 || contacts[k].i >= int(n_grains) || contacts[k].j < 0 ||
+              contacts[k].j >= int(n_grains) + most_walls)
+            check.refuse(list + "body", "names a body that does not exist, in row " + std::to_string(k) + " (counted from 0)");
+        }
+      set_columns(contacts, contact_fields, [&](const std::string &name, auto &values) {
+        values = read_field<typename std::decay_t<decltype(values)>::value_type>(file, group + "/" + name);
+        check.size(list + name, values.size(), contacts.size());
+        check.finite(list + name, values);
+      });
+      return contacts;
+    }
+
+    Snapshot read_stage(const Hdf5Reader &file, const std::string &group)
+    {
+      const ArrayCheck check{file.path() + ": " + group};
+      Snapshot         s;
+      visit_attributes(s, [&](const char *name, auto &value, const char *, const char *) {
+        using Value = std::decay_t<decltype(value)>;
+        if constexpr (std::is_same_v<Value, double>)
+          value = file.attribute(group, name);
+        else if (const auto known = value_of<Value>(file.text_attribute(group, name)))
+          value = *known;
+        else
+          check.refuse(name, "is none of the names it may have");
+      });
+      visit_grain_fields(s, [&](const std::string &name, auto &values, const char *, const char *) {
+        using Value = typename std::decay_t<decltype(values)>::value_type;
+        values      = read_field<Value>(file, group + "/" + name);
+        check.size(name, values.size(), s.position.size());
+        check.finite(name, values);
+      });
+      if (s.position.empty())
+        check.refuse("grains/position", "holds no grain");
+      visit_contact_lists(s, [&](const std::string &name, std::vector<ContactForce> &contacts, const char *, const char *) {
+        contacts = read_contacts(file, group + "/" + name, s.position.size(), check);
+      });
+      visit_contact_values(s, [&](const std::string &name, auto &values, const char *, const char *) {
+        using Value          = typename std::decay_t<decltype(values)>::value_type;
+        const bool of_window = name.rfind("window", 0) == 0;
+        if (of_window && !file.has(group + "/" + name))
+          return; // not every file tells what a pair dissipates
+        values = read_field<Value>(file, group + "/" + name);
+        check.size(name, values.size(), of_window ? s.window_forces.size() : s.contacts.size());
+        check.finite(name, values);
+      });
+      visit_outline(s, [&](const std::string &name, std::vector<Eigen::Vector2d> &points, const char *, const char *) {
+        points = file.read_vectors(group + "/" + name);
+        check.finite(name, points);
+        if (points.size() < 2)
+          check.refuse(name, "holds fewer than two points");
+      });
+      return s;
+    }
+  } // namespace
+
+  SnapshotFile::SnapshotFile(const std::string &path_without_ending)
+      : path(path_without_ending),
+        stages(path)
+  {}
+
+  SnapshotFile::SnapshotFile(const std::string &path_without_ending, const std::size_t kept)
+      : path(path_without_ending),
+        stages(path, kept)
+  {
+    if (kept > 0)
+      for (const Snapshot &snapshot : read_snapshots(path + ".h5"))
+        list(snapshot);
+  }
+
+  void SnapshotFile::add(const Snapshot &snapshot)
+  {
+    stages.add([&](Hdf5Writer &file, const std::string &group) { write_stage(file, group, snapshot); });
+    list(snapshot);
+    write_xdmf(path, collections);
+  }
+
+  void SnapshotFile::close()
+  {
+    stages.close();
+  }
+
+  // Grains, contacts and window forces of one instant as ParaView shows them.
+  void SnapshotFile::list(const Snapshot &s)
+  {
+    const std::string stage  = stage_name(collections[0].grids.size()) + "/";
+    const auto        points = [&](const char *name, const std::string &array, const std::size_t n) {
+      return XdmfGrid{stage + name, s.progress, {stage + name + "/" + array, {n, 3}}, {}, {}};
+    };
+    XdmfGrid grains = points("grains", "position", s.position.size()), contacts = points("contacts", "point", s.contacts.size()),
+             window = points("window", "point", s.window_forces.size());
+    visit_grain_fields(s, [&](const std::string &name, const auto &values, const char *, const char *) {
+      if (name != "grains/position")
+        grains.attributes.push_back(xdmf_field(stage + name, values));
+    });
+    visit_contact_lists(s, [&](const std::string &list, const std::vector<ContactForce> &entries, const char *, const char *) {
+      for_each_column(entries, contact_fields, [&](const std::string &name, const auto &values, const char *, const char *) {
+        if (name != "point")
+          (list == "contacts" ? contacts : window).attributes.push_back(xdmf_field(stage + list + "/" + name, values));
+      });
+    });
+    visit_contact_values(s, [&](const std::string &name, const auto &values, const char *, const char *) {
+      (name.rfind("contacts/", 0) == 0 ? contacts : window).attributes.push_back(xdmf_field(stage + name, values));
+    });
+    collections[0].grids.push_back(std::move(grains));
+    collections[1].grids.push_back(std::move(contacts));
+    collections[2].grids.push_back(std::move(window));
+  }
+
+  void write_snapshots(const std::string &path_without_ending, const std::vector<Snapshot> &snapshots)
+  {
+    SnapshotFile file(path_without_ending);
+    for (const Snapshot &snapshot : snapshots)
+      file.add(snapshot);
+    file.close();
+  }
+
+  std::vector<Snapshot> read_snapshots(const std::string &h5_path)
+  {
+    const Hdf5Reader      file(h5_path);
+    const std::size_t     n = count_stages(file);
+    std::vector<Snapshot> snapshots;
+    for (std::size_t k = 0; k < n; ++k)
+      snapshots.push_back(read_stage(file, stage_name(k)));
+    return snapshots;
+  }
+} // namespace diptych::discrete

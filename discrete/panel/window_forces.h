@@ -1,0 +1,36 @@
+// diptych: mean contact forces and friction dissipation over a window of steps
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "discrete/snapshot.h"
+#include "discrete/stepping/time_stepping.h"
+
+namespace diptych::discrete
+{
+  // Sums impulse and friction dissipation of every pair that touches, and the spin term of every grain, over the steps since the
+  // last reset.
+  // Contacts of rigid grains make and break within a few steps: single steps scatter, their mean is the stress.
+  struct WindowForces
+  {
+    struct PairSum
+    {
+      int             i, j;
+      double          dissipation; // by friction [energy]
+      double          impact;      // dissipated along the normal [energy]
+      Eigen::Vector2d impulse;     // on i
+    };
+    std::vector<PairSum> sums;     // ascending in (i, j)
+    std::vector<double>  spin;     // sum of step x spin term, of each grain
+    double               time = 0; // of the steps
+
+    void add(const StepResult &result, const std::vector<double> &spin_term, double step);
+    void reset() { *this = WindowForces(); }
+
+    std::vector<double> mean_spin_term() const;
+    // Mean force of every pair, placed at its contact point in `state` (between the surfaces if they have parted).
+    std::vector<ContactForce> mean_forces(const State &state) const;
+    // Sum, not mean, of each entry of mean_forces(). [energy]
+    std::vector<double> dissipation() const;
+    std::vector<double> impact_dissipation() const;
+  };
+} // namespace diptych::discrete

@@ -1,0 +1,63 @@
+// diptych: FCLIB files as input that may be wrong
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <Eigen/SparseCore>
+
+#include "discrete/contacts/contact_problem.h"
+#include "discrete/problem_files/delassus_problem.h"
+#include "discrete/files/hdf5_file.h"
+
+namespace diptych::discrete
+{
+  template <class... Parts> std::string text(const Parts &...parts)
+  {
+    std::ostringstream out;
+    (out << ... << parts);
+    return out.str();
+  }
+
+  // An HDF5 file whose every defect is wrong input: all functions throw std::invalid_argument naming file, dataset and values.
+  class FclibInput
+  {
+  public:
+    explicit FclibInput(const std::string &path);
+
+    [[noreturn]] void refuse(const std::string &name, const std::string &what) const;
+
+    bool                has(const std::string &name) const { return reader_.has(name); }
+    std::vector<double> numbers(const std::string &name) const; // all finite
+    std::vector<double> numbers(const std::string &name, std::size_t n) const;
+    std::vector<int>    integers(const std::string &name) const;
+    int                 integer(const std::string &name) const;
+    Eigen::VectorXd     vector(const std::string &name, std::size_t n) const;
+
+    // By rows (nz = -2: p row offsets, i columns), by columns (nz = -1: p column offsets, i rows) or triplets (nz of them: p
+    // columns, i rows); entries of one place are added.
+    Eigen::SparseMatrix<double> matrix(const std::string &name, long n_rows, long n_columns) const;
+
+  private:
+    using Places = std::vector<std::pair<int, int>>; // (row, column) of each entry
+
+    Places places(const std::string &name, int m, int n) const;
+    Places compressed(const std::string &name, int n_lines) const;
+
+    std::string path_;
+    Hdf5Reader  reader_;
+  };
+
+  // The body form of /nscd, rows in the order of the file and swept from bottom to top; or the reason why there is none.
+  struct BodyForm
+  {
+    std::optional<ContactProblem> bodies;
+    std::string                   reason;
+  };
+
+  // `local` holds W, q and mu of the same file. Throws like FclibInput where /nscd is malformed.
+  BodyForm read_body_form(const FclibInput &file, const DelassusProblem &local);
+} // namespace diptych::discrete

@@ -1,0 +1,328 @@
+// diptych: grains and time tables read from files, checked before anything is computed
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/samples/sample_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "discrete/contacts/contact_detection.h"
+#include "discrete/files/csv_file.h"
+#include "discrete/files/hdf5_file.h"
+#include "discrete/files/staged_file.h"
+#include "discrete/files/text_file.h"
+
+namespace diptych::discrete
+{
+  namespace
+  {
+    // Beyond these no unit system leads; they keep squares and cell numbers within double and int.
+    constexpr double smallest_length = 1e-12, largest_magnitude = 1e12;
+
+    // Platens and side walls: bodies n_grains to n_grains + 3.
+    constexpr int most_walls = 4;
+
+    void check_magnitude(const CsvTable &csv, const std::size_t row, const std::string &column)
+    {
+      if (std::abs(csv.at(row, column)) > largest_magnitude)
+        refuse_cell(csv, row, column, "-1e12 to 1e12");
+    }
+
+    double cell_or_zero(const CsvTable &csv, const std::size_t row, const std::string &column)
+    {
+      if (!csv.find(column))
+        return 0;
+      check_magnitude(csv, row, column);
+      return csv.at(row, column);
+    }
+
+    void add_grain_of_row(const CsvTable &csv, const std::size_t row, const double density, Grains &grains)
+    {
+      for (const char *column : {"x", "y"})
+        check_magnitude(csv, row, column);
+      const double r = csv.at(row, "r");
+      if (!(r >= smallest_length && r <= largest_magnitude))
+        refuse_cell(csv, row, "r", "more than 0: 1e-12 to 1e12");
+      const double fixed = cell_or_zero(csv, row, "fixed");
+      if (fixed != 0 && fixed != 1)
+        refuse_cell(csv, row, "fixed", "0 or 1");
+      add_grain(grains, {csv.at(row, "x"), csv.at(row, "y")}, r, density);
+      grains.velocity.back() = {cell_or_zero(csv, row, "vx"), cell_or_zero(csv, row, "vy")};
+      grains.spin.back()     = cell_or_zero(csv, row, "omega");
+      grains.fixed.back()    = std::uint8_t(fixed);
+    }
+
+    int chosen_stage(const Hdf5Reader &file, const std::string &path, const int wanted)
+    {
+      const int n_stages = int(count_stages(file));
+      if (wanted < -1 || wanted >= n_stages)
+        throw std::invalid_argument(path + ": holds no stage " + std::to_string(wanted) + "; allowed: 0 to " +
+                                    std::to_string(n_stages - 1) + ", or -1 for the last");
+      return wanted == -1 ? n_stages - 1 : wanted;
+    }
+
+    // Reads datasets of one stage and says which one is wrong.
+    struct StageReader
+    {
+      // Of a wall; NaN where there is none or the file does not tell.
+      double place(const std::string &name) const
+      {
+        const double value = file.has_attribute(group, name) ? file.attribute(group, name) : NAN;
+        return std::abs(value) <= largest_magnitude ? value : NAN;
+      }
+
+      const Hdf5Reader &file;
+      std::string       path, group;
+
+      [[noreturn]] void refuse(const std::string &dataset, const std::string &what) const
+      {
+        throw std::invalid_argument(path + ", dataset '" + group + "/" + dataset + "': " + what);
+      }
+
+      void check_size(const std::string &dataset, const std::size_t size, const std::size_t wanted) const
+      {
+        if (size != wanted)
+          refuse(dataset, std::to_string(size) + " entries; allowed: " + std::to_string(wanted));
+      }
+
+      void check_value(const std::string &dataset, const std::size_t row, const double value, const double low) const
+      {
+        if (!(value >= low && value <= largest_magnitude))
+          refuse(dataset, "entry " + std::to_string(row) + " (counted from 0) = " + exact_text(value) +
+                            " is out of range; allowed: " + exact_text(low) + " to 1e12");
+      }
+
+      std::vector<double> numbers(const std::string &dataset, const std::size_t n, const double low) const
+      {
+        const std::vector<double> values = file.read(group + "/" + dataset);
+        check_size(dataset, values.size(), n);
+        for (std::size_t k = 0; k < n; ++k)
+          check_value(dataset, k, values[k], low);
+        return values;
+      }
+
+      std::vector<Eigen::Vector2d> vectors(const std::string &dataset, const std::size_t n) const
+      {
+        const std::vector<Eigen::Vector2d> values = file.read_vectors(group + "/" + dataset);
+        check_size(dataset, values.size(), n);
+        for (std::size_t k = 0; k < n; ++k)
+          for (const double value : values[k])
+            check_value(dataset, k, value, -largest_magnitude);
+        return values;
+      }
+
+      double attribute(const std::string &name, const double low) const
+      {
+        const double value = file.attribute(group, name);
+        if (!(value >= low && value <= largest_magnitude))
+          throw std::invalid_argument(path + ", attribute '" + name + "' of '" + group + "' = " + exact_text(value) +
+                                      " is out of range; allowed: " + exact_text(low) + " to 1e12");
+        return value;
+      }
+    };
+
+    std::vector<std::uint8_t> read_fixed(const StageReader &stage, const std::size_t n)
+    {
+      std::vector<std::uint8_t> fixed(n, 0);
+      if (!stage.file.has(stage.group + "/grains/fixed"))
+        return fixed;
+      const std::vector<double> values = stage.numbers("grains/fixed", n, 0.);
+      for (std::size_t k = 0; k < n; ++k)
+        {
+          if (values[k] != 0 && values[k] != 1)
+            stage.refuse("grains/fixed", "entry " + std::to_string(k) + " = " + exact_text(values[k]) + "; allowed: 0 or 1");
+          fixed[k] = std::uint8_t(values[k]);
+        }
+      return fixed;
+    }
+
+    Grains read_grains(const StageReader &stage)
+    {
+      const std::size_t n = stage.file.read(stage.group + "/grains/radius").size();
+      if (n == 0)
+        stage.refuse("grains/radius", "no grain; allowed: 1 or more");
+      Grains grains;
+      grains.radius   = stage.numbers("grains/radius", n, smallest_length);
+      grains.position = stage.vectors("grains/position", n);
+      grains.velocity = stage.vectors("grains/velocity", n);
+      grains.rotation = stage.numbers("grains/rotation", n, -largest_magnitude);
+      grains.spin     = stage.numbers("grains/spin", n, -largest_magnitude);
+      grains.mass     = stage.numbers("grains/mass", n, 0.);
+      grains.fixed    = read_fixed(stage, n);
+      for (std::size_t k = 0; k < n; ++k)
+        if (grains.mass[k] == 0)
+          stage.refuse("grains/mass", "entry " + std::to_string(k) + " (counted from 0) = 0; allowed: more than 0");
+      return grains;
+    }
+
+    // i is a grain, j > i a grain or one of the walls.
+    void check_pair(const StageReader &stage, const std::size_t row, const double i, const double j, const std::size_t n_grains)
+    {
+      const bool whole = i == std::floor(i) && j == std::floor(j);
+      if (!(whole && i >= 0 && i < double(n_grains) && j > i && j < double(n_grains + most_walls)))
+        stage.refuse("contacts/body", "row " + std::to_string(row) + " (counted from 0) = " + exact_text(i) + ", " +
+                                        exact_text(j) + "; allowed: 0 to " + std::to_string(n_grains - 1) +
+                                        ", and more than that to " + std::to_string(n_grains + most_walls - 1));
+    }
+
+    // Open contacts carry nothing and are left out, as in State.
+    std::vector<PairImpulse> read_impulses(const StageReader &stage, const std::size_t n_grains)
+    {
+      const std::string contacts = stage.group + "/contacts";
+      if (!stage.file.has(contacts) || (!stage.file.has(contacts + "/body") && !stage.file.has(contacts + "/impulse")))
+        return {};
+      const std::vector<double>          body    = stage.file.read(contacts + "/body");
+      const std::vector<Eigen::Vector2d> impulse = stage.vectors("contacts/impulse", body.size() / 2);
+      stage.check_size("contacts/body", body.size(), 2 * impulse.size());
+      std::vector<PairImpulse> impulses;
+      for (std::size_t k = 0; k < impulse.size(); ++k)
+        {
+          check_pair(stage, k, body[2 * k], body[2 * k + 1], n_grains);
+          if (impulse[k].x() != 0)
+            impulses.push_back({int(body[2 * k]), int(body[2 * k + 1]), impulse[k].x(), impulse[k].y()});
+        }
+      std::sort(impulses.begin(), impulses.end(),
+                [](const PairImpulse &a, const PairImpulse &b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
+      return impulses;
+    }
+
+    struct BoxSide
+    {
+      const char           *name;
+      std::optional<double> place; // along `axis`
+      int                   axis;
+      double                inward; // +1: grains lie at larger values
+    };
+
+    void check_against_side(const GrainFile &file, const BoxSide &side, const double allowed_overlap)
+    {
+      const Grains &g = file.grains;
+      for (std::size_t i = 0; i < g.size(); ++i)
+        {
+          const double surface   = g.position[i][side.axis] - side.inward * g.radius[i];
+          const double tolerance = (g.fixed[i] ? 2. : allowed_overlap) * g.radius[i]; // a fixed one may straddle it
+          if (side.inward * (*side.place - surface) <= tolerance)
+            continue;
+          const std::string axis = side.axis == 0 ? "x" : "y";
+          throw std::invalid_argument(
+            file.place(i) + ": " + axis + " = " + exact_text(g.position[i][side.axis]) + " with r = " + exact_text(g.radius[i]) +
+            " reaches to " + exact_text(surface) + ", beyond the " + side.name + " at " + axis + " = " + exact_text(*side.place) +
+            "; allowed: " + exact_text(*side.place - side.inward * tolerance) + (side.inward > 0 ? " or more" : " or less"));
+        }
+    }
+
+    // Overlap / smaller radius.
+    double relative_overlap(const Grains &g, const Contact &c)
+    {
+      return -c.gap / std::min(g.radius[c.i], g.radius[c.j]);
+    }
+
+    [[noreturn]] void refuse_overlap(const GrainFile &file, const Contact &worst, const int n_pairs, const double allowed)
+    {
+      const Grains &g   = file.grains;
+      const double  sum = g.radius[worst.i] + g.radius[worst.j];
+      throw std::invalid_argument(file.place(worst.i) + " and " + (file.line.empty() ? "grain " : "line ") +
+                                  std::to_string(file.line.empty() ? worst.j : file.line[worst.j]) + ": the grains overlap by " +
+                                  exact_text(relative_overlap(g, worst)) + " of the smaller radius, at the distance " +
+                                  exact_text(sum + worst.gap) + " with radii that add to " + exact_text(sum) +
+                                  "; allowed: an overlap of 0 to " + exact_text(allowed) + " (" + std::to_string(n_pairs) +
+                                  (n_pairs == 1 ? " such pair)" : " such pairs; this is the worst)"));
+    }
+
+    void check_overlaps(const GrainFile &file, const std::optional<double> &cell_width, const double allowed)
+    {
+      const Grains &g = file.grains;
+      State         state;
+      state.grains = g;
+      if (cell_width)
+        state.cell = PeriodicCell{*cell_width};
+      int                    n_pairs = 0;
+      std::optional<Contact> worst;
+      for (const Contact &c : find_contacts(state, std::vector<double>(g.size(), 0.)))
+        {
+          if (relative_overlap(g, c) <= allowed || (g.fixed[c.i] && g.fixed[c.j]))
+            continue;
+          ++n_pairs;
+          if (!worst || relative_overlap(g, c) > relative_overlap(g, *worst))
+            worst = c;
+        }
+      if (worst)
+        refuse_overlap(file, *worst, n_pairs, allowed);
+    }
+  } // namespace
+
+  std::string GrainFile::place(const std::size_t grain) const
+  {
+    return path +
+           (line.empty() ? ", grain " + std::to_string(grain) + " (counted from 0)" : ", line " + std::to_string(line[grain]));
+  }
+
+  GrainFile read_grains_csv(const std::string &path, const double density)
+  {
+    const CsvTable csv = read_csv(path, {{"x", "y", "r"}, {"vx", "vy", "omega", "fixed"}});
+    GrainFile      file{path, {}, csv.line};
+    for (std::size_t row = 0; row < csv.rows.size(); ++row)
+      add_grain_of_row(csv, row, density, file.grains);
+    return file;
+  }
+
+  void write_grains_csv(const std::string &path, const Grains &g)
+  {
+    std::string text = "x,y,r,vx,vy,omega,fixed\n";
+    for (std::size_t i = 0; i < g.size(); ++i)
+      {
+        for (const double value :
+             {g.position[i].x(), g.position[i].y(), g.radius[i], g.velocity[i].x(), g.velocity[i].y(), g.spin[i]})
+          text += exact_text(value) + ",";
+        text += g.fixed[i] ? "1\n" : "0\n";
+      }
+    write_text(path, text);
+  }
+
+  GrainFile read_grains_hdf5(const std::string &path, const int wanted)
+  {
+    const Hdf5Reader  file(path);
+    const int         number = chosen_stage(file, path, wanted);
+    const StageReader stage{file, path, stage_name(number)};
+    GrainFile         result{path, read_grains(stage)};
+    const double      lower_y = stage.attribute("lower_y", -largest_magnitude), upper_y = stage.attribute("upper_y", lower_y);
+    result.stage = StoredStage{number,
+                               stage.attribute("time", -largest_magnitude),
+                               stage.attribute("step", 0.),
+                               lower_y,
+                               upper_y,
+                               stage.place("left_x"),
+                               stage.place("right_x"),
+                               stage.attribute("mean_diameter", smallest_length),
+                               read_impulses(stage, result.grains.size())};
+    return result;
+  }
+
+  void check_grains(const GrainFile &file, const SampleBox &box, const double allowed_overlap)
+  {
+    const std::array<BoxSide, 4> sides = {{{"lower platen", box.lower_y, 1, 1.},
+                                           {"upper platen", box.upper_y, 1, -1.},
+                                           {"left wall", box.left_x, 0, 1.},
+                                           {"right wall", box.right_x, 0, -1.}}};
+    for (const BoxSide &side : sides)
+      if (side.place)
+        check_against_side(file, side, allowed_overlap);
+    check_overlaps(file, box.cell_width, allowed_overlap);
+  }
+
+  TimeTable read_time_table(const std::string &path, const std::string &column)
+  {
+    const CsvTable csv = read_csv(path, {{"time", column}, {}, true});
+    TimeTable      table;
+    for (std::size_t row = 0; row < csv.rows.size(); ++row)
+      {
+        const double time = csv.at(row, "time");
+        if (row > 0 && time <= table.time.back())
+          refuse_cell(csv, row, "time", "more than " + exact_text(table.time.back()) + ", the time before it");
+        table.time.push_back(time);
+        table.value.push_back(csv.at(row, column));
+      }
+    return table;
+  }
+} // namespace diptych::discrete

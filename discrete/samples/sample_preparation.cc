@@ -1,0 +1,434 @@
+// diptych: a grain sample between two platens, ready to be loaded
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/samples/sample_preparation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <stdexcept>
+
+#include "discrete/bodies/outline.h"
+#include "discrete/samples/sample_file.h"
+#include "discrete/samples/soft_relaxation.h"
+
+namespace diptych::discrete
+{
+  namespace
+  {
+    // std::uniform_real_distribution may differ between libraries; 53 bits of the generator do not.
+    double uniform(std::mt19937_64 &random)
+    {
+      return double(random() >> 11) * 0x1.0p-53;
+    }
+
+    RadiusDistribution distribution(const SampleOptions &o)
+    {
+      if (o.radius_distribution == RadiusKind::uniform_by_mass)
+        return UniformByMass{o.radius_min, o.radius_max};
+      if (o.radius_distribution == RadiusKind::table)
+        return read_radius_table(o.radius_table);
+      return UniformByNumber{o.radius_min, o.radius_max};
+    }
+
+    // Quantiles in random order: the mean diameter is exact for every seed. [length]
+    std::vector<double> radii(const SampleOptions &o, const int n, std::mt19937_64 &random)
+    {
+      std::vector<double> radius = radius_quantiles(distribution(o), n, RadiusScale::mean_diameter_one);
+      for (double &r : radius)
+        r *= o.mean_diameter;
+      for (int k = n - 1; k > 0; --k)
+        std::swap(radius[k], radius[int(uniform(random) * (k + 1))]);
+      return radius;
+    }
+
+    double disc_area(const std::vector<double> &radius)
+    {
+      double area = 0;
+      for (const double r : radius)
+        area += M_PI * r * r;
+      return area;
+    }
+
+    // Number of grains that fill width x height.
+    int count(const SampleOptions &o)
+    {
+      if (o.width <= 0 || o.height <= 0)
+        return o.grains;
+      const int           trial  = 1000;
+      std::vector<double> radius = radius_quantiles(distribution(o), trial, RadiusScale::mean_diameter_one);
+      const double        mean   = disc_area(radius) / trial * o.mean_diameter * o.mean_diameter;
+      return std::max(1, int(std::lround(o.width * o.height * o.solid_fraction / mean)));
+    }
+
+    // Width and height of the sample, from grain area and what the user gave.
+    Eigen::Vector2d sample_size(const SampleOptions &o, const double area)
+    {
+      const double whole = area / o.solid_fraction;
+      if (o.width > 0)
+        return {o.width, o.height > 0 ? o.height : whole / o.width};
+      if (o.height > 0)
+        return {whole / o.height, o.height};
+      const double height = std::sqrt(whole / o.width_over_height);
+      return {whole / height, height};
+    }
+
+    std::vector<Wall> box_walls(const double width, const double height)
+    {
+      std::vector<Wall> walls = {{{0, 0}, {0, 1}}, {{0, height}, {0, -1}}, {{0, 0}, {1, 0}}, {{width, 0}, {-1, 0}}};
+      walls[2].kind = walls[3].kind = WallKind::side;
+      return walls;
+    }
+
+    // Random centres in a box of the sample's height that is as wide as box_solid_fraction asks (a cell of fixed width: as
+    // high); periodic sides: a cell instead of side walls.
+    State random_box(const SampleOptions &o, const LateralCondition &lateral)
+    {
+      std::mt19937_64           random(o.seed);
+      const std::vector<double> radius   = radii(o, count(o), random);
+      const double              area     = disc_area(radius);
+      const Eigen::Vector2d     size     = sample_size(o, area);
+      const auto               *periodic = std::get_if<PeriodicSides>(&lateral);
+      const bool                is_fixed = periodic && !periodic->free_width;
+      const double              width    = is_fixed ? size.x() : area / (o.box_solid_fraction * size.y());
+      const double              height   = is_fixed ? area / (o.box_solid_fraction * size.x()) : size.y();
+
+      State state;
+      for (const double r : radius)
+        {
+          const double x = r + uniform(random) * (width - 2 * r), y = r + uniform(random) * (height - 2 * r);
+          add_grain(state.grains, {x, y}, r, o.density);
+        }
+      state.walls = box_walls(width, height);
+      if (periodic)
+        {
+          state.walls.resize(2);
+          state.cell = PeriodicCell{width};
+        }
+      return state;
+    }
+
+    State numbered_upward(const State &state)
+    {
+      const Grains    &g = state.grains;
+      std::vector<int> order(g.size());
+      std::iota(order.begin(), order.end(), 0);
+      std::sort(order.begin(), order.end(), [&](const int a, const int b) {
+        return g.position[a].y() != g.position[b].y() ? g.position[a].y() < g.position[b].y() : a < b;
+      });
+      State sorted  = state;
+      sorted.grains = {};
+      for (const int i : order)
+        add_grain(sorted.grains, g.position[i], g.radius[i], g.mass[i] / (M_PI * g.radius[i] * g.radius[i]));
+      return sorted;
+    }
+
+    // Sides as the lateral condition wants them during the preparation: what is free is free under the pressure.
+    void set_sides(State &state, const PreparationSetting &setting)
+    {
+      const double mass = default_wall_mass(state.grains);
+      if (const auto *sides = std::get_if<RigidSides>(&setting.lateral))
+        {
+          state.walls[3].drive_x = AppliedPressure{setting.pressure};
+          state.walls[3].mass    = sides->mass > 0 ? sides->mass : mass;
+        }
+      else if (const auto *periodic = std::get_if<PeriodicSides>(&setting.lateral))
+        {
+          state.cell->mass = periodic->mass > 0 ? periodic->mass : mass;
+          if (periodic->free_width)
+            state.cell->pressure = setting.pressure;
+          else
+            {
+              state.walls[1].drive_y = AppliedPressure{setting.pressure};
+              state.walls[1].mass    = state.cell->mass;
+            }
+        }
+      else
+        state.walls.resize(2);
+    }
+
+    // Everything stands still, nothing is free under a force any more.
+    void bring_to_rest(State &state)
+    {
+      for (Eigen::Vector2d &v : state.grains.velocity)
+        v.setZero();
+      std::fill(state.grains.spin.begin(), state.grains.spin.end(), 0.);
+      for (Wall &wall : state.walls)
+        wall.velocity.setZero(), wall.drive_x = wall.drive_y = KeptVelocity{};
+      if (state.cell)
+        state.cell->velocity = 0, state.cell->pressure.reset();
+      state.time = 0;
+    }
+
+    StepSetting compaction_setting(const SampleOptions &options, const PreparationSetting &preparation, const double friction)
+    {
+      StepSetting setting;
+      setting.step               = options.preparation_step;
+      setting.time.gravity_x     = preparation.gravity.x();
+      setting.time.gravity_y     = preparation.gravity.y();
+      setting.law                = {friction, friction, 0., 0., friction};
+      setting.solver             = preparation.solver;
+      setting.solver.tolerance   = options.preparation_tolerance;
+      setting.solver.max_sweeps  = options.preparation_max_sweeps;
+      setting.lateral            = preparation.lateral;
+      setting.pressure           = preparation.pressure;
+      setting.mean_diameter      = options.mean_diameter;
+      setting.accept_unconverged = true;
+      return setting;
+    }
+
+    double solid_fraction(const State &state, const double mean_diameter)
+    {
+      return disc_area(state.grains.radius) / outline_area(make_outline(state, mean_diameter));
+    }
+
+    // Steps until quiet.
+    PreparedSample compact(State                                start,
+                           const SampleOptions                 &options,
+                           const StepSetting                   &setting,
+                           const std::function<bool(int, int)> &progress)
+    {
+      PreparedSample sample;
+      sample.state              = std::move(start);
+      sample.step               = setting.step;
+      PreparationReport &report = sample.report;
+      report.friction           = setting.law.friction;
+      StepCache cache;
+      while (!report.quiet && report.steps < 10 * options.preparation_steps && progress(report.steps, options.preparation_steps))
+        {
+          sample.last_step        = advance(sample.state, setting, cache);
+          report.residual         = sample.last_step.solve.residual;
+          report.unbalanced_force = sample.last_step.unbalanced_force;
+          ++report.steps;
+          report.quiet = report.steps >= options.preparation_steps && report.residual <= options.preparation_tolerance &&
+                         report.unbalanced_force <= options.quiet_unbalanced_force;
+        }
+      report.solid_fraction = solid_fraction(sample.state, options.mean_diameter);
+      return sample;
+    }
+
+    PreparedSample relaxed_and_compacted(const SampleOptions                 &options,
+                                         const PreparationSetting            &preparation,
+                                         const double                         friction,
+                                         const std::function<bool(int, int)> &progress)
+    {
+      State        state   = random_box(options, preparation.lateral);
+      const double overlap = relax_soft_discs(state, 1e-3 * options.mean_diameter, 4000).largest_overlap;
+      state                = numbered_upward(state);
+      set_sides(state, preparation);
+      PreparedSample sample      = compact(state, options, compaction_setting(options, preparation, friction), progress);
+      sample.report.soft_overlap = overlap;
+      return sample;
+    }
+
+    std::string three_digits(const double value)
+    {
+      char text[32];
+      std::snprintf(text, sizeof text, "%.3f", value);
+      return text;
+    }
+
+    // The more friction, the looser the sample: bisection.
+    PreparedSample at_solid_fraction(SampleOptions                        options,
+                                     const PreparationSetting            &preparation,
+                                     const std::function<bool(int, int)> &progress)
+    {
+      constexpr double tolerance = 0.002, loosest_friction = 1;
+      constexpr int    most_tries = 12;
+      const double     target     = options.target_solid_fraction;
+      // The box must be looser than what is wanted; below 0.6 soft discs carry nothing.
+      double low = 0, high = loosest_friction, densest = 0, loosest = 1;
+      bool   bracketed = false;
+      for (const double box : {std::max(0.6, target - 0.04), 0.6})
+        {
+          options.box_solid_fraction = std::min(options.box_solid_fraction, box);
+          for (const double friction : {low, high})
+            {
+              PreparedSample end = relaxed_and_compacted(options, preparation, friction, progress);
+              if (std::abs(end.report.solid_fraction - target) <= tolerance || !end.report.quiet)
+                return end;
+              densest = std::max(densest, end.report.solid_fraction), loosest = std::min(loosest, end.report.solid_fraction);
+            }
+          bracketed = loosest < target && target < densest;
+          if (bracketed || target > densest)
+            break;
+        }
+      if (!bracketed)
+        throw std::invalid_argument("sample/target_solid_fraction = " + three_digits(target) +
+                                    " is out of reach: " + three_digits(loosest) + " to " + three_digits(densest) +
+                                    " are what preparation friction between 0 and 1 gives");
+      for (int k = 0; k < most_tries; ++k)
+        {
+          const double   middle = k == 0 ? 0.2 : 0.5 * (low + high); // half of the range lies below 0.2
+          PreparedSample sample = relaxed_and_compacted(options, preparation, middle, progress);
+          if (std::abs(sample.report.solid_fraction - target) <= tolerance || !sample.report.quiet)
+            return sample;
+          (sample.report.solid_fraction > target ? low : high) = middle;
+        }
+      throw std::invalid_argument("sample/target_solid_fraction = " + three_digits(target) +
+                                  ": no preparation friction between " + three_digits(low) + " and " + three_digits(high) +
+                                  " gives it within " + three_digits(tolerance));
+    }
+
+    // Whatever is wrong with the file of a key is told together with the key.
+    template <class Read> auto read_for(const std::string &key, const std::string &file, Read &&read)
+    {
+      try
+        {
+          return read(file);
+        }
+      catch (const std::exception &error)
+        {
+          throw std::invalid_argument("sample/" + key + " = '" + file + "': " + error.what());
+        }
+    }
+
+    // The grains of a file between platens and sides where they touch them, checked.
+    struct FileSample
+    {
+      State                      state;
+      std::optional<StoredStage> stage;
+    };
+
+    // Platens and sides of a sample whose grains are given: where the keys say, where a snapshot had them, or at the outermost
+    // edge of any grain (platens: of any grain that moves, for fixed ones may be a rough bottom).
+    SampleBox box_around(const SampleOptions &o, const GrainFile &file)
+    {
+      const Grains   &g   = file.grains;
+      constexpr auto  far = std::numeric_limits<double>::infinity();
+      Eigen::Vector2d low = Eigen::Vector2d::Constant(far), high = -low;
+      for (std::size_t i = 0; i < g.size(); ++i)
+        {
+          const Eigen::Vector2d r(g.radius[i], g.fixed[i] ? 0. : g.radius[i]);
+          low = low.cwiseMin(g.position[i] - r), high = high.cwiseMax(g.position[i] + r);
+        }
+      const auto stored = [&](const std::optional<double> &value) {
+        return value && std::isfinite(*value) ? value : std::nullopt;
+      };
+      const auto place = [&](const std::optional<double> &key, const std::optional<double> &of_file, const double edge) {
+        return key ? *key : stored(of_file).value_or(edge);
+      };
+      std::optional<double> lower, upper, left, right;
+      if (file.stage)
+        lower = file.stage->lower_y, upper = file.stage->upper_y, left = file.stage->left_x, right = file.stage->right_x;
+      return {place(o.lower_platen, lower, low.y()),
+              place(o.upper_platen, upper, high.y()),
+              place(o.left_wall, left, low.x()),
+              place(o.right_wall, right, high.x()),
+              {}};
+    }
+
+    FileSample place_grains(const SampleOptions &o, const PreparationSetting &preparation, GrainFile file)
+    {
+      SampleBox  box = box_around(o, file);
+      FileSample sample{{}, file.stage};
+      State     &state     = sample.state;
+      state.walls          = box_walls(0, 0);
+      state.walls[0].point = state.walls[2].point = {*box.left_x, *box.lower_y};
+      state.walls[1].point = state.walls[3].point = {*box.right_x, *box.upper_y};
+      if (!std::holds_alternative<RigidSides>(preparation.lateral))
+        box.left_x.reset(), box.right_x.reset();
+      if (std::holds_alternative<PeriodicSides>(preparation.lateral))
+        {
+          if (o.width <= 0)
+            throw std::invalid_argument("sample/width = 0: a periodic sample from a file needs its period there");
+          state.cell     = PeriodicCell{o.width};
+          box.cell_width = o.width;
+          state.walls.resize(2);
+        }
+      check_grains(file, box, o.allowed_overlap);
+      state.grains = std::move(file.grains);
+      set_sides(state, preparation);
+      validate_walls(state);
+      return sample;
+    }
+
+    FileSample file_sample(const SampleOptions &o, const PreparationSetting &preparation)
+    {
+      return read_for("file", o.file, [&](const std::string &path) {
+        const bool snapshots = path.size() > 3 && path.compare(path.size() - 3, 3, ".h5") == 0;
+        return place_grains(o, preparation, snapshots ? read_grains_hdf5(path) : read_grains_csv(path, o.density));
+      });
+    }
+
+    PreparedSample ready_sample(const SampleOptions                 &o,
+                                const PreparationSetting            &preparation,
+                                const std::function<bool(int, int)> &progress,
+                                FileSample                           file)
+    {
+      State &state = file.state;
+
+      const StepSetting setting = compaction_setting(o, preparation, o.preparation_friction);
+      if (o.prepare_file)
+        return compact(std::move(state), o, setting, progress);
+      PreparedSample sample;
+      sample.step = setting.step;
+      if (file.stage)
+        {
+          state.impulses = file.stage->impulses;
+          sample.step    = file.stage->step;
+        }
+      sample.report.quiet          = true; // nobody asked
+      sample.report.solid_fraction = solid_fraction(state, o.mean_diameter);
+      sample.last_step.contacts    = find_contacts(state, std::vector<double>(state.grains.size(), 0.));
+      sample.last_step.impulses.resize(sample.last_step.contacts.size());
+      sample.last_step.wall_force.assign(state.walls.size(), Eigen::Vector2d::Zero());
+      sample.last_step.applied_force = applied_forces(state, setting);
+      sample.state                   = std::move(state);
+      return sample;
+    }
+  } // namespace
+
+  void check_sample_file(const SampleOptions &o, const PreparationSetting &preparation)
+  {
+    if (!o.file.empty())
+      (void)file_sample(o, preparation);
+  }
+
+  void validate(const SampleOptions &o)
+  {
+    if (o.radius_distribution == RadiusKind::uniform_by_number && std::abs(o.radius_min + o.radius_max - 1) > 1e-9)
+      throw std::invalid_argument("sample/radius_min + sample/radius_max is " + std::to_string(o.radius_min + o.radius_max) +
+                                  " mean diameters; it must be 1, so that radii uniform by number have the mean diameter 1");
+    if (o.box_solid_fraction > o.solid_fraction)
+      throw std::invalid_argument("sample/box_solid_fraction " + std::to_string(o.box_solid_fraction) +
+                                  " exceeds sample/solid_fraction " + std::to_string(o.solid_fraction));
+    if (o.radius_distribution == RadiusKind::table && o.radius_table.empty())
+      throw std::invalid_argument("sample/radius_distribution = table: sample/radius_table must name the CSV file");
+    if (!o.radius_table.empty() && o.radius_distribution != RadiusKind::table)
+      throw std::invalid_argument("sample/radius_table = '" + o.radius_table +
+                                  "' is used only with sample/radius_distribution = table, not " +
+                                  name_of(o.radius_distribution));
+    if (o.radius_distribution == RadiusKind::table)
+      (void)read_for("radius_table", o.radius_table, read_radius_table);
+    if (o.lower_platen && o.upper_platen && *o.lower_platen >= *o.upper_platen)
+      throw std::invalid_argument("sample/lower_platen " + std::to_string(*o.lower_platen) +
+                                  " is not below sample/upper_platen " + std::to_string(*o.upper_platen));
+    if (o.left_wall && o.right_wall && *o.left_wall >= *o.right_wall)
+      throw std::invalid_argument("sample/left_wall " + std::to_string(*o.left_wall) + " is not left of sample/right_wall " +
+                                  std::to_string(*o.right_wall));
+  }
+
+  double default_wall_mass(const Grains &grains)
+  {
+    return std::accumulate(grains.mass.begin(), grains.mass.end(), 0.) / std::sqrt(double(grains.size()));
+  }
+
+  PreparedSample prepare_sample(const SampleOptions                 &options,
+                                const PreparationSetting            &setting,
+                                const std::function<bool(int, int)> &progress,
+                                const Grains                        *grains)
+  {
+    validate(options);
+    if (grains != nullptr)
+      return ready_sample(options, setting, progress, place_grains(options, setting, {"the sample", *grains, {}, {}}));
+    if (!options.file.empty())
+      return ready_sample(options, setting, progress, file_sample(options, setting));
+    PreparedSample sample = options.target_solid_fraction > 0
+                              ? at_solid_fraction(options, setting, progress)
+                              : relaxed_and_compacted(options, setting, options.preparation_friction, progress);
+    bring_to_rest(sample.state);
+    return sample;
+  }
+} // namespace diptych::discrete

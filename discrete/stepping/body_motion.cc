@@ -1,0 +1,48 @@
+// diptych: bodies drift with their velocities and take new ones
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/stepping/body_motion.h"
+
+namespace diptych::discrete
+{
+  void drift(State &state, const double duration)
+  {
+    Grains &g = state.grains;
+    for (std::size_t i = 0; i < g.size(); ++i)
+      {
+        g.position[i] += duration * g.velocity[i];
+        g.rotation[i] += duration * g.spin[i];
+      }
+    for (Wall &wall : state.walls)
+      wall.point += duration * wall.velocity;
+    if (state.cell)
+      state.cell->width += duration * state.cell->velocity;
+  }
+
+  void take_velocities(const std::vector<BodyVelocity> &v, State &state)
+  {
+    Grains           &g = state.grains;
+    const std::size_t n = g.size();
+    for (std::size_t i = 0; i < n; ++i)
+      {
+        if (g.fixed[i])
+          continue;
+        g.velocity[i] = {v[i].x, v[i].y};
+        g.spin[i]     = v[i].surface / g.radius[i];
+      }
+    for (std::size_t w = 0; w < state.walls.size(); ++w)
+      state.walls[w].velocity = {v[n + w].x, v[n + w].y};
+    if (state.cell && state.cell->moves())
+      state.cell->velocity = v.back().x;
+  }
+
+  void keep_impulses(const std::vector<Contact> &contacts,
+                     const std::vector<Impulse> &impulses,
+                     const std::vector<int>     &acting,
+                     State                      &state)
+  {
+    state.impulses.clear();
+    state.impulses.reserve(acting.size());
+    for (const int k : acting)
+      state.impulses.push_back({contacts[k].i, contacts[k].j, impulses[k].normal, impulses[k].tangential});
+  }
+} // namespace diptych::discrete

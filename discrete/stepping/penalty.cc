@@ -1,0 +1,144 @@
+// diptych: explicit smooth contacts (penalty), against which the non-smooth scheme is charted
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/stepping/penalty.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#include "discrete/stepping/body_motion.h"
+#include "discrete/contacts/contact_law.h"
+#include "discrete/stepping/step_problem.h"
+
+namespace diptych::discrete
+{
+  namespace
+  {
+    constexpr double tangential_over_normal_stiffness = 0.5;
+
+    void validate(const StepSetting &setting, const PenaltyOptions &options)
+    {
+      if (!(options.stiffness * setting.pressure > 0))
+        throw std::invalid_argument("penalty steps need penalty_stiffness x pressure > 0: it is the contacts' stiffness");
+      if (!(setting.step > 0))
+        throw std::invalid_argument("penalty steps need step > 0");
+    }
+
+    // A grain that travels more than its radius in a step, or anything that is not finite.
+    bool has_blown_up(const State &state, const double h)
+    {
+      const Grains &g = state.grains;
+      for (std::size_t i = 0; i < g.size(); ++i)
+        if (!(h * g.velocity[i].norm() <= g.radius[i]) || !g.position[i].allFinite() || !std::isfinite(g.spin[i]))
+          return true;
+      for (const Wall &wall : state.walls)
+        if (!wall.velocity.allFinite() || !wall.point.allFinite())
+          return true;
+      return state.cell && !(std::isfinite(state.cell->width) && state.cell->width > 0);
+    }
+
+    StepResult blown_up()
+    {
+      StepResult result;
+      result.solve.status   = SolveStatus::blown_up;
+      result.solve.residual = std::numeric_limits<double>::infinity();
+      return result;
+    }
+
+    struct SpringLaw
+    {
+      double kn, kt;        // [pressure]
+      double damping;       // fraction of critical
+      double previous_step; // of the impulse that holds a spring
+    };
+
+    // One contact; `r` holds its impulse of the last step and takes that of this one. Returns the work of sliding since the
+    // preceding q_m.
+    double apply_law(const SpringLaw        &law,
+                     const ContactRow       &c,
+                     const double            gap,
+                     const RelativeVelocity &u,
+                     const double            h,
+                     Impulse                &r)
+    {
+      const double dashpot = std::isfinite(c.inverse_wnn) ? 2 * law.damping * std::sqrt(law.kn * c.inverse_wnn) : 0.;
+      const double fn      = std::max(0., -law.kn * gap - dashpot * u.normal);
+      const double spring  = r.tangential / law.previous_step - law.kt * h * u.tangential;
+      const double ft      = std::clamp(spring, -c.friction * fn, c.friction * fn);
+      r                    = {h * fn, h * ft};
+      return ft * (spring - ft) / law.kt;
+    }
+
+    // The ledger of a step takes all tangential work for friction; here only sliding is, the rest is elastic and counts with the
+    // work along the normal.
+    void take_ledger(StepLedger ledger, StepResult &result)
+    {
+      const std::vector<double> &each    = result.contact_dissipation;
+      const double               sliding = std::accumulate(each.begin(), each.end(), 0.);
+      result.energies                    = ledger.energies;
+      result.energies.impact_dissipation += result.energies.friction_dissipation - sliding;
+      result.energies.friction_dissipation = sliding;
+      result.contact_impact                = std::move(ledger.contact_impact);
+      for (std::size_t k = 0; k < each.size(); ++k)
+        result.contact_impact[k] += ledger.contact_dissipation[k] - each[k];
+      result.wall_force        = std::move(ledger.wall_force);
+      result.momentum_residual = ledger.momentum_residual;
+      result.unbalanced_force  = ledger.unbalanced_force;
+    }
+  } // namespace
+
+  double penalty_step(const Grains &grains, const double stiffness, const double fraction)
+  {
+    double mass = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < grains.size(); ++i)
+      if (!grains.fixed[i])
+        mass = std::min(mass, grains.mass[i]);
+    if (!std::isfinite(mass) || !(stiffness > 0))
+      throw std::invalid_argument("a penalty step needs a grain that moves and a positive stiffness");
+    return fraction * std::sqrt(mass / stiffness);
+  }
+
+  StepResult advance_penalty(State &state, PenaltyState &penalty, const StepSetting &setting, const PenaltyOptions &options)
+  {
+    validate(setting, options);
+    const double h = setting.step, kn = options.stiffness * setting.pressure;
+    if (has_blown_up(state, h))
+      return blown_up();
+    State trial = state;
+    drift(trial, 0.5 * h);
+
+    StepResult result;
+    result.applied_force = applied_forces(trial, setting);
+    result.contacts      = penalty.neighbours.find_contacts(trial, std::vector<double>(trial.grains.size(), 0.));
+    result.impulses      = first_guess(trial.impulses, result.contacts);
+
+    const std::vector<BodyVelocity> v       = body_velocities(trial);
+    const ContactProblem            problem = make_problem(trial, setting, result.contacts, v,
+                                                           {free_velocities(trial, v, result.applied_force, setting), {}, {}});
+    const SpringLaw                 law{kn, tangential_over_normal_stiffness * kn, options.damping,
+                        penalty.impulse_step > 0 ? penalty.impulse_step : h};
+    for (std::size_t k = 0; k < result.contacts.size(); ++k)
+      {
+        const ContactRow &c   = problem.contacts[k];
+        const double      gap = result.contacts[k].gap;
+        result.contact_dissipation.push_back(apply_law(law, c, gap, relative_velocity(c, v), h, result.impulses[k]));
+        result.largest_penetration = std::max(result.largest_penetration, -gap);
+      }
+
+    const std::vector<int>          acting = acting_contacts(result.impulses);
+    const std::vector<BodyVelocity> v_new  = velocities(problem, result.impulses, acting);
+    take_ledger(step_ledger({trial, problem, result.contacts, result.impulses, acting, result.applied_force, v, v_new, h}, false),
+                result);
+    take_velocities(v_new, trial);
+    drift(trial, 0.5 * h);
+    if (has_blown_up(trial, h))
+      return blown_up();
+    keep_impulses(result.contacts, result.impulses, acting, trial);
+    trial.time += h;
+    state                = std::move(trial);
+    penalty.impulse_step = h;
+    return result;
+  }
+} // namespace diptych::discrete

@@ -1,0 +1,176 @@
+// diptych: energy and momentum of one step
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/stepping/step_ledger.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "discrete/bodies/boundary.h"
+#include "discrete/contacts/contact_law.h"
+
+namespace diptych::discrete
+{
+  namespace
+  {
+    // m (v^2 + s^2/2)/2, since I omega^2 = m s^2/2.
+    double kinetic(const double mass, const BodyVelocity &v)
+    {
+      return 0.5 * mass * (v.x * v.x + v.y * v.y + 0.5 * v.surface * v.surface);
+    }
+
+    Eigen::Vector2d mean_velocity(const SolvedStep &s, const std::size_t body)
+    {
+      return {0.5 * (s.v[body].x + s.v_new[body].x), 0.5 * (s.v[body].y + s.v_new[body].y)};
+    }
+
+    void add_grains(const SolvedStep &s, StepEnergies &e)
+    {
+      const Grains &g      = s.state.grains;
+      double        energy = e.kinetic, change = e.kinetic_change, work = e.external_work; // in registers
+      for (std::size_t i = 0; i < g.size(); ++i)
+        {
+          const double was = kinetic(g.mass[i], s.v[i]), is = kinetic(g.mass[i], s.v_new[i]);
+          energy += is;
+          change += is - was;
+          if (!g.fixed[i])
+            work += s.step * s.applied_force[i].dot(mean_velocity(s, i));
+        }
+      e.kinetic = energy, e.kinetic_change = change, e.external_work = work;
+    }
+
+    Eigen::Vector2d vector_of(const ContactRow &c, const Impulse &r)
+    {
+      return {c.nx * r.normal - c.ny * r.tangential, c.ny * r.normal + c.nx * r.tangential};
+    }
+
+    struct ContactSums
+    {
+      double impulse = 0, normal = 0;                  // |r| and r_n
+      double impact = 0, friction = 0, correction = 0; // work, split by direction
+    };
+
+    // Sums over the acting contacts; work of each contact and the forces of the walls go to the ledger.
+    ContactSums sum_contacts(const SolvedStep &s, const bool corrects_by_velocity, StepLedger &ledger)
+    {
+      const std::size_t n = s.state.grains.size();
+      ContactSums       sum;
+      for (std::size_t a = 0; a < s.acting.size(); ++a)
+        {
+          fetch_ahead(s.problem.contacts, s.acting, a);
+          const int              k    = s.acting[a];
+          const ContactRow      &c    = s.problem.contacts[k];
+          const Impulse         &r    = s.impulses[k];
+          const RelativeVelocity u    = relative_velocity(c, s.v);
+          const RelativeVelocity next = relative_velocity(c, s.v_new);
+          sum.impulse += std::sqrt(r.normal * r.normal + r.tangential * r.tangential);
+          sum.normal += r.normal;
+          const double impact = 0.5 * r.normal * (u.normal + next.normal);
+          sum.impact += impact;
+          const double friction = 0.5 * r.tangential * (u.tangential + next.tangential);
+          sum.friction += friction;
+          ledger.contact_dissipation[k] = 0 - friction;
+          ledger.contact_impact[k]      = 0 - impact;
+          if (corrects_by_velocity && c.normal_term < 0 && s.contacts[k].gap < 0)
+            sum.correction += 0.5 * r.normal * c.normal_term;
+          if (std::size_t(c.j) >= n)
+            ledger.wall_force[c.j - n] += vector_of(c, r) / s.step;
+        }
+      return sum;
+    }
+
+    // A fixed grain takes contact impulses without moving otherwise: what holds it gives them back and works with them.
+    Eigen::Vector2d add_fixed_grains(const SolvedStep &s, StepEnergies &e)
+    {
+      const Grains   &g        = s.state.grains;
+      Eigen::Vector2d reaction = Eigen::Vector2d::Zero();
+      const auto      hold     = [&](const int body, const Eigen::Vector2d &impulse, const double tangential) {
+        if (std::size_t(body) >= g.size() || !g.fixed[body])
+          return;
+        reaction -= impulse;
+        e.external_work -= impulse.dot(mean_velocity(s, body)) - tangential * s.v[body].surface;
+      };
+      if (std::none_of(g.fixed.begin(), g.fixed.end(), [](const std::uint8_t fixed) { return fixed != 0; }))
+        return reaction;
+      for (std::size_t k = 0; k < s.contacts.size(); ++k)
+        {
+          const Eigen::Vector2d impulse = vector_of(s.problem.contacts[k], s.impulses[k]);
+          hold(s.contacts[k].i, impulse, s.impulses[k].tangential);
+          hold(s.contacts[k].j, -impulse, s.impulses[k].tangential);
+        }
+      return reaction;
+    }
+
+    // Free components gain kinetic energy from applied forces, prescribed ones do work on the sample.
+    void add_walls(const SolvedStep &s, const std::vector<Eigen::Vector2d> &wall_force, StepEnergies &e)
+    {
+      const std::size_t n = s.state.grains.size();
+      for (std::size_t w = 0; w < s.state.walls.size(); ++w)
+        {
+          const Eigen::Vector2d mean = mean_velocity(s, n + w), mobility = s.state.walls[w].inverse_mass();
+          const Eigen::Vector2d push   = applied_wall_force(s.state, w, s.state.time + 0.5 * s.step);
+          const double          was[2] = {s.v[n + w].x, s.v[n + w].y}, is[2] = {s.v_new[n + w].x, s.v_new[n + w].y};
+          for (int a = 0; a < 2; ++a)
+            {
+              e.external_work += s.step * (mobility[a] > 0 ? push[a] : wall_force[w][a]) * mean[a];
+              if (mobility[a] > 0)
+                {
+                  e.kinetic += 0.5 * is[a] * is[a] / mobility[a];
+                  e.kinetic_change += 0.5 * (is[a] * is[a] - was[a] * was[a]) / mobility[a];
+                }
+            }
+        }
+    }
+
+    // The width of the cell: a body under -pressure x height, or a prescribed motion that works against the impulses across
+    // the edge.
+    void add_cell(const SolvedStep &s, StepEnergies &e)
+    {
+      if (!s.state.cell || !s.state.cell->moves())
+        return;
+      const double was = s.v.back().x, is = s.v_new.back().x, mean = 0.5 * (was + is);
+      if (s.state.cell->pressure)
+        {
+          e.external_work -= s.step * *s.state.cell->pressure * sample_height(s.state) * mean;
+          e.kinetic += 0.5 * s.state.cell->mass * is * is;
+          e.kinetic_change += 0.5 * s.state.cell->mass * (is * is - was * was);
+          return;
+        }
+      for (std::size_t k = 0; k < s.contacts.size(); ++k)
+        if (const ContactRow &c = s.problem.contacts[k]; c.cell >= 0)
+          e.external_work += c.image * vector_of(c, s.impulses[k]).x() * mean;
+    }
+  } // namespace
+
+  StepLedger step_ledger(const SolvedStep &s, const bool corrects_by_velocity)
+  {
+    const Grains     &g = s.state.grains;
+    const std::size_t n = g.size();
+    StepLedger        ledger;
+    ledger.wall_force.assign(s.state.walls.size(), Eigen::Vector2d::Zero());
+    ledger.contact_dissipation.assign(s.contacts.size(), 0.);
+    ledger.contact_impact.assign(s.contacts.size(), 0.);
+    const ContactSums contacts           = sum_contacts(s, corrects_by_velocity, ledger);
+    ledger.energies.impact_dissipation   = 0 - contacts.impact;
+    ledger.energies.friction_dissipation = 0 - contacts.friction;
+    ledger.energies.correction_work      = 0 - contacts.correction;
+    add_grains(s, ledger.energies);
+    add_walls(s, ledger.wall_force, ledger.energies);
+    add_cell(s, ledger.energies);
+
+    double          unbalanced = 0, momentum_sum = 0;
+    Eigen::Vector2d balance = -add_fixed_grains(s, ledger.energies);
+    for (std::size_t i = 0; i < n; ++i)
+      if (!g.fixed[i])
+        {
+          const Eigen::Vector2d change = g.mass[i] * Eigen::Vector2d(s.v_new[i].x - s.v[i].x, s.v_new[i].y - s.v[i].y);
+          unbalanced += change.norm();
+          momentum_sum += g.mass[i] * (std::abs(s.v_new[i].x) + std::abs(s.v_new[i].y));
+          balance += change - s.step * s.applied_force[i];
+        }
+    for (const Eigen::Vector2d &f : ledger.wall_force)
+      balance -= s.step * f;
+    ledger.unbalanced_force  = s.acting.empty() ? 0 : (unbalanced / double(n)) / (contacts.normal / double(s.acting.size()));
+    ledger.momentum_residual = contacts.impulse > 0 ? balance.norm() / (contacts.impulse + momentum_sum) : 0;
+    return ledger;
+  }
+} // namespace diptych::discrete

@@ -1,0 +1,148 @@
+// diptych: the contact problem of a step, from the bodies and their contacts
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/stepping/step_problem.h"
+
+#include <algorithm>
+
+#include "discrete/bodies/boundary.h"
+#include "discrete/contacts/contact_law.h"
+#include "discrete/contacts/contact_order.h"
+#include "discrete/stepping/time_stepping.h"
+
+namespace diptych::discrete
+{
+  namespace
+  {
+    // c_n; `share`: of corrected_share().
+    double normal_term(const Contact &c, const double un, const double en, const double share, const double h)
+    {
+      if (en > 0 && un < 0 && (c.gap <= 0 || c.gap + h * un < 0))
+        return en * un;
+      return (c.gap < 0 ? share * c.gap : c.gap) / h;
+    }
+
+    // Geometry and mobilities of a row, whatever it held: all but the terms of the law.
+    void set_kinematics(const State &state, const Contact &c, const std::vector<BodyVelocity> &v, ContactRow &row)
+    {
+      const int n = int(state.grains.size());
+      row.nx = c.normal.x(), row.ny = c.normal.y(), row.i = c.i, row.j = c.j, row.image = 0, row.cell = -1;
+      const double wi = v[c.i].inverse_mass;
+      row.ki          = 2 * wi; // r^2/I of a disc
+      if (c.j < n)
+        {
+          const double wj = v[c.j].inverse_mass;
+          row.jx = row.jy = wj;
+          row.kj          = 2 * wj;
+        }
+      else
+        {
+          const Eigen::Vector2d wj = state.walls[c.j - n].inverse_mass();
+          row.jx = wj.x(), row.jy = wj.y(), row.kj = 0;
+        }
+      double wnn = wi + row.jx * row.nx * row.nx + row.jy * row.ny * row.ny;
+      double wtt = wi + row.jx * row.ny * row.ny + row.jy * row.nx * row.nx + row.ki + row.kj;
+      if (c.image != 0 && state.cell && state.cell->moves())
+        {
+          row.image = c.image, row.cell = n + int(state.walls.size());
+          const double w = state.cell->inverse_mass() * c.image * c.image;
+          wnn += w * row.nx * row.nx, wtt += w * row.ny * row.ny;
+        }
+      row.inverse_wnn = 1 / wnn;
+      row.inverse_wtt = row.cell < 0 && row.jx == row.jy && row.kj == 2 * row.jx ? row.inverse_wnn * disc_wnn_over_wtt : 1 / wtt;
+    }
+  } // namespace
+
+  std::vector<BodyVelocity> body_velocities(const State &state)
+  {
+    const Grains             &g = state.grains;
+    std::vector<BodyVelocity> v;
+    v.reserve(g.size() + state.walls.size() + 1);
+    for (std::size_t i = 0; i < g.size(); ++i)
+      v.push_back({g.velocity[i].x(), g.velocity[i].y(), g.radius[i] * g.spin[i], g.inverse_mass(i)});
+    for (const Wall &wall : state.walls)
+      v.push_back({wall.velocity.x(), wall.velocity.y(), 0, 0});
+    if (state.cell && state.cell->moves())
+      v.push_back({state.cell->velocity, 0, 0, state.cell->inverse_mass()});
+    return v;
+  }
+
+  std::vector<BodyVelocity> free_velocities(const State                        &state,
+                                            const std::vector<BodyVelocity>    &v,
+                                            const std::vector<Eigen::Vector2d> &force,
+                                            const StepSetting                  &setting)
+  {
+    const double              h    = setting.step;
+    const std::size_t         n    = state.grains.size();
+    std::vector<BodyVelocity> free = v;
+    for (std::size_t i = 0; i < n; ++i)
+      free[i].x += h * force[i].x() * v[i].inverse_mass, free[i].y += h * force[i].y() * v[i].inverse_mass;
+    for (std::size_t w = 0; w < state.walls.size(); ++w)
+      {
+        const Eigen::Vector2d velocity = prescribed_wall_velocity(state.walls[w], state.time + h);
+        const Eigen::Vector2d push = applied_wall_force(state, w, state.time + 0.5 * h), mobility = state.walls[w].inverse_mass();
+        free[n + w].x = velocity.x() + h * push.x() * mobility.x();
+        free[n + w].y = velocity.y() + h * push.y() * mobility.y();
+      }
+    if (state.cell && state.cell->pressure)
+      free.back().x -= h * *state.cell->pressure * sample_height(state) * state.cell->inverse_mass();
+    return free;
+  }
+
+  double corrected_share(const StepOptions &time)
+  {
+    if (time.penetration_correction == PenetrationCorrection::velocity)
+      return 1;
+    return time.penetration_correction == PenetrationCorrection::soft_velocity ? 0.2 : 0.;
+  }
+
+  double friction_of(const State &state, const StepSetting &setting, const int body_j)
+  {
+    const int n = int(state.grains.size());
+    if (body_j < n)
+      return setting.law.friction;
+    return state.walls[body_j - n].kind == WallKind::platen ? setting.law.platen_friction : setting.law.wall_friction;
+  }
+
+  ContactProblem make_problem(const State                     &state,
+                              const StepSetting               &setting,
+                              const std::vector<Contact>      &contacts,
+                              const std::vector<BodyVelocity> &v,
+                              ContactProblem                   problem)
+  {
+    problem.order = sweep_order(contacts, setting.mean_diameter);
+    problem.contacts.resize(contacts.size());
+    const double share = corrected_share(setting.time);
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+      {
+        const Contact &c   = contacts[k];
+        ContactRow    &row = problem.contacts[k];
+        set_kinematics(state, c, v, row);
+        const RelativeVelocity u = relative_velocity(row, v);
+        row.friction             = friction_of(state, setting, c.j);
+        row.normal_term          = normal_term(c, u.normal, setting.law.normal_restitution, share, setting.step);
+        row.tangential_term      = setting.law.tangential_restitution * u.tangential;
+      }
+    return problem;
+  }
+
+  std::vector<Impulse> first_guess(const std::vector<PairImpulse> &previous, const std::vector<Contact> &contacts)
+  {
+    std::vector<Impulse> guess(contacts.size());
+    auto                 pair = previous.begin(); // both lists ascend in (i, j)
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+      {
+        const Contact &c = contacts[k];
+        while (pair != previous.end() && (pair->i < c.i || (pair->i == c.i && pair->j < c.j)))
+          ++pair;
+        if (pair == previous.end())
+          break;
+        // Which contacts were there before follows no pattern: a choice without a branch.
+        const PairImpulse  none{c.i, c.j, 0, 0};
+        const bool         known = pair->i == c.i && pair->j == c.j;
+        const PairImpulse &r     = *(known ? &*pair : &none);
+        guess[k]                 = {r.normal, r.tangential};
+        pair += known;
+      }
+    return guess;
+  }
+} // namespace diptych::discrete

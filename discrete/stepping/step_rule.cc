@@ -1,0 +1,91 @@
+// diptych: the length of a step, from forces and motion
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/stepping/step_rule.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace diptych::discrete
+{
+  namespace
+  {
+    double grain_density(const Grains &g)
+    {
+      double mass = 0, area = 0;
+      for (std::size_t i = 0; i < g.size(); ++i)
+        mass += g.mass[i], area += M_PI * g.radius[i] * g.radius[i];
+      return mass / area;
+    }
+
+    // What tables and forces of walls ask for: speeds to come, intervals to resolve, accelerations from rest.
+    struct DriveDemands
+    {
+      double speed = 0, interval = std::numeric_limits<double>::infinity(), acceleration = 0;
+    };
+
+    void add_table(const TimeTable &table, const bool is_velocity, const double mass, DriveDemands &demands)
+    {
+      for (const double value : table.value)
+        if (is_velocity)
+          demands.speed = std::max(demands.speed, std::abs(value));
+        else
+          demands.acceleration = std::max(demands.acceleration, std::abs(value) / mass);
+      for (std::size_t k = 1; k < table.time.size(); ++k)
+        demands.interval = std::min(demands.interval, table.time[k] - table.time[k - 1]);
+    }
+
+    DriveDemands drive_demands(const State &state)
+    {
+      DriveDemands demands;
+      for (const Wall &wall : state.walls)
+        for (const Drive *drive : {&wall.drive_x, &wall.drive_y})
+          {
+            if (const auto *velocity = std::get_if<PrescribedVelocity>(drive))
+              add_table(velocity->velocity, true, wall.mass, demands);
+            else if (const auto *force = std::get_if<AppliedForce>(drive))
+              add_table(force->force, false, wall.mass, demands);
+          }
+      return demands;
+    }
+
+    double fastest(const State &state)
+    {
+      double speed = 0, squares = 0;
+      for (const Wall &wall : state.walls)
+        speed = std::max(speed, wall.velocity.norm());
+      for (const Eigen::Vector2d &v : state.grains.velocity)
+        squares += v.squaredNorm() / double(state.grains.size());
+      return std::max(speed, 3 * std::sqrt(squares));
+    }
+  } // namespace
+
+  StepChoice choose_step(const State &state, const StepSetting &setting, const double mean_stress, const double rate)
+  {
+    constexpr double   infinity   = std::numeric_limits<double>::infinity();
+    const double       d          = setting.mean_diameter;
+    const bool         end_grains = std::holds_alternative<EndGrains>(setting.lateral);
+    const double       stress     = std::max(mean_stress, end_grains ? setting.pressure : 0.);
+    const double       unit       = stress > 0 ? d * std::sqrt(grain_density(state.grains) / stress) : infinity;
+    const DriveDemands demands    = drive_demands(state);
+    const double       speed      = std::max(fastest(state), demands.speed),
+                 gravity          = std::hypot(setting.time.gravity_x, setting.time.gravity_y);
+
+    StepChoice choice{infinity, "none"};
+    const auto bound = [&](const double step, const char *name) {
+      if (step < choice.step)
+        choice = {step, name};
+    };
+    bound((end_grains ? 1. : 5.) * unit, "forces");
+    if (speed > 0)
+      bound(0.1 * d / speed, "motion");
+    if (demands.acceleration > 0)
+      bound(std::sqrt(0.1 * d / demands.acceleration), "drives");
+    bound(0.1 * demands.interval, "drives");
+    if (gravity > 0)
+      bound(0.3 * std::sqrt(d / gravity), "gravity");
+    if (rate > 0 && std::isfinite(unit))
+      bound(0.6 * rate * unit / setting.solver.tolerance * unit, "solver");
+    return choice;
+  }
+} // namespace diptych::discrete

@@ -1,0 +1,133 @@
+// diptych: one Moreau-Jean step of Non-Smooth Contact Dynamics
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/stepping/time_stepping.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "discrete/stepping/body_motion.h"
+#include "discrete/stepping/position_projection.h"
+#include "discrete/stepping/step_problem.h"
+
+namespace diptych::discrete
+{
+  namespace
+  {
+    std::vector<double> detection_margins(const State                        &state,
+                                          const StepSetting                  &setting,
+                                          const std::vector<BodyVelocity>    &v,
+                                          const std::vector<Eigen::Vector2d> &force)
+    {
+      const double        h = setting.step;
+      std::vector<double> margin(state.grains.size());
+      double              wall_speed = state.cell ? std::abs(state.cell->velocity) : 0;
+      for (std::size_t w = 0; w < state.walls.size(); ++w)
+        {
+          const Wall &wall = state.walls[w];
+          wall_speed       = std::max({wall_speed, wall.velocity.norm(), prescribed_wall_velocity(wall, state.time + h).norm()});
+          // A wall under a force mostly rests on grains: what it could gain without them would flood the list at long steps.
+          wall_speed += std::min(h * applied_wall_force(state, w, state.time).cwiseProduct(wall.inverse_mass()).norm(),
+                                 0.1 * setting.mean_diameter / h);
+        }
+      for (std::size_t i = 0; i < margin.size(); ++i)
+        {
+          const double speed = std::max(std::sqrt(v[i].x * v[i].x + v[i].y * v[i].y), wall_speed);
+          margin[i]          = 0.04 * setting.mean_diameter + 1.2 * h * (speed + h * force[i].norm() * v[i].inverse_mass);
+        }
+      return margin;
+    }
+
+    double largest_penetration(const std::vector<Contact> &contacts)
+    {
+      double largest = 0;
+      for (const Contact &c : contacts)
+        largest = std::max(largest, -c.gap);
+      return largest;
+    }
+  } // namespace
+
+  std::vector<Eigen::Vector2d> applied_forces(const State &state, const StepSetting &setting)
+  {
+    const Eigen::Vector2d        gravity(setting.time.gravity_x, setting.time.gravity_y);
+    std::vector<Eigen::Vector2d> force(state.grains.size(), Eigen::Vector2d::Zero());
+    for (std::size_t i = 0; i < force.size(); ++i)
+      if (!state.grains.fixed[i])
+        force[i] = state.grains.mass[i] * gravity;
+    if (const auto *action = std::get_if<EndGrains>(&setting.lateral); action && state.walls.size() >= 2)
+      add_lateral_forces(state, *action, setting.pressure, setting.mean_diameter, force);
+    return force;
+  }
+
+  StepResult advance(State &state, const StepSetting &setting, StepCache &cache, const SampleRequest *sample)
+  {
+    const double h = setting.step;
+    State        trial{state.grains, state.walls, state.cell, {}, state.time}; // gets impulses of its own
+    drift(trial, 0.5 * h);
+
+    StepResult result;
+    result.applied_force              = applied_forces(trial, setting);
+    const std::vector<BodyVelocity> v = body_velocities(trial);
+    result.contacts = cache.neighbours.find_contacts(trial, detection_margins(trial, setting, v, result.applied_force));
+    result.largest_penetration    = largest_penetration(result.contacts);
+    cache.problem.free_velocity   = free_velocities(trial, v, result.applied_force, setting);
+    cache.problem                 = make_problem(trial, setting, result.contacts, v, std::move(cache.problem));
+    const ContactProblem &problem = cache.problem;
+    result.impulses               = first_guess(state.impulses, result.contacts);
+    if (sample && sample->options.snapshot_max_sweeps > 0)
+      result.solve = solve_sampled({problem, trial.grains.radius, result.contacts}, setting.solver, *sample, *cache.team,
+                                   result.impulses, result.accuracy.emplace());
+    else
+      result.solve = solve(problem, setting.solver, result.impulses, *cache.team);
+    if (sample && sample->on_problem)
+      sample->on_problem(problem, result.contacts, result.impulses);
+    if (result.solve.status != SolveStatus::converged && !setting.accept_unconverged)
+      return result;
+
+    const std::vector<int>          acting = acting_contacts(result.impulses);
+    const std::vector<BodyVelocity> v_new  = velocities(problem, result.impulses, acting);
+    StepLedger ledger = step_ledger({trial, problem, result.contacts, result.impulses, acting, result.applied_force, v, v_new, h},
+                                    setting.law.normal_restitution == 0 && corrected_share(setting.time) > 0);
+    result.energies   = ledger.energies;
+    result.wall_force = std::move(ledger.wall_force);
+    result.contact_dissipation = std::move(ledger.contact_dissipation);
+    result.contact_impact      = std::move(ledger.contact_impact);
+    result.momentum_residual   = ledger.momentum_residual;
+    result.unbalanced_force    = ledger.unbalanced_force;
+
+    take_velocities(v_new, trial);
+    drift(trial, 0.5 * h);
+    if (setting.time.penetration_correction == PenetrationCorrection::projection)
+      project_positions(trial, result.contacts, 1e-4 * setting.mean_diameter);
+    keep_impulses(result.contacts, result.impulses, acting, trial);
+    trial.time += h;
+    state = std::move(trial);
+    return result;
+  }
+
+  StepResult advance(State &state, const StepSetting &setting)
+  {
+    StepCache cache;
+    return advance(state, setting, cache);
+  }
+
+  double kinetic_energy(const Grains &grains)
+  {
+    double energy = 0;
+    for (std::size_t i = 0; i < grains.size(); ++i)
+      energy += 0.5 * grains.mass[i] * grains.velocity[i].squaredNorm() +
+                0.5 * grains.moment_of_inertia(i) * grains.spin[i] * grains.spin[i];
+    return energy;
+  }
+
+  double kinetic_energy(const State &state)
+  {
+    double energy = kinetic_energy(state.grains);
+    for (const Wall &wall : state.walls)
+      for (int axis = 0; axis < 2; ++axis)
+        if (wall.inverse_mass()[axis] > 0)
+          energy += 0.5 * wall.mass * wall.velocity[axis] * wall.velocity[axis];
+    if (state.cell && state.cell->pressure)
+      energy += 0.5 * state.cell->mass * state.cell->velocity * state.cell->velocity;
+    return energy;
+  }
+} // namespace diptych::discrete

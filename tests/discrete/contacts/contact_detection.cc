@@ -1,0 +1,71 @@
+// diptych: every pair within reach is found, once
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <random>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "discrete/contacts/contact_detection.h"
+
+namespace
+{
+  using namespace diptych::discrete;
+
+  State random_grains(const int n, const double extent, const int seed)
+  {
+    std::mt19937 random(seed);
+    const auto   uniform = [&](const double a, const double b) { return a + (b - a) * double(random()) / random.max(); };
+    State        state;
+    state.walls = {{{0, 0}, {0, 1}}, {{0, extent}, {0, -1}}};
+    for (int i = 0; i < n; ++i)
+      add_grain(state.grains, {uniform(0, extent), uniform(0, extent)}, uniform(0.1, 0.9), 1.);
+    return state;
+  }
+
+  TEST(ContactDetection, AgreesWithTheTestOfAllPairs)
+  {
+    const State         state = random_grains(400, 20, 7);
+    std::vector<double> margin;
+    for (int i = 0; i < 400; ++i)
+      margin.push_back(i % 50 == 0 ? 1.5 : 0.05); // a few fast grains
+    std::set<std::pair<int, int>> expected, found;
+    for (int i = 0; i < 400; ++i)
+      {
+        for (int j = i + 1; j < 400; ++j)
+          if (make_contact(state, i, j).gap < margin[i] + margin[j])
+            expected.insert({i, j});
+        for (int w = 0; w < 2; ++w)
+          if (make_contact(state, i, 400 + w).gap < margin[i])
+            expected.insert({i, 400 + w});
+      }
+    const std::vector<Contact> contacts = find_contacts(state, margin);
+    for (const Contact &c : contacts)
+      found.insert({c.i, c.j});
+    EXPECT_EQ(found, expected);
+    EXPECT_EQ(found.size(), contacts.size()) << "a pair was found twice";
+    EXPECT_GT(expected.size(), 400u);
+  }
+
+  TEST(ContactDetection, AGrainThatFlewFarAwayDoesNotExhaustMemory)
+  {
+    State state              = random_grains(100, 10, 3);
+    state.grains.position[5] = {1e9, -1e9};
+    EXPECT_LT(find_contacts(state, std::vector<double>(100, 0.05)).size(), 1000u);
+  }
+
+  // Gap, normal and point of two discs of radii 0.5 and 1 whose centres are 2 apart along x.
+  TEST(ContactDetection, GeometryOfAPairAndOfAWall)
+  {
+    State state;
+    add_grain(state.grains, {2, 5}, 0.5, 1.);
+    add_grain(state.grains, {0, 5}, 1.0, 1.);
+    state.walls     = {{{0, 4.5}, {0, 1}}};
+    const Contact c = make_contact(state, 0, 1);
+    EXPECT_NEAR(c.gap, 0.5, 1e-15);
+    EXPECT_NEAR((c.normal - Eigen::Vector2d(1, 0)).norm(), 0, 1e-15); // from j to i
+    EXPECT_NEAR((c.point - Eigen::Vector2d(1.25, 5)).norm(), 0, 1e-15);
+    const Contact w = make_contact(state, 0, 2);
+    EXPECT_NEAR(w.gap, 0, 1e-15);
+    EXPECT_NEAR((w.point - Eigen::Vector2d(2, 4.5)).norm(), 0, 1e-15);
+  }
+} // namespace

@@ -1,0 +1,158 @@
+// diptych: a table of numbers is read exactly or refused with file, line, column and value
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <clocale>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include "discrete/files/csv_file.h"
+#include "discrete/files/text_file.h"
+
+namespace
+{
+  using namespace diptych::discrete;
+
+  const std::string path = (std::filesystem::path(testing::TempDir()) / ("table" + std::to_string(::getpid()) + ".csv")).string();
+
+  CsvTable read(const std::string &text, const CsvHeader &header = {{"a", "b"}, {"c"}})
+  {
+    write_text(path, text);
+    return read_csv(path, header);
+  }
+
+  // What the reader says of a faulty file, without the file's name in front of it.
+  std::string complaint(const std::string &text, const CsvHeader &header = {{"a", "b"}, {"c"}})
+  {
+    try
+      {
+        read(text, header);
+      }
+    catch (const std::invalid_argument &error)
+      {
+        const std::string what = error.what();
+        return what.compare(0, path.size(), path) == 0 ? what.substr(path.size()) : "not named: " + what;
+      }
+    return "no error";
+  }
+
+  TEST(CsvFile, ColumnsInAnyOrderBlanksCommentsAndEmptyLinesAreUnderstood)
+  {
+    const CsvTable table = read("# made by hand\n\n b , a \r\n 1.5,-2e-3\n\t\n# between\n+4 , .5\n");
+    ASSERT_EQ(table.rows.size(), 2u);
+    EXPECT_EQ(table.at(0, "a"), -2e-3);
+    EXPECT_EQ(table.at(0, "b"), 1.5);
+    EXPECT_EQ(table.at(1, "a"), 0.5);
+    EXPECT_EQ(table.at(1, "b"), 4);
+    EXPECT_FALSE(table.find("c"));
+    // Lines are those of the file: header in 3, numbers in 4 and 7.
+    EXPECT_EQ(table.line, (std::vector<int>{4, 7}));
+  }
+
+  TEST(CsvFile, AByteOrderMarkAndAMissingLastNewlineDoNoHarm)
+  {
+    EXPECT_EQ(read("\xEF\xBB\xBF"
+                   "a,b\n1,2")
+                .at(0, "a"),
+              1);
+  }
+
+  TEST(CsvFile, FurtherColumnsAreReadWhereTheyAreAllowed)
+  {
+    EXPECT_EQ(read("a,z,b\n1,2,3\n", {{"a", "b"}, {}, true}).at(0, "z"), 2);
+  }
+
+  TEST(CsvFile, EveryFaultOfTheHeaderIsNamed)
+  {
+    EXPECT_EQ(complaint(""), ": is empty; its first line must name the columns");
+    EXPECT_EQ(complaint("# only a comment\n\n"), ": is empty; its first line must name the columns");
+    EXPECT_EQ(complaint("a,b\n# nothing\n"), ": holds no line of numbers below the header; allowed: 1 or more");
+    EXPECT_EQ(complaint("# x\na,c\n1,2\n"), ", line 2: column 'b' is missing");
+    EXPECT_EQ(complaint("a,b,bb\n1,2,3\n"), ", line 1: unknown column 'bb'; the nearest is 'b'");
+    EXPECT_EQ(complaint("a,b,a\n1,2,3\n"), ", line 1: column 'a' is named twice");
+    EXPECT_EQ(complaint("a,,b\n1,2,3\n"), ", line 1: column 2 has no name");
+    EXPECT_EQ(complaint("1,2\n3,4\n"), ", line 1: '1' is a number, not a column's name; the header line is missing");
+  }
+
+  TEST(CsvFile, EveryFaultOfARowIsNamed)
+  {
+    EXPECT_EQ(complaint("a,b\n1,2\n3\n"), ", line 3: 1 fields; allowed: 2, as many as the header line names");
+    EXPECT_EQ(complaint("a,b\n1,2,\n"), ", line 2: 3 fields; allowed: 2, as many as the header line names");
+    EXPECT_EQ(complaint("a,b\n1,abc\n"), ", line 2: column 'b' = 'abc' is not a number");
+    EXPECT_EQ(complaint("a,b\n1,2x\n"), ", line 2: column 'b' = '2x' is not a number");
+    EXPECT_EQ(complaint("a,b\n1,\n"), ", line 2: column 'b' = '' is not a number");
+    EXPECT_EQ(complaint("a,b\n+-1,2\n"), ", line 2: column 'a' = '+-1' is not a number");
+    EXPECT_EQ(complaint("a,b\nnan,2\n"), ", line 2: column 'a' = 'nan' is not finite");
+    EXPECT_EQ(complaint("a,b\n1,-inf\n"), ", line 2: column 'b' = '-inf' is not finite");
+    EXPECT_EQ(complaint("a,b\n1,1e999\n").find(", line 2: column 'b' = '1e999' is beyond double precision"), 0u);
+  }
+
+  TEST(CsvFile, AMissingFileAndAFolderAreNamed)
+  {
+    for (const std::string &name : {path + ".absent", testing::TempDir()})
+      try
+        {
+          read_csv(name, {{"a"}});
+          FAIL() << "no error";
+        }
+      catch (const std::invalid_argument &error)
+        {
+          EXPECT_EQ(std::string(error.what()).find(name + ": cannot be"), 0u) << error.what();
+        }
+  }
+
+  TEST(CsvFile, ARefusedCellNamesFileLineColumnValueAndRange)
+  {
+    const CsvTable table = read("a,b\n1,2\n\n-3.5,4\n");
+    try
+      {
+        refuse_cell(table, 1, "a", "more than 0");
+      }
+    catch (const std::invalid_argument &error)
+      {
+        EXPECT_EQ(error.what(), path + ", line 4: column 'a' = '-3.5' is out of range; allowed: more than 0");
+      }
+  }
+
+  TEST(CsvFile, WrittenNumbersReadBackWithTheSameBits)
+  {
+    const std::vector<double> values = {0.1,
+                                        1. / 3,
+                                        -M_PI,
+                                        1e-300,
+                                        123456789.123456789,
+                                        std::nextafter(1., 2.),
+                                        std::numeric_limits<double>::max(),
+                                        std::numeric_limits<double>::denorm_min()};
+    std::string               text   = "a,b\n";
+    for (const double value : values)
+      text += exact_text(value) + "," + exact_text(-value) + "\n";
+    const CsvTable table = read(text);
+    for (std::size_t k = 0; k < values.size(); ++k)
+      {
+        EXPECT_EQ(table.at(k, "a"), values[k]);
+        EXPECT_EQ(table.at(k, "b"), -values[k]);
+      }
+    EXPECT_TRUE(std::signbit(read("a,b\n-0,0\n").at(0, "a")));
+  }
+
+  // In a locale with a decimal comma strtod and printf would take 1.5 for 1. Where none is installed this says nothing.
+  TEST(CsvFile, TheLocaleDoesNotMatter)
+  {
+    const std::string before = std::setlocale(LC_ALL, nullptr);
+    for (const char *locale : {"de_DE.UTF-8", "fr_FR.UTF-8"})
+      std::setlocale(LC_ALL, locale);
+    EXPECT_EQ(read("a,b\n1.5,2\n").at(0, "a"), 1.5);
+    EXPECT_EQ(exact_text(1.5), "1.5");
+    std::setlocale(LC_ALL, before.c_str());
+  }
+
+  TEST(CsvFile, NoFileIsLeftBehind)
+  {
+    std::filesystem::remove(path);
+    EXPECT_FALSE(std::filesystem::exists(path + ".part"));
+  }
+} // namespace

@@ -1,0 +1,133 @@
+// diptych: an HDF5 file is whole or absent, and what it holds is not believed before it is checked
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "discrete/files/hdf5_file.h"
+
+namespace
+{
+  using namespace diptych::discrete;
+  namespace fs = std::filesystem;
+
+  struct Hdf5 : testing::Test
+  {
+    const std::string         path   = testing::TempDir() + "hdf5_file" + std::to_string(::getpid()) + ".h5";
+    const std::vector<double> values = std::vector<double>(20000, 0.7251);
+
+    void TearDown() override { fs::remove(path), fs::remove(path + ".part"); }
+
+    void write() const
+    {
+      Hdf5Writer file(path);
+      file.write("group/values", values);
+      file.write("group/counts", std::vector<int>{1, 2, 3});
+      file.finish();
+    }
+  };
+
+  TEST_F(Hdf5, WithoutFinishNothingIsWritten)
+  {
+    write();
+    const auto size = fs::file_size(path);
+    {
+      Hdf5Writer file(path);
+      file.write("other", std::vector<double>{1.});
+    }
+    EXPECT_EQ(fs::file_size(path), size);
+    EXPECT_TRUE(Hdf5Reader(path).has("group/values"));
+  }
+
+  // One bit of one number turned over on the disk: the checksum tells, and the message names file and array.
+  TEST_F(Hdf5, ATurnedBitIsRefused)
+  {
+    write();
+    std::fstream      file(path, std::ios::in | std::ios::out | std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    char              number[sizeof(double)];
+    std::memcpy(number, values.data(), sizeof number);
+    const std::size_t at = bytes.find(std::string(number, sizeof number)); // arrays are not compressed
+    ASSERT_NE(at, std::string::npos);
+    file.clear(), file.seekp(std::streamoff(at));
+    file.put(char(bytes[at] ^ 1));
+    file.close();
+    const Hdf5Reader reader(path);
+    EXPECT_EQ(reader.read_int("group/counts"), (std::vector<int>{1, 2, 3}));
+    try
+      {
+        reader.read("group/values");
+        FAIL() << "read without a word";
+      }
+    catch (const std::invalid_argument &error)
+      {
+        const std::string what = error.what();
+        EXPECT_NE(what.find(path), std::string::npos) << what;
+        EXPECT_NE(what.find("group/values"), std::string::npos) << what;
+      }
+  }
+
+  // A limit on the size of files acts as a full disk does: the write fails half way. The file of that name stays as it was, the
+  // program goes on, and the next file can be written.
+  TEST_F(Hdf5, AFullDiskLeavesTheOldFileAndTheProgram)
+  {
+    write();
+    const auto size = fs::file_size(path);
+    rlimit     before{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+    std::signal(SIGXFSZ, SIG_IGN);
+    for (const bool on_disk : {false, true})
+      {
+        rlimit small   = before;
+        small.rlim_cur = 50000;
+        ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+        EXPECT_THROW(
+          {
+            std::unique_ptr<Hdf5Writer> file(on_disk ? new Hdf5Writer(path, 8 * values.size()) : new Hdf5Writer(path));
+            file->write("group/values", values);
+            file->finish();
+          },
+          std::runtime_error);
+        ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+        EXPECT_EQ(fs::file_size(path), size);
+        EXPECT_FALSE(fs::exists(path + ".part"));
+      }
+    std::signal(SIGXFSZ, SIG_DFL);
+    write();
+    EXPECT_EQ(Hdf5Reader(path).read("group/values"), values);
+  }
+
+  TEST_F(Hdf5, AFolderThatIsNotThereIsNamed)
+  {
+    const std::string lost = testing::TempDir() + "no/such/folder/file.h5";
+    try
+      {
+        Hdf5Writer file(lost);
+        file.write("x", values);
+        file.finish();
+        FAIL() << "written where nothing is";
+      }
+    catch (const std::runtime_error &error)
+      {
+        EXPECT_NE(std::string(error.what()).find(lost), std::string::npos) << error.what();
+      }
+  }
+
+  TEST_F(Hdf5, ArraysOfAnotherTypeOrShapeAreRefused)
+  {
+    write();
+    const Hdf5Reader file(path);
+    EXPECT_THROW(file.read_int("group/values"), std::invalid_argument);
+    EXPECT_THROW(file.read_vectors("group/values"), std::invalid_argument);
+    EXPECT_THROW(file.read("group/nothing"), std::invalid_argument);
+    EXPECT_THROW(file.attribute("group", "nothing"), std::invalid_argument);
+  }
+} // namespace

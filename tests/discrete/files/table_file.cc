@@ -1,0 +1,122 @@
+// diptych: a table grows at its end and is taken up at any row
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "discrete/files/table_file.h"
+#include "discrete/panel/history.h"
+
+namespace
+{
+  using namespace diptych::discrete;
+
+  struct Table : testing::Test
+  {
+    const std::string path = testing::TempDir() + "table_file" + std::to_string(::getpid()) + ".csv";
+    void              TearDown() override { std::filesystem::remove(path); }
+
+    std::string text() const
+    {
+      std::ifstream in(path);
+      return {std::istreambuf_iterator<char>(in), {}};
+    }
+  };
+
+  TEST_F(Table, RowsAreWrittenWhenItIsSaid)
+  {
+    TableFile table(path, "a,b");
+    table.add("1,2");
+    EXPECT_EQ(text(), "a,b\n");
+    table.flush();
+    EXPECT_EQ(text(), "a,b\n1,2\n");
+    table.add("3,4"), table.add("5,6");
+    table.flush();
+    EXPECT_EQ(text(), "a,b\n1,2\n3,4\n5,6\n");
+    EXPECT_EQ(table.n_rows(), 3);
+  }
+
+  TEST_F(Table, IsTakenUpAfterTheRowOfTheCheckpoint)
+  {
+    std::ofstream(path) << "a,b\n1,2\n3,4\n5,"; // killed while a row was written
+    TableFile table(path, "a,b", 1);
+    table.add("7,8");
+    table.flush();
+    EXPECT_EQ(text(), "a,b\n1,2\n7,8\n");
+  }
+
+  TEST_F(Table, OtherColumnsOrFewerRowsAreRefused)
+  {
+    std::ofstream(path) << "a,b\n1,2\n3,4";
+    EXPECT_THROW(TableFile(path, "a,c", 1), std::invalid_argument);
+    EXPECT_THROW(TableFile(path, "a,b", 2), std::invalid_argument) << "the second row has no end";
+    EXPECT_NO_THROW(TableFile(path, "a,b", 1));
+    EXPECT_THROW(TableFile(path + "none", "a,b", 0), std::invalid_argument);
+  }
+
+  HistoryRow random_row(std::mt19937_64 &random)
+  {
+    HistoryRow row;
+    visit_columns(row, [&](const char *, auto &value, const char *, const char *) {
+      using Value = std::decay_t<decltype(value)>;
+      if constexpr (std::is_same_v<Value, double>)
+        value = std::ldexp(double(std::int64_t(random())) * 0x1.0p-63, int(random() % 200) - 100);
+      else if constexpr (std::is_enum_v<Value>)
+        value = Value(random() % 3);
+      else
+        value = int(random() % 1000000);
+    });
+    return row;
+  }
+
+  // What is written gives the same bits back, names of choices included.
+  TEST_F(Table, RowsSurviveTheText)
+  {
+    std::mt19937_64         random(3);
+    std::vector<HistoryRow> written;
+    TableFile               table(path, csv_header<HistoryRow>());
+    for (int k = 0; k < 20; ++k)
+      {
+        written.push_back(random_row(random));
+        table.add(csv_line(written.back()));
+      }
+    table.flush();
+    const std::vector<HistoryRow> read = read_rows<HistoryRow>(path);
+    ASSERT_EQ(read.size(), written.size());
+    for (std::size_t k = 0; k < read.size(); ++k)
+      EXPECT_EQ(csv_line(read[k]), csv_line(written[k])); // the text is exact
+    EXPECT_EQ(read[7].stress(0, 1), written[7].stress(0, 1));
+    EXPECT_EQ(read[7].walk, written[7].walk);
+  }
+
+  TEST_F(Table, AWordThatIsNoValueOfItsColumnIsNamed)
+  {
+    std::mt19937_64 random(4);
+    HistoryRow      row = random_row(random);
+    for (const auto &[from, to] : {std::pair{name_of(row.walk), "sideways"}, std::pair{std::to_string(row.contacts), "many"}})
+      {
+        std::string       line  = csv_line(row);
+        const std::size_t place = line.rfind(from);
+        std::ofstream(path) << csv_header<HistoryRow>() << '\n'
+                            << csv_line(row) << '\n'
+                            << line.replace(place, from.size(), to) << '\n';
+        try
+          {
+            read_rows<HistoryRow>(path);
+            FAIL() << "no error";
+          }
+        catch (const std::invalid_argument &error)
+          {
+            const std::string what = error.what();
+            EXPECT_NE(what.find(path + ", line 3: column '"), std::string::npos) << what;
+            EXPECT_NE(what.find(to), std::string::npos) << what;
+          }
+      }
+  }
+} // namespace

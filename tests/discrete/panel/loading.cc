@@ -1,0 +1,383 @@
+// diptych: every mode of loading, every lateral condition, and what the history says of them
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "discrete/panel/loading.h"
+#include "tests/discrete/small_scenes.h"
+
+namespace
+{
+  using namespace diptych::tests;
+
+  Loading one_percent(const LoadingMode mode = LoadingMode::descent)
+  {
+    Loading loading;
+    loading.mode            = mode;
+    loading.inertial_number = 2e-3;
+    loading.stages          = {0.01};
+    return loading;
+  }
+
+  void expect_ledgers_closed(const Course &course)
+  {
+    ASSERT_EQ(course.report.status, Status::finished) << course.report.message;
+    ASSERT_FALSE(course.rows.empty());
+    double penetration = 0;
+    for (const HistoryRow &row : course.rows)
+      {
+        EXPECT_LT(row.momentum_residual, 1e-10);
+        EXPECT_LT(std::abs(row.energy_residual), 1e-10);
+        penetration = std::max(penetration, row.max_penetration);
+      }
+    EXPECT_LT(penetration, 0.02);
+  }
+
+  // rate = I sqrt(P/rho)/d; the key strain_rate in its place; stages are times in mode time.
+  TEST(Loading, RateFollowsFromTheInertialNumberUnlessGiven)
+  {
+    Loading loading;
+    loading.pressure = 9, loading.inertial_number = 1e-3;
+    EXPECT_NEAR(strain_rate(loading, 2., 4.), 1e-3 / 2 * 1.5, 1e-18);
+    loading.strain_rate = 0.07;
+    EXPECT_EQ(strain_rate(loading, 2., 4.), 0.07);
+    loading.mode = LoadingMode::time;
+    EXPECT_EQ(strain_rate(loading, 2., 4.), 1);
+  }
+
+  // Platen at (k, -1) x rate x height (descent) or (1, 0) x rate x height; affine: v = V y/height and the spin of that field,
+  // -(1/2) dvx/dy; impulsive: grains at rest.
+  TEST(Loading, StartsWithTheAffineFieldOrImpulsively)
+  {
+    for (const LoadingMode mode : {LoadingMode::descent, LoadingMode::shear})
+      for (const double direction : {0., 1., -0.5, 2.})
+        for (const bool affine : {true, false})
+          {
+            State state;
+            state.walls = {{{0, 1}, {0, 1}}, {{0, 5}, {0, -1}}};
+            add_grain(state.grains, {0, 2}, 0.5, 1.);
+            add_grain(state.grains, {0, 4.5}, 0.5, 1.);
+            state.grains.velocity[0] = {7, 7};
+            Loading loading;
+            loading.mode = mode, loading.horizontal_over_vertical = direction, loading.affine_start = affine;
+            LateralOptions none;
+            none.lateral = Lateral::none;
+            start_loading(state, {loading, none, {}, 0.1});
+            const Eigen::Vector2d V = mode == LoadingMode::shear ? Eigen::Vector2d(0.4, 0)
+                                                                 : Eigen::Vector2d(direction * 0.4, -0.4);
+            EXPECT_NEAR((state.walls[1].velocity - V).norm(), 0, 1e-15);
+            EXPECT_EQ(state.walls[0].velocity.norm(), 0);
+            EXPECT_NEAR((state.grains.velocity[0] - (affine ? 0.25 : 0.) * V).norm(), 0, 1e-15);
+            EXPECT_NEAR((state.grains.velocity[1] - (affine ? 0.875 : 0.) * V).norm(), 0, 1e-15);
+            EXPECT_NEAR(state.grains.spin[0], affine ? -0.5 * V.x() / 4 : 0., 1e-15);
+          }
+  }
+
+  TEST(Loading, DescentAndShearGoWhereTheyAreSent)
+  {
+    Loading loading                  = one_percent();
+    loading.horizontal_over_vertical = -0.5;
+    const Course descent             = loaded(small_sample(150), loading, quick_options());
+    expect_ledgers_closed(descent);
+    EXPECT_NEAR(descent.rows.back().axial_strain, 0.01, 1e-13);
+    EXPECT_NEAR(descent.rows.back().shear_strain, -0.005, 1e-13);
+    EXPECT_NEAR(descent.report.platen_speed, 2e-3 * descent.report.initial_height, 1e-15);
+
+    const Course shear = loaded(small_sample(150), one_percent(LoadingMode::shear), quick_options());
+    expect_ledgers_closed(shear);
+    EXPECT_NEAR(shear.rows.back().shear_strain, 0.01, 1e-13);
+    EXPECT_NEAR(shear.rows.back().axial_strain, 0, 1e-13);
+    EXPECT_NEAR(shear.snapshots.back().shear_strain, 0.01, 1e-13);
+  }
+
+  // The same final strain from an impulsive start: reached too, with more sweeps at the outset and ledgers closed.
+  TEST(Loading, ImpulsiveStartReachesItsStage)
+  {
+    Loading loading      = one_percent();
+    loading.affine_start = false;
+    const Course course  = loaded(small_sample(150), loading, quick_options());
+    expect_ledgers_closed(course);
+    EXPECT_NEAR(course.rows.back().axial_strain, 0.01, 1e-13);
+  }
+
+  // Platen free to rise: M a = f - P_n x width in every step, f the sample's push; so the force on the sample is -(P_n width + M
+  // a).
+  TEST(Loading, PlaneShearHoldsTheNormalPressureInEveryStep)
+  {
+    const double         pressure = 2, normal = 3;
+    const PreparedSample sample  = prepare_sample(small_sample(150), {PeriodicSides{}, {}, pressure},
+                                                  [](int, int) { return true; });
+    State                state   = sample.state;
+    Loading              loading = one_percent(LoadingMode::plane_shear);
+    loading.pressure = pressure, loading.normal_pressure = normal;
+    LateralOptions lateral;
+    lateral.lateral = Lateral::periodic, lateral.side_motion = SideMotion::velocity;
+    start_loading(state, {loading, lateral, {}, strain_rate(loading, 1, 1)});
+    StepSetting setting;
+    setting.step = 0.1, setting.solver.tolerance = 1e-4, setting.lateral = PeriodicSides{};
+    const double width = state.cell->width, speed = state.walls[1].velocity.x();
+    StepCache    cache;
+    double       moved = 0;
+    for (int k = 0; k < 60; ++k)
+      {
+        const double     before = state.walls[1].velocity.y();
+        const StepResult result = advance(state, setting, cache);
+        ASSERT_EQ(result.solve.status, SolveStatus::converged);
+        const double acceleration = (state.walls[1].velocity.y() - before) / setting.step;
+        ASSERT_NEAR(result.wall_force[1].y(), -normal * width - state.walls[1].mass * acceleration, 1e-10 * normal * width);
+        ASSERT_EQ(state.walls[1].velocity.x(), speed);
+        moved += std::abs(state.walls[1].velocity.y());
+      }
+    EXPECT_EQ(state.cell->width, width);
+    EXPECT_GT(moved, 0);
+  }
+
+  TEST(Loading, PlaneShearRunsBetweenPeriodicSidesAndIsRefusedWithFreeOnes)
+  {
+    Options options             = quick_options();
+    options.lateral.lateral     = Lateral::periodic;
+    options.lateral.side_motion = SideMotion::velocity;
+    const Course course         = loaded(small_sample(150), one_percent(LoadingMode::plane_shear), options);
+    expect_ledgers_closed(course);
+    EXPECT_NEAR(course.rows.back().shear_strain, 0.01, 1e-12);
+    EXPECT_THROW(Panel(small_sample(150), one_percent(LoadingMode::plane_shear), quick_options()), std::invalid_argument);
+  }
+
+  std::string written(const std::string &name, const std::string &text)
+  {
+    const std::string path = (std::filesystem::temp_directory_path() / ("diptych_loading_" + name)).string();
+    std::ofstream(path) << text;
+    return path;
+  }
+
+  // Velocity 0 -> -0.02 within t = 0 to 1, then constant: at t = 3 the platen has gone -0.01 - 0.04 = -0.05 (the rule is exact
+  // for knots at steps). The right wall carries the force of its own file, 30 -> 40: M a = F + push.
+  TEST(Loading, ModeTimeFollowsItsFiles)
+  {
+    Options options         = quick_options();
+    options.lateral.lateral = Lateral::rigid_walls;
+    options.drives.upper_y  = "velocity " + written("velocity.csv", "time,velocity\n0,0\n1,-0.02\n3,-0.02\n");
+    options.drives.right_x  = "force " + written("force.csv", "time,force\n0,-30\n3,-40\n");
+    Loading loading         = one_percent(LoadingMode::time);
+    loading.stages          = {1., 3.};
+    const Course course     = loaded(small_sample(150), loading, options);
+    expect_ledgers_closed(course);
+    EXPECT_NEAR(course.rows.back().time, 3, 1e-12);
+    ASSERT_EQ(course.snapshots.size(), 3u);
+    EXPECT_NEAR(course.snapshots[1].upper_platen_displacement.y(), -0.01, 1e-13);
+    EXPECT_NEAR(course.snapshots[2].upper_platen_displacement.y(), -0.05, 1e-13);
+    double mean = 0; // of the last second: F = -38.3 at t = 2.5, up to M dv/1
+    int    n    = 0;
+    for (const HistoryRow &row : course.rows)
+      if (row.time > 2)
+        mean += row.right_force.x(), ++n;
+    EXPECT_NEAR(mean / n, -38.3, 2);
+    options.drives.upper_y = "velocity /nowhere.csv";
+    EXPECT_THROW(Panel(small_sample(150), loading, options), std::invalid_argument);
+    EXPECT_THROW(options.drives.upper_y = "speed 3", std::invalid_argument);
+  }
+
+  // Every lateral condition takes the sample to its stage with ledgers closed. Sides or width that are driven go V T outwards.
+  TEST(Loading, EveryLateralConditionReachesItsStage)
+  {
+    for (const Lateral lateral : {Lateral::rigid_walls, Lateral::periodic})
+      for (const SideMotion motion : {SideMotion::pressure, SideMotion::velocity})
+        {
+          Options options                  = quick_options();
+          options.lateral.lateral          = lateral;
+          options.lateral.side_motion      = motion;
+          options.lateral.side_velocity    = 0.03;
+          Loading loading                  = one_percent();
+          loading.horizontal_over_vertical = 0;
+          const Course course              = loaded(small_sample(150), loading, options);
+          SCOPED_TRACE(name_of(lateral) + ' ' + name_of(motion));
+          expect_ledgers_closed(course);
+          EXPECT_NEAR(course.report.axial_strain, 0.01, 1e-12);
+          const auto   width  = [](const Snapshot &s) { return s.cell_width > 0 ? s.cell_width : s.right_x - s.left_x; };
+          const double spread = width(course.snapshots.back()) - width(course.snapshots.front());
+          if (motion == SideMotion::velocity)
+            {
+              EXPECT_NEAR(spread, 0.03 * course.rows.back().time, 1e-12);
+            }
+          else
+            {
+              EXPECT_GT(spread, 0) << "under vertical compression a width held by the pressure opens";
+            }
+        }
+  }
+
+  // P23: in each band the forces on the left sum to w P, on the right to -w P, for any count and height.
+  TEST(LateralAction, SumsAreExactInEveryBand)
+  {
+    const PreparedSample sample = prepare_sample(small_sample(300), {}, [](int, int) { return true; });
+    const double         height = sample_height(sample.state), pressure = 1.7;
+    for (const int count : {3, 5, 7})
+      for (const double wanted : {1., 3., 5.})
+        {
+          std::vector<Eigen::Vector2d> force(sample.state.grains.size(), Eigen::Vector2d::Zero());
+          add_lateral_forces(sample.state, EndGrains{wanted, count}, pressure, 1., force);
+          const int           n_bands = int(std::lround(height / wanted));
+          const double        w       = height / n_bands;
+          std::vector<double> left(n_bands, 0.), right(n_bands, 0.);
+          int                 loaded_grains = 0;
+          for (std::size_t i = 0; i < force.size(); ++i)
+            {
+              const int band = std::min(n_bands - 1, int(sample.state.grains.position[i].y() / w));
+              (force[i].x() > 0 ? left : right)[band] += force[i].x();
+              loaded_grains += force[i].x() != 0;
+            }
+          for (int b = 0; b < n_bands; ++b)
+            {
+              EXPECT_NEAR(left[b], w * pressure, 1e-12);
+              EXPECT_NEAR(right[b], -w * pressure, 1e-12);
+            }
+          EXPECT_LE(loaded_grains, 2 * count * n_bands); // a thin band has fewer than two times seven grains
+          if (wanted >= 3)
+            {
+              EXPECT_EQ(loaded_grains, 2 * count * n_bands);
+            }
+        }
+  }
+
+  double largest_gap_to_a_neighbour(const Snapshot &s)
+  {
+    double largest = 0;
+    for (std::size_t i = 0; i < s.position.size(); ++i)
+      {
+        double nearest = 1e300;
+        for (std::size_t j = 0; j < s.position.size(); ++j)
+          if (i != j)
+            nearest = std::min(nearest, (s.position[i] - s.position[j]).norm() - s.radius[i] - s.radius[j]);
+        largest = std::max(largest, nearest);
+      }
+    return largest;
+  }
+
+  // P23: five end grains a band are a barrier, and so are three and seven: over 2 % of strain nothing gets out, and the mean
+  // lateral stress is the pressure.
+  TEST(LateralAction, NoGrainEscapes)
+  {
+    for (const int count : {3, 5, 7})
+      {
+        Options options            = quick_options();
+        options.time.step          = 0.25;
+        options.lateral.end_grains = count;
+        Loading loading            = one_percent();
+        loading.stages             = {0.02};
+        const Course course        = loaded(small_sample(count == 5 ? 500 : 200), loading, options);
+        SCOPED_TRACE(count);
+        expect_ledgers_closed(course);
+        const Snapshot &last = course.snapshots.back();
+        EXPECT_LT(largest_gap_to_a_neighbour(last), 0.5);
+        for (std::size_t i = 0; i < last.position.size(); ++i)
+          {
+            EXPECT_GT(last.position[i].y(), last.lower_y);
+            EXPECT_LT(last.position[i].y(), last.upper_y);
+          }
+        double sxx = 0;
+        for (const HistoryRow &row : course.rows)
+          sxx += row.stress(0, 0) / double(course.rows.size());
+        RecordProperty("sxx_" + std::to_string(count), std::to_string(sxx));
+        EXPECT_NEAR(sxx, 1, 0.2) << "the force of deep end grains acts inside the outline";
+      }
+  }
+
+  // P24: a share, and the smaller the platen's friction the larger.
+  TEST(History, PlatenSlidingGrowsWhereThePlatenIsSmooth)
+  {
+    double share[2] = {0, 0};
+    for (int k = 0; k < 2; ++k)
+      {
+        Options options             = quick_options();
+        options.law.platen_friction = k == 0 ? 0.9 : 0.05;
+        const Course course         = loaded(small_sample(200), one_percent(), options);
+        for (const HistoryRow &row : course.rows)
+          {
+            ASSERT_GE(row.platen_sliding, 0);
+            ASSERT_LE(row.platen_sliding, 1);
+            share[k] += row.platen_sliding / double(course.rows.size());
+          }
+      }
+    RecordProperty("rough", std::to_string(share[0]));
+    RecordProperty("smooth", std::to_string(share[1]));
+    EXPECT_LT(share[0], 0.3);
+    EXPECT_GT(share[1], share[0] + 0.2);
+  }
+
+  // P28: a small grain in a cavity of six fixed ones carries nothing until it falls on one of them.
+  TEST(History, AGrainInACavityIsARattler)
+  {
+    State state;
+    for (int k = 0; k < 6; ++k)
+      add_grain(state.grains, {std::cos(k * M_PI / 3), std::sin(k * M_PI / 3)}, 0.5, 1.);
+    std::fill(state.grains.fixed.begin(), state.grains.fixed.end(), 1);
+    add_grain(state.grains, {0.02, 0.01}, 0.45, 1.);
+    StepSetting setting = exact_setting(0.01);
+    EXPECT_EQ(rattlers(advance(state, setting), state.grains)[6], 1);
+    setting.time.gravity_y = -10;
+    bool carried           = false;
+    for (int k = 0; k < 30; ++k)
+      carried = rattlers(advance(state, setting), state.grains)[6] == 0;
+    EXPECT_TRUE(carried);
+  }
+
+  // P15: masses are true. Density x 4 at the same forces and the same inertial number: the same path in twice the time. A power
+  // of two scales every number exactly, except where the detection margin adds a fixed length.
+  TEST(Loading, ScalingTheMassesScalesTheTime)
+  {
+    SampleOptions sample  = small_sample(150);
+    Options       options = quick_options();
+    const Course  a       = loaded(sample, one_percent(), options);
+    sample.density        = 4;
+    *options.time.step *= 2, sample.preparation_step *= 2;
+    const Course b = loaded(sample, one_percent(), options);
+    ASSERT_EQ(a.rows.size(), b.rows.size());
+    EXPECT_NEAR(b.rows.back().time, 2 * a.rows.back().time, 1e-9);
+    EXPECT_NEAR(b.rows.back().stress(1, 1), a.rows.back().stress(1, 1), 1e-6);
+    for (std::size_t i = 0; i < 150; ++i)
+      EXPECT_NEAR((a.snapshots.back().position[i] - b.snapshots.back().position[i]).norm(), 0, 1e-8);
+  }
+
+  double mean_stress_ratio(const Course &course, const double from)
+  {
+    double sum = 0;
+    int    n   = 0;
+    for (const HistoryRow &row : course.rows)
+      if (row.axial_strain > from)
+        sum += row.stress_ratio, ++n;
+    return sum / n;
+  }
+
+  // The same sample by explicit penalty steps: mean stress ratio over 0.5-1.5 % as by NSCD, to the scatter of 200 discs (0.05).
+  // Above the critical step (about 1 here) it first heats silently, the ratio falling by a third at 1.2; at twice it the run
+  // blows up, says so, and keeps what it had.
+  TEST(Penalty, ThroughThePanelAgreesWithNscdAndBlowsUpHonestly)
+  {
+    Loading loading       = one_percent();
+    loading.stages        = {0.015};
+    Options      options  = quick_options();
+    const Course nscd     = loaded(small_sample(200), loading, options);
+    options.method.method = Method::penalty;
+    const Course penalty  = loaded(small_sample(200), loading, options);
+    expect_ledgers_closed(nscd);
+    ASSERT_EQ(penalty.report.status, Status::finished) << penalty.report.message;
+    EXPECT_NEAR(penalty.report.axial_strain, 0.015, 1e-12);
+    RecordProperty("nscd", std::to_string(mean_stress_ratio(nscd, 0.005)));
+    RecordProperty("penalty", std::to_string(mean_stress_ratio(penalty, 0.005)));
+    EXPECT_NEAR(mean_stress_ratio(penalty, 0.005), mean_stress_ratio(nscd, 0.005), 0.05);
+
+    options.penalty.step_fraction = 1.2;
+    EXPECT_LT(mean_stress_ratio(loaded(small_sample(200), loading, options), 0.005), 0.8 * mean_stress_ratio(penalty, 0.005));
+    options.penalty.step_fraction = 2;
+    const Course blown            = loaded(small_sample(200), loading, options);
+    EXPECT_EQ(blown.report.status, Status::not_converged);
+    EXPECT_NE(blown.report.message.find("penalty_step_fraction"), std::string::npos) << blown.report.message;
+    EXPECT_LT(blown.report.axial_strain, 0.015);
+    for (const Snapshot &s : blown.snapshots)
+      for (const Eigen::Vector2d &x : s.position)
+        ASSERT_TRUE(x.allFinite());
+  }
+} // namespace

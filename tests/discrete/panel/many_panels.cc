@@ -1,0 +1,107 @@
+// diptych: many samples in one process leave nothing behind, in memory or in results
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <malloc.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "tests/discrete/small_scenes.h"
+
+namespace
+{
+  using namespace diptych::tests;
+
+  // Every fifth of them takes one of five turns: friction, seed, step, sides and method.
+  Course turn(const int k)
+  {
+    SampleOptions sample  = small_sample(40, 1 + k % 2);
+    Loading       loading = short_loading();
+    Options       options = quick_options();
+    loading.stages        = {0.001};
+    if (k % 5 == 1)
+      options.law.friction = 0.2;
+    if (k % 5 == 2)
+      options.time.step = 0.05;
+    if (k % 5 == 3)
+      options.lateral.lateral = Lateral::periodic;
+    if (k % 5 == 4)
+      options.method.method = Method::penalty;
+    return loaded(sample, loading, options);
+  }
+
+  std::vector<double> numbers(const Course &course)
+  {
+    std::vector<double> values;
+    for (const Eigen::Vector2d &x : course.snapshots.back().position)
+      values.insert(values.end(), {x.x(), x.y()});
+    for (const Eigen::Matrix2d &m : course.snapshots.back().internal_moment)
+      values.insert(values.end(), {m(0, 0), m(0, 1), m(1, 0), m(1, 1)});
+    for (const HistoryRow &row : course.rows)
+      values.push_back(row.stress_ratio);
+    return values;
+  }
+
+  // The same in a process that has run nothing else: the numbers come through a pipe.
+  std::vector<double> numbers_of_a_fresh_process(const int k)
+  {
+    int ends[2];
+    EXPECT_EQ(pipe(ends), 0);
+    const pid_t child = fork();
+    if (child == 0)
+      {
+        const std::vector<double> values = numbers(turn(k));
+        const char               *bytes  = reinterpret_cast<const char *>(values.data());
+        std::size_t               left   = values.size() * sizeof(double);
+        while (left > 0)
+          {
+            const ssize_t n = ::write(ends[1], bytes, left);
+            if (n <= 0)
+              _exit(1);
+            bytes += n, left -= std::size_t(n);
+          }
+        _exit(0);
+      }
+    close(ends[1]);
+    std::vector<double> values;
+    double              value;
+    std::size_t         filled = 0;
+    for (;;)
+      {
+        const ssize_t n = ::read(ends[0], reinterpret_cast<char *>(&value) + filled, sizeof value - filled);
+        if (n <= 0)
+          break;
+        if ((filled += std::size_t(n)) == sizeof value)
+          values.push_back(value), filled = 0;
+      }
+    close(ends[0]);
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+    return values;
+  }
+
+  std::size_t bytes_in_use()
+  {
+    const struct mallinfo2 now = mallinfo2();
+    return now.uordblks + now.hblkhd;
+  }
+
+  // Fifty samples, ten of each kind. After the first ten (which fill what a library keeps once) nothing more may stay in use.
+  TEST(ManyPanels, KeepNoMemoryAndGiveTheBitsOfAFreshProcess)
+  {
+    std::vector<std::vector<double>> fresh;
+    for (int k = 0; k < 10; ++k)
+      fresh.push_back(numbers_of_a_fresh_process(k));
+    std::size_t before = 0;
+    for (int k = 0; k < 50; ++k)
+      {
+        if (k == 10)
+          before = bytes_in_use();
+        const std::vector<double> here = numbers(turn(k));
+        ASSERT_EQ(here, fresh[std::size_t(k % 10)]) << "panel " << k;
+      }
+    // 40 panels of 40 grains: one that kept so much as its positions would add 40 x 640 bytes.
+    EXPECT_LT(bytes_in_use(), before + 10000);
+  }
+} // namespace

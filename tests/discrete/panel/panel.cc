@@ -1,0 +1,165 @@
+// diptych: a loaded sample: stages, ledgers, determinism, honest ends
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <filesystem>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "discrete/contacts/internal_moment.h"
+#include "discrete/samples/sample_file.h"
+#include "tests/discrete/small_scenes.h"
+
+namespace
+{
+  using namespace diptych::tests;
+
+  TEST(Panel, LandsOnItsStagesAndBalancesEnergyAndMomentum)
+  {
+    const Course r = loaded(small_sample(), short_loading(), quick_options());
+    ASSERT_EQ(r.report.status, Status::finished) << r.report.message;
+    ASSERT_EQ(r.snapshots.size(), 3u);
+    EXPECT_EQ(r.snapshots[0].axial_strain, 0);
+    EXPECT_NEAR(r.snapshots[1].axial_strain, 0.005, 1e-12);
+    EXPECT_NEAR(r.snapshots[2].axial_strain, 0.01, 1e-12);
+    EXPECT_LE(r.report.step, 0.1);
+    for (const HistoryRow &row : r.rows)
+      {
+        EXPECT_LT(row.momentum_residual, 1e-13);
+        EXPECT_LT(std::abs(row.energy_residual), 1e-11);
+        EXPECT_GE(row.friction_dissipation, 0);
+        EXPECT_LE(row.residual, 1e-4);
+        EXPECT_LT(row.max_penetration, 0.02);
+      }
+    // A dense sample sheared at 1 % strain carries a deviator, more than half of what friction 0.4 allows at most.
+    EXPECT_GT(r.rows.back().stress_ratio, 0.2);
+    EXPECT_LT(r.rows.back().stress_ratio, 0.6);
+  }
+
+  TEST(Panel, SameSceneAndSeedGiveTheSameBits)
+  {
+    const Course a = loaded(small_sample(200), short_loading(), quick_options());
+    const Course b = loaded(small_sample(200), short_loading(), quick_options());
+    const Course c = loaded(small_sample(200, 2), short_loading(), quick_options());
+    EXPECT_EQ(a.snapshots.back().position, b.snapshots.back().position);
+    EXPECT_EQ(a.snapshots.back().internal_moment, b.snapshots.back().internal_moment);
+    EXPECT_NE(a.snapshots.back().position, c.snapshots.back().position);
+  }
+
+  // Forces times 4 at equal masses: the same path in half the time (P8). A power of two scales every number exactly, except
+  // where the detection margin adds a fixed length to one that scales.
+  TEST(Panel, ScalingTheForcesScalesTheTime)
+  {
+    SampleOptions sample  = small_sample(200);
+    Loading       loading = short_loading();
+    Options       options = quick_options();
+    const Course  a       = loaded(sample, loading, options);
+    loading.pressure      = 4;
+    *options.time.step /= 2;
+    sample.preparation_step /= 2;
+    const Course b = loaded(sample, loading, options);
+    ASSERT_EQ(a.rows.size(), b.rows.size());
+    EXPECT_NEAR(b.rows.back().time, 0.5 * a.rows.back().time, 1e-9);
+    for (std::size_t i = 0; i < a.snapshots.back().position.size(); ++i)
+      EXPECT_NEAR((a.snapshots.back().position[i] - b.snapshots.back().position[i]).norm(), 0, 1e-8);
+    EXPECT_NEAR(b.rows.back().stress(1, 1), 4 * a.rows.back().stress(1, 1), 1e-6);
+  }
+
+  TEST(Panel, AStepThatDoesNotConvergeEndsTheRunAndIsNotTaken)
+  {
+    Options options           = quick_options();
+    options.solver.tolerance  = 1e-12;
+    options.solver.max_sweeps = 5;
+    const Course r            = loaded(small_sample(150), short_loading(), options);
+    EXPECT_EQ(r.report.status, Status::not_converged);
+    EXPECT_NE(r.report.message.find("did not converge"), std::string::npos) << r.report.message;
+    EXPECT_LT(r.rows.size(), 100u);
+    EXPECT_EQ(r.snapshots.size(), 1u) << "the prepared sample is kept";
+  }
+
+  TEST(Panel, StopsAtTheNextStepOnRequest)
+  {
+    int   steps = 0;
+    Hooks hooks;
+    hooks.on_row         = [&](const HistoryRow &) { ++steps; };
+    hooks.stop_requested = [&] { return steps == 7; };
+    Panel                 panel(small_sample(150), short_loading(), quick_options(), hooks);
+    std::vector<Snapshot> snapshots;
+    const Report          report = walked(panel, 2, snapshots);
+    EXPECT_EQ(report.status, Status::stopped_by_user);
+    EXPECT_EQ(steps, 7);
+    ASSERT_EQ(snapshots.size(), 2u) << "the prepared sample and the last accepted step";
+    EXPECT_NEAR(snapshots.back().axial_strain, report.axial_strain, 1e-12);
+    EXPECT_GT(report.axial_strain, 0);
+  }
+
+  // Stopped within a stage and asked to go on, a panel in memory ends with the bits of one left alone.
+  TEST(Panel, GoesOnAfterAStopWithTheSameBits)
+  {
+    const Course whole = loaded(small_sample(150), short_loading(), quick_options());
+    int          steps = 0;
+    Hooks        hooks;
+    hooks.on_row         = [&](const HistoryRow &) { ++steps; };
+    hooks.stop_requested = [&] { return steps == 7; };
+    Panel                 panel(small_sample(150), short_loading(), quick_options(), hooks);
+    std::vector<Snapshot> snapshots;
+    (void)walked(panel, 2, snapshots);
+    steps = 100; // the hook says stop no more
+    ASSERT_EQ(panel.advance_to(2), Status::finished);
+    EXPECT_EQ(panel.snapshot().position, whole.snapshots.back().position);
+    EXPECT_EQ(panel.snapshot().internal_moment, whole.snapshots.back().internal_moment);
+  }
+
+  // Grains given as arrays are the grains of a file with the same numbers.
+  TEST(Panel, GrainsFromArraysAreThoseOfAFile)
+  {
+    const Grains      grains = loaded(small_sample(100), short_loading(), quick_options()).prepared;
+    const std::string path   = testing::TempDir() + "grains" + std::to_string(::getpid()) + ".csv";
+    write_grains_csv(path, grains);
+    SampleOptions sample   = small_sample(100);
+    sample.allowed_overlap = 0.1;
+    Panel from_arrays(sample, short_loading(), quick_options(), {}, grains);
+    sample.file = path;
+    Panel                 from_file(sample, short_loading(), quick_options());
+    std::vector<Snapshot> a, b;
+    EXPECT_EQ(walked(from_arrays, 2, a).status, Status::finished);
+    EXPECT_EQ(walked(from_file, 2, b).status, Status::finished);
+    EXPECT_EQ(a.back().position, b.back().position);
+    EXPECT_EQ(a.back().mean_internal_moment, b.back().mean_internal_moment);
+    std::filesystem::remove(path);
+  }
+
+  // The penalty method rebounds by its dashpots and has no contact problems: keys that would be ignored are refused.
+  TEST(Panel, KeysThatThePenaltyMethodWouldIgnoreAreRefused)
+  {
+    Options options                = quick_options();
+    options.method.method          = Method::penalty;
+    options.law.normal_restitution = 0.5;
+    EXPECT_THROW(Panel(small_sample(150), short_loading(), options), std::invalid_argument);
+    options.law.normal_restitution = 0;
+    options.method.store_problems  = true;
+    EXPECT_THROW(Panel(small_sample(150), short_loading(), options), std::invalid_argument);
+  }
+
+  TEST(Panel, StagesOutOfOrderAreRefused)
+  {
+    Loading loading = short_loading();
+    loading.stages  = {0.01, 0.005};
+    EXPECT_THROW(Panel(small_sample(150), loading, quick_options()), std::invalid_argument);
+  }
+
+  // The window's mean forces carry the mean of the stress of its steps: their moments differ only by the motion within it.
+  TEST(Panel, WindowForcesCarryTheMeanStress)
+  {
+    const Course    r    = loaded(small_sample(), short_loading(), quick_options());
+    const Snapshot &last = r.snapshots.back();
+    Eigen::Matrix2d mean = Eigen::Matrix2d::Zero(), moment = Eigen::Matrix2d::Zero();
+    int             n = 0;
+    for (const HistoryRow &row : r.rows)
+      if (row.axial_strain > 0.005 + 1e-9)
+        mean += row.stress, ++n;
+    for (const Eigen::Matrix2d &m : last.mean_internal_moment)
+      moment += m;
+    EXPECT_NEAR((moment / last.area - mean / n).norm() / mean.norm() * n, 0, 0.01);
+  }
+} // namespace

@@ -1,0 +1,106 @@
+// diptych: what is written can be read back
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <unistd.h>
+
+#include "discrete/panel/snapshot_file.h"
+#include "tests/discrete/small_scenes.h"
+
+namespace
+{
+  using namespace diptych::tests;
+
+  std::string temporary_path(const std::string &name)
+  {
+    return (std::filesystem::path(testing::TempDir()) / (name + std::to_string(::getpid()))).string();
+  }
+
+  std::vector<Snapshot> short_run()
+  {
+    static const Course course = loaded(small_sample(150), short_loading(), quick_options());
+    EXPECT_EQ(course.report.status, Status::finished) << course.report.message;
+    return course.snapshots;
+  }
+
+  TEST(Output, SnapshotsSurviveTheFile)
+  {
+    const std::vector<Snapshot> written = short_run();
+    const std::string           path    = temporary_path("snapshots");
+    write_snapshots(path, written);
+    const std::vector<Snapshot> read = read_snapshots(path + ".h5");
+    ASSERT_EQ(read.size(), written.size());
+    for (std::size_t k = 0; k < read.size(); ++k)
+      {
+        const Snapshot &a = written[k], &b = read[k];
+        EXPECT_EQ(a.axial_strain, b.axial_strain);
+        EXPECT_EQ(a.position, b.position);
+        EXPECT_EQ(a.mean_internal_moment, b.mean_internal_moment);
+        EXPECT_EQ(a.rattler, b.rattler);
+        EXPECT_EQ(a.status, b.status);
+        EXPECT_EQ(a.outline.left, b.outline.left);
+        EXPECT_EQ(a.upper_platen_displacement, b.upper_platen_displacement);
+        ASSERT_EQ(a.window_forces.size(), b.window_forces.size());
+        for (std::size_t c = 0; c < a.window_forces.size(); ++c)
+          EXPECT_EQ(a.window_forces[c].force, b.window_forces[c].force);
+        EXPECT_EQ(a.window_dissipation, b.window_dissipation);
+        EXPECT_EQ(a.window_impact_dissipation, b.window_impact_dissipation);
+      }
+    EXPECT_FALSE(std::filesystem::exists(path + ".h5.part"));
+    std::filesystem::remove(path + ".h5"), std::filesystem::remove(path + ".xdmf");
+  }
+
+  // Not every file tells what a pair dissipates: the entries are missing, not zero.
+  TEST(Output, AFileThatDoesNotTellTheDissipationLeavesItEmpty)
+  {
+    const std::vector<Snapshot> written = short_run();
+    const std::string           path    = temporary_path("earlier");
+    write_snapshots(path, written);
+    const hid_t file = H5Fopen((path + ".h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    EXPECT_GE(H5Ldelete(file, "stage_0001/window/dissipation", H5P_DEFAULT), 0);
+    H5Fclose(file);
+    const std::vector<Snapshot> read = read_snapshots(path + ".h5");
+    EXPECT_EQ(read[1].window_forces.size(), written[1].window_forces.size());
+    EXPECT_TRUE(read[1].window_dissipation.empty());
+    EXPECT_EQ(read[2].window_dissipation, written[2].window_dissipation);
+    std::filesystem::remove(path + ".h5"), std::filesystem::remove(path + ".xdmf");
+  }
+
+  // ParaView takes the place of the numbers from the .xdmf: points and one value for each.
+  TEST(Output, XdmfShowsTheDissipationAtThePairsOfItsWindow)
+  {
+    const std::vector<Snapshot> written = short_run();
+    const std::string           path    = temporary_path("shown");
+    write_snapshots(path, written);
+    std::ifstream     in(path + ".xdmf");
+    const std::string xdmf{std::istreambuf_iterator<char>(in), {}};
+    for (const auto &[extents, array] : {std::pair{"", "dissipation<"}, std::pair{" 3", "force<"}, std::pair{" 3", "point<"}})
+      {
+        const std::string item = "Dimensions=\"" + std::to_string(written[2].window_forces.size()) + extents + "\">" +
+                                 path.substr(path.find_last_of('/') + 1) + ".h5:/stage_0002/window/" + array;
+        EXPECT_NE(xdmf.find(item), std::string::npos) << item;
+      }
+    std::filesystem::remove(path + ".h5"), std::filesystem::remove(path + ".xdmf");
+  }
+
+  TEST(Output, ATruncatedFileIsAnErrorThatNamesIt)
+  {
+    const std::string path = temporary_path("truncated") + ".h5";
+    std::ofstream(path) << "\x89HDF\r\n";
+    try
+      {
+        read_snapshots(path);
+        FAIL() << "no error";
+      }
+    catch (const std::invalid_argument &error)
+      {
+        EXPECT_NE(std::string(error.what()).find(path), std::string::npos) << error.what();
+      }
+    std::filesystem::remove(path);
+  }
+} // namespace

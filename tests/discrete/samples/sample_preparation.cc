@@ -1,0 +1,85 @@
+// diptych: the prepared sample is dense, quiet, under the pressure asked for, and free of overlaps
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "discrete/contacts/internal_moment.h"
+#include "discrete/bodies/outline.h"
+#include "discrete/samples/soft_relaxation.h"
+#include "tests/discrete/small_scenes.h"
+
+namespace
+{
+  using namespace diptych::tests;
+
+  TEST(SamplePreparation, GivesADenseQuietSampleUnderPressure)
+  {
+    const SampleOptions  options = small_sample(800);
+    const PreparedSample sample  = prepare_sample(options, {}, [](int, int) { return true; });
+    EXPECT_TRUE(sample.report.quiet);
+    // Frictionless packings of this size distribution jam near 0.845; free sides cost a small sample a little.
+    EXPECT_GT(sample.report.solid_fraction, 0.83);
+    EXPECT_LT(sample.report.solid_fraction, 0.86);
+    EXPECT_LT(sample.last_step.largest_penetration, 0.01);
+    const double mean = std::accumulate(sample.state.grains.radius.begin(), sample.state.grains.radius.end(), 0.) / 800;
+    EXPECT_NEAR(mean, 0.5, 1e-12);
+
+    // The lateral action holds s_xx = P: sum of moments / area, to the sampling of a few hundred grains.
+    std::vector<ContactForce> forces;
+    for (std::size_t k = 0; k < sample.last_step.contacts.size(); ++k)
+      {
+        const Contact &c = sample.last_step.contacts[k];
+        forces.push_back(
+          {c.i, c.j, c.point, c.normal, sample.last_step.impulses[k].normal / options.preparation_step * c.normal});
+      }
+    double moment = 0;
+    for (const Eigen::Matrix2d &m : internal_moments(sample.state.grains.position, forces, spin_terms(sample.state.grains)))
+      moment += m(0, 0);
+    const double area = outline_area(make_outline(sample.state, 1.));
+    EXPECT_NEAR(moment / area, 1, 0.1);
+  }
+
+  TEST(SamplePreparation, ContradictoryOptionsAreRefusedByName)
+  {
+    SampleOptions options = small_sample();
+    options.radius_max    = 0.8;
+    try
+      {
+        validate(options);
+        FAIL() << "no error";
+      }
+    catch (const std::invalid_argument &error)
+      {
+        EXPECT_NE(std::string(error.what()).find("radius_max"), std::string::npos);
+      }
+  }
+
+  // Three overlapping soft discs in a wide box must end without overlap.
+  TEST(SoftRelaxation, RemovesOverlaps)
+  {
+    State state;
+    state.walls = {{{0, 0}, {0, 1}}, {{0, 5}, {0, -1}}, {{0, 0}, {1, 0}}, {{5, 0}, {-1, 0}}};
+    for (const Eigen::Vector2d &x : {Eigen::Vector2d(2, 2), Eigen::Vector2d(2.2, 2.1), Eigen::Vector2d(0.1, 4.9)})
+      add_grain(state.grains, x, 0.5, 1.);
+    const RelaxationReport report = relax_soft_discs(state, 1e-6, 10000);
+    EXPECT_LT(report.largest_overlap, 1e-6);
+    EXPECT_GT((state.grains.position[0] - state.grains.position[1]).norm(), 1 - 2e-6);
+    EXPECT_GT(state.grains.position[2].x(), 0.5 - 2e-6);
+  }
+
+  // A 10 x 20 lattice of discs fills a rectangle: the outline's area is the rectangle's, to the scallops of its edge.
+  TEST(Outline, OfALatticeHasItsArea)
+  {
+    State state;
+    for (int a = 0; a < 10; ++a)
+      for (int b = 0; b < 20; ++b)
+        add_grain(state.grains, {0.5 + a, 0.5 + b}, 0.5, 1.);
+    state.walls           = {{{0, 0}, {0, 1}}, {{0, 20}, {0, -1}}};
+    const Outline outline = make_outline(state, 1.);
+    // Mean depth of a scallop: r (1 - pi/4) = 0.107 on either side, so the width is 10 - 0.215.
+    EXPECT_NEAR(outline_area(outline), 20 * (10 - 2 * 0.5 * (1 - M_PI / 4)), 0.02 * 200);
+    EXPECT_EQ(outline.left.front().y(), 0);
+    EXPECT_EQ(outline.right.back().y(), 20);
+  }
+} // namespace

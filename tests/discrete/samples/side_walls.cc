@@ -1,0 +1,95 @@
+// diptych: where the side walls of a sample stand whose grains are given
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gtest/gtest.h>
+
+#include "discrete/samples/sample_preparation.h"
+
+namespace
+{
+  using namespace diptych::discrete;
+
+  // Three discs of radius 1 side by side between the platens y = 0 and y = 2, the last one fixed where a test says so.
+  Grains three_discs(const bool last_fixed)
+  {
+    Grains grains;
+    for (int k = 0; k < 3; ++k)
+      add_grain(grains, {2. * k, 1.}, 1., 1.);
+    grains.fixed[2] = last_fixed;
+    return grains;
+  }
+
+  PreparedSample placed(const SampleOptions &options, const Grains &grains)
+  {
+    PreparationSetting setting;
+    setting.lateral = RigidSides{};
+    return prepare_sample(
+      options, setting, [](int, int) { return true; }, &grains);
+  }
+
+  std::string complaint(const SampleOptions &options, const Grains &grains)
+  {
+    try
+      {
+        (void)placed(options, grains);
+      }
+    catch (const std::invalid_argument &error)
+      {
+        return error.what();
+      }
+    return "";
+  }
+
+  double left(const PreparedSample &sample)
+  {
+    return sample.state.walls[2].point.x();
+  }
+  double right(const PreparedSample &sample)
+  {
+    return sample.state.walls[3].point.x();
+  }
+
+  // Edges at -1 and 5, whether the outermost grain moves or not.
+  TEST(SideWalls, AutoIsTheOutermostEdgeOfAnyGrain)
+  {
+    for (const bool fixed : {false, true})
+      {
+        const PreparedSample sample = placed({}, three_discs(fixed));
+        EXPECT_EQ(left(sample), -1) << fixed;
+        EXPECT_EQ(right(sample), 5) << fixed;
+      }
+  }
+
+  TEST(SideWalls, StandWhereTheirKeysSay)
+  {
+    SampleOptions options;
+    options.left_wall = -1.5, options.right_wall = 7;
+    const PreparedSample sample = placed(options, three_discs(false));
+    EXPECT_EQ(left(sample), -1.5);
+    EXPECT_EQ(right(sample), 7);
+    EXPECT_EQ(sample.state.walls[0].point.y(), 0);
+    EXPECT_EQ(sample.state.walls[1].point.y(), 2);
+  }
+
+  // As between two grains: up to allowed_overlap of the radius, no more.
+  TEST(SideWalls, AnOverlapIsJudgedLikeOneWithAGrain)
+  {
+    SampleOptions options;
+    options.allowed_overlap = 0.1;
+    options.left_wall       = -1 + 0.09;
+    EXPECT_EQ(complaint(options, three_discs(false)), "");
+    options.left_wall      = -1 + 0.11;
+    const std::string what = complaint(options, three_discs(false));
+    EXPECT_NE(what.find("left wall"), std::string::npos) << what;
+    EXPECT_NE(what.find("-0.89"), std::string::npos) << what;
+    options.left_wall  = -1.;
+    options.right_wall = 4.89;
+    EXPECT_NE(complaint(options, three_discs(false)).find("right wall"), std::string::npos);
+  }
+
+  TEST(SideWalls, OutOfOrderAreRefused)
+  {
+    SampleOptions options;
+    options.left_wall = 2, options.right_wall = 2;
+    EXPECT_NE(complaint(options, three_discs(false)).find("left_wall"), std::string::npos);
+  }
+} // namespace

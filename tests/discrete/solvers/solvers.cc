@@ -1,0 +1,198 @@
+// diptych: every solver on every problem
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gtest/gtest.h>
+
+#include "discrete/contacts/contact_law.h"
+#include "discrete/contacts/contact_order.h"
+#include "discrete/solvers/batched_sweep.h"
+#include "discrete/solvers/solver.h"
+#include "discrete/solvers/sweeps.h"
+#include "tests/discrete/small_scenes.h"
+
+namespace
+{
+  using namespace diptych::tests;
+
+  // Free discs (mass 1) in a triangle pressed onto a floor: small enough that all solvers end at one solution.
+  ContactProblem pyramid(const double friction)
+  {
+    ContactProblem problem;
+    const double   c = 0.5, s = std::sqrt(3.) / 2;
+    problem.free_velocity = {{0, -1, 0, 1}, {0, -1, 0, 1}, {0.1, -1, 0, 1}, {0, 0, 0, 0}}; // left, right, top, floor
+    const auto row        = [&](const int i, const int j, const double nx, const double ny) {
+      const double wi = problem.free_velocity[i].inverse_mass, wj = problem.free_velocity[j].inverse_mass;
+      problem.contacts.push_back(
+               {nx, ny, i, j, 0, -1, 2 * wi, 2 * wj, wj, wj, 0, 0, friction, 1 / (wi + wj), 1 / (wi + wj) * disc_wnn_over_wtt});
+    };
+    row(0, 3, 0, 1), row(1, 3, 0, 1), row(2, 0, c, s), row(2, 1, -c, s);
+    return problem;
+  }
+
+  TEST(Solvers, AllReachTheSameSolutionOfASmallProblem)
+  {
+    for (const double friction : {0., 0.1, 0.5})
+      {
+        const ContactProblem problem = pyramid(friction);
+        std::vector<Impulse> reference;
+        for (const ContactSolver solver : {ContactSolver::nsgs, ContactSolver::psor})
+          {
+            SolverOptions options;
+            options.solver     = solver;
+            options.tolerance  = 1e-13;
+            options.max_sweeps = 100000;
+            std::vector<Impulse> impulses(problem.contacts.size());
+            const SolveReport    report = solve(problem, options, impulses);
+            EXPECT_EQ(report.status, SolveStatus::converged) << name_of(solver) << ", friction " << friction;
+            EXPECT_LE(natural_map_residual(problem, impulses), 1e-13);
+            if (reference.empty())
+              reference = impulses;
+            for (std::size_t k = 0; k < impulses.size(); ++k)
+              {
+                EXPECT_NEAR(impulses[k].normal, reference[k].normal, 1e-10) << name_of(solver);
+                EXPECT_NEAR(impulses[k].tangential, reference[k].tangential, 1e-10) << name_of(solver);
+              }
+          }
+        // Vertical momentum: the floor stops all three discs, 3 x 1 x 1, unless friction lets the pile spread.
+        if (friction == 0.5)
+          {
+            EXPECT_NEAR(reference[0].normal + reference[1].normal, 3, 1e-9);
+          }
+      }
+  }
+
+  TEST(Solvers, CoulombAndSignoriniHoldAtTheSolution)
+  {
+    const ContactProblem problem = pyramid(0.1);
+    SolverOptions        options;
+    options.tolerance = 1e-13;
+    std::vector<Impulse> impulses(problem.contacts.size());
+    ASSERT_EQ(solve(problem, options, impulses).status, SolveStatus::converged);
+    const std::vector<BodyVelocity> v = velocities(problem, impulses);
+    for (std::size_t k = 0; k < impulses.size(); ++k)
+      {
+        const ContactRow      &c = problem.contacts[k];
+        const RelativeVelocity u = relative_velocity(c, v);
+        EXPECT_GE(impulses[k].normal, 0);
+        EXPECT_GE(u.normal, -1e-11);
+        EXPECT_NEAR(impulses[k].normal * u.normal, 0, 1e-11);
+        EXPECT_LE(std::abs(impulses[k].tangential), c.friction * impulses[k].normal * (1 + 1e-12));
+        if (std::abs(impulses[k].tangential) < c.friction * impulses[k].normal * (1 - 1e-9))
+          {
+            EXPECT_NEAR(u.tangential, 0, 1e-11);
+          }
+      }
+  }
+
+  // A problem like that of a step, on a real packing, with the rows' terms made up.
+  ContactProblem packing_problem(const int grains, const double tangential_term)
+  {
+    const PreparedSample sample   = prepare_sample(small_sample(grains), {}, [](int, int) { return true; });
+    const auto           contacts = find_contacts(sample.state, std::vector<double>(sample.state.grains.size(), 0.05));
+    ContactProblem       problem;
+    for (std::size_t i = 0; i < sample.state.grains.size(); ++i)
+      problem.free_velocity.push_back(
+        {0.01 * double(i % 7), -0.02 * double(i % 5), 0.003 * double(i % 3), 1 / sample.state.grains.mass[i]});
+    problem.free_velocity.insert(problem.free_velocity.end(), 2, {0, 0, 0, 0});
+    for (const Contact &c : contacts)
+      {
+        const double wi = problem.free_velocity[c.i].inverse_mass, wj = problem.free_velocity[c.j].inverse_mass;
+        const double wnn = 1 / (wi + wj);
+        problem.contacts.push_back({c.normal.x(), c.normal.y(), c.i, c.j, 0, -1, 2 * wi, 2 * wj, wj, wj, 0.001,
+                                    tangential_term * double(c.i % 3), 0.4, wnn, wnn * disc_wnn_over_wtt});
+      }
+    problem.order = sweep_order(contacts, 1.);
+    return problem;
+  }
+
+  // Four lanes at a time and one row after another are the same arithmetic in an order that does not matter, also where the
+  // problem is cut into blocks, and with a tangential restitution.
+  TEST(Solvers, BatchedSweepsHaveTheBitsOfScalarOnes)
+  {
+    for (const double tangential_term : {0., 0.002})
+      {
+        const ContactProblem      problem = packing_problem(2000, tangential_term);
+        std::vector<Impulse>      scalar(problem.contacts.size());
+        std::vector<BodyVelocity> v = problem.free_velocity;
+        ThreadTeam                team(1);
+        BatchedContacts           batches(problem);
+        EXPECT_GT(batches.n_blocks(), 1u);
+        batches.set_impulses(scalar);
+        for (int sweep = 0; sweep < 30; ++sweep)
+          sweep_psor(problem, batches.order(), 1.8, 1.0, v, scalar);
+        batches.sweep(1.8, 1.0, 30, team);
+        const std::vector<Impulse> batched = batches.impulses();
+        double                     sum     = 0;
+        for (std::size_t k = 0; k < scalar.size(); ++k)
+          {
+            EXPECT_EQ(scalar[k].normal, batched[k].normal);
+            EXPECT_EQ(scalar[k].tangential, batched[k].tangential);
+            sum += scalar[k].normal;
+          }
+        EXPECT_GT(sum, 0);
+        EXPECT_LT(batches.n_batches(), 0.3 * double(scalar.size())) << "most batches should be full";
+        batches.refresh_velocities();
+        EXPECT_NEAR(batches.residual(team), natural_map_residual(problem, scalar), 1e-12);
+      }
+  }
+
+  TEST(Solvers, EveryNumberOfThreadsGivesTheSameBits)
+  {
+    const ContactProblem problem = packing_problem(2000, 0);
+    SolverOptions        options;
+    options.tolerance  = 1e-14;
+    options.max_sweeps = 1000;
+    std::vector<std::vector<Impulse>> results;
+    for (const int threads : {1, 2, 3, 4})
+      {
+        ThreadTeam           team(threads);
+        std::vector<Impulse> impulses(problem.contacts.size());
+        EXPECT_EQ(solve(problem, options, impulses, team).sweeps, 1000);
+        results.push_back(impulses);
+      }
+    for (const std::vector<Impulse> &result : results)
+      for (std::size_t k = 0; k < result.size(); ++k)
+        {
+          EXPECT_EQ(result[k].normal, results[0][k].normal);
+          EXPECT_EQ(result[k].tangential, results[0][k].tangential);
+        }
+  }
+
+  // A converged first guess costs one check and no sweep (P7).
+  TEST(Solvers, AnEquilibriumCostsNoSweep)
+  {
+    const ContactProblem problem = pyramid(0.5);
+    SolverOptions        options;
+    options.tolerance = 1e-10;
+    std::vector<Impulse> impulses(problem.contacts.size());
+    ASSERT_GT(solve(problem, options, impulses).sweeps, 0);
+    EXPECT_EQ(solve(problem, options, impulses).sweeps, 0);
+  }
+
+  TEST(Solvers, SayWhenTheyDidNotConverge)
+  {
+    SolverOptions options;
+    options.tolerance            = 1e-14;
+    options.max_sweeps           = 3;
+    const ContactProblem problem = pyramid(0.5);
+    std::vector<Impulse> impulses(problem.contacts.size());
+    const SolveReport    report = solve(problem, options, impulses);
+    EXPECT_EQ(report.status, SolveStatus::max_sweeps_reached);
+    EXPECT_GT(report.residual, 1e-14);
+    EXPECT_EQ(report.sweeps, 3);
+  }
+
+  // On a real sheared packing (300 discs) plain and over-relaxed sweeps may end at different exact
+  // solutions; both must reach one.
+  TEST(Solvers, BothConvergeOnAShearedPacking)
+  {
+    for (const ContactSolver solver : {ContactSolver::nsgs, ContactSolver::psor})
+      {
+        ShearedSample sheared             = sheared_sample();
+        sheared.setting.solver.solver     = solver;
+        sheared.setting.solver.tolerance  = 1e-6;
+        sheared.setting.solver.max_sweeps = 400000;
+        const StepResult result           = advance(sheared.state, sheared.setting);
+        EXPECT_EQ(result.solve.status, SolveStatus::converged) << name_of(solver) << " residual " << result.solve.residual;
+      }
+  }
+} // namespace

@@ -1,0 +1,431 @@
+// diptych: explicit smooth contacts: single discs in closed form, and the step at which a packing blows up
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <cmath>
+#include <random>
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+#include "discrete/stepping/penalty.h"
+#include "discrete/samples/soft_relaxation.h"
+#include "tests/discrete/small_scenes.h"
+
+namespace
+{
+  using namespace diptych::discrete;
+  using namespace diptych::tests;
+
+  constexpr double kt_over_kn = 0.5; // penalty.h
+
+  // Pressure 1, so that PenaltyOptions::stiffness is kn itself.
+  struct Penalty
+  {
+    double         step;
+    StepSetting    setting;
+    PenaltyOptions options;
+    PenaltyState   kept;
+
+    Penalty(const double h, const double stiffness, const double damping = 0)
+        : step(h),
+          setting(exact_setting(h)),
+          options{stiffness, 0, damping}
+    {
+      setting.pressure = 1;
+    }
+
+    StepResult advance(State &state) { return advance_penalty(state, kept, setting, options); }
+  };
+
+  struct Collision
+  {
+    double duration, restitution;
+  };
+
+  // Two equal discs, the first at speed 1 towards the second.
+  Collision head_on(const double stiffness, const double damping, const double fraction)
+  {
+    State        state = row_of_discs(2, 0.01);
+    const double step  = penalty_step(state.grains, stiffness, fraction);
+    Penalty      penalty(step, stiffness, damping);
+    int          closed = 0;
+    for (double time = 0; time < 0.05; time += step)
+      closed += !penalty.advance(state).contacts.empty();
+    return {closed * step, state.grains.velocity[1].x() - state.grains.velocity[0].x()};
+  }
+
+  // m_eff x'' = -kn x: half a period pi sqrt(m_eff/kn), m_eff = m/2, and the speed reversed. The leapfrog keeps an energy
+  // that differs from the true one by (omega h)^2/4 of it at most, omega h = sqrt(2) fraction: the speed by fraction^2/4.
+  TEST(Penalty, HeadOnCollisionWithoutDampingLastsHalfAPeriodAndKeepsTheSpeed)
+  {
+    const double stiffness = 1e5, half_period = M_PI * std::sqrt(0.5 * (M_PI / 4) / stiffness);
+    for (const double fraction : {0.2, 0.1, 0.05, 0.01})
+      {
+        const Collision c    = head_on(stiffness, 0, fraction);
+        const double    step = fraction * std::sqrt(M_PI / 4 / stiffness);
+        EXPECT_NEAR(c.duration, half_period, 1.5 * step) << "fraction " << fraction;
+        EXPECT_NEAR(c.restitution, 1, 0.25 * fraction * fraction) << "fraction " << fraction;
+      }
+  }
+
+  // A dashpot that may pull until the overlap is gone has e = exp(-pi beta/sqrt(1-beta^2)). Grains do not pull: contact ends
+  // where f_n = 0, i.e. x'' = 0, at omega_d t = pi - 2a with beta = sin a, and e = exp(-(pi - 2a) tan a) (Schwager and
+  // Poeschel 2007). The dashpot's velocity lags by half a step: first order.
+  TEST(Penalty, HeadOnCollisionWithADashpotHasItsClosedRestitution)
+  {
+    for (const double beta : {0.1, 0.2, 0.5})
+      {
+        const double a = std::asin(beta), expected = std::exp(-(M_PI - 2 * a) * std::tan(a));
+        EXPECT_GT(expected, std::exp(-M_PI * std::tan(a)));
+        for (const double fraction : {0.1, 0.01})
+          EXPECT_NEAR(head_on(1e5, beta, fraction).restitution, expected, 0.1 * fraction) << "beta " << beta;
+      }
+  }
+
+  // kn overlap = m g.
+  TEST(Penalty, DiscAtRestOnAFloorOverlapsByItsWeightOverTheStiffness)
+  {
+    const double stiffness = 1e4, g = 9.81;
+    State        state = disc_on_floor({0, 0});
+    Penalty      penalty(penalty_step(state.grains, stiffness, 0.2), stiffness, 0.2);
+    penalty.setting.time.gravity_y = -g;
+    StepResult result;
+    for (int k = 0; k < 1500; ++k) // 300/(2 pi) periods: decays by exp(-0.2 x 300)
+      result = penalty.advance(state);
+    const double weight = state.grains.mass[0] * g;
+    EXPECT_NEAR(result.largest_penetration, weight / stiffness, 1e-10 * weight / stiffness);
+    EXPECT_NEAR(result.wall_force[0].y(), weight, 1e-10 * weight);
+    EXPECT_NEAR(result.impulses[0].normal, weight * penalty.step, 1e-10 * weight);
+  }
+
+  // tan a <= 3 mu: rolls with (2/3) g sin a; else slides with g (sin a - mu cos a), turning with 2 mu g cos a / r. The
+  // tangential spring swings about its rest force m g sin(a)/3 with omega^2 = kt (1/m + 2/m), at most 2 g sin(a)/omega in speed.
+  TEST(Penalty, DiscOnAnInclineRollsOrSlidesUpToTheSwingOfItsSpring)
+  {
+    const double g = 9.81, mu = 0.2, radius = 0.5, stiffness = 1e7;
+    for (const double slope : {0.1, 0.2, 0.5, 0.6, 0.9}) // atan(0.6) = 0.5404
+      {
+        State        state = disc_on_floor({0, 0}, radius);
+        const double mass = state.grains.mass[0], time = 0.05;
+        const int    n_steps = int(time / penalty_step(state.grains, stiffness, 0.1)) + 1;
+        Penalty      penalty(time / n_steps, stiffness);
+        penalty.setting.time.gravity_x      = g * std::sin(slope);
+        penalty.setting.time.gravity_y      = -g * std::cos(slope);
+        penalty.setting.law.platen_friction = mu;
+        state.grains.position[0].y() -= mass * g * std::cos(slope) / stiffness; // at rest on its spring
+        for (int k = 0; k < n_steps; ++k)
+          ASSERT_EQ(penalty.advance(state).solve.status, SolveStatus::converged);
+        const bool   rolls        = std::tan(slope) <= 3 * mu;
+        const double acceleration = rolls ? 2. / 3 * g * std::sin(slope) : g * (std::sin(slope) - mu * std::cos(slope));
+        const double turning      = rolls ? acceleration / radius : 2 * mu * g * std::cos(slope) / radius;
+        const double swing        = 2 * g * std::sin(slope) / std::sqrt(3 * kt_over_kn * stiffness / mass);
+        EXPECT_NEAR(state.grains.velocity[0].x(), acceleration * time, swing) << "slope " << slope;
+        EXPECT_NEAR(state.grains.spin[0], -turning * time, 2 * swing / radius) << "slope " << slope;
+      }
+  }
+
+  // Sum of kn overlap^2 / 2 at the positions of the end of the step.
+  double elastic_energy(const State &state, const double stiffness)
+  {
+    double energy = 0;
+    for (const Contact &c : find_contacts(state, std::vector<double>(state.grains.size(), 0.)))
+      energy += 0.5 * stiffness * c.gap * c.gap;
+    return energy;
+  }
+
+  void add_box(State &state, const double width, const double height)
+  {
+    state.walls = {{{0, 0}, {0, 1}}, {{0, height}, {0, -1}}, {{0, 0}, {1, 0}}, {{width, 0}, {-1, 0}}};
+    for (const std::size_t w : {2, 3})
+      state.walls[w].kind = WallKind::side;
+  }
+
+  // Radii 0.35 to 0.49 on a square grid, thrown about in a box.
+  State gas_in_a_box()
+  {
+    State                                  state;
+    std::mt19937                           random(3);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    add_box(state, 5, 5);
+    for (int k = 0; k < 16; ++k)
+      {
+        add_grain(state.grains, {1. + k % 4, 1. + k / 4}, 0.42 + 0.07 * uniform(random), 1.);
+        state.grains.velocity[k] = {uniform(random), uniform(random)};
+      }
+    return state;
+  }
+
+  TEST(Penalty, FrictionlessUndampedDiscsKeepKineticPlusElasticEnergy)
+  {
+    const double stiffness = 1e4;
+    State        state     = gas_in_a_box();
+    Penalty      penalty(penalty_step(state.grains, stiffness, 0.05), stiffness);
+    const double start    = kinetic_energy(state.grains);
+    int          contacts = 0;
+    for (int k = 0; k < 20000; ++k)
+      {
+        contacts += int(penalty.advance(state).contacts.size());
+        ASSERT_NEAR(kinetic_energy(state.grains) + elastic_energy(state, stiffness), start, 1e-3 * start) << "step " << k;
+      }
+    EXPECT_GT(contacts, 20 * 50) << "at least twenty collisions of fifty steps each";
+  }
+
+  // Everything at once: friction, dashpots, gravity, a fixed grain that moves, a platen free under pressure, another driven.
+  State busy_scene()
+  {
+    State state              = gas_in_a_box();
+    state.walls[1].drive_y   = AppliedPressure{2.};
+    state.walls[1].mass      = 3;
+    state.walls[3].drive_x   = PrescribedVelocity{{{0, 1}, {0, -0.2}}};
+    state.grains.fixed[5]    = 1;
+    state.grains.velocity[5] = {0.3, 0};
+    state.grains.spin[5]     = 1;
+    return state;
+  }
+
+  Penalty busy_penalty(const State &state)
+  {
+    Penalty penalty(penalty_step(state.grains, 1e3, 0.2), 1e3, 0.2);
+    penalty.setting.law.friction        = 0.4;
+    penalty.setting.law.platen_friction = 0.3;
+    penalty.setting.time.gravity_y      = -1;
+    return penalty;
+  }
+
+  // Momentum: sum m dv = h F + impulses of walls and fixed grains. Energy: kinetic change = external work - friction - impact
+  // (dashpots and elastic energy). Both hold step by step whatever the step.
+  TEST(Penalty, MomentumAndEnergyLedgersCloseToRoundOff)
+  {
+    State   state    = busy_scene();
+    Penalty penalty  = busy_penalty(state);
+    double  friction = 0;
+    for (int k = 0; k < 3000; ++k)
+      {
+        const StepResult    result = penalty.advance(state);
+        const StepEnergies &e      = result.energies;
+        ASSERT_EQ(result.solve.status, SolveStatus::converged);
+        double impulse_sum = 0; // may be as small as a touch, against momenta of order 10
+        for (const Impulse &r : result.impulses)
+          impulse_sum += std::hypot(r.normal, r.tangential);
+        ASSERT_LT(result.momentum_residual * impulse_sum, 1e-13);
+        ASSERT_NEAR(e.kinetic_change, e.external_work - e.friction_dissipation - e.impact_dissipation, 1e-13 * e.kinetic);
+        ASSERT_GE(e.friction_dissipation, 0);
+        friction += e.friction_dissipation;
+      }
+    EXPECT_GT(friction, 0.1);
+    EXPECT_EQ(state.grains.velocity[5], Eigen::Vector2d(0.3, 0));
+    EXPECT_EQ(state.grains.spin[5], 1);
+  }
+
+  // Springs live in the State and the pairs are a cache: nothing else is remembered.
+  TEST(Penalty, RunResumedFromItsStateGoesOnWithTheSameBits)
+  {
+    State   straight = busy_scene();
+    Penalty penalty  = busy_penalty(straight);
+    for (int k = 0; k < 1234; ++k)
+      (void)penalty.advance(straight);
+    State   resumed = straight;
+    Penalty fresh   = busy_penalty(resumed);
+    for (int k = 0; k < 1000; ++k)
+      {
+        (void)penalty.advance(straight);
+        (void)fresh.advance(resumed);
+      }
+    EXPECT_EQ(straight.grains.position, resumed.grains.position);
+    EXPECT_EQ(straight.grains.velocity, resumed.grains.velocity);
+    EXPECT_EQ(straight.grains.spin, resumed.grains.spin);
+    EXPECT_EQ(straight.walls[1].point, resumed.walls[1].point);
+  }
+
+  // Pressure x length goes through the column into the floor; each spring is shortened by what it carries / kn.
+  TEST(Penalty, PlatenUnderPressureIsCarriedByTheColumnBelowIt)
+  {
+    const double stiffness = 1e4, pressure = 2, length = 1.5;
+    State        state;
+    state.walls            = {{{0, 0}, {0, 1}}, {{0, 3}, {0, -1}}};
+    state.walls[1].drive_y = AppliedPressure{pressure, length};
+    for (int k = 0; k < 3; ++k)
+      add_grain(state.grains, {0., 0.5 + k}, 0.5, 1.);
+    Penalty    penalty(penalty_step(state.grains, stiffness, 0.2), stiffness, 0.2);
+    StepResult result;
+    for (int k = 0; k < 20000; ++k)
+      result = penalty.advance(state);
+    EXPECT_NEAR(result.wall_force[0].y(), pressure * length, 1e-9);
+    EXPECT_NEAR(result.wall_force[1].y(), -pressure * length, 1e-9);
+    EXPECT_NEAR(state.walls[1].point.y(), 3 - 4 * pressure * length / stiffness, 1e-9);
+  }
+
+  // A row around the cell carries pressure x height in each of its n springs: the width is n (d - P H / kn) at rest.
+  TEST(Penalty, RowAroundACellOfFreeWidthCarriesItsPressure)
+  {
+    const double stiffness = 1e4, pressure = 2, height = 1.5;
+    const int    n = 8;
+    State        state;
+    state.walls = {{{0, -0.75}, {0, 1}}, {{0, 0.75}, {0, -1}}};
+    state.cell  = PeriodicCell{double(n), 0., pressure, 2.};
+    for (int k = 0; k < n; ++k)
+      add_grain(state.grains, {double(k), 0.}, 0.5, 1.);
+    Penalty    penalty(penalty_step(state.grains, stiffness, 0.2), stiffness, 0.2);
+    StepResult result;
+    for (int k = 0; k < 20000; ++k)
+      result = penalty.advance(state);
+    ASSERT_EQ(int(result.contacts.size()), n);
+    for (const Impulse &r : result.impulses)
+      EXPECT_NEAR(r.normal, penalty.step * pressure * height, 1e-9 * penalty.step);
+    EXPECT_NEAR(state.cell->width, n * (1 - pressure * height / stiffness), 1e-9);
+  }
+
+  // n x n touching discs in a hexagonal lattice shrunk by `strain`, the outermost ring fixed: six equal forces on each grain
+  // inside, so the lattice is in equilibrium.
+  State hexagonal_patch(const int n, const double strain)
+  {
+    State        state;
+    const double a = 1 - strain;
+    for (int row = 0; row < n; ++row)
+      for (int k = 0; k < n; ++k)
+        {
+          add_grain(state.grains, {a * (k + 0.5 * (row % 2)), a * row * std::sqrt(0.75)}, 0.5, 1.);
+          state.grains.fixed.back() = row == 0 || row == n - 1 || k == 0 || k == n - 1;
+        }
+    return state;
+  }
+
+  // Discs with radii uniform in [0.35, 0.65] d, relaxed in a square box until the overlaps carry each other.
+  State relaxed_polydisperse_box(const int n, const double solid_fraction, const unsigned seed)
+  {
+    State                                  state;
+    std::mt19937                           random(seed);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    std::vector<double>                    radius(n);
+    double                                 area = 0;
+    for (double &r : radius)
+      {
+        r = 0.35 + 0.3 * uniform(random);
+        area += M_PI * r * r;
+      }
+    const double side = std::sqrt(area / solid_fraction);
+    add_box(state, side, side);
+    for (const double r : radius)
+      {
+        const double x = r + (side - 2 * r) * uniform(random), y = r + (side - 2 * r) * uniform(random);
+        add_grain(state.grains, {x, y}, r, 1.);
+      }
+    (void)relax_soft_discs(state, 0., 20000);
+    return state;
+  }
+
+  // Highest frequency of the network of closed contacts: K = sum kn b_n b_n^T + kt b_t b_t^T over (x, y, s = r theta) of each
+  // grain, u_n = b_n.v and u_t = b_t.v of ContactRow, masses (m, m, m/2). The prestress changes K by overlap/diameter only.
+  double highest_frequency(const State &state, const double kn, const double kt)
+  {
+    const Grains   &g = state.grains;
+    const int       n = int(g.size());
+    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(3 * n, 3 * n);
+    for (const Contact &c : find_contacts(state, std::vector<double>(n, 0.)))
+      {
+        Eigen::Matrix<double, 6, 2> b;
+        const double                nx = c.normal.x(), ny = c.normal.y();
+        b.col(0) << nx, ny, 0, -nx, -ny, 0;
+        b.col(1) << -ny, nx, -1, ny, -nx, -1;
+        for (int row = 0; row < 6; ++row) // divided by the square roots of the masses
+          {
+            const int body = row < 3 ? c.i : c.j;
+            b.row(row) *= body < n ? std::sqrt(g.inverse_mass(body) * (row % 3 == 2 ? 2 : 1)) : 0.;
+          }
+        const Eigen::Matrix<double, 6, 6> k       = b * Eigen::Vector2d(kn, kt).asDiagonal() * b.transpose();
+        const int                         body[2] = {c.i, std::min(c.j, n - 1)};
+        for (int p = 0; p < 2; ++p)
+          for (int q = 0; q < 2; ++q)
+            K.block<3, 3>(3 * body[p], 3 * body[q]) += k.block<3, 3>(3 * p, 3 * q);
+      }
+    return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
+  }
+
+  // Largest kinetic energy within n_steps after a slight push, relative to the push; infinity where the run blew up.
+  double growth(State state, const double step, const double stiffness, const double friction, const int n_steps)
+  {
+    std::mt19937                           random(1);
+    std::uniform_real_distribution<double> push(-1e-7 * std::sqrt(stiffness), 1e-7 * std::sqrt(stiffness));
+    for (std::size_t i = 0; i < state.grains.size(); ++i)
+      if (!state.grains.fixed[i])
+        {
+          state.grains.velocity[i] = {push(random), push(random)};
+          state.grains.spin[i]     = push(random);
+        }
+    Penalty penalty(step, stiffness);
+    penalty.setting.law.friction = penalty.setting.law.platen_friction = friction;
+    const double start                                                 = kinetic_energy(state.grains);
+    double       largest                                               = 0;
+    for (int k = 0; k < n_steps; ++k)
+      {
+        const StepResult result = penalty.advance(state);
+        if (result.solve.status != SolveStatus::converged)
+          return result.solve.residual;
+        largest = std::max(largest, result.energies.kinetic / start);
+      }
+    return largest;
+  }
+
+  // Leapfrog is stable for h < 2/omega_max. Below, with omega h = 1.9, the kinetic energy of a mode is at most
+  // 1/(1 - (omega h/2)^2) = 10 times its start; above, at 2.1, it grows by 1.88^2 = 3.5 a step.
+  TEST(Penalty, HexagonalPatchBlowsUpAtTheStepOfItsHighestFrequency)
+  {
+    const double stiffness = 1e3, mass = M_PI / 4;
+    const State  state = hexagonal_patch(10, 1e-3);
+    for (const bool sticking : {false, true})
+      {
+        const double friction = sticking ? 100 : 0;
+        const double critical = 2 / highest_frequency(state, stiffness, sticking ? kt_over_kn * stiffness : 0.);
+        EXPECT_LT(growth(state, 0.95 * critical, stiffness, friction, 4000), 20) << "friction " << friction;
+        EXPECT_GT(growth(state, 1.05 * critical, stiffness, friction, 40), 1e6) << "friction " << friction;
+        // Infinite lattice, frictionless: two of three bond directions in antiphase, omega^2 = 4 kn/m x 3/2.
+        if (!sticking)
+          {
+            EXPECT_NEAR(critical / std::sqrt(mass / stiffness), 2 / std::sqrt(6.), 0.02);
+          }
+      }
+  }
+
+  TEST(Penalty, BlowUpIsReportedAndLeavesTheStateAlone)
+  {
+    const double stiffness    = 1e3;
+    State        state        = hexagonal_patch(6, 0.02);
+    state.grains.velocity[14] = {0.1, 0.03};
+    Penalty penalty(3 * penalty_step(state.grains, stiffness, 1.), stiffness);
+    for (int k = 0; k < 1000; ++k)
+      {
+        const State      before = state;
+        const StepResult result = penalty.advance(state);
+        if (result.solve.status == SolveStatus::converged)
+          continue;
+        EXPECT_TRUE(std::isinf(result.solve.residual));
+        EXPECT_EQ(state.grains.position, before.grains.position);
+        EXPECT_EQ(state.grains.velocity, before.grains.velocity);
+        EXPECT_EQ(state.time, before.time);
+        for (const Eigen::Vector2d &x : state.grains.position)
+          EXPECT_TRUE(x.allFinite());
+        return;
+      }
+    FAIL() << "a step of three times sqrt(m/kn) must blow up";
+  }
+
+  // VALIDATION, dense samples of 1000 discs: 1.027 sqrt(m_min/kn) frictionless, 0.769 sticking. With 200 discs the few
+  // neighbours of the smallest one decide: single boxes scatter by 5 %, so means over three seeds are held to 5 %.
+  TEST(Penalty, PolydisperseSampleBlowsUpAtTheStepOfItsHighestFrequency)
+  {
+    const double stiffness = 1e3;
+    for (const bool sticking : {false, true})
+      {
+        const double friction = sticking ? 100 : 0;
+        double       mean     = 0;
+        for (const unsigned seed : {1, 2, 3})
+          {
+            const State  state    = relaxed_polydisperse_box(200, 0.85, seed);
+            const double critical = 2 / highest_frequency(state, stiffness, sticking ? kt_over_kn * stiffness : 0.);
+            EXPECT_LT(growth(state, 0.95 * critical, stiffness, friction, 2000), 20) << "friction " << friction;
+            EXPECT_GT(growth(state, 1.05 * critical, stiffness, friction, 60), 1e6) << "friction " << friction;
+            mean += critical / penalty_step(state.grains, stiffness, 1.) / 3;
+          }
+        EXPECT_NEAR(mean, sticking ? 0.769 : 1.027, 0.05 * mean) << "friction " << friction;
+      }
+  }
+} // namespace

@@ -1,0 +1,144 @@
+// diptych: step = auto, and what becomes of a run whose steps are long
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "discrete/stepping/step_rule.h"
+#include "tests/discrete/small_scenes.h"
+
+namespace
+{
+  using namespace diptych::tests;
+
+  // Two discs of density 4 and diameter 2 = d at rest between platens at rest, under the stress s = 9: the unit of time is
+  // d sqrt(rho/s) = 4/3.
+  struct RuleScene
+  {
+    State       state;
+    StepSetting setting = exact_setting(1);
+
+    RuleScene()
+    {
+      state.walls = {{{0, 0}, {0, 1}}, {{0, 4}, {0, -1}}};
+      add_grain(state.grains, {0, 1}, 1, 4.);
+      add_grain(state.grains, {3, 1}, 1, 4.);
+      setting.mean_diameter    = 2;
+      setting.solver.tolerance = 1e-4;
+    }
+    StepChoice choose(const double stress, const double rate) const { return choose_step(state, setting, stress, rate); }
+  };
+
+  TEST(StepRule, PressedGrainsAreBoundByTheForces)
+  {
+    RuleScene s;
+    EXPECT_EQ(s.choose(9, 0).bound, "forces");
+    EXPECT_NEAR(s.choose(9, 0).step, 5 * 4. / 3, 1e-14);
+    s.setting.lateral  = EndGrains{}; // flung inward: 1 instead of 5, and the pressure counts even where nothing touches
+    s.setting.pressure = 9;
+    EXPECT_NEAR(s.choose(9, 0).step, 4. / 3, 1e-14);
+    EXPECT_NEAR(s.choose(0, 0).step, 4. / 3, 1e-14);
+    EXPECT_NEAR(s.choose(36, 0).step, 2. / 3, 1e-14) << "a stress above the pressure counts";
+  }
+
+  TEST(StepRule, FlyingGrainsAndFastWallsAreBoundByTheMotion)
+  {
+    RuleScene s;
+    s.state.grains.velocity[0] = {4, 0}; // root mean square sqrt(16/2), three times that: 8.485
+    EXPECT_EQ(s.choose(9, 0).bound, "motion");
+    EXPECT_NEAR(s.choose(9, 0).step, 0.2 / (3 * std::sqrt(8.)), 1e-14);
+    s.state.walls[1].velocity = {6, 8};
+    EXPECT_NEAR(s.choose(9, 0).step, 0.02, 1e-14);
+    EXPECT_NEAR(s.choose(0, 0).step, 0.02, 1e-14) << "also where nothing is pressed";
+  }
+
+  TEST(StepRule, FallingGrainsAreBoundByGravity)
+  {
+    RuleScene s;
+    s.setting.time.gravity_x = 3, s.setting.time.gravity_y = -4;
+    EXPECT_EQ(s.choose(0, 0).bound, "gravity");
+    EXPECT_NEAR(s.choose(0, 0).step, 0.3 * std::sqrt(0.4), 1e-14);
+  }
+
+  // nat h / I up to 0.6 with h and I in the unit d sqrt(rho/s): h = 0.6 (rate unit)/tolerance unit.
+  TEST(StepRule, SlowLoadingIsBoundByTheSolversNoise)
+  {
+    RuleScene s;
+    EXPECT_EQ(s.choose(9, 1e-5).bound, "solver");
+    EXPECT_NEAR(s.choose(9, 1e-5).step, 0.6 * 1e-5 * 16. / 9 / 1e-4, 1e-14);
+    s.setting.solver.tolerance = 1e-7;
+    EXPECT_EQ(s.choose(9, 1e-5).bound, "forces") << "a tighter solve allows longer steps";
+  }
+
+  TEST(StepRule, WhereNothingMovesOrPressesNoStepFollows)
+  {
+    EXPECT_TRUE(std::isinf(RuleScene().choose(0, 0).step));
+    EXPECT_EQ(RuleScene().choose(0, 0).bound, "none");
+  }
+
+  // No rate of 1e-3 with a tolerance of 1e-4 allows h > 6; end grains 1 in units of 1.
+  TEST(StepRule, ARunWithStepAutoReachesItsStagesAndNamesItsBound)
+  {
+    Options options   = quick_options();
+    options.time.step = std::nullopt;
+    const Course r    = loaded(small_sample(150), short_loading(), options);
+    ASSERT_EQ(r.report.status, Status::finished) << r.report.message;
+    EXPECT_NEAR(r.report.axial_strain, 0.01, 1e-12);
+    EXPECT_TRUE(r.report.step_bound == "forces" || r.report.step_bound == "motion" || r.report.step_bound == "solver")
+      << r.report.step_bound;
+    EXPECT_GT(r.report.step, 0.1);
+    EXPECT_LE(r.report.step, 1);
+  }
+
+  // Mode time with walls at rest and no pressure: there is nothing to choose from.
+  TEST(StepRule, StepAutoWithoutAnyScaleIsRefused)
+  {
+    SampleOptions sample    = small_sample(20);
+    Options       options   = quick_options();
+    options.time.step       = std::nullopt;
+    options.lateral.lateral = Lateral::none;
+    Loading loading;
+    loading.pressure = 0, loading.mode = LoadingMode::time, loading.stages = {1.};
+    sample.preparation_steps = 1, sample.quiet_unbalanced_force = 1e3, sample.preparation_tolerance = 1;
+    EXPECT_THROW((void)loaded(sample, loading, options), std::invalid_argument);
+  }
+
+  // P3: steps x1 to x100 at the same loading between rigid sides. An unstable scheme would heat the sample without bound; here
+  // the kinetic energy stays of the order of the affine field's (the penalty method heats from its critical step on: loading.cc).
+  // Ten times the step changes the mean strength within its scatter. A hundred times, 0.5 % of strain a step, it is wrong:
+  // positions then change too much for contacts found once a step (penetrations of 0.1 d), but nothing blows up.
+  TEST(StepRule, StepsOneToAHundredTimesAsLongAreStable)
+  {
+    double first = 0;
+    for (const double step : {0.05, 0.5, 5.})
+      {
+        Options options                  = quick_options();
+        options.time.step                = step;
+        options.lateral.lateral          = Lateral::rigid_walls;
+        options.solver.max_sweeps        = 200000;
+        Loading loading                  = short_loading();
+        loading.stages                   = {0.02};
+        loading.horizontal_over_vertical = 0;
+        const Course r                   = loaded(small_sample(100), loading, options);
+        ASSERT_EQ(r.report.status, Status::finished) << "step " << step << ": " << r.report.message;
+        double energy = 0, ratio = 0;
+        int    n = 0;
+        for (const HistoryRow &row : r.rows)
+          {
+            EXPECT_LT(std::abs(row.energy_residual), 1e-10);
+            energy = std::max(energy, row.kinetic_energy_ratio);
+            if (row.axial_strain > 0.005)
+              ratio += row.stress_ratio, ++n;
+          }
+        ratio /= n;
+        RecordProperty("step_" + std::to_string(step), std::to_string(ratio) + ", energy " + std::to_string(energy));
+        EXPECT_LT(energy, 20) << "step " << step;
+        if (first == 0)
+          first = ratio;
+        if (step < 1)
+          {
+            EXPECT_NEAR(ratio, first, 0.06) << "step " << step;
+          }
+      }
+  }
+} // namespace
