@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/loading.h"
 
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -9,11 +10,23 @@
 
 namespace diptych::continuum
 {
+  std::string text_of(const Walk walk, const double progress)
+  {
+    std::ostringstream out;
+    out.precision(4);
+    if (walk == Walk::time)
+      out << "time " << progress;
+    else
+      out << 100 * progress << (walk == Walk::axial_strain ? " % axial strain" : " % shear strain");
+    return out.str();
+  }
+
   Loading straight_loading(const double pressure, const Eigen::Vector2d &travel, std::vector<double> stages)
   {
     Loading loading;
     loading.pressure = pressure;
     loading.stages   = std::move(stages);
+    loading.walk     = travel.y() != 0 ? Walk::axial_strain : Walk::shear_strain;
     for (unsigned int c = 0; c < 2; ++c)
       loading.platens[1][c].value = [rate = travel[c]](const double progress) { return rate * progress; };
     return loading;

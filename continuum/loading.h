@@ -10,10 +10,27 @@
 
 #include <Eigen/Core>
 
+#include "continuum/choices.h"
+
 namespace diptych::continuum
 {
-  // The loading is a function of one progress: the axial strain (platen descent or travel / initial height), or a time where
-  // platens move as tables say. One component of a platen's motion:
+  // What the progress of a loading is.
+  enum class Walk
+  {
+    axial_strain, // descent of the upper platen / initial height
+    shear_strain, // its travel to the right / initial height
+    time
+  };
+  constexpr auto choices(Walk)
+  {
+    return std::array{std::pair{Walk::axial_strain, "axial_strain"}, std::pair{Walk::shear_strain, "shear_strain"},
+                      std::pair{Walk::time, "time"}};
+  }
+
+  // "2.5 % axial strain", "1 % shear strain", "time 3": for messages.
+  std::string text_of(Walk walk, double progress);
+
+  // The loading is a function of one progress. One component of a platen's motion:
   struct Drive
   {
     bool                          is_force = false; // the platen moves freely in this component and carries the value as a force
@@ -44,10 +61,13 @@ namespace diptych::continuum
     std::array<std::array<Drive, 2>, 2> platens;      // [lower, upper][x, y]; no function: at rest. Smooth platens leave x alone
     LateralCondition                    lateral;
     Eigen::Vector2d                     body_force = Eigen::Vector2d::Zero(); // weight per initial area [pressure / length]
-    std::vector<double>                 stages; // values of the progress at which a snapshot is made, ascending; last: the end
+    std::vector<double>                 stages; // values of the progress at which the panel halts, ascending; last: the end
+    Walk                                walk              = Walk::axial_strain;
+    double                              time_per_progress = 1; // where the walk is a strain: 1 / strain rate
   };
 
-  // The upper platen moves by `travel` [length] per unit progress, the lower one is at rest.
+  // The upper platen moves by `travel` [length] per unit progress, the lower one is at rest. The progress is the descent / height
+  // where it descends, else the travel / height.
   Loading straight_loading(double pressure, const Eigen::Vector2d &travel, std::vector<double> stages);
 
   // Throws std::invalid_argument naming the value and what is allowed.

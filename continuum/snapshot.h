@@ -3,10 +3,11 @@
 #pragma once
 
 #include <array>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
+
+#include "continuum/loading.h"
 
 namespace diptych::continuum
 {
@@ -37,8 +38,11 @@ namespace diptych::continuum
   // One instant of the continuum panel, plain values. Nodes are all support points of the displacement.
   struct Snapshot
   {
-    double axial_strain = 0; // progress of the loading: platen descent / initial height
-    double time         = 0;
+    double progress     = 0; // of what the loading walks along
+    double axial_strain = 0; // descent of the upper platen / initial height
+    double shear_strain = 0; // its travel to the right / initial height
+    double time         = 0; // since the start
+    Walk   walk         = Walk::axial_strain;
 
     std::vector<Eigen::Vector2d> position;     // current = initial + displacement [length], n_nodes
     std::vector<Eigen::Vector2d> displacement; // since the start [length], n_nodes

@@ -6,28 +6,27 @@
 
 namespace diptych::continuum
 {
-  const std::vector<std::string> &law_names()
-  {
-    static const std::vector<std::string> names = {"linear_elastic", "mohr_coulomb", "drucker_prager", "cosserat_mohr_coulomb",
-                                                   "cosserat_drucker_prager"};
-    return names;
-  }
+  static_assert(traits(LawKind::linear_elastic).is_cosserat == LinearElastic::is_cosserat &&
+                traits(LawKind::mohr_coulomb).is_cosserat == MohrCoulomb::is_cosserat &&
+                traits(LawKind::drucker_prager).is_cosserat == DruckerPrager::is_cosserat &&
+                traits(LawKind::cosserat_mohr_coulomb).is_cosserat == CosseratMohrCoulomb::is_cosserat &&
+                traits(LawKind::cosserat_drucker_prager).is_cosserat == CosseratDruckerPrager::is_cosserat);
 
-  Law make_law(const std::string &name, const LawOptions &options)
+  Law make_law(const LawKind law, const LawOptions &options, const Units &units)
   {
-    if (name == "linear_elastic")
-      return LinearElastic(options);
-    if (name == "mohr_coulomb")
-      return MohrCoulomb(options);
-    if (name == "drucker_prager")
-      return DruckerPrager(options);
-    if (name == "cosserat_mohr_coulomb")
-      return CosseratMohrCoulomb(options);
-    if (name == "cosserat_drucker_prager")
-      return CosseratDruckerPrager(options);
-    std::string known;
-    for (const std::string &one : law_names())
-      known += (known.empty() ? "" : ", ") + one;
-    throw std::invalid_argument("law = " + name + " must be one of " + known);
+    switch (law)
+      {
+      case LawKind::linear_elastic:
+        return LinearElastic(options, units);
+      case LawKind::mohr_coulomb:
+        return MohrCoulomb(options, units);
+      case LawKind::drucker_prager:
+        return DruckerPrager(options, units);
+      case LawKind::cosserat_mohr_coulomb:
+        return CosseratMohrCoulomb(options, units);
+      case LawKind::cosserat_drucker_prager:
+        return CosseratDruckerPrager(options, units);
+      }
+    throw std::logic_error("make_law: a law without a constructor");
   }
 } // namespace diptych::continuum

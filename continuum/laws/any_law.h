@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <string>
 #include <variant>
-#include <vector>
 
 #include "continuum/laws/cosserat_drucker_prager.h"
 #include "continuum/laws/cosserat_mohr_coulomb.h"
@@ -16,9 +14,6 @@ namespace diptych::continuum
 {
   using Law = std::variant<LinearElastic, MohrCoulomb, DruckerPrager, CosseratMohrCoulomb, CosseratDruckerPrager>;
 
-  // Names that make_law knows, in the order of the variant.
-  const std::vector<std::string> &law_names();
-
-  // Throws std::invalid_argument for an unknown name, listing the known ones, and as validate(options) does.
-  Law make_law(const std::string &name, const LawOptions &options);
+  // Throws std::invalid_argument as validate(options) does.
+  Law make_law(LawKind law, const LawOptions &options, const Units &units = {});
 } // namespace diptych::continuum

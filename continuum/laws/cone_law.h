@@ -17,7 +17,7 @@ namespace diptych::continuum
   {
   public:
     // Members as in LinearElastic. The constructor throws std::invalid_argument as validate(options) does.
-    ConeLaw(const LawOptions &options, ConeShape shape, bool is_cosserat);
+    ConeLaw(const LawOptions &options, ConeShape shape, bool is_cosserat, const Units &units);
 
     // Implicit: F = |q| - s f - g0 = overstress with f, g0 and dilation d at the END of the step; the hardening variable grows
     // by the multiplier lambda, |q| falls by G lambda, s rises by B lambda d. Perzyna: overstress = (viscosity/d_time) lambda.

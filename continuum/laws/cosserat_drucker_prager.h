@@ -13,8 +13,8 @@ namespace diptych::continuum
   public:
     static constexpr bool is_cosserat = true;
 
-    explicit CosseratDruckerPrager(const LawOptions &options)
-        : ConeLaw(options, ConeShape::drucker_prager, is_cosserat)
+    explicit CosseratDruckerPrager(const LawOptions &options, const Units &units = {})
+        : ConeLaw(options, ConeShape::drucker_prager, is_cosserat, units)
     {}
   };
 } // namespace diptych::continuum

@@ -14,8 +14,8 @@ namespace diptych::continuum
   public:
     static constexpr bool is_cosserat = true;
 
-    explicit CosseratMohrCoulomb(const LawOptions &options)
-        : ConeLaw(options, ConeShape::mohr_coulomb, is_cosserat)
+    explicit CosseratMohrCoulomb(const LawOptions &options, const Units &units = {})
+        : ConeLaw(options, ConeShape::mohr_coulomb, is_cosserat, units)
     {}
   };
 } // namespace diptych::continuum

@@ -15,8 +15,8 @@ namespace diptych::continuum
   public:
     static constexpr bool is_cosserat = false;
 
-    explicit DruckerPrager(const LawOptions &options)
-        : ConeLaw(options, ConeShape::drucker_prager, is_cosserat)
+    explicit DruckerPrager(const LawOptions &options, const Units &units = {})
+        : ConeLaw(options, ConeShape::drucker_prager, is_cosserat, units)
     {}
   };
 } // namespace diptych::continuum

@@ -12,16 +12,17 @@ namespace diptych::continuum
     constexpr double degree = 3.14159265358979323846 / 180;
   }
 
-  Hardening::Hardening(const LawOptions &o)
-      : peak{0, o.friction_angle_peak * degree, o.dilatancy_angle_peak * degree, o.cohesion},
-        residual{0, o.friction_angle_residual * degree, o.dilatancy_angle_residual * degree,
-                 o.cohesion_residual.value_or(o.cohesion)},
-        softening_strain(o.hardening == "exponential" ? o.softening_strain : 0)
+  Hardening::Hardening(const LawOptions &options, const Units &units)
   {
-    validate(o);
-    if (o.hardening == "constant")
+    validate(options);
+    const LawOptions o = in_units(options, units);
+    peak               = {0, o.friction_angle_peak * degree, o.dilatancy_angle_peak * degree, o.cohesion};
+    residual           = {0, o.friction_angle_residual * degree, o.dilatancy_angle_residual * degree,
+                          o.cohesion_residual.value_or(o.cohesion)};
+    softening_strain   = o.softening_strain;
+    if (o.hardening == HardeningKind::constant)
       table = {peak};
-    if (o.hardening == "table")
+    if (o.hardening == HardeningKind::table)
       for (std::size_t k = 0; k < o.table_strain.size(); ++k)
         table.push_back(
           {o.table_strain[k], o.table_friction_angle[k] * degree, o.table_dilatancy_angle[k] * degree, o.table_cohesion[k]});

@@ -20,7 +20,7 @@ namespace diptych::continuum
   {
   public:
     // Throws std::invalid_argument as validate(options) does.
-    explicit Hardening(const LawOptions &options);
+    explicit Hardening(const LawOptions &options, const Units &units = {});
 
     // At the hardening variable `equivalent_plastic_strain` >= 0. At a point of the table the rate is that of the interval
     // which begins there.
@@ -29,13 +29,13 @@ namespace diptych::continuum
   private:
     struct Point
     {
-      double strain, friction, dilatancy, cohesion;
+      double strain = 0, friction = 0, dilatancy = 0, cohesion = 0;
     };
     Strength decayed(double equivalent_plastic_strain) const;
     Strength interpolated(double equivalent_plastic_strain) const;
 
-    Point              peak, residual;   // strain: none
-    double             softening_strain; // zero: not exponential
-    std::vector<Point> table;            // one point: constant
+    Point              peak, residual; // strain: none
+    double             softening_strain = 0;
+    std::vector<Point> table; // empty: exponential; one point: constant
   };
 } // namespace diptych::continuum

@@ -4,6 +4,8 @@
 
 #include <deal.II/base/tensor.h>
 
+#include "continuum/laws/verdict.h"
+
 namespace diptych::continuum
 {
   // Strain and stress of a point in plane strain, mechanics sign (tension positive), as work-conjugate vectors. A classical
@@ -26,15 +28,6 @@ namespace diptych::continuum
   using Strain  = dealii::Tensor<1, n_components>;
   using Stress  = dealii::Tensor<1, n_components>;
   using Tangent = dealii::Tensor<2, n_components>; // d stress / d strain increment; zero beyond the law's components
-
-  // How far a law's answer can be trusted. `failed`: stress and tangent are meaningless, the step must be cut.
-  // `unreliable`: the return converged, but softening was so fast that the answer may not be the only one.
-  enum class Verdict
-  {
-    reliable,
-    unreliable,
-    failed
-  };
 
   // Which branch of the law answered. `edge`: two yield planes, sigma_zz being an outer principal stress.
   enum class Regime

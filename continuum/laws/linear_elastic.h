@@ -13,7 +13,7 @@ namespace diptych::continuum
     static constexpr bool is_cosserat = false;
 
     // Throws std::invalid_argument where the elastic options are out of range; reads no others.
-    explicit LinearElastic(const LawOptions &options);
+    explicit LinearElastic(const LawOptions &options, const Units &units = {});
 
     // End state of the strain increment `d_strain` (tension positive) from the committed state `s0`, with the consistent
     // tangent. `d_time` is the axial strain of the step; only viscosity asks for it, zero means rate independent.

@@ -16,8 +16,8 @@ namespace diptych::continuum
   public:
     static constexpr bool is_cosserat = false;
 
-    explicit MohrCoulomb(const LawOptions &options)
-        : ConeLaw(options, ConeShape::mohr_coulomb, is_cosserat)
+    explicit MohrCoulomb(const LawOptions &options, const Units &units = {})
+        : ConeLaw(options, ConeShape::mohr_coulomb, is_cosserat, units)
     {}
 
     // Regime::edge where two planes answer; Regime::plastic where one does, be it in the plane of deformation or not.

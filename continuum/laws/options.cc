@@ -76,6 +76,44 @@ namespace diptych::continuum
     }
   } // namespace
 
+  LawOptions in_units(LawOptions o, const Units &units)
+  {
+    for (double *stress : {&o.elastic.youngs_modulus, &o.cohesion, &o.viscosity})
+      *stress *= units.stress;
+    if (o.cohesion_residual)
+      *o.cohesion_residual *= units.stress;
+    for (double &cohesion : o.table_cohesion)
+      cohesion *= units.stress;
+    o.internal_length *= units.length;
+    return o;
+  }
+
+  std::vector<UnusedKey> unused_keys(const LawKind law, const LawOptions &o)
+  {
+    const LawTraits        is = traits(law);
+    std::vector<UnusedKey> unused;
+    const auto             unless = [&](const bool used, const std::string &because, const std::vector<const char *> &keys) {
+      for (const char *key : keys)
+        if (!used)
+          unused.push_back({key, because});
+    };
+    const std::string          of_law = "law = " + name_of(law), of_hardening = "hardening = " + name_of(o.hardening);
+    const std::vector<const char *> peak     = {"friction_angle_peak", "dilatancy_angle_peak", "cohesion"};
+    const std::vector<const char *> residual = {"friction_angle_residual", "dilatancy_angle_residual", "cohesion_residual",
+                                                "softening_strain"};
+    const std::vector<const char *> table    = {"table_strain", "table_friction_angle", "table_dilatancy_angle", "table_cohesion"};
+    unless(is.is_cosserat, of_law, {"internal_length", "couple_shear_ratio"});
+    unless(is.is_plastic, of_law, {"hardening", "viscosity"});
+    unless(is.is_plastic, of_law, peak), unless(is.is_plastic, of_law, residual), unless(is.is_plastic, of_law, table);
+    if (is.is_plastic)
+      {
+        unless(o.hardening != HardeningKind::table, of_hardening, peak);
+        unless(o.hardening == HardeningKind::exponential, of_hardening, residual);
+        unless(o.hardening == HardeningKind::table, of_hardening, table);
+      }
+    return unused;
+  }
+
   void validate(const ElasticOptions &options)
   {
     require_range("youngs_modulus", options.youngs_modulus, 1e-3, greatest);
@@ -85,16 +123,14 @@ namespace diptych::continuum
   void validate(const LawOptions &o)
   {
     validate(o.elastic);
-    require(o.hardening == "exponential" || o.hardening == "table" || o.hardening == "constant", "hardening = ", o.hardening,
-            " must be one of exponential, table, constant");
-    if (o.hardening == "table")
+    if (o.hardening == HardeningKind::table)
       check_table(o);
     else
       check_peak(o);
-    if (o.hardening == "exponential")
+    if (o.hardening == HardeningKind::exponential)
       check_residual(o);
     require_range("viscosity", o.viscosity, 0, greatest);
-    require_range("internal_length", o.internal_length, 1e-12, greatest);
+    require_range("internal_length", o.internal_length, 1e-6, 1e6);
     require_range("couple_shear_ratio", o.couple_shear_ratio, 1e-6, 1e6);
   }
 } // namespace diptych::continuum

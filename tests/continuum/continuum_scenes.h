@@ -3,45 +3,22 @@
 #pragma once
 
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include <unistd.h>
-
 #include <gtest/gtest.h>
 
-#include "continuum/mesh.h"
-#include "continuum/panel.h"
+#include "continuum/mesh/mesh.h"
+#include "continuum/panel/panel.h"
 
 namespace diptych::continuum::tests
 {
-  inline std::string temporary_path(const std::string &name)
+  inline QuadMesh rectangle(const double width, const double height, const double element_size)
   {
-    static int n = 0;
-    return (std::filesystem::path(testing::TempDir()) /
-            ("diptych" + std::to_string(::getpid()) + "_" + std::to_string(n++) + name))
-      .string();
+    return rectangle_mesh({width, height, 0, element_size});
   }
-
-  // Mesh file that lives as long as the test.
-  struct MeshFile
-  {
-    std::string path = temporary_path(".msh");
-    MeshSummary summary;
-
-    MeshFile(const double width, const double height, const double element_size)
-        : summary(make_rectangle_mesh({width, height, 0, element_size}, path))
-    {}
-    MeshFile(const Outline &outline, const double element_size)
-        : summary(make_mesh(outline, element_size, path))
-    {}
-    MeshFile(const MeshFile &)            = delete;
-    MeshFile &operator=(const MeshFile &) = delete;
-    ~MeshFile() { std::filesystem::remove(path); }
-  };
 
   inline Outline wavy_outline(const double width, const double height, const int points, const double waviness)
   {
@@ -57,11 +34,11 @@ namespace diptych::continuum::tests
   }
 
   // Perfect plasticity: nothing hardens or softens.
-  inline Options perfectly_plastic(const std::string &law, const double friction, const double dilatancy, const double cohesion)
+  inline Options perfectly_plastic(const LawKind law, const double friction, const double dilatancy, const double cohesion)
   {
     Options options;
     options.law                           = law;
-    options.material.hardening            = "constant";
+    options.material.hardening            = HardeningKind::constant;
     options.material.friction_angle_peak  = friction;
     options.material.dilatancy_angle_peak = dilatancy;
     options.material.cohesion             = cohesion;
@@ -71,12 +48,11 @@ namespace diptych::continuum::tests
   inline Options elastic()
   {
     Options options;
-    options.law = "linear_elastic";
+    options.law = LawKind::linear_elastic;
     return options;
   }
 
-  // Platen of the smooth or rough kind, in the geometry named.
-  inline Options with(Options options, const std::string &platens, const std::string &geometry)
+  inline Options with(Options options, const Platens platens, const Kinematics geometry)
   {
     options.platens  = platens;
     options.geometry = geometry;
@@ -90,31 +66,57 @@ namespace diptych::continuum::tests
     return options;
   }
 
+  // What may be asked of a course beside its scene.
+  struct Wishes
+  {
+    std::function<std::vector<Eigen::Matrix2d>(const Snapshot &)> initial_stress; // of the cells
+    std::function<bool()>                                         stop_requested; // before a step
+    const Checkpoint                                             *resume       = nullptr;
+    MPI_Comm                                                      communicator = MPI_COMM_WORLD;
+  };
+
+  // What a panel told on its way, and how it ended. A snapshot of every stage, and one of an early end.
   struct Course
   {
     Report                  report;
     std::vector<Snapshot>   snapshots;
     std::vector<HistoryRow> rows;
+    Checkpoint              checkpoint; // of the end
 
     const HistoryRow &end() const { return rows.back(); }
   };
 
-  inline Course course(const std::string &mesh, const Loading &loading, const Options &options, Callbacks callbacks = {})
+  inline Course course(const QuadMesh &mesh, const Loading &loading, const Options &options, const Wishes &wishes = {})
   {
     Course result;
-    callbacks.on_stage = [&](const Snapshot &s) { result.snapshots.push_back(s); };
-    callbacks.on_step  = [&](const HistoryRow &row) { result.rows.push_back(row); };
-    result.report      = run(mesh, 1., loading, options, callbacks);
+    Hooks  hooks;
+    hooks.stop_requested = wishes.stop_requested;
+    hooks.on_row         = [&](const HistoryRow &row) { result.rows.push_back(row); };
+    Panel panel(mesh, Units(), loading, options, hooks, wishes.communicator);
+    if (wishes.initial_stress)
+      panel.set_initial_stress(wishes.initial_stress(panel.snapshot()));
+    Status status = Status::finished;
+    if (wishes.resume)
+      panel.resume(*wishes.resume);
+    else
+      status = panel.prepare();
+    for (int stage = panel.stage() + 1; status == Status::finished && stage <= int(loading.stages.size()); ++stage)
+      {
+        status = panel.advance_to(stage);
+        result.snapshots.push_back(panel.snapshot());
+      }
+    result.report     = panel.report();
+    result.checkpoint = panel.checkpoint();
     return result;
   }
 
   // A course that must come to its end.
-  inline Course finished(const std::string &mesh, const Loading &loading, const Options &options)
+  inline Course finished(const QuadMesh &mesh, const Loading &loading, const Options &options)
   {
     Course result = course(mesh, loading, options);
     if (result.report.status != Status::finished)
       throw std::runtime_error("the course ended early: " + result.report.message);
-    EXPECT_EQ(result.report.axial_strain, loading.stages.back());
+    EXPECT_EQ(result.report.progress, loading.stages.back());
     EXPECT_EQ(result.snapshots.size(), loading.stages.size());
     return result;
   }

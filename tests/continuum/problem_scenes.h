@@ -2,14 +2,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <filesystem>
-#include <fstream>
 #include <random>
 #include <string>
 #include <vector>
 
-#include "continuum/driver.h"
-#include "continuum/refinement.h"
+#include "continuum/equilibrium/driver.h"
+#include "continuum/equilibrium/refinement.h"
 #include "tests/continuum/continuum_scenes.h"
 
 namespace diptych::continuum::tests
@@ -23,6 +21,15 @@ namespace diptych::continuum::tests
       wish.push_back((mesh.nodes[cell.nodes[0]].initial - at).norm() < radius ? 1 : 0);
     std::vector<double> last(mesh.relevant.n_elements(), 0.);
     ASSERT_TRUE(refine(problem, {1, 0.5}, wish, last));
+  }
+
+  // Steps up to `progress`. Empty text, or why it was not reached.
+  inline std::string advance(const BoundaryValueProblem &problem, LoadDriver &driver, const double progress)
+  {
+    while (problem.progress() < progress)
+      if (const auto why = driver.step_towards(progress); !why.empty())
+        return why;
+    return {};
   }
 
   // Every component between -size and size; the generator is seeded.
@@ -54,45 +61,30 @@ namespace diptych::continuum::tests
 
   // A structured mesh of n x m cells whose inner vertices are pushed about by a tenth or two of a cell; the outline is the
   // rectangle [0, n] x [0, m], its sides match.
-  struct DistortedMesh
+  inline QuadMesh distorted_mesh(const unsigned int n, const unsigned int m)
   {
-    std::string path = temporary_path(".msh");
-
-    DistortedMesh(const int n, const int m)
-    {
-      std::ofstream out(path);
-      out.precision(17);
-      const auto id = [&](const int i, const int j) { return 1 + i + (n + 1) * j; };
-      out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << (n + 1) * (m + 1) << "\n";
-      for (int j = 0; j <= m; ++j)
-        for (int i = 0; i <= n; ++i)
-          {
-            const bool inside = i > 0 && i < n && j > 0 && j < m;
-            out << id(i, j) << ' ' << i + (inside ? 0.2 * std::sin(3. * i + 5. * j) : 0.) << ' '
-                << j + (inside ? 0.2 * std::cos(7. * i + 2. * j) : 0.) << " 0\n";
-          }
-      out << "$EndNodes\n$Elements\n" << 2 * (n + m) + n * m << "\n";
-      int        k    = 0;
-      const auto line = [&](const BoundaryId boundary, const int a, const int b) {
-        out << ++k << " 1 2 " << boundary << ' ' << boundary << ' ' << a << ' ' << b << "\n";
-      };
-      for (int i = 0; i < n; ++i)
+    QuadMesh   mesh;
+    const auto id = [&](const unsigned int i, const unsigned int j) { return i + (n + 1) * j; };
+    for (unsigned int j = 0; j <= m; ++j)
+      for (unsigned int i = 0; i <= n; ++i)
         {
-          line(lower_platen, id(i, 0), id(i + 1, 0));
-          line(upper_platen, id(i, m), id(i + 1, m));
+          const bool inside = i > 0 && i < n && j > 0 && j < m;
+          mesh.vertices.emplace_back(i + (inside ? 0.2 * std::sin(3. * i + 5. * j) : 0.),
+                                     j + (inside ? 0.2 * std::cos(7. * i + 2. * j) : 0.));
         }
-      for (int j = 0; j < m; ++j)
-        {
-          line(left_side, id(0, j), id(0, j + 1));
-          line(right_side, id(n, j), id(n, j + 1));
-        }
-      for (int j = 0; j < m; ++j)
-        for (int i = 0; i < n; ++i)
-          out << ++k << " 3 2 1 1 " << id(i, j) << ' ' << id(i + 1, j) << ' ' << id(i + 1, j + 1) << ' ' << id(i, j + 1) << "\n";
-      out << "$EndElements\n";
-    }
-    DistortedMesh(const DistortedMesh &)            = delete;
-    DistortedMesh &operator=(const DistortedMesh &) = delete;
-    ~DistortedMesh() { std::filesystem::remove(path); }
-  };
+    for (unsigned int j = 0; j < m; ++j)
+      for (unsigned int i = 0; i < n; ++i)
+        mesh.cells.push_back({id(i, j), id(i + 1, j), id(i + 1, j + 1), id(i, j + 1)});
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        mesh.boundary.push_back({{id(i, 0), id(i + 1, 0)}, lower_platen});
+        mesh.boundary.push_back({{id(i, m), id(i + 1, m)}, upper_platen});
+      }
+    for (unsigned int j = 0; j < m; ++j)
+      {
+        mesh.boundary.push_back({{id(0, j), id(0, j + 1)}, left_side});
+        mesh.boundary.push_back({{id(n, j), id(n, j + 1)}, right_side});
+      }
+    return mesh;
+  }
 } // namespace diptych::continuum::tests

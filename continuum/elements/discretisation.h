@@ -1,0 +1,112 @@
+// diptych: unknowns, nodes and edges of a quadrilateral mesh that may be spread over processes and refined
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <deal.II/base/index_set.h>
+#include <deal.II/distributed/tria.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_system.h>
+
+#include "continuum/elements/reference_element.h"
+#include "continuum/mesh/quad_mesh.h"
+
+namespace diptych::continuum
+{
+  // One locally owned cell. Its dofs are ordered 2 * node + component, then the rotations of the four corners; nodes as in
+  // ReferenceElement. `local`: index among the locally relevant dofs, where vectors of this process have their entries.
+  struct Cell
+  {
+    std::array<unsigned int, max_nodes>                   nodes;
+    std::array<dealii::types::global_dof_index, max_dofs> dofs;
+    std::array<unsigned int, max_dofs>                    local;
+  };
+
+  // An element edge on the outer boundary.
+  struct BoundaryEdge
+  {
+    unsigned int                id;    // BoundaryId
+    std::array<unsigned int, 3> nodes; // lower (or left) end, upper (or right) end, middle (unused by four-node elements)
+  };
+
+  struct Node
+  {
+    Eigen::Vector2d                                initial; // position [length]
+    std::array<dealii::types::global_dof_index, 2> dofs;    // of its displacement; the first tells nodes apart on all processes
+    dealii::types::global_dof_index                rotation = dealii::numbers::invalid_dof_index; // dof, where the node has one
+    std::array<unsigned int, 2>                    local{}; // of its displacement among the relevant dofs
+    unsigned int                                   local_rotation = 0;
+  };
+
+  class Discretisation
+  {
+  public:
+    // Of a mesh that check() has accepted, spread over the processes of `communicator`.
+    Discretisation(const QuadMesh &mesh, ElementKind kind, MPI_Comm communicator);
+
+    MPI_Comm communicator() const { return triangulation.get_communicator(); }
+
+    // New unknowns, nodes and edges for the mesh as it now is: after a refinement.
+    void distribute();
+
+    // Adds dofs of other processes that this one reads; local indices change.
+    void add_relevant(const std::vector<dealii::types::global_dof_index> &dofs);
+
+    dealii::parallel::distributed::Triangulation<2> triangulation;
+    ElementKind                                     kind;
+    ReferenceElement                                reference;
+    dealii::FESystem<2>                             element;
+    dealii::DoFHandler<2>                           dof_handler;
+    dealii::IndexSet                                owned, relevant;
+
+    std::vector<Cell>         cells; // in the order of deal.II's locally owned active cells
+    std::vector<Node>         nodes; // of those cells
+    std::vector<BoundaryEdge> edges;
+
+    // Of the unloaded sample: lower left corner and extents of the box around it.
+    Eigen::Vector2d origin = Eigen::Vector2d::Zero(), extent = Eigen::Vector2d::Zero();
+
+    // All nodes of a boundary, of every process, ascending by their dofs. Collective.
+    std::vector<Node> boundary_nodes(unsigned int id) const;
+
+    // Those of them that a displacement (relevant dofs) has brought to where `is_there(position)` holds. Collective.
+    std::vector<Node> boundary_nodes(unsigned int                                        id,
+                                     const std::vector<double>                          &displacement,
+                                     const std::function<bool(const Eigen::Vector2d &)> &is_there) const;
+
+  private:
+    void number_nodes();
+    void number_locally();
+    void collect_edges();
+    void measure();
+  };
+
+  // Positions of all nodes at a displacement given on the relevant dofs [length].
+  std::vector<Eigen::Vector2d> positions(const Discretisation &mesh, const std::vector<double> &displacement);
+
+  // What assembly reads of one cell at one geometry: gradients of the shape functions [1/length] and areas of the points.
+  struct PointGeometry
+  {
+    std::array<dealii::Tensor<1, 2>, max_nodes> gradient;
+    std::array<dealii::Tensor<1, 2>, 4>         rotation_gradient;
+    double                                      area = 0;
+  };
+  struct CellGeometry
+  {
+    std::array<PointGeometry, max_points>       points;
+    std::array<dealii::Tensor<1, 2>, max_nodes> mean_gradient; // over the element, for mean dilation
+  };
+
+  struct Geometry
+  {
+    std::vector<CellGeometry> cells;
+    double                    area       = 0;    // of this process's cells [length^2]
+    bool                      is_regular = true; // no element is turned over anywhere on this process
+  };
+  Geometry geometry_at(const Discretisation &mesh, const std::vector<Eigen::Vector2d> &node_position);
+} // namespace diptych::continuum

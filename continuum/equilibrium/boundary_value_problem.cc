@@ -1,0 +1,443 @@
+// diptych: equilibrium of the sample, residual and consistent tangent on trial states
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "continuum/equilibrium/boundary_value_problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <type_traits>
+
+#include "continuum/elements/element_kernels.h"
+#include "continuum/laws/plastic_flow.h"
+#include "continuum/equilibrium/loads.h"
+
+namespace diptych::continuum
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // Adds the CPU time of its life to a counter.
+    struct Stopwatch
+    {
+      double      &seconds;
+      std::clock_t start = std::clock();
+      ~Stopwatch() { seconds += double(std::clock() - start) / CLOCKS_PER_SEC; }
+    };
+
+    ElementKind element_kind(const Options &options)
+    {
+      if (traits(options.law).is_cosserat)
+        return ElementKind::q2_cosserat;
+      return options.element == Displacement::q1_bbar ? ElementKind::q1_mean_dilation : ElementKind::q2;
+    }
+
+    bool sides_carry_pressure(const LateralCondition &lateral)
+    {
+      if (const auto *rigid = std::get_if<RigidSides>(&lateral))
+        return !rigid->widening;
+      if (const auto *periodic = std::get_if<PeriodicSides>(&lateral))
+        return !periodic->widening;
+      return std::holds_alternative<SidePressure>(lateral);
+    }
+
+    template <class Element> ElementVector<Element> gather(const Cell &cell, const std::vector<double> &values)
+    {
+      ElementVector<Element> u;
+      for (unsigned int i = 0; i < Element::n_dofs; ++i)
+        u[i] = values[cell.local[i]];
+      return u;
+    }
+
+    template <class Element> void scatter(const Cell &cell, const ElementVector<Element> &force, std::vector<double> &values)
+    {
+      for (unsigned int i = 0; i < Element::n_dofs; ++i)
+        values[cell.local[i]] += force[i];
+    }
+
+    // Stress and couple stress turned by the angle that the material turned by; the skew part does not depend on the frame.
+    void turn(MaterialState &point, const double angle)
+    {
+      const double c = std::cos(angle), s = std::sin(angle);
+      Stress      &t    = point.stress;
+      const double mean = (t[xx] + t[yy]) / 2, a = (t[xx] - t[yy]) / 2, b = t[xy];
+      const double cos2 = c * c - s * s, sin2 = 2 * c * s;
+      t[xx]           = mean + a * cos2 - b * sin2;
+      t[yy]           = mean - a * cos2 + b * sin2;
+      t[xy]           = a * sin2 + b * cos2;
+      const double mx = t[curvature_x], my = t[curvature_y];
+      t[curvature_x] = c * mx - s * my;
+      t[curvature_y] = s * mx + c * my;
+    }
+
+    bool same_nodes(const SideContact &a, const SideContact &b)
+    {
+      const auto same = [](const Node &m, const Node &n) { return m.dofs == n.dofs; };
+      return std::equal(a[0].begin(), a[0].end(), b[0].begin(), b[0].end(), same) &&
+             std::equal(a[1].begin(), a[1].end(), b[1].begin(), b[1].end(), same);
+    }
+
+    // Half the curl of the increment: anticlockwise.
+    template <class Element> double spin_at(const PointGeometry &point, const ElementVector<Element> &u)
+    {
+      double spin = 0;
+      for (unsigned int node = 0; node < Element::n_nodes; ++node)
+        spin += 0.5 * (point.gradient[node][0] * u[2 * node + 1] - point.gradient[node][1] * u[2 * node]);
+      return spin;
+    }
+  } // namespace
+
+  BoundaryValueProblem::BoundaryValueProblem(const QuadMesh &quads,
+                                             const Units    &units,
+                                             const Loading  &loading,
+                                             const Options  &options,
+                                             const MPI_Comm  communicator)
+      : options(options),
+        loading(loading),
+        units(units),
+        material(make_law(options.law, options.material, units)),
+        mesh(quads, element_kind(options), communicator)
+  {
+    rebuild();
+    area_at_start = Utilities::MPI::sum(current.area, mesh.communicator());
+    reset_points();
+    begin_step(0);
+    (void)evaluate(zero_vector());
+    reset_balance();
+  }
+
+  void BoundaryValueProblem::rebuild()
+  {
+    set_conditions({});
+    const std::size_t n_points = mesh.cells.size() * mesh.reference.n_points;
+    trial.assign(n_points, {});
+    trial_increment.assign(mesh.relevant.n_elements(), 0.);
+    external = balanced_force = weight = state.displacement = trial_increment;
+    state.points.assign(n_points, {});
+    state.localisation.assign(n_points, {});
+    flow.assign(n_points, 0.);
+    current = geometry_at(mesh, positions(mesh, state.displacement));
+    if (!moves())
+      moved = current;
+    if (loading.body_force.norm() > 0)
+      add_body_force(mesh, current, loading.body_force, weight);
+  }
+
+  void BoundaryValueProblem::set_conditions(const SideContact &contact)
+  {
+    in_side_contact = contact;
+    conditions      = std::make_unique<BoundaryConditions>(
+      mesh, loading, PlatenGrip{options.platens == Platens::rough, options.platen_rotation == PlatenRotation::held}, contact);
+    tangent.reinit(mesh, conditions->correction());
+    ++structure_version;
+  }
+
+  // States the problem on the shape that the committed displacement gives. Nodes of free sides that have come to a platen's
+  // plane belong to it from now on.
+  void BoundaryValueProblem::move_nodes()
+  {
+    (moves() ? current : moved) = geometry_at(mesh, positions(mesh, state.displacement));
+    if (!moves() ||
+        !(std::holds_alternative<SidePressure>(loading.lateral) || std::holds_alternative<FreeSides>(loading.lateral)))
+      return;
+    const auto contact = side_contact(mesh, state.displacement, platen_planes());
+    if (!same_nodes(contact, in_side_contact))
+      set_conditions(contact);
+  }
+
+  void BoundaryValueProblem::adopt(CommittedState new_state)
+  {
+    state = std::move(new_state);
+    move_nodes();
+    begin_step(state.progress);
+    (void)evaluate(zero_vector());
+    reset_balance();
+  }
+
+  void BoundaryValueProblem::reset_points()
+  {
+    const Eigen::Vector2d spot = mesh.origin +
+                                 Eigen::Vector2d(options.weak_spot_x, options.weak_spot_y).cwiseProduct(mesh.extent);
+    const double radius = options.weak_spot_radius * units.length;
+    for (std::size_t i = 0; i < state.points.size(); ++i)
+      {
+        auto &point          = state.points[i];
+        point.stress[xx]     = -loading.pressure;
+        point.stress[yy]     = -loading.pressure;
+        point.stress_zz      = -loading.pressure;
+        const auto     &cell = mesh.cells[i / mesh.reference.n_points];
+        Eigen::Vector2d at   = Eigen::Vector2d::Zero();
+        for (unsigned int node = 0; node < mesh.reference.n_nodes; ++node)
+          at += mesh.reference.shape[i % mesh.reference.n_points][node] * mesh.nodes[cell.nodes[node]].initial;
+        point.equivalent_plastic_strain = options.weak_spot_strain * std::exp(-(at - spot).squaredNorm() / (2 * radius * radius));
+      }
+  }
+
+  void BoundaryValueProblem::set_initial_stress(const std::vector<Eigen::Matrix2d> &stress)
+  {
+    for (std::size_t i = 0; i < state.points.size(); ++i)
+      {
+        const auto &cell  = stress[i / mesh.reference.n_points];
+        auto       &point = state.points[i];
+        point.stress[xx]  = -cell(0, 0);
+        point.stress[yy]  = -cell(1, 1);
+        point.stress[xy]  = -(cell(0, 1) + cell(1, 0)) / 2;
+        point.stress_zz   = -(cell(0, 0) + cell(1, 1)) / 2; // discs have none: the mean of the plane
+      }
+    (void)evaluate(zero_vector());
+    reset_balance();
+  }
+
+  DistributedVector BoundaryValueProblem::zero_vector() const
+  {
+    return continuum::zero_vector(mesh);
+  }
+
+  std::vector<double> BoundaryValueProblem::relevant_values(const DistributedVector &vector) const
+  {
+    return continuum::relevant_values(mesh, vector);
+  }
+
+  DistributedVector BoundaryValueProblem::owned_values(const std::vector<double> &relevant) const
+  {
+    return continuum::owned_values(mesh, relevant);
+  }
+
+  std::array<PlatenPlane, 2> BoundaryValueProblem::platen_planes() const
+  {
+    std::array<PlatenPlane, 2> planes;
+    for (const unsigned int platen : {0u, 1u})
+      {
+        const double initial = conditions->platens()[platen].front().initial.y();
+        planes[platen]       = {initial, initial + platen_travel(platen).y()};
+      }
+    return planes;
+  }
+
+  Eigen::Vector2d BoundaryValueProblem::platen_travel(const bool upper) const
+  {
+    const Node     &node = conditions->platens()[upper].front();
+    Eigen::Vector2d travel;
+    for (unsigned int c = 0; c < 2; ++c)
+      {
+        const bool mine = mesh.owned.is_element(node.dofs[c]);
+        travel[c]       = Utilities::MPI::sum(mine ? state.displacement[mesh.relevant.index_within_set(node.dofs[c])] : 0.,
+                                              mesh.communicator());
+      }
+    return travel;
+  }
+
+  // Side pressure acts along the sides of the shape that equilibrium is stated on. In small strain that is the initial one, and
+  // the total follows the height; along the moved sides it would be wrong there: where a band leaves the sample the side folds
+  // over as soon as the jump exceeds an element, and the pressure would pull. On rigid walls and a free period it acts through
+  // the ties of their nodes, so that nodes which a platen holds get none.
+  std::vector<double> BoundaryValueProblem::loads(const double to) const
+  {
+    std::vector<double> force = weight;
+    if (!sides_carry_pressure(loading.lateral))
+      return force;
+    const auto   planes = platen_planes();
+    const double share  = moves() ? 1. : conditions->height(to, planes[1].now - planes[0].now) / mesh.extent.y();
+    add_side_pressure(mesh, positions(mesh, moves() ? state.displacement : std::vector<double>(force.size(), 0.)),
+                      loading.pressure * share, force);
+    return force;
+  }
+
+  void BoundaryValueProblem::begin_step(const double to, const double share)
+  {
+    step_end = to;
+    step_constraints.clear();
+    step_constraints.copy_from(conditions->increment(state.progress, to));
+    external = loads(to);
+    for (std::size_t i = 0; i < external.size(); ++i)
+      external[i] = share * external[i] + (1 - share) * balanced_force[i];
+    applied = zero_vector();
+    for (const auto &[dof, force] : conditions->applied_forces(to))
+      if (mesh.owned.is_element(dof))
+        applied[dof] += share * force;
+    applied.compress(VectorOperation::add);
+  }
+
+  void BoundaryValueProblem::impose(DistributedVector &increment) const
+  {
+    step_constraints.distribute(increment);
+  }
+
+  template <class L, class Element> void BoundaryValueProblem::update_points(const L &law, Element)
+  {
+    const double d_time = step_end - state.progress;
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+      {
+        const auto u = gather<Element>(mesh.cells[c], trial_increment);
+        for (unsigned int q = 0; q < Element::n_points; ++q)
+          {
+            const std::size_t point = c * Element::n_points + q;
+            trial[point] = law.update(state.points[point], strain_at<Element>(mesh.reference, current.cells[c], q, u), d_time);
+          }
+      }
+  }
+
+  std::vector<double> BoundaryValueProblem::internal_force() const
+  {
+    std::vector<double> force(external.size(), 0.);
+    with_element(mesh.kind, [&](const auto chosen) {
+      using Element = std::decay_t<decltype(chosen)>;
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        {
+          ElementVector<Element> f{};
+          for (unsigned int q = 0; q < Element::n_points; ++q)
+            add_stress<Element>(mesh.reference, current.cells[c], q, trial[c * Element::n_points + q].state.stress, f);
+          scatter<Element>(mesh.cells[c], f, force);
+        }
+    });
+    return force;
+  }
+
+  void BoundaryValueProblem::reset_balance()
+  {
+    balanced_force = internal_force();
+  }
+
+  Imbalance BoundaryValueProblem::evaluate(const DistributedVector &increment)
+  {
+    const Stopwatch watch{phase.points};
+    trial_increment = relevant_values(increment);
+    std::visit([&](const auto &law) { with_element(mesh.kind, [&](const auto chosen) { update_points(law, chosen); }); },
+               material);
+
+    auto force = internal_force();
+    for (std::size_t i = 0; i < force.size(); ++i)
+      force[i] -= external[i];
+    nodal_force = assembled(mesh, force);
+    condense(mesh, conditions->correction(), force);
+    rhs = assembled(mesh, force);
+    rhs -= applied;
+    rhs *= -1;
+
+    Imbalance imbalance;
+    imbalance.residual = rhs.l2_norm();
+    imbalance.scale    = platen_scale();
+    for (const auto &point : trial)
+      imbalance.n_failed += point.verdict == Verdict::failed;
+    imbalance.n_failed = Utilities::MPI::sum(imbalance.n_failed, mesh.communicator());
+    return imbalance;
+  }
+
+  DistributedVector BoundaryValueProblem::linearised_residual(const DistributedVector &increment) const
+  {
+    const auto          values = relevant_values(increment);
+    std::vector<double> force(external.size(), 0.);
+    with_element(mesh.kind, [&](const auto chosen) {
+      using Element = std::decay_t<decltype(chosen)>;
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        {
+          const auto             u = gather<Element>(mesh.cells[c], values);
+          ElementVector<Element> f{};
+          for (unsigned int q = 0; q < Element::n_points; ++q)
+            {
+              const auto &cell   = current.cells[c];
+              const auto  strain = strain_at<Element>(mesh.reference, cell, q, u);
+              add_stress<Element>(mesh.reference, cell, q, Stress(trial[c * Element::n_points + q].tangent * strain), f);
+            }
+          scatter<Element>(mesh.cells[c], f, force);
+        }
+    });
+    condense(mesh, conditions->correction(), force);
+    auto result = assembled(mesh, force);
+    result *= -1;
+    result += rhs;
+    return result;
+  }
+
+  const TrilinosWrappers::SparseMatrix &BoundaryValueProblem::assemble_tangent()
+  {
+    const Stopwatch watch{phase.assembly};
+    // A point at the apex has hardly any stiffness, and a patch of them would make the matrix singular. A thousandth of
+    // the elastic one changes the way of the iterations, not where they end.
+    const Tangent floor = 1e-3 * std::visit([](const auto &law) { return law.elastic_tangent(); }, material);
+    tangent.clear();
+    with_element(mesh.kind, [&](const auto chosen) {
+      using Element = std::decay_t<decltype(chosen)>;
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        {
+          ElementMatrix<Element> K{};
+          for (unsigned int q = 0; q < Element::n_points; ++q)
+            {
+              const auto &point = trial[c * Element::n_points + q];
+              add_stiffness<Element>(mesh.reference, current.cells[c], q,
+                                     point.regime == Regime::apex ? point.tangent + floor : point.tangent, K);
+            }
+          tangent.add<Element>(c, K);
+        }
+    });
+    tangent.finish();
+    return tangent.matrix();
+  }
+
+  bool BoundaryValueProblem::is_folded() const
+  {
+    std::vector<double> displacement = state.displacement;
+    for (std::size_t i = 0; i < displacement.size(); ++i)
+      displacement[i] += trial_increment[i];
+    const bool folded = !geometry_at(mesh, positions(mesh, displacement)).is_regular;
+    return Utilities::MPI::max(int(folded), mesh.communicator()) == 1;
+  }
+
+  void BoundaryValueProblem::commit()
+  {
+    const Stopwatch watch{phase.geometry};
+    const Tangent   elastic = std::visit([](const auto &law) { return law.elastic_tangent(); }, material);
+    const auto      moduli  = std::visit([](const auto &law) { return law.moduli(); }, material);
+    flow.resize(trial.size());
+    with_element(mesh.kind, [&](const auto chosen) {
+      using Element = std::decay_t<decltype(chosen)>;
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        {
+          const auto u = gather<Element>(mesh.cells[c], trial_increment);
+          for (unsigned int q = 0; q < Element::n_points; ++q)
+            {
+              const std::size_t point = c * Element::n_points + q;
+              MaterialState     next  = trial[point].state;
+              if (trial[point].regime != Regime::elastic)
+                add_plastic_flow(moduli, state.points[point], strain_at<Element>(mesh.reference, current.cells[c], q, u), next);
+              state.localisation[point] = trial[point].regime == Regime::elastic ? Localisation()
+                                                                                 : localisation(trial[point].tangent, elastic);
+              flow[point]               = next.equivalent_plastic_strain - state.points[point].equivalent_plastic_strain;
+              if (moves())
+                turn(next, spin_at<Element>(current.cells[c].points[q], u));
+              state.points[point] = next;
+            }
+        }
+    });
+    for (std::size_t i = 0; i < state.displacement.size(); ++i)
+      state.displacement[i] += trial_increment[i];
+    state.progress         = step_end;
+    state.platen_force       = {trial_platen_force(false), trial_platen_force(true)};
+    move_nodes();
+  }
+
+  Eigen::Vector2d BoundaryValueProblem::trial_platen_force(const bool upper) const
+  {
+    Eigen::Vector2d force = Eigen::Vector2d::Zero();
+    for (const auto &node : conditions->platens()[upper])
+      for (unsigned int c = 0; c < 2; ++c)
+        if (mesh.owned.is_element(node.dofs[c]))
+          force[c] += nodal_force[node.dofs[c]];
+    for (unsigned int c = 0; c < 2; ++c)
+      force[c] = Utilities::MPI::sum(force[c], mesh.communicator());
+    return force;
+  }
+
+  // Where nothing is loaded yet, a billionth of the elastic modulus on the sample's width stands in.
+  double BoundaryValueProblem::platen_scale() const
+  {
+    double sum = 0;
+    for (const auto &platen : conditions->platens())
+      for (const auto &node : platen)
+        for (unsigned int c = 0; c < 2; ++c)
+          if (mesh.owned.is_element(node.dofs[c]))
+            sum += nodal_force[node.dofs[c]] * nodal_force[node.dofs[c]];
+    const double floor = 1e-9 * in_units(options.material, units).elastic.youngs_modulus * mesh.extent.x();
+    return std::max(floor, std::sqrt(Utilities::MPI::sum(sum, mesh.communicator())));
+  }
+} // namespace diptych::continuum

@@ -1,0 +1,153 @@
+// diptych: equilibrium of the sample, residual and consistent tangent on trial states
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "continuum/equilibrium/boundary_conditions.h"
+#include "continuum/elements/discretisation.h"
+#include "continuum/laws/any_law.h"
+#include "continuum/laws/localisation.h"
+#include "continuum/elements/nodal_vectors.h"
+#include "continuum/options.h"
+#include "continuum/equilibrium/tangent_matrix.h"
+
+namespace diptych::continuum
+{
+  // Out-of-balance force of a trial state: Euclidean norms over all nodes [pressure * length].
+  struct Imbalance
+  {
+    double       residual = 0; // free components
+    double       scale    = 0; // forces of the platens on their nodes: what the residual is small against
+    unsigned int n_failed = 0; // material points whose law gave up
+
+    double relative() const { return residual > 0 ? residual / scale : 0.; }
+  };
+
+  // CPU time by phase [s], of this process.
+  struct PhaseSeconds
+  {
+    double points = 0, assembly = 0, geometry = 0;
+  };
+
+  // What equilibrium starts from at the end of an accepted step. Vectors of displacement and rotation have an entry for each
+  // locally relevant dof, those of points one for each point of each cell of this process.
+  struct CommittedState
+  {
+    double                     progress = 0;
+    std::vector<double>        displacement; // and rotation
+    std::vector<MaterialState> points;
+    std::vector<Localisation>  localisation;
+    std::array<Eigen::Vector2d, 2> platen_force{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}; // lower, upper; on the sample
+  };
+
+  // sum over cells of int B^T sigma dA = side pressure + weight + reactions, on the initial shape or on that of the last
+  // accepted step. The committed state changes only in commit(); everything else works on one trial state, which any later
+  // evaluate() overwrites.
+  class BoundaryValueProblem
+  {
+  public:
+    BoundaryValueProblem(const QuadMesh &mesh,
+                         const Units    &units,
+                         const Loading  &loading,
+                         const Options  &options,
+                         MPI_Comm        communicator = MPI_COMM_WORLD);
+
+    // In the place of the isotropic stress, one tensor per cell of this process, compression positive.
+    void set_initial_stress(const std::vector<Eigen::Matrix2d> &stress);
+
+    DistributedVector zero_vector() const;
+
+    // Loads and platen motion of the step from the committed progress to `to`. `share` < 1 mixes the loads with those that the
+    // state at the last reset_balance() carries by itself, which lets it find equilibrium gradually.
+    void begin_step(double to, double share = 1);
+
+    // Makes an increment move platens and ties as the step says.
+    void impose(DistributedVector &increment) const;
+
+    // Trial state: committed + increment, the law called at every point.
+    Imbalance evaluate(const DistributedVector &increment);
+
+    // Right-hand side -(residual + K * increment) with the tangents of the last evaluate(): first predictor.
+    DistributedVector linearised_residual(const DistributedVector &increment) const;
+
+    // -(residual) of the trial state, zero on constrained components.
+    const DistributedVector &negative_residual() const { return rhs; }
+
+    // Consistent tangent of the trial state, in which prescribed components vanish.
+    const dealii::TrilinosWrappers::SparseMatrix &assemble_tangent();
+    const dealii::TrilinosWrappers::SparseMatrix &tangent_matrix() const { return tangent.matrix(); } // as it was left
+    const dealii::AffineConstraints<double>      &correction_constraints() const { return conditions->correction(); }
+
+    // Whether the trial state turns an element over. Collective.
+    bool is_folded() const;
+
+    // The trial state becomes the committed one: plastic flow is booked, stress turns with the material, nodes move.
+    void commit();
+
+    // The present state's own internal forces become the loads of share 0.
+    void reset_balance();
+
+    // After a change of the mesh: new unknowns, then the state carried over by the caller.
+    void rebuild();
+    void adopt(CommittedState state);
+
+    // Grows whenever the unknowns or their constraints change: matrices have another pattern then.
+    int version() const { return structure_version; }
+
+    const Discretisation &discretisation() const { return mesh; }
+    Discretisation       &discretisation() { return mesh; }
+    const Geometry       &geometry() const { return current; }                         // on which equilibrium is stated
+    const Geometry       &moved_geometry() const { return moves() ? current : moved; } // of the committed displacement
+    const Law            &law() const { return material; }
+    const CommittedState &committed() const { return state; }
+    const std::vector<MaterialUpdate> &last_update() const { return trial; } // of the last evaluate()
+    const std::vector<double>         &last_flow() const { return flow; } // growth of the hardening variable in the accepted step
+    double                             progress() const { return state.progress; }
+    const Eigen::Vector2d             &platen_force(bool upper) const { return state.platen_force[upper]; } // on the sample
+    Eigen::Vector2d                    platen_travel(bool upper) const; // since the start [length]; collective
+    double                             initial_area() const { return area_at_start; } // of the whole sample [length^2]
+    const PhaseSeconds                &seconds() const { return phase; }
+    void                               go_on_counting(const PhaseSeconds &before) { phase = before; }
+
+    std::vector<double> relevant_values(const DistributedVector &vector) const;
+    DistributedVector   owned_values(const std::vector<double> &relevant) const; // its inverse
+
+  private:
+    void                                   set_conditions(const SideContact &contact);
+    void                                   reset_points();
+    void                                   move_nodes();
+    bool                                   moves() const { return options.geometry == Kinematics::updated; }
+    std::array<PlatenPlane, 2>             platen_planes() const;
+    std::vector<double>                    loads(double to) const;
+    std::vector<double>                    internal_force() const;
+    Eigen::Vector2d                        trial_platen_force(bool upper) const;
+    double                                 platen_scale() const;
+    template <class L, class Element> void update_points(const L &law, Element);
+
+    Options                             options;
+    Loading                             loading;
+    Units                               units;
+    double                              area_at_start = 0;
+    Law                                 material;
+    Discretisation                      mesh;
+    std::unique_ptr<BoundaryConditions> conditions;
+    SideContact                         in_side_contact;
+    int                                 structure_version = 0;
+    dealii::AffineConstraints<double>   step_constraints;
+    Geometry                            current; // shape on which equilibrium is stated
+    Geometry                            moved;   // in small strain: that of the committed displacement
+    TangentMatrix                       tangent;
+
+    CommittedState              state;
+    double                      step_end = 0;
+    std::vector<MaterialUpdate> trial;
+    std::vector<double>         trial_increment, external, balanced_force, weight; // relevant dofs; forces: this process's part
+    DistributedVector           applied;          // forces on free platens and walls, in the present step
+    DistributedVector           nodal_force, rhs; // internal - external, uncondensed; negative residual
+    std::vector<double>            flow;                                                                     // per point
+    PhaseSeconds                   phase;
+  };
+} // namespace diptych::continuum

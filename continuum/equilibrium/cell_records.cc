@@ -1,0 +1,189 @@
+// diptych: the state of the sample cell by cell, as refinement and checkpoints carry it
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "continuum/equilibrium/cell_records.h"
+
+#include <algorithm>
+
+#include <deal.II/base/geometry_info.h>
+
+namespace diptych::continuum
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr unsigned int n_state = n_components + 8;
+
+    std::array<double, n_state> packed(const MaterialState &s)
+    {
+      std::array<double, n_state> values{};
+      for (unsigned int k = 0; k < n_components; ++k)
+        values[k] = s.stress[k];
+      const double rest[] = {s.stress_zz,         s.equivalent_plastic_strain, s.overstress,        s.plastic_strain.xx,
+                             s.plastic_strain.yy, s.plastic_strain.zz,         s.plastic_strain.xy, s.dissipation};
+      std::copy(std::begin(rest), std::end(rest), values.begin() + n_components);
+      return values;
+    }
+
+    MaterialState unpacked(const double *values)
+    {
+      MaterialState s;
+      for (unsigned int k = 0; k < n_components; ++k)
+        s.stress[k] = values[k];
+      const double *rest          = values + n_components;
+      s.stress_zz                 = rest[0];
+      s.equivalent_plastic_strain = rest[1];
+      s.overstress                = rest[2];
+      s.plastic_strain            = {rest[3], rest[4], rest[5], rest[6]};
+      s.dissipation               = rest[7];
+      return s;
+    }
+
+    // Sum of weight x value.
+    double interpolated(const std::vector<double> &weights, const double *values, const std::size_t stride)
+    {
+      double sum = 0;
+      for (std::size_t k = 0; k < weights.size(); ++k)
+        sum += weights[k] * values[k * stride];
+      return sum;
+    }
+
+    // What makes the children's values of the parent's, at their nodes and points; [child x node or point][parent's ...].
+    struct ChildWeights
+    {
+      std::vector<std::vector<double>> nodes, corners, points;
+
+      explicit ChildWeights(const ReferenceElement &reference)
+      {
+        const unsigned int degree = reference.n_nodes == 9 ? 2 : 1;
+        for (unsigned int child = 0; child < 4; ++child)
+          {
+            const auto in_parent = [&](const Point<2> &p) { return GeometryInfo<2>::child_to_cell_coordinates(p, child); };
+            for (const auto &node : reference.nodes)
+              {
+                nodes.push_back(nodal_interpolation(degree, in_parent(node)));
+                corners.push_back(nodal_interpolation(1, in_parent(node)));
+              }
+            for (const auto &point : reference.points)
+              points.push_back(gauss_interpolation(degree, in_parent(point)));
+          }
+      }
+    };
+
+    // The polynomial through the parent's points, drawn towards its mean just so far that no child's point leaves the range of
+    // the parent's: the integral over the parent stays. Returns how much of the deviation is kept.
+    double kept_deviation(const ChildWeights &children, const double mean, const double *values, const std::size_t stride)
+    {
+      double low = values[0], high = values[0], kept = 1;
+      for (std::size_t k = 1; k < children.points[0].size(); ++k)
+        {
+          low  = std::min(low, values[k * stride]);
+          high = std::max(high, values[k * stride]);
+        }
+      for (const auto &weights : children.points)
+        {
+          const double v = interpolated(weights, values, stride);
+          if (v > high)
+            kept = std::min(kept, (high - mean) / (v - mean));
+          else if (v < low)
+            kept = std::min(kept, (low - mean) / (v - mean));
+        }
+      return kept;
+    }
+
+    // The record that a child takes over from its parent's.
+    CellRecord child_record(const ReferenceElement &reference,
+                            const ChildWeights     &children,
+                            const CellRecord       &parent,
+                            const unsigned int      child)
+    {
+      CellRecord record = parent;
+      record[0] += 1;
+      for (const unsigned int field : {0u, 1u}) // displacement, last increment
+        {
+          const std::size_t start = 1 + field * reference.n_dofs, rotations = start + 2 * reference.n_nodes;
+          for (unsigned int node = 0; node < reference.n_nodes; ++node)
+            for (unsigned int c = 0; c < 2; ++c)
+              record[start + 2 * node + c] = interpolated(children.nodes[child * reference.n_nodes + node], &parent[start + c],
+                                                          2);
+          for (unsigned int corner = 0; corner < reference.n_rotations; ++corner)
+            record[rotations + corner] = interpolated(children.corners[child * reference.n_nodes + corner], &parent[rotations],
+                                                      1);
+        }
+      // Stress as the polynomial has it, hardening variable and the record of the past held within their range.
+      const std::size_t states = 1 + 2 * reference.n_dofs;
+      for (unsigned int k = 0; k < n_state; ++k)
+        {
+          const double *values = &parent[states + k];
+          const double  mean   = interpolated(reference.weights, values, n_state);
+          const double  kept   = k <= n_components ? 1. : kept_deviation(children, mean, values, n_state);
+          for (unsigned int q = 0; q < reference.n_points; ++q)
+            record[states + q * n_state + k] =
+              mean + kept * (interpolated(children.points[child * reference.n_points + q], values, n_state) - mean);
+        }
+      return record;
+    }
+  } // namespace
+
+  std::size_t record_length(const ReferenceElement &reference)
+  {
+    return 1 + 2 * reference.n_dofs + reference.n_points * n_state;
+  }
+
+  std::vector<CellRecord> make_records(const BoundaryValueProblem &problem, const std::vector<double> &last_increment)
+  {
+    const auto             &mesh = problem.discretisation();
+    std::vector<CellRecord> records;
+    for (const auto &active : mesh.dof_handler.active_cell_iterators())
+      if (active->is_locally_owned())
+        {
+          const std::size_t c    = records.size();
+          const auto       &cell = mesh.cells[c];
+          CellRecord        record{double(active->level())};
+          for (const auto *values : {&problem.committed().displacement, &last_increment})
+            for (unsigned int i = 0; i < mesh.reference.n_dofs; ++i)
+              record.push_back((*values)[cell.local[i]]);
+          for (unsigned int q = 0; q < mesh.reference.n_points; ++q)
+            {
+              const auto values = packed(problem.committed().points[c * mesh.reference.n_points + q]);
+              record.insert(record.end(), values.begin(), values.end());
+            }
+          records.push_back(std::move(record));
+        }
+    return records;
+  }
+
+  RestoredState read_records(const BoundaryValueProblem &problem, const std::vector<CellRecord> &records, const double progress)
+  {
+    const auto   &mesh = problem.discretisation();
+    RestoredState restored;
+    restored.state.progress = progress;
+    restored.state.displacement.assign(mesh.relevant.n_elements(), 0.);
+    restored.last_increment = restored.state.displacement;
+    const ChildWeights children(mesh.reference);
+    std::size_t        c = 0;
+    for (const auto &active : mesh.dof_handler.active_cell_iterators())
+      if (active->is_locally_owned())
+        {
+          CellRecord record = records[c];
+          if (active->level() > int(record[0]))
+            for (unsigned int child = 0; child < 4; ++child)
+              if (active->parent()->child(child) == active)
+                {
+                  record = child_record(mesh.reference, children, records[c], child);
+                  break;
+                }
+          for (unsigned int i = 0; i < mesh.reference.n_dofs; ++i)
+            {
+              restored.state.displacement[mesh.cells[c].local[i]] = record[1 + i];
+              restored.last_increment[mesh.cells[c].local[i]]     = record[1 + mesh.reference.n_dofs + i];
+            }
+          for (unsigned int q = 0; q < mesh.reference.n_points; ++q)
+            restored.state.points.push_back(unpacked(&record[1 + 2 * mesh.reference.n_dofs + q * n_state]));
+          ++c;
+        }
+    restored.state.localisation.assign(restored.state.points.size(), {});
+    restored.state.platen_force = problem.committed().platen_force;
+    return restored;
+  }
+} // namespace diptych::continuum

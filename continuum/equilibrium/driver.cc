@@ -1,0 +1,184 @@
+// diptych: adaptive load steps
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "continuum/equilibrium/driver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace diptych::continuum
+{
+  namespace
+  {
+    constexpr int    easy   = 6; // Newton iterations up to which the next step may be longer
+    constexpr double growth = 1.5;
+
+    // Translations along x and y and the rotation about the origin, Cosserat rotations included, at the present shape.
+    RigidModes rigid_modes(const BoundaryValueProblem &problem)
+    {
+      const auto                      &mesh = problem.discretisation();
+      const auto                       x    = positions(mesh, problem.committed().displacement);
+      std::vector<std::vector<double>> modes(3, std::vector<double>(mesh.relevant.n_elements(), 0.));
+      for (std::size_t k = 0; k < mesh.nodes.size(); ++k)
+        {
+          const auto &node        = mesh.nodes[k];
+          modes[0][node.local[0]] = 1;
+          modes[1][node.local[1]] = 1;
+          modes[2][node.local[0]] = -x[k].y();
+          modes[2][node.local[1]] = x[k].x();
+          if (node.rotation != dealii::numbers::invalid_dof_index)
+            modes[2][node.local_rotation] = 1;
+        }
+      RigidModes result;
+      for (const auto &mode : modes)
+        result.push_back(problem.owned_values(mode));
+      return result;
+    }
+
+    std::size_t n_unknowns(const BoundaryValueProblem &problem)
+    {
+      return problem.discretisation().dof_handler.n_dofs();
+    }
+  } // namespace
+
+  LoadDriver::LoadDriver(BoundaryValueProblem &problem, const Options &options)
+      : problem(problem),
+        options(options),
+        solver(linear_method(options.linear_solver, n_unknowns(problem), problem.discretisation().communicator()))
+  {
+    DriverState start;
+    start.step = std::min(options.initial_step, options.max_step);
+    start.last_increment.assign(problem.committed().displacement.size(), 0.);
+    restart(start);
+  }
+
+  void LoadDriver::restart(DriverState new_state)
+  {
+    now     = std::move(new_state);
+    version = 0;
+    follow_structure();
+  }
+
+  // The solver's analysis of the matrix belongs to one set of unknowns and constraints.
+  void LoadDriver::follow_structure()
+  {
+    if (version == problem.version())
+      return;
+    solver.restart(linear_method(options.linear_solver, n_unknowns(problem), problem.discretisation().communicator()), rigid_modes(problem));
+    version = problem.version();
+  }
+
+  NewtonReport LoadDriver::attempt(DistributedVector &increment)
+  {
+    follow_structure();
+    const auto report = solve_step(problem, solver, {options.tolerance, options.max_newton_iterations}, increment);
+    now.count.newton_iterations += report.iterations;
+    if (!report.converged)
+      {
+        ++now.count.cut_backs;
+        solver.forget(); // factors of a state that never was
+      }
+    return report;
+  }
+
+  std::string LoadDriver::equilibrate()
+  {
+    const double progress = problem.progress();
+    double       share = 0, d_share = 1;
+    while (share < 1)
+      {
+        const double target    = std::min(1., share + d_share);
+        auto         increment = problem.zero_vector();
+        problem.begin_step(progress, target);
+        const auto report = attempt(increment);
+        if (report.converged)
+          {
+            problem.commit();
+            share = target;
+            continue;
+          }
+        d_share /= 2;
+        if (d_share < 1e-3)
+          return "no equilibrium at rest under the loads (" + report.message + ")" +
+                 (progress > 0 ? " after a refinement"
+                               : ": the initial stress does not fit a free edge or a wavy outline, or exceeds the strength");
+      }
+    return {};
+  }
+
+  // The last increment, scaled. It already holds the band's pattern of loading and unloading, which a tangent at the
+  // beginning of the step does not. The first step has only the tangent.
+  DistributedVector LoadDriver::predict(const double to)
+  {
+    if (now.last_step > 0)
+      {
+        auto increment = problem.owned_values(now.last_increment);
+        increment *= (to - problem.progress()) / now.last_step;
+        problem.impose(increment);
+        return increment;
+      }
+    follow_structure();
+    (void)problem.evaluate(problem.zero_vector());
+    auto increment = problem.zero_vector(), correction = problem.zero_vector();
+    problem.impose(increment);
+    if (solver.solve(problem.assemble_tangent(), correction, problem.linearised_residual(increment)))
+      {
+        problem.correction_constraints().distribute(correction);
+        increment += correction;
+      }
+    return increment;
+  }
+
+  std::string LoadDriver::refine_and_equilibrate()
+  {
+    if (options.refinement != Refinement::adaptive)
+      return {};
+    const RefinementRule rule{options.refinement_levels, options.refinement_threshold};
+    const auto           divided = refine(problem, rule, plastic_increments(problem), now.last_increment);
+    if (divided)
+      {
+        ++now.count.refinements;
+        now.divisions.push_back(*divided);
+        restart(now);
+        if (const auto why = equilibrate(); !why.empty())
+          return why;
+      }
+    return {};
+  }
+
+  std::string LoadDriver::step_towards(const double progress)
+  {
+    while (true)
+      {
+        // Equal steps to the stage: a short last one would be a bad base for the next extrapolation.
+        const double remaining = progress - problem.progress();
+        const double n_steps   = std::ceil(remaining / now.step * (1 - 1e-9));
+        const double size      = remaining / n_steps;
+        const double to        = n_steps == 1 ? progress : problem.progress() + size;
+        problem.begin_step(to);
+        auto       increment = predict(to);
+        const auto report    = attempt(increment);
+        if (report.converged)
+          {
+            accept(increment, size, report.iterations);
+            return refine_and_equilibrate();
+          }
+        now.step = size / 2;
+        if (now.step >= options.min_step)
+          continue;
+        std::ostringstream why;
+        why << "a step of " << size << " fails (" << report.message << ") and half of it is below min_step";
+        return why.str();
+      }
+  }
+
+  void LoadDriver::accept(const DistributedVector &increment, const double size, const int iterations)
+  {
+    problem.commit();
+    now.last_increment = problem.relevant_values(increment);
+    now.last_step      = size;
+    ++now.count.steps;
+    if (iterations <= easy)
+      now.step = std::min(options.max_step, std::max(now.step, growth * size));
+  }
+} // namespace diptych::continuum

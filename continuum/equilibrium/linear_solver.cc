@@ -1,0 +1,230 @@
+// diptych: linear solves with a preconditioner that is kept while it still serves
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "continuum/equilibrium/linear_solver.h"
+
+#include <cmath>
+#include <ctime>
+
+#include <deal.II/lac/solver_gmres.h>
+
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_MultiVector.h>
+#include <Teuchos_ParameterList.hpp>
+
+namespace diptych::continuum
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr double reduction = 1e-2; // of the residual, all that a Newton iteration needs
+    // Iterations allowed, and those from which on a new preconditioner pays: a multigrid hierarchy never comes down to few.
+    struct Patience
+    {
+      unsigned int longest, comfortable;
+    };
+    Patience patience(const LinearMethod method)
+    {
+      return method == LinearMethod::amg ? Patience{200, 60} : Patience{25, 8};
+    }
+  } // namespace
+
+  LinearMethod linear_method(const LinearChoice choice, const std::size_t n_unknowns, const MPI_Comm communicator)
+  {
+    if (choice == LinearChoice::amg || (choice == LinearChoice::automatic && n_unknowns >= 400000))
+      return LinearMethod::amg;
+    return Utilities::MPI::n_mpi_processes(communicator) == 1 ? LinearMethod::umfpack : LinearMethod::mumps;
+  }
+
+  LinearSolver::LinearSolver(const LinearMethod method)
+      : method(method),
+        direct_control(1, 0.)
+  {}
+
+  void LinearSolver::restart(const LinearMethod new_method, RigidModes modes)
+  {
+    method      = new_method;
+    rigid_modes = std::move(modes);
+    umfpack.forget_pattern();
+    forget();
+  }
+
+  void LinearSolver::forget()
+  {
+    umfpack.forget_factors();
+    mumps.reset();
+    amg.reset();
+    factorised.reset();
+    is_stale = true;
+  }
+
+  namespace
+  {
+    bool is_on_one_process(const TrilinosWrappers::SparseMatrix &matrix)
+    {
+      return matrix.trilinos_matrix().Comm().NumProc() == 1;
+    }
+
+    // All stored values, row by row.
+    std::pair<double *, std::size_t> stored_values(const TrilinosWrappers::SparseMatrix &matrix)
+    {
+      int    *start = nullptr, *column = nullptr;
+      double *value = nullptr;
+      auto   &crs   = const_cast<Epetra_CrsMatrix &>(matrix.trilinos_matrix());
+      crs.OptimizeStorage();
+      crs.ExtractCrsDataPointers(start, column, value);
+      return {value, std::size_t(start[crs.NumMyRows()])};
+    }
+  } // namespace
+
+  KeptPreconditioner LinearSolver::kept() const
+  {
+    KeptPreconditioner kept;
+    if (method == LinearMethod::umfpack)
+      kept = {is_stale, umfpack.analysed(), umfpack.factorised(), {}};
+    if (method == LinearMethod::amg && factorised && is_on_one_process(*factorised))
+      {
+        const auto [values, n] = stored_values(*factorised);
+        kept                   = {is_stale, {}, {values, values + n}, {}};
+        for (const Vector &mode : rigid_modes)
+          kept.rigid_modes.emplace_back(mode.begin(), mode.end());
+      }
+    return kept;
+  }
+
+  bool LinearSolver::take_up(const KeptPreconditioner &kept, const TrilinosWrappers::SparseMatrix &pattern)
+  {
+    forget();
+    if (!is_on_one_process(pattern) || method == LinearMethod::mumps)
+      return true; // nothing was promised
+    bool fits = true;
+    if (method == LinearMethod::umfpack && !kept.analysed.empty())
+      fits = umfpack.take_up(pattern, kept.analysed, kept.factorised);
+    if (method == LinearMethod::amg && !kept.factorised.empty())
+      {
+        factorised = std::make_unique<TrilinosWrappers::SparseMatrix>();
+        factorised->copy_from(pattern);
+        const auto [values, n] = stored_values(*factorised);
+        fits                   = n == kept.factorised.size() && kept.rigid_modes.size() == rigid_modes.size();
+        for (std::size_t k = 0; fits && k < rigid_modes.size(); ++k)
+          std::copy(kept.rigid_modes[k].begin(), kept.rigid_modes[k].end(), rigid_modes[k].begin());
+        if (fits)
+          std::copy(kept.factorised.begin(), kept.factorised.end(), values);
+        fits = fits && build_amg(*factorised);
+      }
+    if (fits)
+      is_stale = kept.is_stale;
+    else
+      umfpack.forget_pattern(), forget();
+    return fits;
+  }
+
+  void LinearSolver::vmult(Vector &x, const Vector &b) const
+  {
+    if (method == LinearMethod::amg)
+      amg->vmult(x, b);
+    else if (method == LinearMethod::mumps)
+      mumps->solve(x, b);
+    else
+      umfpack.solve(x, b);
+  }
+
+  bool LinearSolver::solve(const TrilinosWrappers::SparseMatrix &matrix, Vector &x, const Vector &rhs)
+  {
+    const auto start = std::clock();
+    bool       done  = false;
+    is_fresh         = is_stale;
+    if (!is_stale || factorise(matrix))
+      done = solve_iteratively(matrix, x, rhs);
+    if (!done && !is_fresh && factorise(matrix))
+      {
+        is_fresh = true;
+        done     = solve_iteratively(matrix, x, rhs);
+      }
+    seconds += double(std::clock() - start) / CLOCKS_PER_SEC;
+    return done;
+  }
+
+  bool LinearSolver::solve_iteratively(const TrilinosWrappers::SparseMatrix &matrix, Vector &x, const Vector &rhs)
+  {
+    x = 0;
+    if (is_fresh && method != LinearMethod::amg)
+      {
+        vmult(x, rhs);
+        return std::isfinite(x.l2_norm());
+      }
+    const auto                          limit = patience(method);
+    SolverControl                       control(limit.longest, reduction * rhs.l2_norm(), false, false);
+    SolverGMRES<Vector>::AdditionalData settings(std::min(limit.longest, 60u) + 3, true);
+    SolverGMRES<Vector>                 gmres(control, settings);
+    try
+      {
+        gmres.solve(matrix, x, rhs, *this);
+      }
+    catch (const SolverControl::NoConvergence &)
+      {
+        n_iterations += control.last_step();
+        return false;
+      }
+    n_iterations += control.last_step();
+    is_stale = control.last_step() > limit.comfortable;
+    return std::isfinite(x.l2_norm());
+  }
+
+  bool LinearSolver::factorise(const TrilinosWrappers::SparseMatrix &matrix)
+  {
+    ++n_factorisations;
+    is_stale = false;
+    if (method == LinearMethod::umfpack)
+      return umfpack.factorise(matrix);
+    mumps.reset();
+    amg.reset();
+    factorised = std::make_unique<TrilinosWrappers::SparseMatrix>();
+    factorised->copy_from(matrix);
+    if (method == LinearMethod::amg)
+      return build_amg(*factorised);
+    mumps = std::make_unique<TrilinosWrappers::SolverDirect>(
+      direct_control, TrilinosWrappers::SolverDirect::AdditionalData(false, "Amesos_Mumps"));
+    try
+      {
+        mumps->initialize(*factorised);
+      }
+    catch (const ExceptionBase &) // a singular tangent
+      {
+        forget();
+        return false;
+      }
+    return true;
+  }
+
+  // deal.II's interface takes constant modes per component only; the rotation of the whole is handed to ML directly.
+  bool LinearSolver::build_amg(const TrilinosWrappers::SparseMatrix &matrix)
+  {
+    TrilinosWrappers::PreconditionAMG::AdditionalData settings;
+    settings.elliptic              = false; // not symmetric
+    settings.higher_order_elements = true;
+    settings.smoother_sweeps       = 2;
+    settings.aggregation_threshold = 0.02;
+    Teuchos::ParameterList              parameters;
+    std::unique_ptr<Epetra_MultiVector> unused;
+    settings.set_parameters(parameters, unused, matrix.trilinos_matrix());
+    Epetra_MultiVector modes(matrix.trilinos_matrix().DomainMap(), int(rigid_modes.size()));
+    for (std::size_t k = 0; k < rigid_modes.size(); ++k)
+      std::copy(rigid_modes[k].begin(), rigid_modes[k].end(), modes[int(k)]);
+    parameters.set("PDE equations", 1);
+    parameters.set("null space: type", "pre-computed");
+    parameters.set("null space: dimension", int(rigid_modes.size()));
+    parameters.set("null space: vectors", modes.Values());
+    amg = std::make_unique<TrilinosWrappers::PreconditionAMG>();
+    try
+      {
+        amg->initialize(matrix, parameters);
+      }
+    catch (const ExceptionBase &)
+      {
+        forget();
+        return false;
+      }
+    return true;
+  }
+} // namespace diptych::continuum

@@ -1,0 +1,60 @@
+// diptych: nodal forces of side pressure and weight
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "continuum/equilibrium/loads.h"
+
+#include <array>
+#include <cmath>
+
+#include "continuum/mesh/mesh.h"
+
+namespace diptych::continuum
+{
+  namespace
+  {
+    // Shape functions of an edge's nodes (ends, middle) and their slopes at xi in [-1, 1].
+    struct EdgeShape
+    {
+      std::array<double, 3> value, slope;
+      unsigned int          n;
+    };
+
+    EdgeShape edge_shape(const double xi, const bool has_middle)
+    {
+      if (has_middle)
+        return {{xi * (xi - 1) / 2, xi * (xi + 1) / 2, 1 - xi * xi}, {xi - 0.5, xi + 0.5, -2 * xi}, 3};
+      return {{(1 - xi) / 2, (1 + xi) / 2, 0}, {-0.5, 0.5, 0}, 2};
+    }
+  } // namespace
+
+  // Two Gauss points are exact: the integrand is cubic in the edge's own coordinate.
+  void add_side_pressure(const Discretisation               &mesh,
+                         const std::vector<Eigen::Vector2d> &node_position,
+                         const double                        pressure,
+                         std::vector<double>                &force)
+  {
+    for (const auto &edge : mesh.edges)
+      if (edge.id == left_side || edge.id == right_side)
+        for (const double xi : {-1 / std::sqrt(3.), 1 / std::sqrt(3.)})
+          {
+            const auto shape = edge_shape(xi, mesh.reference.n_nodes > 4);
+            double     dy    = 0;
+            for (unsigned int k = 0; k < shape.n; ++k)
+              dy += shape.slope[k] * node_position[edge.nodes[k]].y();
+            for (unsigned int k = 0; k < shape.n; ++k)
+              force[mesh.nodes[edge.nodes[k]].local[0]] += (edge.id == left_side ? 1 : -1) * pressure * shape.value[k] * dy;
+          }
+  }
+
+  void add_body_force(const Discretisation  &mesh,
+                      const Geometry        &geometry,
+                      const Eigen::Vector2d &body_force,
+                      std::vector<double>   &force)
+  {
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+      for (unsigned int q = 0; q < mesh.reference.n_points; ++q)
+        for (unsigned int node = 0; node < mesh.reference.n_nodes; ++node)
+          for (unsigned int component = 0; component < 2; ++component)
+            force[mesh.cells[c].local[2 * node + component]] += geometry.cells[c].points[q].area * mesh.reference.shape[q][node] *
+                                                                body_force[component];
+  }
+} // namespace diptych::continuum

@@ -1,0 +1,26 @@
+// diptych: nodal forces of side pressure and weight
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "continuum/elements/discretisation.h"
+
+namespace diptych::continuum
+{
+  // Each adds to `force`, one entry per locally relevant dof, the part of this process's edges or cells.
+
+  // f_a = +-p int N_a dy along both sides at the given shape: horizontal, per unit of height, inwards.
+  void add_side_pressure(const Discretisation               &mesh,
+                         const std::vector<Eigen::Vector2d> &node_position,
+                         double                              pressure,
+                         std::vector<double>                &force);
+
+  // f_a = int N_a b dA over the shape of `geometry`: the initial one for a weight, because mass is kept.
+  void add_body_force(const Discretisation  &mesh,
+                      const Geometry        &geometry,
+                      const Eigen::Vector2d &body_force,
+                      std::vector<double>   &force);
+} // namespace diptych::continuum

@@ -1,0 +1,32 @@
+// diptych: Newton's method for one load step
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+
+#include "continuum/equilibrium/boundary_value_problem.h"
+#include "continuum/equilibrium/linear_solver.h"
+
+namespace diptych::continuum
+{
+  struct NewtonOptions
+  {
+    double tolerance      = 1e-5; // relative to the reactions
+    int    max_iterations = 20;
+  };
+
+  struct NewtonReport
+  {
+    bool        converged  = false;
+    int         iterations = 0;
+    double      residual   = 0; // relative, at the end
+    std::string message;        // why it gave up
+  };
+
+  // Brings the trial state to equilibrium from the first guess `increment`, which already moves the platens as it
+  // should, and leaves the solution there. Commits nothing.
+  [[nodiscard]] NewtonReport solve_step(BoundaryValueProblem &problem,
+                                        LinearSolver         &solver,
+                                        const NewtonOptions  &options,
+                                        DistributedVector    &increment);
+} // namespace diptych::continuum

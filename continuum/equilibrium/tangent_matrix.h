@@ -1,0 +1,54 @@
+// diptych: the consistent tangent as a sparse matrix
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <vector>
+
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include "continuum/elements/discretisation.h"
+#include "continuum/elements/element_kernels.h"
+
+namespace diptych::continuum
+{
+  // Element matrices go straight to their places in the compressed rows, which are looked up once per mesh: a tangent takes half
+  // the time of the general way through constraints (benchmarks/continuum_cost, h = 2 and 1), which is left for elements with
+  // hanging nodes or several masters, and for matrices that are spread over processes.
+  class TangentMatrix
+  {
+  public:
+    void reinit(const Discretisation &mesh, const dealii::AffineConstraints<double> &constraints);
+
+    void                          clear();
+    template <class Element> void add(std::size_t cell, const ElementMatrix<Element> &K);
+    void                          finish(); // to be called before the matrix is read
+
+    const dealii::TrilinosWrappers::SparseMatrix &matrix() const { return sparse; }
+
+  private:
+    void look_up_places();
+    int  place(dealii::types::global_dof_index row, dealii::types::global_dof_index column) const;
+    void add_through_constraints(std::size_t cell, const double *K, unsigned int row_length);
+
+    const Discretisation                    *mesh        = nullptr;
+    const dealii::AffineConstraints<double> *constraints = nullptr;
+    dealii::TrilinosWrappers::SparseMatrix   sparse;
+    double                                  *values    = nullptr; // of all rows, on one process
+    int                                     *row_start = nullptr, *columns = nullptr;
+    std::vector<int>                         places;        // n_dofs^2 per cell; -1: drops out; empty on several processes
+    std::vector<bool>                        general;       // per cell: has to go through the constraints
+    std::vector<int>                         unit_diagonal; // places of the constrained dofs
+  };
+
+  template <class Element> void TangentMatrix::add(const std::size_t cell, const ElementMatrix<Element> &K)
+  {
+    if (general[cell])
+      return add_through_constraints(cell, K.data(), row_length<Element>);
+    const int *to = &places[cell * Element::n_dofs * Element::n_dofs];
+    for (unsigned int i = 0; i < Element::n_dofs; ++i)
+      for (unsigned int j = 0; j < Element::n_dofs; ++j, ++to)
+        if (*to >= 0)
+          values[*to] += K[i * row_length<Element> + j];
+  }
+} // namespace diptych::continuum

@@ -1,0 +1,48 @@
+// diptych: the state of one homogeneous point after a step
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <type_traits>
+
+#include "continuum/laws/verdict.h"
+
+namespace diptych::continuum
+{
+  // State after a step. Strain and stress positive in compression. Strain is finite as in a panel with updated geometry: the
+  // law's increments are logarithmic, the columns refer to the initial shape.
+  struct MaterialPointRow
+  {
+    double  axial_strain              = 0; // 1 - h/h0 [-]
+    double  lateral_strain            = 0; // 1 - w/w0 [-]
+    double  volumetric_strain         = 0; // 1 - V/V0 [-]
+    double  sxx                       = 0; // lateral stress [pressure]
+    double  syy                       = 0; // axial
+    double  szz                       = 0; // out of the plane
+    double  stress_ratio              = 0; // t/s in the plane
+    double  mobilised_friction_angle  = 0; // asin(t/s) [degrees]
+    double  dilatancy_angle           = 0; // asin(-d eps_v / d gamma) of the step's whole strain [degrees]; first row: zero
+    double  equivalent_plastic_strain = 0; // hardening variable [-]
+    double  overstress_share          = 0; // viscous overstress / shear strength [-]
+    double  dissipation               = 0; // plastic work per initial area since the start [pressure]
+    Verdict verdict                   = Verdict::reliable;
+  };
+
+  // Every entry of a row in the order of material_point.csv: visit(name of the column, value, unit, meaning).
+  template <class Row, class Visit, std::enable_if_t<std::is_same_v<std::remove_const_t<Row>, MaterialPointRow>, int> = 0>
+  void visit_columns(Row &r, Visit &&visit)
+  {
+    visit("axial_strain", r.axial_strain, "-", "1 - h/h0");
+    visit("lateral_strain", r.lateral_strain, "-", "1 - w/w0");
+    visit("volumetric_strain", r.volumetric_strain, "-", "1 - V/V0");
+    visit("sxx", r.sxx, "pressure", "lateral stress");
+    visit("syy", r.syy, "pressure", "axial stress");
+    visit("szz", r.szz, "pressure", "stress out of the plane");
+    visit("stress_ratio", r.stress_ratio, "-", "t/s in the plane");
+    visit("mobilised_friction_angle", r.mobilised_friction_angle, "degrees", "asin(t/s)");
+    visit("dilatancy_angle", r.dilatancy_angle, "degrees", "asin(-d eps_v / d gamma) of the step's whole strain");
+    visit("equivalent_plastic_strain", r.equivalent_plastic_strain, "-", "hardening variable");
+    visit("overstress_share", r.overstress_share, "-", "viscous overstress / shear strength");
+    visit("dissipation", r.dissipation, "pressure", "plastic work per initial area since the start");
+    visit("verdict", r.verdict, "-", "what the law says of its answer: reliable, unreliable or failed");
+  }
+} // namespace diptych::continuum

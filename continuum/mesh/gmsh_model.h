@@ -1,0 +1,50 @@
+// diptych: meshes out of gmsh's open model
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "continuum/mesh/quad_mesh.h"
+
+namespace diptych::continuum
+{
+  // gmsh is a global: it lives as long as one call of ours, and is closed on every way out. Without messages.
+  struct GmshSession
+  {
+    GmshSession();
+    ~GmshSession();
+    GmshSession(const GmshSession &)            = delete;
+    GmshSession &operator=(const GmshSession &) = delete;
+  };
+
+  // Do `action` and put `what: ` in front of the message of every error, which becomes an `Error`. gmsh throws ints, strings or
+  // exceptions, depending on the place.
+  template <class Error, class Action> auto guarded(const std::string &what, Action &&action)
+  {
+    try
+      {
+        return action();
+      }
+    catch (const std::exception &error)
+      {
+        throw Error(what + ": " + error.what());
+      }
+    catch (const std::string &error)
+      {
+        throw Error(what + ": gmsh says " + error);
+      }
+    catch (const int code)
+      {
+        throw Error(what + ": gmsh failed with code " + std::to_string(code));
+      }
+  }
+
+  // Mesh of gmsh's open model, not yet checked. Points that carry nothing (centres of arcs) and physical lines of other
+  // names are left out. Throws std::invalid_argument for elements other than four-node quadrilaterals and two-node lines, for
+  // two lines of one name, and for vertices that are not finite or not in the plane z = 0.
+  QuadMesh mesh_of_open_model();
+
+  // All two-dimensional elements of gmsh's open model are four-node quadrilaterals, and there is one.
+  bool all_quadrilaterals();
+} // namespace diptych::continuum

@@ -1,0 +1,43 @@
+// diptych: all-quadrilateral meshes: of a sample's outline, of a rectangle, or the user's own
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+
+#include "continuum/mesh/quad_mesh.h"
+#include "continuum/snapshot.h"
+
+namespace diptych::continuum
+{
+  // Every mesh that is returned here is sound in the sense of check().
+
+  // Mesh the polygon left side - upper platen - right side - lower platen with quadrilaterals whose edges are about
+  // `element_size` [length] long. The sides are resampled at the element size along the given polylines; the platens are
+  // straight. Sides that are both straight and vertical get vertices at equal heights, as periodic sides need.
+  // Throws std::invalid_argument for an outline that is no sample (too few points, points not upward, sides crossing,
+  // platens not horizontal) and std::runtime_error when no all-quadrilateral mesh is found.
+  QuadMesh outline_mesh(const Outline &outline, double element_size);
+
+  // A rectangle with its lower left corner at the origin. [length]
+  struct Rectangle
+  {
+    double width        = 0;
+    double height       = 0;
+    double platen_width = 0; // of the strip in the middle of the upper edge that is the upper platen; 0: the whole edge
+    double element_size = 0; // about, in both directions; at most the width and the height
+  };
+
+  // Structured mesh: rows of equal height, columns of equal width below the platen and below each free part of the upper
+  // edge, so that the platen's ends are vertices and its width is exact; sides match.
+  // Throws std::invalid_argument naming the member and what is allowed.
+  QuadMesh rectangle_mesh(const Rectangle &rectangle);
+
+  // The user's own mesh (.msh of any version gmsh knows; or a .geo, which gmsh meshes first). Its physical lines count by NAME
+  // whatever their numbers; a line without a name counts by its number. Every boundary edge must lie on exactly one of them.
+  // Throws std::invalid_argument naming the file and what is wrong.
+  QuadMesh read_mesh(const std::string &file);
+
+  // MSH 2.2 as deal.II's GridIn and gmsh read it, with the ids and names of BoundaryId and all digits; under a temporary name
+  // that is then renamed. Throws std::runtime_error naming the file.
+  void write_mesh(const QuadMesh &mesh, const std::string &msh_file);
+} // namespace diptych::continuum

@@ -1,0 +1,64 @@
+// diptych: a mesh of quadrilaterals as plain data, and what makes one sound
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace diptych::continuum
+{
+  // Ids of the lines that bound every mesh of the continuum panel. In mesh files they are the numbers of physical lines, whose
+  // names are those of the enumerators, and "free" for free_edge, the only one that a mesh may lack.
+  enum BoundaryId : unsigned int
+  {
+    lower_platen = 1,
+    upper_platen = 2,
+    left_side    = 3,
+    right_side   = 4,
+    free_edge    = 5 // neither platen nor side: no force, no prescribed motion
+  };
+
+  constexpr std::array<BoundaryId, 5> all_boundary_ids{lower_platen, upper_platen, left_side, right_side, free_edge};
+
+  // Name of the physical line of an id.
+  const char *name_of(BoundaryId id);
+
+  struct QuadMesh
+  {
+    struct Edge
+    {
+      std::array<unsigned int, 2> vertices;
+      BoundaryId                  id;
+    };
+
+    std::vector<Eigen::Vector2d>             vertices; // [length]
+    std::vector<std::array<unsigned int, 4>> cells;    // corners, counter-clockwise
+    std::vector<Edge>                        boundary; // in any order and direction
+  };
+
+  // Throws std::invalid_argument saying what is wrong and where: no cell; a clockwise, folded or flat cell; overlapping cells;
+  // more than one piece (two cells that share a corner only are not connected); a vertex of no cell; a line inside the
+  // mesh; an edge on two lines; a line missing (all but free_edge); a boundary edge on no line.
+  void check(const QuadMesh &mesh);
+
+  struct MeshSummary
+  {
+    unsigned int n_cells       = 0;
+    unsigned int n_vertices    = 0;
+    double       area          = 0;     // [length^2]
+    double       shortest_edge = 0;     // [length]
+    double       longest_edge  = 0;     // [length]
+    double       height        = 0;     // [length]
+    double       platen_width  = 0;     // of the upper one [length]
+    bool         sides_match   = false; // both sides carry vertices at equal heights (within 1e-9 of the mesh's height)
+  };
+
+  // Counts and measures of a sound mesh.
+  MeshSummary summarise(const QuadMesh &mesh);
+
+  // Least sine of a corner over all cells; not positive where one is clockwise, folded or a triangle in disguise.
+  double worst_corner(const QuadMesh &mesh);
+} // namespace diptych::continuum

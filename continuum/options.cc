@@ -1,0 +1,81 @@
+// diptych: everything that a scene says of the continuum panel, checked
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "continuum/options.h"
+
+#include "continuum/require.h"
+
+namespace diptych::continuum
+{
+  MeshOption::MeshOption(const std::string &text)
+      : kind(text == "outline" ? Kind::outline : text == "rectangle" ? Kind::rectangle : Kind::file),
+        file(kind == Kind::file ? text : "")
+  {}
+
+  std::string text_of(const MeshOption &option)
+  {
+    return option.kind == MeshOption::Kind::outline ? "outline" : option.kind == MeshOption::Kind::rectangle ? "rectangle" : option.file;
+  }
+
+  void validate(const Options &options)
+  {
+    require(options.min_step > 0 && options.min_step <= options.initial_step && options.initial_step <= options.max_step,
+            "steps: 0 < min_step = ", options.min_step, " <= initial_step = ", options.initial_step,
+            " <= max_step = ", options.max_step, " is needed");
+    require(options.tolerance > 0 && options.tolerance < 1, "tolerance = ", options.tolerance, " must lie in (0, 1)");
+    require(options.max_newton_iterations > 0, "max_newton_iterations = ", options.max_newton_iterations, " must be positive");
+    require(!traits(options.law).is_cosserat || options.element != Displacement::q1_bbar, "element = ", name_of(options.element),
+            " with law = ", name_of(options.law), ": Cosserat laws need q2 (equal orders of displacement and rotation lock)");
+    require(options.mesh.kind != MeshOption::Kind::rectangle || (options.rectangle_width > 0 && options.rectangle_height > 0),
+            "rectangle_width = ", options.rectangle_width, ", rectangle_height = ", options.rectangle_height,
+            ": mesh = rectangle needs both");
+    if (traits(options.law).is_plastic)
+      validate(options.material);
+    else
+      validate(options.material.elastic);
+  }
+
+  std::vector<UnusedKey> unused_keys(const Options &o)
+  {
+    std::vector<UnusedKey> unused = unused_keys(o.law, o.material);
+    const auto             unless = [&](const bool used, const std::string &because, const std::vector<const char *> &keys) {
+      for (const char *key : keys)
+        if (!used)
+          unused.push_back({key, because});
+    };
+    const bool plastic = traits(o.law).is_plastic, weak = plastic && o.weak_spot_strain > 0;
+    unless(traits(o.law).is_cosserat, "law = " + name_of(o.law), {"platen_rotation"});
+    unless(o.mesh.kind == MeshOption::Kind::rectangle, "mesh = " + text_of(o.mesh),
+           {"rectangle_width", "rectangle_height", "platen_width"});
+    unless(o.mesh.kind != MeshOption::Kind::file, "mesh = " + text_of(o.mesh), {"element_size"});
+    unless(o.refinement == Refinement::adaptive, "refinement = " + name_of(o.refinement),
+           {"refinement_levels", "refinement_threshold"});
+    unless(plastic, "law = " + name_of(o.law), {"weak_spot_strain"});
+    unless(weak, plastic ? "weak_spot_strain = 0" : "law = " + name_of(o.law),
+           {"weak_spot_radius", "weak_spot_x", "weak_spot_y"});
+    return unused;
+  }
+
+  std::vector<std::string> doubtful_values(const Options &o)
+  {
+    constexpr double         softest = 50, stiffest = 1e6, most_cohesive = 1;
+    std::vector<std::string> told;
+    const auto               tell = [&](const bool doubtful, const char *key, const double value, const std::string &why) {
+      std::ostringstream text;
+      text << key << " = " << value << " (in units of loading/pressure) " << why;
+      if (doubtful)
+        told.push_back(text.str());
+    };
+    const double E = o.material.elastic.youngs_modulus;
+    tell(E < softest, "youngs_modulus", E, "is below 50: the sample is squeezed by percents before it yields");
+    tell(E > stiffest, "youngs_modulus", E, "is above 1e6: is it an absolute modulus?");
+    if (!traits(o.law).is_plastic)
+      return told;
+    const std::string why = "is above 1: cohesion carries more than the pressure does; is it an absolute one?";
+    if (o.material.hardening == HardeningKind::table)
+      for (const double cohesion : o.material.table_cohesion)
+        tell(cohesion > most_cohesive, "table_cohesion", cohesion, why);
+    else
+      tell(o.material.cohesion > most_cohesive, "cohesion", o.material.cohesion, why);
+    return told;
+  }
+} // namespace diptych::continuum

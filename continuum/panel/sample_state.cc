@@ -1,0 +1,367 @@
+// diptych: what the continuum panel shows of its state, positive in compression
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "continuum/panel/sample_state.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include <Eigen/LU>
+
+#include <deal.II/base/mpi.h>
+
+namespace diptych::continuum
+{
+  using dealii::Utilities::MPI::sum;
+
+  namespace
+  {
+    // Row: component of the force, column: normal of the face. A Cosserat stress has a skew part.
+    Eigen::Matrix3d compression_positive(const MaterialState &point)
+    {
+      const auto     &s    = point.stress;
+      const double    skew = s[relative_rotation];
+      Eigen::Matrix3d m;
+      m << s[xx], s[xy] - skew, 0, s[xy] + skew, s[yy], 0, 0, 0, point.stress_zz;
+      return -m;
+    }
+
+    Eigen::Matrix3d compression_positive(const PlasticStrain &e)
+    {
+      Eigen::Matrix3d m;
+      m << e.xx, e.xy / 2, 0, e.xy / 2, e.yy, 0, 0, 0, e.zz;
+      return -m;
+    }
+
+    double shear_radius(const Stress &s)
+    {
+      return std::hypot((s[xx] - s[yy]) / 2, s[xy]);
+    }
+
+    bool zz_is_not_intermediate(const MaterialState &point)
+    {
+      const double mean = (point.stress[xx] + point.stress[yy]) / 2;
+      return std::abs(point.stress_zz - mean) >
+             shear_radius(point.stress) * (1 + 1e-9) + 1e-6 * std::abs(mean); // equal stresses differ by round-off
+    }
+
+    // d x / d unit coordinates at a point of a cell whose nodes are at x.
+    Eigen::Matrix2d jacobian(const Discretisation               &mesh,
+                             const Cell                         &cell,
+                             const unsigned int                  q,
+                             const std::vector<Eigen::Vector2d> &x)
+    {
+      Eigen::Matrix2d J = Eigen::Matrix2d::Zero();
+      for (unsigned int node = 0; node < mesh.reference.n_nodes; ++node)
+        {
+          const auto &g = mesh.reference.gradient[q][node];
+          J += x[cell.nodes[node]] * Eigen::RowVector2d(g[0], g[1]);
+        }
+      return J;
+    }
+
+    // Positions of the nodes at the start and now.
+    struct Shape
+    {
+      std::vector<Eigen::Vector2d> before, now;
+    };
+
+    Shape shape_of(const BoundaryValueProblem &problem)
+    {
+      const auto &mesh = problem.discretisation();
+      Shape       shape;
+      shape.before = positions(mesh, std::vector<double>(problem.committed().displacement.size(), 0.));
+      shape.now    = positions(mesh, problem.committed().displacement);
+      return shape;
+    }
+
+    // Means over one cell by current area.
+    CellState cell_state(const BoundaryValueProblem &problem, const Shape &shape, const std::size_t c)
+    {
+      const auto &mesh = problem.discretisation();
+      CellState   state;
+      for (unsigned int q = 0; q < mesh.reference.n_points; ++q)
+        {
+          const std::size_t     i     = c * mesh.reference.n_points + q;
+          const auto           &point = problem.committed().points[i];
+          const auto           &place = problem.committed().localisation[i];
+          const double          w     = problem.moved_geometry().cells[c].points[q].area;
+          const Eigen::Matrix2d F     = jacobian(mesh, mesh.cells[c], q, shape.now) *
+                                    jacobian(mesh, mesh.cells[c], q, shape.before).inverse();
+          state.strain.topLeftCorner<2, 2>() -= w * ((F + F.transpose()) / 2 - Eigen::Matrix2d::Identity());
+          state.stress += w * compression_positive(point);
+          state.plastic_strain += w * compression_positive(point.plastic_strain);
+          state.couple_stress += w * Eigen::Vector2d(point.stress[curvature_x], point.stress[curvature_y]);
+          state.equivalent_plastic_strain += w * point.equivalent_plastic_strain;
+          state.dissipation += w * point.dissipation;
+          state.overstress += w * point.overstress;
+          state.share_zz_not_intermediate += w * zz_is_not_intermediate(point);
+          state.area += w;
+          if (place.determinant < state.acoustic_determinant)
+            {
+              state.acoustic_determinant = place.determinant;
+              state.localisation_angle   = place.angle_deg;
+            }
+        }
+      for (auto *tensor : {&state.stress, &state.strain, &state.plastic_strain})
+        *tensor /= state.area;
+      state.couple_stress /= state.area;
+      for (auto *value :
+           {&state.equivalent_plastic_strain, &state.dissipation, &state.overstress, &state.share_zz_not_intermediate})
+        *value /= state.area;
+      return state;
+    }
+
+    // A node of a snapshot. Two nodes of the mesh that it lies between tell it apart on all processes (twice the same, where
+    // it is one itself); a third number does for the centre of a four-node element.
+    struct NodeEntry
+    {
+      std::array<double, 3> key;
+      Eigen::Vector2d       position, displacement;
+      double                rotation = 0, weight = 0;
+    };
+    constexpr unsigned int entry_length = 9, n_state = 36;
+
+    void append(std::vector<double> &message, const NodeEntry &n)
+    {
+      message.insert(message.end(), {n.key[0], n.key[1], n.key[2], n.position.x(), n.position.y(), n.displacement.x(),
+                                     n.displacement.y(), n.rotation, n.weight});
+    }
+
+    void append(std::vector<double> &message, const CellState &s)
+    {
+      for (const auto *tensor : {&s.stress, &s.strain, &s.plastic_strain})
+        message.insert(message.end(), tensor->data(), tensor->data() + 9);
+      message.insert(message.end(), {s.couple_stress.x(), s.couple_stress.y(), s.area, s.equivalent_plastic_strain, s.dissipation,
+                                     s.overstress, s.share_zz_not_intermediate, s.acoustic_determinant, s.localisation_angle});
+    }
+
+    CellState read_state(const double *m)
+    {
+      CellState s;
+      for (auto *tensor : {&s.stress, &s.strain, &s.plastic_strain})
+        {
+          std::copy(m, m + 9, tensor->data());
+          m += 9;
+        }
+      s.couple_stress             = {m[0], m[1]};
+      s.area                      = m[2];
+      s.equivalent_plastic_strain = m[3];
+      s.dissipation               = m[4];
+      s.overstress                = m[5];
+      s.share_zz_not_intermediate = m[6];
+      s.acoustic_determinant      = m[7];
+      s.localisation_angle        = m[8];
+      return s;
+    }
+
+    // deal.II's order of FE_Q(2) -> corners counter-clockwise, middles of the edges, centre.
+    constexpr unsigned int vtk_order[9] = {0, 1, 3, 2, 6, 5, 7, 4, 8};
+    // The corners that each of FE_Q(2)'s nodes lies between.
+    constexpr unsigned int between[9][2] = {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {0, 2}, {1, 3}, {0, 1}, {2, 3}, {0, 3}};
+
+    // The nine nodes of a cell in deal.II's order; those that a four-node element lacks by interpolation.
+    std::array<NodeEntry, 9> cell_nodes(const BoundaryValueProblem &problem, const Shape &shape, const std::size_t c)
+    {
+      const auto              &mesh  = problem.discretisation();
+      const auto              &cell  = mesh.cells[c];
+      const auto              &u     = problem.committed().displacement;
+      const bool               is_q2 = mesh.reference.n_nodes == 9;
+      std::array<NodeEntry, 9> result;
+      const auto               corner_rotation = [&](const unsigned int k) {
+        return mesh.reference.n_rotations > 0 ? u[cell.local[2 * mesh.reference.n_nodes + k]] : 0.;
+      };
+      for (unsigned int k = 0; k < 9; ++k)
+        {
+          const auto a = is_q2 ? cell.nodes[k] : cell.nodes[between[k][0]], b = is_q2 ? cell.nodes[k] : cell.nodes[between[k][1]];
+          auto      &entry  = result[k];
+          const double id_a = double(mesh.nodes[a].dofs[0]), id_b = double(mesh.nodes[b].dofs[0]);
+          entry.key          = {std::min(id_a, id_b), std::max(id_a, id_b), !is_q2 && k == 8 ? 1. : 0.};
+          entry.position     = (shape.now[a] + shape.now[b]) / 2;
+          entry.displacement = entry.position - (shape.before[a] + shape.before[b]) / 2;
+          entry.rotation     = (corner_rotation(between[k][0]) + corner_rotation(between[k][1])) / 2;
+        }
+      // The centre lies between all four.
+      const auto mean = [&](const auto member) {
+        return ((result[0].*member + result[1].*member + result[2].*member + result[3].*member) / 4.).eval();
+      };
+      result[8].rotation = (result[0].rotation + result[1].rotation + result[2].rotation + result[3].rotation) / 4;
+      if (!is_q2)
+        {
+          result[8].position     = mean(&NodeEntry::position);
+          result[8].displacement = mean(&NodeEntry::displacement);
+        }
+      for (unsigned int q = 0; q < mesh.reference.n_points; ++q)
+        for (unsigned int node = 0; node < mesh.reference.n_nodes; ++node)
+          result[node].weight += problem.moved_geometry().cells[c].points[q].area * mesh.reference.shape[q][node];
+      return result;
+    }
+
+    // Adds one cell of a message to the snapshot.
+    void add_cell(Snapshot                                      &snapshot,
+                  std::map<std::array<double, 3>, unsigned int> &node_of_key,
+                  const double                                  *message,
+                  const bool                                     rotates)
+    {
+      std::array<unsigned int, 9> nodes;
+      for (unsigned int k = 0; k < 9; ++k, message += entry_length)
+        {
+          const auto [entry, is_new] = node_of_key.try_emplace({message[0], message[1], message[2]}, snapshot.position.size());
+          nodes[k]                   = entry->second;
+          if (is_new)
+            {
+              snapshot.position.emplace_back(message[3], message[4]);
+              snapshot.displacement.emplace_back(message[5], message[6]);
+              snapshot.weight.push_back(0);
+              if (rotates)
+                snapshot.rotation.push_back(message[7]);
+            }
+          snapshot.weight[nodes[k]] += message[8];
+        }
+      std::array<unsigned int, 9> ordered;
+      for (unsigned int k = 0; k < 9; ++k)
+        ordered[k] = nodes[vtk_order[k]];
+      snapshot.cells.push_back(ordered);
+      snapshot.cell_state.push_back(read_state(message));
+      const auto &state = snapshot.cell_state.back();
+      snapshot.mean_stress += state.area * state.stress;
+      snapshot.area += state.area;
+    }
+
+    double stress_ratio(const Eigen::Matrix3d &stress)
+    {
+      const double s = (stress(0, 0) + stress(1, 1)) / 2;
+      return std::hypot((stress(0, 0) - stress(1, 1)) / 2, (stress(0, 1) + stress(1, 0)) / 2) / s;
+    }
+
+    void sum_up(Eigen::Matrix3d &matrix, const MPI_Comm communicator)
+    {
+      for (int k = 0; k < 9; ++k)
+        matrix.data()[k] = sum(matrix.data()[k], communicator);
+    }
+
+    // Sets the four numbers of a snapshot or row that say how far it is.
+    template <class Told> void tell_progress(const BoundaryValueProblem &problem, const Loading &loading, Told &told)
+    {
+      const Progress now = progress_of(problem, loading);
+      told.progress      = now.progress;
+      told.axial_strain  = now.axial_strain;
+      told.shear_strain  = now.shear_strain;
+      told.time          = now.time;
+      told.walk          = loading.walk;
+    }
+
+    // Sums over the points of all processes that a row of the history shows.
+    void add_point_sums(const BoundaryValueProblem &problem, HistoryRow &row)
+    {
+      const auto &mesh     = problem.discretisation();
+      const auto &state    = problem.committed();
+      const auto &geometry = problem.moved_geometry();
+      double      area = 0, yielding = 0, unreliable = 0, not_intermediate = 0, viscous = 0, dissipation = 0, largest = 0;
+      for (std::size_t i = 0; i < state.points.size(); ++i)
+        {
+          const auto  &point = state.points[i];
+          const double w     = geometry.cells[i / mesh.reference.n_points].points[i % mesh.reference.n_points].area;
+          area += w;
+          row.mean_stress += w * compression_positive(point);
+          not_intermediate += w * zz_is_not_intermediate(point);
+          dissipation += w * point.dissipation;
+          largest = std::max(largest, point.equivalent_plastic_strain);
+          unreliable += w * (problem.last_update()[i].verdict == Verdict::unreliable);
+          if (problem.last_update()[i].regime == Regime::elastic)
+            continue;
+          yielding += w;
+          const double strength = std::visit([&](const auto &law) { return law.shear_strength(point); }, problem.law());
+          viscous += strength > 0 ? w * point.overstress / strength : 0;
+        }
+      area = sum(area, mesh.communicator());
+      sum_up(row.mean_stress, mesh.communicator());
+      row.mean_stress /= area;
+      yielding                          = sum(yielding, mesh.communicator());
+      row.plastic_share                 = yielding / area;
+      row.viscous_share                 = sum(viscous, mesh.communicator()) / std::max(yielding, 1e-300);
+      row.unreliable_share              = sum(unreliable, mesh.communicator()) / area;
+      row.share_zz_not_intermediate     = sum(not_intermediate, mesh.communicator()) / area;
+      row.dissipation                   = sum(dissipation, mesh.communicator());
+      row.max_equivalent_plastic_strain = dealii::Utilities::MPI::max(largest, mesh.communicator());
+      row.volumetric_strain             = 1 - area / problem.initial_area();
+    }
+
+    void add_localisation(const BoundaryValueProblem &problem, HistoryRow &row)
+    {
+      Localisation least;
+      for (const auto &place : problem.committed().localisation)
+        if (place.determinant < least.determinant)
+          least = place;
+      for (const auto &other : dealii::Utilities::MPI::all_gather(problem.discretisation().communicator(),
+                                                                  std::vector<double>{least.determinant, least.angle_deg}))
+        if (other[0] < row.least_acoustic_determinant)
+          {
+            row.least_acoustic_determinant = other[0];
+            row.localisation_angle         = other[1];
+          }
+    }
+  } // namespace
+
+  Progress progress_of(const BoundaryValueProblem &problem, const Loading &loading)
+  {
+    const Eigen::Vector2d travel = problem.platen_travel(true) / problem.discretisation().extent.y();
+    Progress              now{problem.progress(), -travel.y(), travel.x(), problem.progress() * loading.time_per_progress};
+    if (loading.walk == Walk::axial_strain)
+      now.axial_strain = now.progress; // as prescribed, without round-off
+    if (loading.walk == Walk::shear_strain)
+      now.shear_strain = now.progress;
+    if (loading.walk == Walk::time)
+      now.time = now.progress;
+    return now;
+  }
+
+  Snapshot make_snapshot(const BoundaryValueProblem &problem, const Loading &loading)
+  {
+    const auto         &mesh  = problem.discretisation();
+    const Shape         shape = shape_of(problem);
+    std::vector<double> mine;
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+      {
+        for (const auto &node : cell_nodes(problem, shape, c))
+          append(mine, node);
+        append(mine, cell_state(problem, shape, c));
+      }
+    Snapshot snapshot;
+    tell_progress(problem, loading, snapshot);
+    std::map<std::array<double, 3>, unsigned int> node_of_key;
+    for (const auto &part : dealii::Utilities::MPI::gather(mesh.communicator(), mine))
+      for (std::size_t at = 0; at < part.size(); at += 9 * entry_length + n_state)
+        add_cell(snapshot, node_of_key, &part[at], mesh.reference.n_rotations > 0);
+    snapshot.mean_stress /= std::max(snapshot.area, 1e-300);
+    snapshot.lower_platen_force = problem.platen_force(false);
+    snapshot.upper_platen_force = problem.platen_force(true);
+    return snapshot;
+  }
+
+  HistoryRow make_history_row(const BoundaryValueProblem &problem, const LoadDriver &driver, const Loading &loading)
+  {
+    const auto &mesh  = problem.discretisation();
+    const auto &count = driver.state().count;
+    HistoryRow  row;
+    row.step = count.steps;
+    tell_progress(problem, loading, row);
+    add_point_sums(problem, row);
+    add_localisation(problem, row);
+    row.stress_ratio       = stress_ratio(row.mean_stress);
+    row.lower_platen_force = problem.platen_force(false);
+    row.upper_platen_force = problem.platen_force(true);
+    row.n_cells            = int(mesh.triangulation.n_global_active_cells());
+    row.n_unknowns         = int(mesh.dof_handler.n_dofs());
+    row.newton_iterations  = count.newton_iterations;
+    row.linear_iterations  = driver.linear_solver().linear_iterations();
+    row.factorisations     = driver.linear_solver().factorisations();
+    row.cut_backs          = count.cut_backs;
+    row.point_cpu_s        = problem.seconds().points;
+    row.assembly_cpu_s     = problem.seconds().assembly;
+    row.geometry_cpu_s     = problem.seconds().geometry;
+    row.solve_cpu_s        = driver.linear_solver().cpu_s();
+    return row;
+  }
+} // namespace diptych::continuum

@@ -1,0 +1,247 @@
+// diptych: kernels of the elements and what a problem makes of them: work, patches, rotation
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <set>
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+#include "continuum/elements/element_kernels.h"
+#include "tests/continuum/problem_scenes.h"
+
+namespace
+{
+  using namespace diptych::continuum;
+  using namespace diptych::continuum::tests;
+
+  constexpr ElementKind kinds[] = {ElementKind::q2, ElementKind::q1_mean_dilation, ElementKind::q2_cosserat};
+
+  struct Random
+  {
+    std::mt19937 generator{5};
+    double       operator()() { return 2. * double(generator()) / double(generator.max()) - 1; }
+  };
+
+  template <class Element> ElementVector<Element> random_vector(Random &random)
+  {
+    ElementVector<Element> u;
+    for (double &value : u)
+      value = random();
+    return u;
+  }
+
+  template <class Element> double dot(const ElementVector<Element> &a, const ElementVector<Element> &b)
+  {
+    double sum = 0;
+    for (unsigned int i = 0; i < Element::n_dofs; ++i)
+      sum += a[i] * b[i];
+    return sum;
+  }
+
+  template <class Element>
+  double over_element(const ReferenceElement       &reference,
+                      const CellGeometry           &cell,
+                      const unsigned int            p,
+                      const Stress                 &stress,
+                      const ElementVector<Element> &u)
+  {
+    return cell.points[p].area * (stress * strain_at<Element>(reference, cell, p, u));
+  }
+
+  // Virtual work: f . u = sum of stress . strain(u) area, for every stress and every u, on a distorted element; a classical
+  // element has no couple stress to work with.
+  TEST(Element, NodalForcesDoTheWorkOfTheStress)
+  {
+    const QuadMesh file = distorted_mesh(3, 3);
+    for (const ElementKind kind : kinds)
+      {
+        const Discretisation mesh(file, kind, MPI_COMM_WORLD);
+        const Geometry       geometry = geometry_at(mesh, positions(mesh, std::vector<double>(mesh.relevant.n_elements(), 0.)));
+        with_element(kind, [&](const auto chosen) {
+          using Element = std::decay_t<decltype(chosen)>;
+          Random random;
+          for (const CellGeometry &cell : geometry.cells)
+            {
+              const auto             u = random_vector<Element>(random);
+              ElementVector<Element> f{};
+              double                 work = 0;
+              for (unsigned int p = 0; p < Element::n_points; ++p)
+                {
+                  Stress stress;
+                  for (unsigned int k = 0; k < (Element::n_rotations > 0 ? n_components : n_classical); ++k)
+                    stress[k] = random();
+                  add_stress<Element>(mesh.reference, cell, p, stress, f);
+                  work += over_element<Element>(mesh.reference, cell, p, stress, u);
+                }
+              EXPECT_NEAR(dot<Element>(f, u), work, 1e-12);
+              EXPECT_GT(std::abs(work), 1e-6);
+            }
+        });
+      }
+  }
+
+  // K u = B^T (D (B u)) for every, also unsymmetric, D.
+  TEST(Element, StiffnessIsThatOfItsOwnKernels)
+  {
+    const QuadMesh file = distorted_mesh(3, 3);
+    for (const ElementKind kind : kinds)
+      {
+        const Discretisation mesh(file, kind, MPI_COMM_WORLD);
+        const Geometry       geometry = geometry_at(mesh, positions(mesh, std::vector<double>(mesh.relevant.n_elements(), 0.)));
+        with_element(kind, [&](const auto chosen) {
+          using Element            = std::decay_t<decltype(chosen)>;
+          constexpr unsigned int n = Element::n_rotations > 0 ? n_components : n_classical;
+          Random                 random;
+          for (const CellGeometry &cell : geometry.cells)
+            {
+              const auto             u = random_vector<Element>(random);
+              ElementVector<Element> f{};
+              ElementMatrix<Element> K{};
+              for (unsigned int p = 0; p < Element::n_points; ++p)
+                {
+                  Tangent D;
+                  for (unsigned int i = 0; i < n; ++i)
+                    for (unsigned int j = 0; j < n; ++j)
+                      D[i][j] = random();
+                  add_stiffness<Element>(mesh.reference, cell, p, D, K);
+                  add_stress<Element>(mesh.reference, cell, p, Stress(D * strain_at<Element>(mesh.reference, cell, p, u)), f);
+                }
+              for (unsigned int i = 0; i < Element::n_dofs; ++i)
+                {
+                  double sum = 0;
+                  for (unsigned int j = 0; j < Element::n_dofs; ++j)
+                    sum += K[i * row_length<Element> + j] * u[j];
+                  EXPECT_NEAR(sum, f[i], 1e-12);
+                }
+            }
+        });
+      }
+  }
+
+  // Mean dilation: the four points of an element have one volume strain, whatever the displacement, and shear of their own.
+  TEST(Element, MeanDilationIsOneVolumeStrainPerElement)
+  {
+    using Element             = Q1MeanDilation;
+    const QuadMesh       file = distorted_mesh(3, 3);
+    const Discretisation mesh(file, ElementKind::q1_mean_dilation, MPI_COMM_WORLD);
+    const Geometry       geometry = geometry_at(mesh, positions(mesh, std::vector<double>(mesh.relevant.n_elements(), 0.)));
+    Random               random;
+    for (const CellGeometry &cell : geometry.cells)
+      {
+        const auto   u      = random_vector<Element>(random);
+        const Strain first  = strain_at<Element>(mesh.reference, cell, 0, u);
+        double       change = 0;
+        for (unsigned int p = 1; p < Element::n_points; ++p)
+          {
+            const Strain e = strain_at<Element>(mesh.reference, cell, p, u);
+            EXPECT_NEAR(e[xx] + e[yy], first[xx] + first[yy], 1e-13);
+            change = std::max(change, std::abs(e[xx] - e[yy] - first[xx] + first[yy]));
+          }
+        EXPECT_GT(change, 0.01);
+      }
+  }
+
+  Options of_element(const ElementKind kind)
+  {
+    Options options = kind == ElementKind::q2_cosserat ? perfectly_plastic(LawKind::cosserat_mohr_coulomb, 30, 0, 1e6)
+                                                       : elastic();
+    options.element = kind == ElementKind::q1_mean_dilation ? Displacement::q1_bbar : Displacement::q2;
+    return options;
+  }
+
+  // Patch test: a linear displacement on distorted elements, with hanging nodes, too, gives its constant stress at every point
+  // and no force on any inner node.
+  TEST(Element, LinearDisplacementIsReproducedOnDistortedElements)
+  {
+    const QuadMesh  file = distorted_mesh(5, 4);
+    Eigen::Matrix2d A;
+    A << 1e-3, 2e-3, -0.5e-3, -3e-3;
+    for (const ElementKind kind : kinds)
+      for (const bool hanging : {false, true})
+        {
+          Loading loading              = straight_loading(0, {0, 0}, {1});
+          loading.lateral              = FreeSides();
+          const Options        options = of_element(kind);
+          BoundaryValueProblem problem(file, Units(), loading, options);
+          if (hanging)
+            refine_around(problem, {1, 1}, 0.5);
+          const auto &mesh = problem.discretisation();
+          problem.begin_step(0);
+          const auto u = linear_field(problem, A);
+          (void)problem.evaluate(u);
+
+          Strain strain;
+          strain[xx] = A(0, 0), strain[yy] = A(1, 1), strain[xy] = A(0, 1) + A(1, 0);
+          const Stress expected = std::visit([](const auto &law) { return law.elastic_tangent(); }, problem.law()) * strain;
+          for (const MaterialUpdate &update : problem.last_update())
+            for (unsigned int k = 0; k < n_components; ++k)
+              EXPECT_NEAR(update.state.stress[k], expected[k], 1e-11);
+
+          std::set<unsigned int> outer;
+          for (const BoundaryEdge &edge : mesh.edges)
+            outer.insert({edge.nodes[0], edge.nodes[1], edge.nodes[mesh.reference.n_nodes > 4 ? 2 : 0]});
+          double       inside = 0, outside = 0;
+          unsigned int n_hanging = 0;
+          for (unsigned int k = 0; k < mesh.nodes.size(); ++k)
+            for (const auto dof : mesh.nodes[k].dofs)
+              {
+                (outer.count(k) ? outside : inside) = std::max(outer.count(k) ? outside : inside,
+                                                               std::abs(problem.negative_residual()[dof]));
+                n_hanging += !outer.count(k) && problem.correction_constraints().is_constrained(dof);
+              }
+          EXPECT_LT(inside, 1e-12);
+          EXPECT_GT(outside, 0.1);
+          EXPECT_EQ(n_hanging > 0, hanging);
+        }
+  }
+
+  // A quarter turn in steps of one degree, with hardly any stiffness: the stress comes out turned, xx and yy exchanged, couple
+  // stress turned as a vector. The spin of a step is sin 1 degree: the angle falls short by 90 (d - sin d) = 8.0e-5.
+  TEST(Element, StressTurnsWithTheMaterial)
+  {
+    const QuadMesh file                     = distorted_mesh(2, 2);
+    Loading        loading                  = straight_loading(1, {0, 0}, {1});
+    loading.lateral                         = RigidSides{0.};
+    Options options                         = perfectly_plastic(LawKind::cosserat_mohr_coulomb, 30, 0, 1e6);
+    options.material.elastic.youngs_modulus = 1e-3;
+    BoundaryValueProblem problem(file, Units(), loading, options);
+    auto                 state = problem.committed();
+    for (MaterialState &point : state.points)
+      {
+        point.stress[xx] = -1, point.stress[yy] = -3, point.stress[xy] = 0.5, point.stress[relative_rotation] = 0.25;
+        point.stress[curvature_x] = 1, point.stress[curvature_y] = 0.2;
+        point.stress_zz = -2;
+      }
+    problem.adopt(state);
+    const double    step = M_PI / 180;
+    Eigen::Matrix2d turn;
+    turn << std::cos(step), -std::sin(step), std::sin(step), std::cos(step);
+    for (int k = 0; k < 90; ++k)
+      {
+        const auto x         = positions(problem.discretisation(), problem.committed().displacement);
+        auto       increment = problem.zero_vector();
+        for (std::size_t n = 0; n < x.size(); ++n)
+          {
+            const Eigen::Vector2d u    = turn * x[n] - x[n];
+            const Node           &node = problem.discretisation().nodes[n];
+            for (unsigned int c = 0; c < 2; ++c)
+              increment[node.dofs[c]] = u[c];
+            if (node.rotation != dealii::numbers::invalid_dof_index)
+              increment[node.rotation] = step;
+          }
+        increment.compress(dealii::VectorOperation::insert);
+        problem.begin_step(problem.progress());
+        (void)problem.evaluate(increment);
+        problem.commit();
+      }
+    for (const MaterialState &point : problem.committed().points)
+      {
+        EXPECT_NEAR(point.stress[xx], -3, 4e-4);
+        EXPECT_NEAR(point.stress[yy], -1, 4e-4);
+        EXPECT_NEAR(point.stress[xy], -0.5, 4e-4);
+        EXPECT_NEAR(point.stress[relative_rotation], 0.25, 1e-5);
+        EXPECT_NEAR(point.stress[curvature_x], -0.2, 4e-4);
+        EXPECT_NEAR(point.stress[curvature_y], 1, 4e-4);
+        EXPECT_NEAR(point.stress_zz, -2, 1e-4);
+      }
+  }
+} // namespace

@@ -1,0 +1,92 @@
+// diptych: strength against plastic strain, and which parameters are refused
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "continuum/laws/yield_cone.h"
+#include "tests/continuum/laws/law_states.h"
+
+namespace
+{
+  using namespace diptych::continuum;
+  using namespace diptych::continuum::tests;
+
+  // Derivatives of strength and of both cones by central differences, inside the table's intervals and beyond its end.
+  TEST(Hardening, RatesAreDerivatives)
+  {
+    for (const auto &[name, options] : hardenings())
+      for (const ConeShape shape : {ConeShape::mohr_coulomb, ConeShape::drucker_prager})
+        for (const double kappa : {0.001, 0.013, 0.05, 0.3})
+          {
+            const YieldCone cone{Hardening(options), shape};
+            const double    h = 1e-6;
+            const Cone      c = cone.at(kappa), up = cone.at(kappa + h), down = cone.at(kappa - h);
+            EXPECT_NEAR((up.slope - down.slope) / (2 * h), c.slope_rate, 1e-6) << name;
+            EXPECT_NEAR((up.intercept - down.intercept) / (2 * h), c.intercept_rate, 1e-6) << name;
+            EXPECT_NEAR((up.dilation - down.dilation) / (2 * h), c.dilation_rate, 1e-6) << name;
+          }
+  }
+
+  // Table 15 -> 30 -> 22 degrees at 0, 0.02, 0.1: half way 22.5; at 0.06 26; beyond 22. Exponential at kappa_s: 13.5 + 7/e.
+  TEST(Hardening, FollowsTableAndDecay)
+  {
+    const Hardening table(hardenings()["table"]), decay(LawOptions{}), constant_(constant(20.5, 12, 0.1));
+    EXPECT_NEAR(table.at(0).friction / degree, 15, 1e-12);
+    EXPECT_NEAR(table.at(0.01).friction / degree, 22.5, 1e-12);
+    EXPECT_NEAR(table.at(0.06).friction / degree, 26, 1e-12);
+    EXPECT_NEAR(table.at(0.06).dilatancy / degree, 7, 1e-12);
+    EXPECT_NEAR(table.at(0.06).cohesion, 0.05, 1e-12);
+    EXPECT_NEAR(table.at(7).friction / degree, 22, 1e-12);
+    EXPECT_NEAR(decay.at(0.075).friction / degree, 13.5 + 7 * std::exp(-1), 1e-12);
+    EXPECT_NEAR(decay.at(5).cohesion, 0.01, 1e-15) << "no residual means constant";
+    EXPECT_NEAR(constant_.at(9).friction / degree, 20.5, 1e-12);
+  }
+
+  TEST(Hardening, ContradictoryOptionsAreRefusedByName)
+  {
+    const std::pair<std::function<void(LawOptions &)>, const char *> cases[] = {
+      {[](auto &o) { o.elastic.youngs_modulus = 0; }, "youngs_modulus"},
+      {[](auto &o) { o.elastic.poisson_ratio = 0.5; }, "poisson_ratio"},
+      {[](auto &o) { o.friction_angle_peak = 10; }, "friction_angle_peak"},
+      {[](auto &o) { o.friction_angle_peak = 61; }, "friction_angle_peak"},
+      {[](auto &o) { o.friction_angle_residual = NAN; }, "friction_angle_residual"},
+      {[](auto &o) { o.dilatancy_angle_peak = 21; }, "dilatancy_angle_peak"},
+      {[](auto &o) { o.dilatancy_angle_peak = 14, o.dilatancy_angle_residual = 14; }, "dilatancy_angle_residual"},
+      {[](auto &o) { o.dilatancy_angle_residual = 13; }, "dilatancy_angle_residual"},
+      {[](auto &o) { o.cohesion = -1; }, "cohesion"},
+      {[](auto &o) { o.cohesion_residual = 0.02; }, "cohesion_residual"},
+      {[](auto &o) { o.softening_strain = 0; }, "softening_strain"},
+      {[](auto &o) { o.viscosity = -1; }, "viscosity"},
+      {[](auto &o) { o.internal_length = 0; }, "internal_length"},
+      {[](auto &o) { o.couple_shear_ratio = 0; }, "couple_shear_ratio"},
+      {[](auto &o) { o = constant(0, 0, 0); }, "friction_angle_peak"},
+      {[](auto &o) { o.hardening = HardeningKind::table; }, "table_strain"},
+      {[](auto &o) { o = hardenings()["table"], o.table_cohesion.pop_back(); }, "table_cohesion"},
+      {[](auto &o) { o = hardenings()["table"], o.table_strain[0] = 0.01; }, "table_strain"},
+      {[](auto &o) { o = hardenings()["table"], o.table_strain[2] = 0.02; }, "table_strain"},
+      {[](auto &o) { o = hardenings()["table"], o.table_dilatancy_angle[1] = 31; }, "table_dilatancy_angle"},
+    };
+    for (const auto &[change, key] : cases)
+      {
+        LawOptions options;
+        EXPECT_NO_THROW(validate(options));
+        change(options);
+        try
+          {
+            validate(options);
+            FAIL() << "no error for " << key;
+          }
+        catch (const std::invalid_argument &error)
+          {
+            EXPECT_NE(std::string(error.what()).find(key), std::string::npos) << error.what();
+          }
+        EXPECT_THROW(Hardening{options}, std::invalid_argument) << key;
+      }
+    EXPECT_NO_THROW(validate(constant(0, 0, 1)));
+    EXPECT_NO_THROW(validate(constant(30, 30, 0)));
+    EXPECT_NO_THROW(validate(constant(10, 0, 0.1))) << "residual values are not looked at";
+  }
+} // namespace

@@ -1,0 +1,138 @@
+// diptych: states, strains and options that the tests of the laws share
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cmath>
+#include <map>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "continuum/laws/any_law.h"
+
+namespace diptych::continuum::tests
+{
+  constexpr double    degree = M_PI / 180;
+  inline const double E      = ElasticOptions().youngs_modulus; // [P], the scale of tangents
+
+  inline double sine(const double degrees)
+  {
+    return std::sin(degrees * degree);
+  }
+
+  // Mechanics sign; the couple stresses and the skew stress are zero.
+  inline MaterialState state_of(const double sxx, const double syy, const double szz, const double kappa = 0)
+  {
+    MaterialState state;
+    state.stress[xx]                = sxx;
+    state.stress[yy]                = syy;
+    state.stress_zz                 = szz;
+    state.equivalent_plastic_strain = kappa;
+    return state;
+  }
+
+  inline Strain strain_of(const double exx, const double eyy, const double gamma = 0)
+  {
+    Strain e;
+    e[xx] = exx, e[yy] = eyy, e[xy] = gamma;
+    return e;
+  }
+
+  inline LawOptions constant(const double friction, const double dilatancy, const double cohesion)
+  {
+    LawOptions o;
+    o.hardening            = HardeningKind::constant;
+    o.friction_angle_peak  = friction;
+    o.dilatancy_angle_peak = dilatancy;
+    o.cohesion             = cohesion;
+    return o;
+  }
+
+  // Every kind of hardening; strong enough cohesion that random strains meet every regime.
+  inline std::map<std::string, LawOptions> hardenings()
+  {
+    std::map<std::string, LawOptions> all;
+    all["constant"] = constant(20.5, 12, 0.1);
+    LawOptions o;
+    o.cohesion = 0.1, o.cohesion_residual = 0.02, o.softening_strain = 0.05;
+    all["exponential"]      = o;
+    o.hardening             = HardeningKind::table;
+    o.table_strain          = {0, 0.02, 0.1};
+    o.table_friction_angle  = {15, 30, 22};
+    o.table_dilatancy_angle = {0, 12, 2};
+    o.table_cohesion        = {0.1, 0.08, 0.02};
+    all["table"]            = o;
+    for (const std::string name : {"constant", "exponential", "table"})
+      {
+        all[name + ", viscous"]           = all[name];
+        all[name + ", viscous"].viscosity = 0.05;
+      }
+    return all;
+  }
+
+  inline std::vector<LawKind> all_laws()
+  {
+    std::vector<LawKind> laws;
+    for (const auto &[law, name] : choices(LawKind()))
+      laws.push_back(law);
+    return laws;
+  }
+
+  inline bool is_mohr_coulomb(const LawKind law)
+  {
+    return law == LawKind::mohr_coulomb || law == LawKind::cosserat_mohr_coulomb;
+  }
+
+  inline const std::vector<LawKind> plastic_laws = {LawKind::mohr_coulomb, LawKind::drucker_prager,
+                                                    LawKind::cosserat_mohr_coulomb, LawKind::cosserat_drucker_prager};
+
+  inline MaterialUpdate update(const Law &law, const MaterialState &s0, const Strain &e, const double d_time = 1e-3)
+  {
+    return std::visit([&](const auto &one) { return one.update(s0, e, d_time); }, law);
+  }
+
+  inline const ElasticModuli &moduli_of(const Law &law)
+  {
+    return std::visit([](const auto &one) -> const ElasticModuli & { return one.moduli(); }, law);
+  }
+
+  inline double yield_function(const Law &law, const MaterialState &state)
+  {
+    return std::visit([&](const auto &one) { return one.yield_function(state); }, law);
+  }
+
+  // Directions spread over all six components, each scaled to the given size; the generator is seeded.
+  inline std::vector<Strain> random_strains(const int n, const double size)
+  {
+    std::mt19937        random(11);
+    std::vector<Strain> strains(n);
+    for (Strain &e : strains)
+      {
+        for (unsigned int k = 0; k < n_components; ++k)
+          e[k] = 2. * double(random()) / double(random.max()) - 1;
+        e *= size / e.norm();
+      }
+    return strains;
+  }
+
+  // Largest difference of tangent and central differences, in units of E; none where a neighbour is in another regime.
+  inline std::optional<double> tangent_error(const Law &law, const MaterialState &s0, const Strain &e)
+  {
+    const MaterialUpdate answer = update(law, s0, e);
+    const double         step   = 1e-6 * e.norm();
+    double               worst  = 0;
+    for (unsigned int k = 0; k < n_components; ++k)
+      {
+        Strain up = e, down = e;
+        up[k] += step, down[k] -= step;
+        const MaterialUpdate a = update(law, s0, up), b = update(law, s0, down);
+        if (a.regime != answer.regime || b.regime != answer.regime)
+          return {};
+        const Stress difference = (a.state.stress - b.state.stress) / (2 * step);
+        for (unsigned int i = 0; i < n_components; ++i)
+          worst = std::max(worst, std::abs(difference[i] - answer.tangent[i][k]) / E);
+      }
+    return worst;
+  }
+} // namespace diptych::continuum::tests

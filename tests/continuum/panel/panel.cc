@@ -1,0 +1,283 @@
+// diptych: a run of the continuum panel: stages, rows, honest ends, refused input
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "tests/continuum/continuum_scenes.h"
+
+namespace
+{
+  using namespace diptych::continuum;
+  using namespace diptych::continuum::tests;
+
+  TEST(Panel, FortyFiveDegreeShearLandsOnItsStages)
+  {
+    const QuadMesh mesh = outline_mesh(wavy_outline(14, 20, 11, 0.15), 2.);
+    Options        options;
+    options.material.softening_strain = 0.5;
+    const Course c                    = finished(mesh, straight_loading(1, {20, -20}, {0, 0.004, 0.01}), options);
+    ASSERT_EQ(c.snapshots.size(), 3u);
+    EXPECT_EQ(c.snapshots[0].axial_strain, 0);
+    EXPECT_EQ(c.snapshots[1].axial_strain, 0.004);
+    EXPECT_EQ(c.snapshots[2].axial_strain, 0.01);
+    EXPECT_EQ(c.rows.front().step, 0);
+    EXPECT_EQ(c.end().axial_strain, 0.01);
+    EXPECT_EQ(c.report.steps, c.end().step);
+    EXPECT_EQ(c.report.n_cells, mesh.cells.size());
+    EXPECT_LT(c.end().upper_platen_force.y(), 0) << "the upper platen presses down";
+    EXPECT_GT(c.end().stress_ratio, 0.2);
+    EXPECT_LT(c.end().stress_ratio, std::sin(20.5 * M_PI / 180) + 0.02); // t/s = sin phi + (c/s) cos phi, c = 0.01, s > 1
+  }
+
+  // What a stage hands over: its cells fill the area, its means are those of the history, its platens are where they were driven.
+  TEST(Panel, SnapshotAndHistoryAreOfOneState)
+  {
+    const QuadMesh  mesh = rectangle(14, 20, 2.);
+    const Course    c    = finished(mesh, straight_loading(1, {20, -20}, {0.01}), {});
+    const Snapshot &s    = c.snapshots.back();
+    double          area = 0, weight = 0, dissipation = 0;
+    Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
+    for (const CellState &cell : s.cell_state)
+      {
+        area += cell.area;
+        stress += cell.area * cell.stress;
+        dissipation += cell.area * cell.dissipation;
+      }
+    for (const double w : s.weight)
+      weight += w;
+    EXPECT_NEAR(weight, s.area, 1e-9 * s.area);
+    EXPECT_NEAR(area, s.area, 1e-9 * s.area);
+    EXPECT_NEAR(1 - s.area / (14 * 20), c.end().volumetric_strain, 1e-9);
+    EXPECT_NEAR((stress / area - c.end().mean_stress).norm(), 0, 1e-9);
+    EXPECT_NEAR(dissipation, c.end().dissipation, 1e-9 * dissipation);
+    EXPECT_GT(dissipation, 0);
+    int n_upper = 0;
+    for (std::size_t k = 0; k < s.position.size(); ++k)
+      if (const Eigen::Vector2d initial = s.position[k] - s.displacement[k]; initial.y() > 20 - 1e-9)
+        {
+          ++n_upper;
+          EXPECT_NEAR((s.displacement[k] - Eigen::Vector2d(0.2, -0.2)).norm(), 0, 1e-9);
+        }
+    EXPECT_EQ(n_upper, 15); // 7 elements with middles
+  }
+
+  TEST(Panel, StopsAtTheNextStepOnRequest)
+  {
+    const QuadMesh mesh  = rectangle(4, 6, 2.);
+    int            steps = 0;
+    Hooks          hooks;
+    hooks.on_row         = [&](const HistoryRow &) { ++steps; };
+    hooks.stop_requested = [&] { return steps >= 3; };
+    Panel panel(mesh, Units(), straight_loading(1, {6, -6}, {0.05}), {}, hooks);
+    EXPECT_EQ(panel.prepare(), Status::finished);
+    EXPECT_EQ(panel.advance_to(1), Status::stopped_by_user);
+    const Report report = panel.report();
+    EXPECT_EQ(panel.stage(), 0);
+    EXPECT_EQ(steps, 3); // the initial state and two steps
+    EXPECT_EQ(report.steps, 2);
+    EXPECT_GT(report.axial_strain, 0);
+    EXPECT_LT(report.axial_strain, 0.05);
+    steps = -1000;
+    EXPECT_EQ(panel.advance_to(1), Status::finished) << "asked again, it goes on";
+    EXPECT_EQ(panel.report().progress, 0.05);
+  }
+
+  TEST(Panel, SaysHowFarItCameWhenItCannotGoOn)
+  {
+    const QuadMesh mesh = rectangle(14, 20, 2.);
+    Options        options;
+    options.max_newton_iterations = 1; // no plastic step converges in one
+    options.min_step              = 1e-4;
+    const Course c                = course(mesh, straight_loading(1, {20, -20}, {0.02}), options);
+    EXPECT_EQ(c.report.status, Status::not_converged);
+    EXPECT_LT(c.report.axial_strain, 0.02);
+    EXPECT_EQ(c.report.axial_strain, c.end().axial_strain);
+    EXPECT_GE(c.report.cut_backs, 1);
+    EXPECT_NE(c.report.message.find("Newton"), std::string::npos) << c.report.message;
+    if (c.report.axial_strain > 0)
+      {
+        EXPECT_EQ(c.snapshots.back().axial_strain, c.report.axial_strain) << "what was reached is handed over";
+      }
+  }
+
+  // One element under smooth platens, hardly any hardening range: the acoustic tensor loses its positive determinant where
+  // softening begins, and the line lies between Roscoe's 45 + psi/2 and Coulomb's 45 + phi/2 to the horizontal, which is
+  // the direction of the minor pressure: 51 and 55.25 degrees at psi = 12, phi = 20.5.
+  TEST(Panel, TellsWhereALineCouldForm)
+  {
+    const QuadMesh mesh    = rectangle(1, 1, 1.);
+    Options        options = with(Options(), Platens::smooth, Kinematics::updated);
+    options.law            = LawKind::mohr_coulomb;
+    const Course c         = finished(mesh, straight_loading(1, {0, -1}, {0.01}), options);
+    ASSERT_TRUE(c.report.localisation_progress.has_value());
+    // s1 at peak: 2.0775 + 0.0288: elastic strain (s1 - 1) 0.96/500 = 0.0021.
+    EXPECT_GT(*c.report.localisation_progress, 0.0021);
+    EXPECT_LT(*c.report.localisation_progress, 0.004);
+    EXPECT_GT(std::abs(c.report.localisation_angle), 51 - 1);
+    EXPECT_LT(std::abs(c.report.localisation_angle), 55.25 + 1);
+    EXPECT_FALSE(finished(mesh, straight_loading(1, {0, -1}, {0.002}), options).report.localisation_progress.has_value());
+  }
+
+  TEST(Panel, DirectAndMultigridSolversGiveTheSameCurve)
+  {
+    const QuadMesh mesh    = rectangle(14, 20, 2.);
+    const Loading  loading = straight_loading(1, {20, -20}, {0.01});
+    Options        options = with_steps({}, 1e-3);
+    options.linear_solver  = LinearChoice::direct;
+    const Course direct    = finished(mesh, loading, options);
+    options.linear_solver  = LinearChoice::amg;
+    const Course amg       = finished(mesh, loading, options);
+    ASSERT_EQ(direct.rows.size(), amg.rows.size());
+    for (std::size_t k = 0; k < direct.rows.size(); ++k)
+      EXPECT_NEAR(amg.rows[k].stress_ratio, direct.rows[k].stress_ratio, 1e-4 * direct.end().stress_ratio);
+    EXPECT_GT(amg.end().linear_iterations, 2 * amg.end().newton_iterations) << "a multigrid hierarchy is no direct solver";
+  }
+
+  // Cells that carry the isotropic pressure, mapped, are the isotropic start.
+  TEST(Panel, MappedPressureIsTheIsotropicStart)
+  {
+    const QuadMesh mesh    = rectangle(4, 6, 2.);
+    Options        options = perfectly_plastic(LawKind::mohr_coulomb, 20, 0, 0.1);
+    const Loading  loading = straight_loading(1, {6, -6}, {0.004});
+    const Course   plain   = finished(mesh, loading, options);
+    options.initial_stress = InitialStress::mapped;
+    Wishes wishes;
+    wishes.initial_stress = [](const Snapshot &s) {
+      EXPECT_EQ(s.cell_state.size(), 6u);
+      return std::vector<Eigen::Matrix2d>(s.cell_state.size(), Eigen::Matrix2d::Identity());
+    };
+    const Course mapped = course(mesh, loading, options, wishes);
+    EXPECT_NEAR((mapped.end().mean_stress - plain.end().mean_stress).norm(), 0, 1e-9);
+  }
+
+  // Cells that carry alternately 20 % more and less come to rest: then the sides balance the pressure again, and what is mapped
+  // is there cell by cell to the degree that equilibrium allows.
+  TEST(Panel, MappedStressComesToRest)
+  {
+    const QuadMesh mesh    = rectangle(8, 12, 2.);
+    Options        options = perfectly_plastic(LawKind::mohr_coulomb, 30, 0, 0.1);
+    options.initial_stress = InitialStress::mapped;
+    options.platens        = Platens::smooth;
+    Wishes wishes;
+    wishes.initial_stress = [](const Snapshot &s) {
+      std::vector<Eigen::Matrix2d> stress;
+      for (std::size_t c = 0; c < s.cells.size(); ++c)
+        stress.push_back((c % 2 == 0 ? 1.2 : 0.8) * Eigen::Matrix2d::Identity());
+      return stress;
+    };
+    const Course c = course(mesh, straight_loading(1, {0, -12}, {0}), options, wishes);
+    ASSERT_EQ(c.report.status, Status::finished) << c.report.message;
+    EXPECT_NEAR(c.end().mean_stress(0, 0), 1, 1e-3);
+    double least = 9, largest = 0;
+    for (const CellState &cell : c.snapshots.front().cell_state)
+      {
+        least   = std::min(least, cell.stress(1, 1));
+        largest = std::max(largest, cell.stress(1, 1));
+      }
+    EXPECT_GT(largest - least, 0.02);
+    EXPECT_LT(largest - least, 0.4);
+  }
+
+  TEST(Panel, WrongInputIsRefusedByName)
+  {
+    const auto refuses = [](const auto &spoilt, const std::string &word) {
+      try
+        {
+          validate(spoilt);
+          ADD_FAILURE() << "no error for " << word;
+        }
+      catch (const std::invalid_argument &error)
+        {
+          EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+        }
+    };
+    refuses(straight_loading(-1, {0, -1}, {0.01}), "pressure");
+    refuses(straight_loading(1, {0, -1}, {}), "stages");
+    refuses(straight_loading(1, {0, -1}, {0.01, 0.005}), "stages");
+    Loading loading       = straight_loading(1, {0, -1}, {0.01});
+    loading.platens[1][1] = force(-1);
+    EXPECT_NO_THROW(validate(loading));
+    loading.platens[0][1] = force(1);
+    refuses(loading, "both platens");
+    loading.platens[0][1] = {true, {}};
+    refuses(loading, "force");
+    Options options;
+    EXPECT_NO_THROW(validate(options));
+    options.min_step = 1;
+    refuses(options, "min_step");
+    options         = {};
+    options.element = Displacement::q1_bbar;
+    refuses(options, "q1_bbar");
+    options      = {};
+    options.mesh = "rectangle";
+    refuses(options, "rectangle_width");
+  }
+
+  TEST(Panel, WhatTheMeshDoesNotAllowIsRefused)
+  {
+    const QuadMesh straight = rectangle(4, 6, 2.);
+    Loading        loading  = straight_loading(1, {0, -6}, {0.001});
+    loading.lateral         = PeriodicSides();
+    Options options         = elastic();
+    options.refinement      = Refinement::adaptive;
+    EXPECT_THROW((void)course(straight, loading, options), std::invalid_argument);
+    loading.lateral = PeriodicSides{std::nullopt};
+    EXPECT_THROW((void)course(straight, loading, elastic()), std::invalid_argument) << "rough platens do not stretch";
+    EXPECT_EQ(course(straight, loading, with(elastic(), Platens::smooth, Kinematics::updated)).report.status, Status::finished);
+    options                = elastic();
+    options.initial_stress = InitialStress::mapped;
+    loading                = straight_loading(1, {0, -6}, {0.001});
+    EXPECT_THROW((void)course(straight, loading, options), std::invalid_argument) << "no stress was given";
+    Wishes too_few;
+    too_few.initial_stress = [](const Snapshot &) { return std::vector<Eigen::Matrix2d>(5); };
+    EXPECT_THROW((void)course(straight, loading, options, too_few), std::invalid_argument);
+    QuadMesh torn = straight;
+    torn.boundary.pop_back();
+    EXPECT_THROW((void)course(torn, loading, elastic()), std::invalid_argument);
+  }
+
+  // Keys that nothing reads as the options stand are named with what says so.
+  TEST(Panel, KeysThatNothingReadsAreNamed)
+  {
+    const auto names = [](const Options &options) {
+      std::string text;
+      for (const UnusedKey &key : unused_keys(options))
+        text += key.key + " (" + key.because + "); ";
+      return text;
+    };
+    Options     options;
+    std::string unused = names(options);
+    for (const char *key : {"platen_rotation", "internal_length", "friction_angle_peak", "softening_strain"})
+      EXPECT_EQ(unused.find(key), std::string::npos) << key << " in " << unused;
+    for (const char *key : {"table_strain (hardening = exponential)", "refinement_levels (refinement = uniform)",
+                            "rectangle_width (mesh = outline)", "weak_spot_x (weak_spot_strain = 0)"})
+      EXPECT_NE(unused.find(key), std::string::npos) << key << " in " << unused;
+    options.law        = LawKind::mohr_coulomb;
+    options.refinement = Refinement::adaptive;
+    unused             = names(options);
+    for (const char *key : {"platen_rotation (law = mohr_coulomb)", "internal_length (law = mohr_coulomb)"})
+      EXPECT_NE(unused.find(key), std::string::npos) << key << " in " << unused;
+    EXPECT_EQ(unused.find("refinement_levels"), std::string::npos);
+    options.law = LawKind::linear_elastic;
+    EXPECT_NE(names(options).find("friction_angle_peak (law = linear_elastic)"), std::string::npos) << names(options);
+  }
+
+  // Young's modulus below 50 or above a million pressures, a cohesion above the pressure: no granular sample has them.
+  TEST(Panel, DoubtfulModuliArePointedOut)
+  {
+    const auto doubts = [](const double modulus, const double cohesion) {
+      Options options;
+      options.material.elastic.youngs_modulus = modulus;
+      options.material.cohesion               = cohesion;
+      return doubtful_values(options).size();
+    };
+    EXPECT_EQ(doubts(500, 0.01), 0u);
+    EXPECT_EQ(doubts(50, 1), 0u);
+    EXPECT_EQ(doubts(1e6, 1), 0u);
+    EXPECT_EQ(doubts(49, 0.01), 1u);
+    EXPECT_EQ(doubts(2e6, 0.01), 1u);
+    EXPECT_EQ(doubts(500, 1.01), 1u);
+    EXPECT_EQ(doubts(10, 3), 2u);
+  }
+} // namespace

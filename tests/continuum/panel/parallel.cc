@@ -1,0 +1,227 @@
+// diptych: several processes walk as one: every course is held to that of one process alone
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+
+#include "tests/continuum/continuum_scenes.h"
+
+namespace
+{
+  using namespace diptych::continuum;
+  using namespace diptych::continuum::tests;
+
+  bool is_first()
+  {
+    return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  }
+
+  constexpr int n_columns = 9, first_force = 3;
+  using Row = std::array<double, n_columns>;
+
+  Row numbers(const HistoryRow &row)
+  {
+    return {row.axial_strain,           row.stress_ratio,           row.volumetric_strain,      row.upper_platen_force.x(),
+            row.upper_platen_force.y(), row.lower_platen_force.x(), row.lower_platen_force.y(), row.dissipation,
+            double(row.n_cells)};
+  }
+
+  // The course of all processes against the one that each of them walks by itself. `relative`: to the largest of a column.
+  Course as_alone(const QuadMesh &mesh, const Loading &loading, const Options &options, const double relative, Wishes wishes = {})
+  {
+    const Course c      = course(mesh, loading, options, wishes);
+    wishes.communicator = MPI_COMM_SELF;
+    const Course alone  = course(mesh, loading, options, wishes);
+    EXPECT_EQ(c.report.status, Status::finished) << c.report.message;
+    EXPECT_GT(alone.end().stress_ratio, alone.rows.front().stress_ratio + 0.1) << "it was loaded";
+    if (!is_first())
+      {
+        EXPECT_TRUE(c.rows.empty()) << "only the first process is told";
+        return c;
+      }
+    EXPECT_GT(c.rows.size(), 3u);
+    EXPECT_EQ(c.rows.size(), alone.rows.size());
+    for (int k = 0; k < n_columns; ++k)
+      {
+        double     scale    = 1e-9;
+        const bool is_force = k >= first_force && k < first_force + 4; // measured by the largest of their components
+        for (const HistoryRow &row : alone.rows)
+          for (int j = is_force ? first_force : k; j < (is_force ? first_force + 4 : k + 1); ++j)
+            scale = std::max(scale, std::abs(numbers(row)[j]));
+        for (std::size_t row = 0; row < std::min(c.rows.size(), alone.rows.size()); ++row)
+          EXPECT_NEAR(numbers(c.rows[row])[k], numbers(alone.rows[row])[k], relative * scale)
+            << "column " << k << ", row " << row;
+      }
+    // The snapshot is whole.
+    const Snapshot &s    = c.snapshots.back();
+    double          area = 0;
+    for (const double w : s.weight)
+      area += w;
+    EXPECT_NEAR(area, s.area, 1e-9 * s.area);
+    EXPECT_EQ(int(s.cells.size()), c.end().n_cells);
+    EXPECT_NEAR(1 - c.end().volumetric_strain, s.area / c.snapshots.front().area, 1e-9);
+    return c;
+  }
+
+  Options fixed_steps(const LawKind law)
+  {
+    Options options   = with_steps({}, 1e-3);
+    options.law       = law;
+    options.tolerance = 1e-7;
+    return options;
+  }
+
+  TEST(Parallel, FortyFiveDegreeShear)
+  {
+    const QuadMesh mesh = rectangle(14, 20, 2.);
+    as_alone(mesh, straight_loading(1, {20, -20}, {0, 0.01}), fixed_steps(LawKind::cosserat_mohr_coulomb), 1e-4);
+  }
+
+  TEST(Parallel, MultigridSolver)
+  {
+    const QuadMesh mesh    = rectangle(14, 20, 2.);
+    Options        options = fixed_steps(LawKind::mohr_coulomb);
+    options.linear_solver  = LinearChoice::amg;
+    as_alone(mesh, straight_loading(1, {20, -20}, {0, 0.006}), options, 1e-4);
+  }
+
+  // Pairs of nodes, and a platen's nodes that move as one, lie on different processes.
+  TEST(Parallel, PlaneShearBetweenPeriodicSides)
+  {
+    const QuadMesh mesh    = rectangle(16, 8, 2.);
+    Loading        loading = straight_loading(1, {8, 0}, {0, 0.01});
+    loading.lateral        = PeriodicSides{0.};
+    loading.platens[1][1]  = force(-16);
+    as_alone(mesh, loading, fixed_steps(LawKind::mohr_coulomb), 1e-4);
+  }
+
+  TEST(Parallel, RigidWallUnderPressure)
+  {
+    const QuadMesh mesh      = rectangle(8, 16, 2.);
+    Loading        loading   = straight_loading(1, {0, -16}, {0, 0.01});
+    loading.lateral          = RigidSides();
+    Options options          = fixed_steps(LawKind::mohr_coulomb);
+    options.platens          = Platens::smooth;
+    options.element          = Displacement::q1_bbar;
+    options.weak_spot_strain = 0.05;
+    as_alone(mesh, loading, options, 1e-4);
+  }
+
+  // Stress handed over by the first process reaches the cells of the others: it grows from left to right, and comes to rest.
+  TEST(Parallel, MappedStress)
+  {
+    const QuadMesh mesh       = rectangle(12, 8, 2.);
+    Options        options    = fixed_steps(LawKind::mohr_coulomb);
+    options.initial_stress    = InitialStress::mapped;
+    options.material.cohesion = 1;
+    Wishes wishes;
+    wishes.initial_stress = [](const Snapshot &s) {
+      std::vector<Eigen::Matrix2d> stress;
+      for (const auto &cell : s.cells)
+        {
+          stress.push_back(Eigen::Matrix2d::Identity());
+          stress.back()(1, 1) = 1 + 0.05 * s.position[cell[8]].x();
+        }
+      return stress;
+    };
+    as_alone(mesh, straight_loading(1, {0, -8}, {0, 0.004}), options, 1e-4, wishes);
+  }
+
+  // A checkpoint of one process is taken up by several, to where the course of one alone ends.
+  TEST(Parallel, ACheckpointOfOneProcessIsTakenUpByAll)
+  {
+    const QuadMesh mesh    = rectangle(14, 20, 4.);
+    const Loading  loading = straight_loading(1, {20, -20}, {0, 0.008});
+    const Options  options = fixed_steps(LawKind::cosserat_mohr_coulomb);
+    int            asked   = 0;
+    Wishes         wishes;
+    wishes.communicator   = MPI_COMM_SELF;
+    const Course whole    = course(mesh, loading, options, wishes);
+    wishes.stop_requested = [&] { return ++asked == 4; };
+    const Course half     = course(mesh, loading, options, wishes);
+    EXPECT_EQ(half.report.status, Status::stopped_by_user);
+    Wishes further;
+    further.resume = &half.checkpoint;
+    const Course c = course(mesh, loading, options, further);
+    EXPECT_EQ(c.report.status, Status::finished) << c.report.message;
+    if (!is_first())
+      return;
+    EXPECT_EQ(c.rows.front().step, 4) << "three steps were made before";
+    const double size = whole.end().upper_platen_force.norm();
+    EXPECT_NEAR((c.end().upper_platen_force - whole.end().upper_platen_force).norm(), 0, 1e-4 * size);
+  }
+
+  // Put down and taken up by all of them: the factors of the last matrix are made anew, the rest comes back as it was.
+  TEST(ParallelChanges, AnInterruptedCourseGoesOn)
+  {
+    const QuadMesh mesh          = rectangle(24, 24, 4.);
+    const Loading  loading       = straight_loading(1, {24, -24}, {0, 0.012});
+    Options        options       = fixed_steps(LawKind::cosserat_mohr_coulomb);
+    options.refinement           = Refinement::adaptive;
+    options.refinement_threshold = 0.5;
+    const Course whole           = course(mesh, loading, options);
+    int          asked           = 0;
+    Wishes       wishes;
+    wishes.stop_requested = [&] { return ++asked == 9; };
+    const Course half     = course(mesh, loading, options, wishes);
+    Wishes       further;
+    further.resume = &half.checkpoint;
+    const Course c = course(mesh, loading, options, further);
+    EXPECT_EQ(c.report.status, Status::finished) << c.report.message;
+    if (!is_first())
+      return;
+    EXPECT_EQ(c.report.n_cells, whole.report.n_cells);
+    EXPECT_GT(c.report.n_cells, 36u);
+    EXPECT_EQ(half.rows.size() + c.rows.size(), whole.rows.size());
+    const double size = whole.end().upper_platen_force.norm();
+    EXPECT_NEAR((c.end().upper_platen_force - whole.end().upper_platen_force).norm(), 0, 1e-6 * size);
+  }
+
+  // Unknowns and constraints change on the way: the solver's factors belong to a matrix that is no more. The same elements are
+  // divided, neighbours on another process included.
+  TEST(ParallelChanges, AdaptiveRefinement)
+  {
+    const QuadMesh mesh          = rectangle(24, 24, 4.);
+    Options        options       = fixed_steps(LawKind::cosserat_mohr_coulomb);
+    options.refinement           = Refinement::adaptive;
+    options.refinement_threshold = 0.5;
+    as_alone(mesh, straight_loading(1, {24, -24}, {0, 0.012}), options, 1e-3);
+  }
+
+  // Nodes that have come to a platen, of a sample that was `height` high.
+  int n_captured(const Snapshot &s, const double height)
+  {
+    int n = 0;
+    for (std::size_t k = 0; k < s.position.size(); ++k)
+      {
+        const double now = s.position[k].y(), initial = now - s.displacement[k].y();
+        n += (initial > 1e-8 && now < 1e-8) || (initial < height - 1e-8 && now > height * (1 - s.axial_strain) - 1e-8);
+      }
+    return n;
+  }
+
+  // Material is squeezed out beside a platen and taken up by it, which adds to the platen's nodes.
+  TEST(ParallelChanges, SideContact)
+  {
+    const QuadMesh mesh    = rectangle(30, 30, 3.75);
+    Options        options = fixed_steps(LawKind::cosserat_mohr_coulomb);
+    options                = with_steps(options, 5e-3);
+    const Course c         = as_alone(mesh, straight_loading(1, {30, -30}, {0, 0.25}), options, 1e-3);
+    if (!is_first())
+      return;
+    EXPECT_GT(n_captured(c.snapshots.back(), 30), 0);
+  }
+
+  // The nodes that come to a platen which moves freely sideways are tied to its first one, that lies on another process.
+  TEST(ParallelChanges, SideContactOfAPlatenThatMovesFreely)
+  {
+    const QuadMesh mesh    = rectangle(30, 30, 3.75);
+    Loading        loading = straight_loading(1, {0, -30}, {0, 0.3});
+    loading.platens[1][0]  = force(0);
+    const Course c         = as_alone(mesh, loading, with_steps(fixed_steps(LawKind::cosserat_mohr_coulomb), 5e-3), 1e-3);
+    if (is_first())
+      {
+        EXPECT_GT(n_captured(c.snapshots.back(), 30), 0);
+      }
+  }
+} // namespace

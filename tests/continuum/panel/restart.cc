@@ -1,0 +1,127 @@
+// diptych: a course interrupted and taken up again is the course that was not
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gtest/gtest.h>
+
+#include "tests/continuum/continuum_scenes.h"
+
+namespace
+{
+  using namespace diptych::continuum;
+  using namespace diptych::continuum::tests;
+
+  Options options_of(const LawKind law, const bool adaptive)
+  {
+    Options options = with_steps({}, 1e-3);
+    options.law     = law;
+    if (adaptive)
+      {
+        options.refinement           = Refinement::adaptive;
+        options.refinement_threshold = 0.5;
+      }
+    return options;
+  }
+
+  // Everything of a row but the seconds that it took.
+  void expect_same_bits(const HistoryRow &a, const HistoryRow &b)
+  {
+    std::vector<double> numbers[2];
+    for (const int which : {0, 1})
+      visit_columns(which ? b : a, [&](const std::string &name, const auto &value, const char *, const char *) {
+        if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>)
+          if (name.find("_cpu_s") == std::string::npos)
+            numbers[which].push_back(double(value));
+      });
+    EXPECT_EQ(numbers[0], numbers[1]) << "step " << a.step << " and " << b.step;
+  }
+
+  // Put down before any of its steps and taken up by a panel of its own, a course on one process tells the rows of one that was
+  // never interrupted, to the last bit: on divided elements, with mapped stress, with a multigrid preconditioner as with factors.
+  void expect_that_it_goes_on(const QuadMesh &mesh, const Loading &loading, const Options &options, Wishes wishes = {})
+  {
+    const Course whole = course(mesh, loading, options, wishes);
+    ASSERT_EQ(whole.report.status, Status::finished) << whole.report.message;
+    ASSERT_GT(whole.rows.size(), 6u);
+    for (std::size_t put_down = 1; put_down < whole.rows.size(); put_down += whole.rows.size() / 4)
+      {
+        SCOPED_TRACE("after " + std::to_string(put_down) + " rows");
+        std::size_t asked      = 0;
+        Wishes      stopped    = wishes, further;
+        stopped.stop_requested = [&] { return ++asked == put_down; };
+        const Course first     = course(mesh, loading, options, stopped);
+        ASSERT_EQ(first.report.status, Status::stopped_by_user);
+        ASSERT_EQ(first.rows.size(), put_down);
+        further.resume      = &first.checkpoint;
+        const Course second = course(mesh, loading, options, further);
+        ASSERT_EQ(second.report.status, Status::finished) << second.report.message;
+        ASSERT_EQ(first.rows.size() + second.rows.size(), whole.rows.size());
+        for (std::size_t k = 0; k < whole.rows.size(); ++k)
+          expect_same_bits(k < put_down ? first.rows[k] : second.rows[k - put_down], whole.rows[k]);
+        const Snapshot &a = second.snapshots.back(), &b = whole.snapshots.back();
+        EXPECT_EQ(a.position, b.position);
+        ASSERT_EQ(a.cell_state.size(), b.cell_state.size());
+        for (std::size_t c = 0; c < a.cell_state.size(); ++c)
+          EXPECT_EQ(a.cell_state[c].stress, b.cell_state[c].stress) << "cell " << c;
+        EXPECT_EQ(second.report.localisation_progress, whole.report.localisation_progress);
+      }
+  }
+
+  TEST(Restart, GoesOnToTheSameBits)
+  {
+    const QuadMesh mesh    = outline_mesh(wavy_outline(24, 24, 13, 0.2), 4.);
+    const Loading  loading = straight_loading(1, {24, -24}, {0, 0.004, 0.012});
+    for (const LawKind law : {LawKind::cosserat_mohr_coulomb, LawKind::drucker_prager})
+      expect_that_it_goes_on(mesh, loading, options_of(law, false));
+  }
+
+  TEST(Restart, GoesOnToTheSameBitsOnDividedElements)
+  {
+    const Loading loading = straight_loading(1, {24, -24}, {0, 0.004, 0.02});
+    Options       options = options_of(LawKind::cosserat_mohr_coulomb, true);
+    const Course  whole   = course(rectangle(24, 24, 4.), loading, options);
+    EXPECT_GT(whole.report.n_cells, 36u);
+    expect_that_it_goes_on(rectangle(24, 24, 4.), loading, options);
+  }
+
+  TEST(Restart, GoesOnToTheSameBitsWithAMultigridPreconditioner)
+  {
+    Options options       = options_of(LawKind::mohr_coulomb, false);
+    options.linear_solver = LinearChoice::amg;
+    expect_that_it_goes_on(rectangle(14, 20, 2.), straight_loading(1, {20, -20}, {0, 0.01}), options);
+  }
+
+  TEST(Restart, GoesOnToTheSameBitsFromAMappedStress)
+  {
+    Options options        = options_of(LawKind::cosserat_mohr_coulomb, true);
+    options.initial_stress = InitialStress::mapped;
+    Wishes wishes;
+    wishes.initial_stress = [](const Snapshot &s) {
+      std::vector<Eigen::Matrix2d> stress;
+      for (const auto &cell : s.cells)
+        stress.push_back((1 + 0.01 * s.position[cell[8]].x()) * Eigen::Matrix2d::Identity());
+      return stress;
+    };
+    expect_that_it_goes_on(rectangle(24, 24, 4.), straight_loading(1, {24, -24}, {0, 0.01}), options, wishes);
+  }
+
+  // Material that has come to a platen beside it, and a platen that moves freely.
+  TEST(Restart, GoesOnToTheSameBitsInSideContact)
+  {
+    Loading loading       = straight_loading(1, {0, -30}, {0, 0.3});
+    loading.platens[1][0] = force(0);
+    expect_that_it_goes_on(rectangle(30, 30, 3.75), loading, with_steps(options_of(LawKind::cosserat_mohr_coulomb, false), 5e-3));
+  }
+
+  TEST(Restart, ACheckpointOfAnotherMeshIsRefused)
+  {
+    const Loading loading = straight_loading(1, {8, -8}, {0.002});
+    const Options options = options_of(LawKind::mohr_coulomb, false);
+    const Course  course_ = course(rectangle(8, 8, 2.), loading, options);
+    Wishes        further;
+    further.resume = &course_.checkpoint;
+    EXPECT_THROW((void)course(rectangle(8, 8, 4.), loading, options, further), std::invalid_argument);
+    Options cosserat = options;
+    cosserat.law     = LawKind::cosserat_mohr_coulomb;
+    EXPECT_THROW((void)course(rectangle(8, 8, 2.), loading, cosserat, further), std::invalid_argument)
+      << "other values of a cell";
+  }
+} // namespace

@@ -1,0 +1,234 @@
+// diptych: the continuum panel against closed forms
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "tests/continuum/continuum_scenes.h"
+
+namespace
+{
+  using namespace diptych::continuum;
+  using namespace diptych::continuum::tests;
+
+  constexpr double E = 500, nu = 0.2, G = E / (2 * (1 + nu)); // defaults of ElasticOptions
+
+  const std::vector<std::pair<LawKind, Displacement>> plastic_elements = {
+    {LawKind::mohr_coulomb, Displacement::q2},          {LawKind::mohr_coulomb, Displacement::q1_bbar},
+    {LawKind::drucker_prager, Displacement::q2},        {LawKind::drucker_prager, Displacement::q1_bbar},
+    {LawKind::cosserat_mohr_coulomb, Displacement::q2}, {LawKind::cosserat_drucker_prager, Displacement::q2}};
+
+  bool is_cone(const LawKind law)
+  {
+    return law == LawKind::drucker_prager || law == LawKind::cosserat_drucker_prager;
+  }
+
+  Options one_element(const std::pair<LawKind, Displacement> &kind, const double dilatancy, const double cohesion)
+  {
+    Options options   = perfectly_plastic(kind.first, 30, dilatancy, cohesion);
+    options.element   = kind.second;
+    options.platens   = Platens::smooth;
+    options.tolerance = 1e-9;
+    return options;
+  }
+
+  // Plane strain between smooth platens: s1 = s3 Kp + 2 c sqrt(Kp), Kp = (1 + sin phi)/(1 - sin phi) = 3 at 30 degrees:
+  // 3 + 0.2 sqrt 3 = 3.346410 and 3 + 0.02 sqrt 3 = 3.034641 at s3 = 1. The sides carry pressure x current height, in small
+  // strain on the initial shape: s3 = 0.95 at 5 % strain, and s1 is less by 3 x 0.05. As s3 falls steadily, Drucker-Prager's
+  // sigma_zz keeps changing, which costs it some 1e-6 of its strength.
+  TEST(Validation, OneElementReachesTheClosedFormStrengthInSmallStrain)
+  {
+    const QuadMesh mesh = rectangle(1, 1, 1.);
+    for (const auto &kind : plastic_elements)
+      for (const auto &[cohesion, expected] : {std::pair{0.1, 3.346410}, std::pair{0.01, 3.034641}})
+        for (const double dilatancy : {0., 10., 30.})
+          {
+            if (is_cone(kind.first) && dilatancy < 30)
+              continue;
+            Options options  = one_element(kind, dilatancy, cohesion);
+            options.geometry = Kinematics::small_strain;
+            const Course c   = finished(mesh, straight_loading(1, {0, -1}, {0.05}), options);
+            EXPECT_NEAR(c.end().mean_stress(0, 0), 0.95, 1e-6) << name_of(kind.first);
+            EXPECT_NEAR(c.end().mean_stress(1, 1) + 3 * 0.05, expected, is_cone(kind.first) ? 1e-5 : 1e-6)
+              << name_of(kind.first) << ", " << name_of(kind.second) << ", c " << cohesion << ", psi " << dilatancy;
+          }
+  }
+
+  // Where the shape is updated the sides carry the pressure on their present height: s3 = 1.
+  TEST(Validation, OneElementReachesTheClosedFormStrengthOnTheMovedShape)
+  {
+    const QuadMesh mesh = rectangle(1, 1, 1.);
+    for (const auto &kind : plastic_elements)
+      for (const auto &[cohesion, expected] : {std::pair{0.1, 3.346410}, std::pair{0.01, 3.034641}})
+        for (const double dilatancy : {0., 10., 30.})
+          {
+            if (is_cone(kind.first) && dilatancy < 30)
+              continue;
+            const Course c  = finished(mesh, straight_loading(1, {0, -1}, {0.05}), one_element(kind, dilatancy, cohesion));
+            const double s3 = c.end().mean_stress(0, 0), s1 = c.end().mean_stress(1, 1);
+            EXPECT_NEAR(s3, 1, 1e-6) << name_of(kind.first);
+            EXPECT_NEAR(s1, 3 * s3 + 2 * cohesion * std::sqrt(3.), 1e-6) << name_of(kind.first) << ", " << name_of(kind.second);
+            EXPECT_NEAR(s1, expected, 1e-5) << name_of(kind.first) << ", " << name_of(kind.second) << ", c " << cohesion
+                                            << ", psi " << dilatancy;
+          }
+  }
+
+  // With psi < phi Drucker-Prager comes to that stress once sigma_zz flows no more: from 10 % strain on to 1e-3.
+  TEST(Validation, DruckerPragerMeetsTheStrengthFromTenPercentOn)
+  {
+    const QuadMesh mesh = rectangle(1, 1, 1.);
+    for (const auto &kind : plastic_elements)
+      for (const double dilatancy : {0., 10.})
+        if (is_cone(kind.first))
+          {
+            const Course c = finished(mesh, straight_loading(1, {0, -1}, {0.12}), one_element(kind, dilatancy, 0.01));
+            for (const HistoryRow &row : c.rows)
+              if (row.axial_strain > 0.1)
+                {
+                  const double s3 = row.mean_stress(0, 0);
+                  EXPECT_NEAR(row.mean_stress(1, 1), 3 * s3 + 0.02 * std::sqrt(3.), 1e-3 * 3.034641) << name_of(kind.first);
+                }
+          }
+  }
+
+  // On the plateau all strain is plastic: d eps_v/d gamma = -sin psi with d eps_v = d e1 + d e3, d gamma = d e1 - d e3, so that
+  // the volume grows by d eps_v/d e1 = -2 sin psi/(1 - sin psi), here of logarithmic strains: -0.4202 at psi = 10. A step's
+  // strain is by its first shape: steps of 5e-4 differ from the logarithm by 1.42 x 1.21 x 5e-4/0.9 = 1e-3.
+  TEST(Validation, OneElementDilatesByItsAngle)
+  {
+    const QuadMesh mesh = rectangle(1, 1, 1.);
+    for (const auto &kind : plastic_elements)
+      {
+        const Course c = finished(mesh, straight_loading(1, {0, -1}, {0.1, 0.12}), with_steps(one_element(kind, 10, 0.01), 5e-4));
+        const double lower = c.snapshots[0].area, upper = c.snapshots[1].area;
+        const double sine = std::sin(10 * M_PI / 180);
+        EXPECT_NEAR(std::log(upper / lower) / -std::log(0.88 / 0.90), 2 * sine / (1 - sine), 1.5e-3)
+          << name_of(kind.first) << ", " << name_of(kind.second);
+      }
+  }
+
+  // Elastic plane strain at constant lateral pressure: d s_yy = E/(1 - nu^2) d eps, to first order in the strain.
+  TEST(Validation, ElasticPlaneStrainModulus)
+  {
+    const QuadMesh mesh = rectangle(2, 3, 1.);
+    for (const Kinematics geometry : {Kinematics::updated, Kinematics::small_strain})
+      for (const Displacement element : {Displacement::q2, Displacement::q1_bbar})
+        {
+          Options options = with(elastic(), Platens::smooth, geometry);
+          options.element = element;
+          const Course c  = finished(mesh, straight_loading(1, {0, -3}, {1e-4}), options);
+          EXPECT_NEAR((c.end().mean_stress(1, 1) - 1) / 1e-4, E / (1 - nu * nu), 1e-3 * E)
+            << name_of(geometry) << ", " << name_of(element);
+        }
+  }
+
+  // The two geometries differ by the strain times the stress: at 0.2 % strain, in a course from elastic to plastic, by less
+  // than 1 %, and at 8 % by more.
+  TEST(Validation, GeometriesAgreeAtSmallStrainOnly)
+  {
+    const QuadMesh mesh    = rectangle(12, 20, 4.);
+    const Loading  loading = straight_loading(1, {20, -20}, {0.002, 0.08});
+    const Options  options = perfectly_plastic(LawKind::mohr_coulomb, 25, 0, 0.05);
+    const Course   updated = finished(mesh, loading, with(options, Platens::rough, Kinematics::updated)),
+                 small     = finished(mesh, loading, with(options, Platens::rough, Kinematics::small_strain));
+    const auto difference  = [&](const std::size_t k) {
+      const Eigen::Vector2d a = updated.snapshots[k].upper_platen_force, b = small.snapshots[k].upper_platen_force;
+      return (a - b).norm() / b.norm();
+    };
+    EXPECT_LT(difference(0), 0.01);
+    EXPECT_GT(difference(1), 0.02);
+  }
+
+  // Elastic Cosserat layer, omega = 0 at both walls: G_eff/G = 1/(1 - 2 Gc tanh(lam H/2)/((G + Gc) lam H)), lam^2 = 4 G Gc/
+  // (M (G + Gc)); Gc = G/2, M = 2 G l^2: lam = sqrt(2/3)/l, and with H = 20 l: 1/(1 - 2/3 x 1/16.3299 x tanh(8.165)) = 1.042562.
+  // With free rotations there is no layer at the walls, and the stiffness is that of the classical continuum.
+  TEST(Validation, ElasticCosseratLayerIsStiffened)
+  {
+    const QuadMesh mesh                 = rectangle(0.5, 20, 0.25);
+    Options        options              = perfectly_plastic(LawKind::cosserat_mohr_coulomb, 30, 0, 1e6);
+    options.material.couple_shear_ratio = 0.5;
+    options.material.internal_length    = 1;
+    options.tolerance                   = 1e-8;
+    Loading loading                     = straight_loading(1, {20, 0}, {1e-3});
+    loading.lateral                     = PeriodicSides{0.};
+    for (const auto &[rotation, expected] : {std::pair{PlatenRotation::held, 1.042562}, std::pair{PlatenRotation::free, 1.}})
+      for (const Kinematics geometry : {Kinematics::small_strain, Kinematics::updated})
+        {
+          options.platen_rotation = rotation;
+          options.geometry        = geometry;
+          const Course c          = finished(mesh, loading, with_steps(options, 1e-3));
+          EXPECT_NEAR(c.end().upper_platen_force.x() / (0.5 * G * 1e-3), expected, 1e-4) << name_of(rotation) << ", " << name_of(geometry);
+        }
+  }
+
+  // Hypoelastic simple shear to gamma = 1 with the stress turned by the spin (Jaumann): s_xy = G sin gamma, s_xx = -s_yy =
+  // G (1 - cos gamma), tension positive. Steps of d gamma err by G d gamma/2 at most times 1 and so on: first order; the
+  // extrapolation to no step is the closed form.
+  TEST(Validation, StressTurnsWithTheMaterialInSimpleShear)
+  {
+    const QuadMesh mesh    = rectangle(2, 2, 2.);
+    Loading        loading = straight_loading(1, {2, 0}, {1});
+    loading.lateral        = PeriodicSides{0.};
+    const auto stress_at   = [&](const double step) {
+      return Eigen::Matrix3d(finished(mesh, loading, with_steps(elastic(), step)).end().mean_stress);
+    };
+    const Eigen::Matrix3d coarse = stress_at(0.02), fine = stress_at(0.01), limit = 2 * fine - coarse;
+    const double          s_xy = -G * std::sin(1.), s_xx = 1 - G * (1 - std::cos(1.)), s_yy = 1 + G * (1 - std::cos(1.));
+    EXPECT_NEAR(limit(0, 1), s_xy, 2e-4 * G);
+    EXPECT_NEAR(limit(0, 0), s_xx, 2e-4 * G);
+    EXPECT_NEAR(limit(1, 1), s_yy, 2e-4 * G);
+    EXPECT_NEAR(fine(0, 1), s_xy, 0.01 * G);
+    EXPECT_NEAR(fine(0, 0), s_xx, 0.01 * G);
+  }
+
+  // Simple shear under constant normal stress, psi = 0: no plastic strain normal to the flow, so that the planes of shear are
+  // those of the largest shear stress (Davis 1968): s_xx = s_yy = s and tau = s sin phi + c cos phi = 0.5 + 0.01 x 0.866025.
+  TEST(Validation, SimpleShearStrengthIsThatOfDavis)
+  {
+    const QuadMesh mesh    = rectangle(2, 2, 2.);
+    Loading        loading = straight_loading(1, {2, 0}, {0.1});
+    loading.lateral        = PeriodicSides{0.};
+    loading.platens[1][1]  = force(-2);
+    for (const auto &[law, element] : plastic_elements)
+      {
+        Options options = one_element({law, element}, 0, 0.01);
+        options         = with(options, Platens::rough, Kinematics::small_strain);
+        const Course c  = finished(mesh, loading, options);
+        EXPECT_NEAR(c.end().mean_stress(1, 1), 1, 1e-6) << name_of(law);
+        EXPECT_NEAR(c.end().mean_stress(0, 0), 1, 2e-3) << name_of(law);
+        EXPECT_NEAR(-c.end().mean_stress(0, 1), 0.508660, 2e-4) << name_of(law) << ", " << name_of(element);
+        EXPECT_NEAR(c.end().upper_platen_force.x(), 2 * 0.508660, 4e-4) << name_of(law);
+      }
+  }
+
+  // A sample of 12 x 24 elements at its limit, psi = 0, whose volume cannot change: an element that locks is stronger. Between
+  // smooth platens the closed form at phi = 20, c = 0.1, s3 = 0.98: Kp = 2.039607, 0.98 Kp + 0.2 sqrt(Kp) = 2.284444; between
+  // rough ones the two elements agree.
+  TEST(Validation, ElementsDoNotLock)
+  {
+    const QuadMesh mesh = rectangle(12, 24, 1.);
+    for (const Platens platens : {Platens::smooth, Platens::rough})
+      {
+        double stress[2];
+        for (const bool q2 : {false, true})
+          {
+            Options options = perfectly_plastic(LawKind::mohr_coulomb, 20, 0, 0.1);
+            options         = with_steps(with(options, platens, Kinematics::small_strain), 2e-3);
+            options.element = q2 ? Displacement::q2 : Displacement::q1_bbar;
+            const Course c  = finished(mesh, straight_loading(1, {0, -24}, {0.016, 0.02}), options);
+            stress[q2]      = -c.snapshots[1].upper_platen_force.y() / 12;
+            EXPECT_LT(stress[q2], -c.snapshots[0].upper_platen_force.y() / 12) << "the limit is behind, s3 falls";
+          }
+        EXPECT_NEAR(stress[0], stress[1], 0.02 * stress[1]) << name_of(platens);
+        if (platens == Platens::smooth)
+          {
+            EXPECT_NEAR(stress[0], 2.284444, 1e-4);
+            EXPECT_NEAR(stress[1], 2.284444, 1e-4);
+          }
+        else
+          {
+            EXPECT_GT(std::min(stress[0], stress[1]), 2.284444) << "rough platens confine";
+          }
+      }
+  }
+} // namespace
