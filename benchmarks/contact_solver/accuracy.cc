@@ -6,7 +6,7 @@
 #include "benchmarks/contact_solver/measuring.h"
 #include "benchmarks/contact_solver/sections.h"
 #include "benchmarks/contact_solver/sheared_states.h"
-#include "discrete/grain_stress_error.h"
+#include "discrete/stepping/grain_stress_error.h"
 
 namespace diptych::benchmarks
 {

@@ -8,9 +8,9 @@
 #include <stdexcept>
 
 #include "benchmarks/contact_solver/measuring.h"
-#include "discrete/checkpoint.h"
-#include "discrete/grain_stress_error.h"
-#include "discrete/step_problem.h"
+#include "discrete/panel/checkpoint.h"
+#include "discrete/stepping/grain_stress_error.h"
+#include "discrete/stepping/step_problem.h"
 
 namespace diptych::benchmarks
 {
@@ -61,7 +61,7 @@ namespace diptych::benchmarks
   {
     const std::string path = folder + "/" + load.name + "_" + std::to_string(grains) + ".h5";
     if (!folder.empty() && std::filesystem::exists(path))
-      return {read_checkpoint(path).progress.state, setting_of(load)};
+      return {read_checkpoint(path).panel.state, setting_of(load)};
     std::cerr << "preparing " << grains << " discs in state " << load.name << std::endl;
     Sheared    sheared = start_shear(grains, load);
     const long n_steps = std::lround(axial_strain / strain_of_a_step(load));
@@ -70,9 +70,9 @@ namespace diptych::benchmarks
     if (!folder.empty())
       {
         std::filesystem::create_directories(folder);
-        Checkpoint checkpoint; // which wants one reference position a grain
-        checkpoint.progress.state              = sheared.state;
-        checkpoint.progress.reference.position = sheared.state.grains.position;
+        StoredCheckpoint checkpoint; // which wants one reference position a grain
+        checkpoint.panel.state              = sheared.state;
+        checkpoint.panel.reference.position = sheared.state.grains.position;
         write_checkpoint(path, checkpoint);
       }
     return sheared;

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "discrete/time_stepping.h"
+#include "discrete/stepping/time_stepping.h"
 
 namespace diptych::benchmarks
 {

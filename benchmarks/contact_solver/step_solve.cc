@@ -17,7 +17,7 @@ namespace diptych::benchmarks
       double tolerance, seconds;
     };
 
-    SolverOptions options_of(const char *solver, const double tolerance, const int max_sweeps)
+    SolverOptions options_of(const ContactSolver solver, const double tolerance, const int max_sweeps)
     {
       SolverOptions options;
       options.solver     = solver;
@@ -45,8 +45,8 @@ namespace diptych::benchmarks
       const MeasuredSolves measured = solve_steps(sheared, {options}, n).front();
       const Spread         s = spread(measured.seconds), sweeps = spread(measured.sweeps), reached = spread(measured.residuals);
       std::printf("%6zu %-5s %-5s %9.0e   %2d of %2d   %8.1e %8.1e %8.1e   %8.0f %8.0f %8.0f   %8.2f %8.2f %8.2f\n",
-                  sheared.state.grains.size(), load.name, options.solver.c_str(), options.tolerance, measured.converged, n,
-                  reached.least, reached.median, reached.most, sweeps.least, sweeps.median, sweeps.most, s.least, s.median,
+                  sheared.state.grains.size(), load.name, name_of(options.solver).c_str(), options.tolerance, measured.converged,
+                  n, reached.least, reached.median, reached.most, sweeps.least, sweeps.median, sweeps.most, s.least, s.median,
                   s.most);
       std::fflush(stdout);
     }
@@ -65,7 +65,7 @@ namespace diptych::benchmarks
         const std::vector<Target> &wanted = targets[load.name[0] == 'B'];
         std::vector<SolverOptions> options;
         for (const Target &target : wanted)
-          options.push_back(options_of("psor", target.tolerance, 200000));
+          options.push_back(options_of(ContactSolver::psor, target.tolerance, 200000));
         const std::vector<MeasuredSolves> measured = solve_steps(sheared_state(states, 4000, load), options, n);
         for (std::size_t k = 0; k < wanted.size(); ++k)
           {
@@ -91,10 +91,10 @@ namespace diptych::benchmarks
       for (const LoadCase &load : {state_a, state_b})
         {
           const Sheared sheared = sheared_state(states, grains, load);
-          print_far(sheared, load, options_of("psor", 1e-8, 1000000), n);
-          print_far(sheared, load, options_of("nsgs", 1e-8, 1000000), 1);
+          print_far(sheared, load, options_of(ContactSolver::psor, 1e-8, 1000000), n);
+          print_far(sheared, load, options_of(ContactSolver::nsgs, 1e-8, 1000000), 1);
         }
     for (const LoadCase &load : {state_a, state_b})
-      print_far(sheared_state(states, 16000, load), load, options_of("psor", 1e-6, 300000), n);
+      print_far(sheared_state(states, 16000, load), load, options_of(ContactSolver::psor, 1e-6, 300000), n);
   }
 } // namespace diptych::benchmarks

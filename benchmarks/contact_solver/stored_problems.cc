@@ -4,7 +4,7 @@
 
 #include "benchmarks/contact_solver/measuring.h"
 #include "benchmarks/contact_solver/sections.h"
-#include "discrete/fclib.h"
+#include "discrete/problem_files/fclib.h"
 #include "discrete/solvers/solver.h"
 
 namespace diptych::benchmarks
@@ -29,7 +29,7 @@ namespace diptych::benchmarks
         }
       const double median = spread(seconds).median;
       std::printf("%-7s %8zu  %-5s %-5s %9.0e %8ld %9.4f %8.1f  %s\n", file, problem.local.n_contacts(), form,
-                  options.solver.c_str(), options.tolerance, report.sweeps, median,
+                  name_of(options.solver).c_str(), options.tolerance, report.sweeps, median,
                   1e9 * median / (double(std::max(1L, report.sweeps)) * double(problem.local.n_contacts())),
                   report.status == SolveStatus::converged ? "converged" : "NOT converged");
       std::fflush(stdout);
@@ -44,7 +44,7 @@ namespace diptych::benchmarks
       {
         const StoredProblem problem = read_fclib(std::string(DIPTYCH_CONTACT_PROBLEMS) + "/" + file + ".h5");
         for (const char *form : {"body", "local"})
-          for (const char *solver : {"psor", "nsgs"})
+          for (const ContactSolver solver : {ContactSolver::psor, ContactSolver::nsgs})
             for (const double tolerance : {1e-4, 1e-8})
               {
                 if (std::string(form) == "body" && !problem.bodies)

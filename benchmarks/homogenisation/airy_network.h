@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "coupling/homogenisation/power_cells.h"
+#include "coupling/averaging/power_cells.h"
 #include "discrete/snapshot.h"
 
 namespace diptych::benchmarks

@@ -5,8 +5,8 @@
 #include "benchmarks/contact_solver/measuring.h"
 #include "benchmarks/homogenisation/samples.h"
 #include "benchmarks/homogenisation/sections.h"
-#include "coupling/homogenisation/fields.h"
-#include "coupling/homogenisation/periodic.h"
+#include "coupling/fields/fields.h"
+#include "coupling/averaging/periodic.h"
 
 namespace diptych::benchmarks
 {

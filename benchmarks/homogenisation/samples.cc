@@ -7,8 +7,8 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "discrete/output.h"
-#include "discrete/panel.h"
+#include "discrete/panel/snapshot_file.h"
+#include "discrete/panel/panel.h"
 
 namespace diptych::benchmarks
 {
@@ -42,12 +42,16 @@ namespace diptych::benchmarks
     loading.stages          = {0.02, 0.025, 0.03, 0.035, 0.04};
     discrete::Options options;
     options.time.step = 0.5;
-    std::vector<discrete::Snapshot> snapshots;
-    discrete::Callbacks             callbacks;
-    callbacks.on_stage            = [&](const discrete::Snapshot &s) { snapshots.push_back(s); };
-    const discrete::Report report = discrete::run({}, loading, options, callbacks);
-    if (report.status != discrete::Status::finished)
-      throw std::runtime_error("the sheared sample: " + report.message);
+    discrete::Panel                 panel({}, loading, options);
+    discrete::Status                status = panel.prepare();
+    std::vector<discrete::Snapshot> snapshots{panel.snapshot()};
+    for (int stage = 1; stage <= int(loading.stages.size()) && status == discrete::Status::finished; ++stage)
+      {
+        status = panel.advance_to(stage);
+        snapshots.push_back(panel.snapshot());
+      }
+    if (status != discrete::Status::finished)
+      throw std::runtime_error("the sheared sample: " + panel.report().message);
     if (!folder.empty())
       {
         std::filesystem::create_directories(folder);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/homogenisation/averaging.h"
+#include "coupling/averaging/averaging.h"
 
 namespace diptych::benchmarks
 {

@@ -5,7 +5,7 @@
 
 #include "benchmarks/homogenisation/samples.h"
 #include "benchmarks/homogenisation/sections.h"
-#include "coupling/homogenisation/resolution_study.h"
+#include "coupling/fields/resolution_study.h"
 
 namespace diptych::benchmarks
 {

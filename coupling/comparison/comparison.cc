@@ -6,43 +6,91 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "continuum/output.h"
+#include "coupling/cells/principal_axes.h"
 #include "coupling/statistics/batch_means.h"
-#include "discrete/output.h"
 
 namespace diptych::coupling
 {
   namespace
   {
-    StagePair stage_pair(const Comparison &c, const std::size_t from, const std::size_t to)
+    constexpr double same_progress = 1e-6; // of stages
+
+    // A panel that ended early leaves its last instant behind, which is no stage of the other.
+    std::size_t n_common_snapshots(const Results &results)
     {
-      return {c.grains[from], c.grains[to], c.nodes[from], c.nodes[to]};
+      const auto &grains = results.discrete.snapshots;
+      const auto &nodes  = results.continuum.snapshots;
+      std::size_t n      = 0;
+      while (n < std::min(grains.size(), nodes.size()) && std::abs(grains[n].progress - nodes[n].progress) < same_progress)
+        ++n;
+      if (n < 2)
+        throw std::invalid_argument("the grains (" + std::to_string(grains.size()) + " snapshots) and the continuum (" +
+                                    std::to_string(nodes.size()) + ") share no stage beyond the start");
+      return n;
     }
 
-    void take_averages(const HistoryTable &history, const double to, const double averaging_strain, PanelRecord &record)
+    StagePair stage_pair(const Results &r, const std::size_t from, const std::size_t to)
     {
-      const auto mean           = [&](const char *name) { return mean_over_strain(history, name, to - averaging_strain, to); };
+      return {r.discrete.snapshots[from], r.discrete.snapshots[to], r.continuum.snapshots[from], r.continuum.snapshots[to]};
+    }
+
+    void take_averages(const HistoryTable &history, const double to, const double width, PanelRecord &record)
+    {
+      const auto mean           = [&](const char *name) { return mean_over_progress(history, name, to - width, to); };
       record.stress_ratio.value = mean("stress_ratio");
-      record.volumetric_strain  = mean_over_strain(history, "volumetric_strain", to, to);
+      record.volumetric_strain  = mean_over_progress(history, "volumetric_strain", to, to);
       record.lower_force        = {mean("lower_fx"), mean("lower_fy")};
       record.upper_force        = {mean("upper_fx"), mean("upper_fy")};
     }
 
-    StageRecord make_stage(const Comparison &c, const std::size_t k, const Scene &scene)
+    void take_differences(StageRecord &stage)
     {
-      const StagePair pair  = stage_pair(c, k - 1, k);
+      const double   continuum = stage.continuum.stress_ratio.value;
+      const Interval exact{continuum, continuum, continuum}; // but for the mesh and the step
+      stage.stress_ratio_difference      = difference_of(stage.discrete.stress_ratio, exact);
+      stage.volumetric_strain_difference = stage.continuum.volumetric_strain - stage.discrete.volumetric_strain;
+      stage.band_difference              = band_difference(stage.increment);
+    }
+
+    StageRecord make_stage(const Comparison &c, const Results &results, const std::size_t k, const Scene &scene)
+    {
+      const StagePair pair  = stage_pair(results, k - 1, k);
       const double    width = averaging_width(scene);
       StageRecord     stage = stage_record(make_increment(pair, scene.comparison.band, std::uint64_t(scene.sample.seed)), pair,
                                            scene);
-      take_averages(c.discrete_history, stage.axial_strain, width, stage.discrete);
-      take_averages(c.continuum_history, stage.axial_strain, width, stage.continuum);
-      stage.discrete.stress_ratio = mean_interval_over_strain(c.discrete_history, "stress_ratio", stage.axial_strain - width,
-                                                              stage.axial_strain);
+      take_averages(c.discrete_history, stage.progress, width, stage.discrete);
+      take_averages(c.continuum_history, stage.progress, width, stage.continuum);
+      stage.discrete.stress_ratio = mean_interval_over_progress(c.discrete_history, "stress_ratio", stage.progress - width,
+                                                                stage.progress);
+      take_differences(stage);
       return stage;
     }
 
+    // Direction of the least compression in the zone's probe, or the first one there is; NaN without any.
+    double minor_direction(const PanelRecord &panel)
+    {
+      const ProbeRecord *probe = panel.probes.empty() ? nullptr : &panel.probes.front();
+      for (const ProbeRecord &one : panel.probes)
+        if (one.region.name == "zone")
+          probe = &one;
+      return probe == nullptr ? NAN : probe->stress.direction_deg + 90;
+    }
+
+    // The angle that theory lines give: between a band and the minor principal stress, in [0, 90].
+    void take_angles_to_stress(std::vector<Band> &bands, const PanelRecord &at_the_end)
+    {
+      for (Band &band : bands)
+        band.to_minor_stress_deg = std::abs(line_turn(band.angle_deg, minor_direction(at_the_end)));
+    }
+
+    void take_angles_to_stress(Increment &increment, const StageRecord &at_the_end)
+    {
+      take_angles_to_stress(increment.discrete.band.bands, at_the_end.discrete);
+      take_angles_to_stress(increment.continuum.band.bands, at_the_end.continuum);
+    }
+
     // Stress against the averaging length, at the centres of the last stage's probes.
-    ResolutionStudy study_of(const Comparison &c, const ComparisonOptions &options)
+    ResolutionStudy study_of(const Comparison &c, const discrete::Snapshot &grains, const ComparisonOptions &options)
     {
       std::vector<StudyPoint> points;
       for (const ProbeRecord &probe : c.stages.back().discrete.probes)
@@ -53,78 +101,74 @@ namespace diptych::coupling
               centre += x / double(probe.region.polygon.size());
             points.push_back({probe.region.name, centre});
           }
-      return resolution_study(c.stages.back().fields.mesh, c.grains.back(), points, options.averaging.kernel);
+      return resolution_study(c.stages.back().fields.mesh, grains, points, options.averaging.kernel);
     }
 
-    // Index of the stage at an axial strain; -1 if it was not reached.
-    int stage_at(const Comparison &c, const double strain)
+    // Which of the first n snapshots is at a progress; -1 if none is.
+    int snapshot_at(const Results &results, const std::size_t n, const double progress)
     {
-      for (std::size_t k = 0; k < c.grains.size(); ++k)
-        if (std::abs(c.grains[k].axial_strain - strain) < 1e-6)
+      for (std::size_t k = 0; k < n; ++k)
+        if (std::abs(results.discrete.snapshots[k].progress - progress) < same_progress)
           return int(k);
       return -1;
     }
 
-    CoarseRun coarse_run(const Scene &scene, const Comparison &c, const std::string &directory)
+    void make_windows(const Scene &scene, const Results &results, const std::size_t n, Comparison &c)
     {
-      CoarseRun result;
+      const std::vector<double> &edges = scene.comparison.window_edges;
+      for (std::size_t w = 0; w + 1 < edges.size(); ++w)
+        if (const int from = snapshot_at(results, n, edges[w]), to = snapshot_at(results, n, edges[w + 1]); from >= 0 && to >= 0)
+          {
+            c.windows.push_back(make_increment(stage_pair(results, std::size_t(from), std::size_t(to)), scene.comparison.band,
+                                               std::uint64_t(scene.sample.seed)));
+            if (to > 0)
+              take_angles_to_stress(c.windows.back(), c.stages[std::size_t(to) - 1]);
+          }
+    }
+
+    CoarseRun coarse_run(const Scene &scene, const Results &results, const std::size_t n, const std::vector<Increment> &windows)
+    {
+      const std::vector<continuum::Snapshot> &nodes = results.coarse.snapshots;
+      CoarseRun                               result;
       result.element_size = scene.comparison.coarse_element_size;
-      result.peak = peak_of_running_mean(read_history(directory + "/continuum.csv"), "stress_ratio", averaging_width(scene));
-      const std::vector<continuum::Snapshot> nodes = continuum::read_snapshots(directory + "/continuum.h5");
-      for (const Increment &window : c.windows)
+      if (nodes.empty())
+        return result;
+      result.peak = peak_of_running_mean(history_table(results.coarse.rows), "stress_ratio", averaging_width(scene));
+      for (const Increment &window : windows)
         {
-          const int from = stage_at(c, window.from), to = stage_at(c, window.to);
+          const int from = snapshot_at(results, n, window.from), to = snapshot_at(results, n, window.to);
           if (to >= int(nodes.size()))
             break;
           Increment coarse;
           coarse.from = window.from, coarse.to = window.to, coarse.frame = window.frame;
-          coarse.continuum = continuum_increment(nodes[from], nodes[to], window.frame, scene.comparison.band,
-                                                 std::uint64_t(scene.sample.seed));
+          coarse.continuum = continuum_increment(nodes[std::size_t(from)], nodes[std::size_t(to)], window.frame,
+                                                 scene.comparison.band, std::uint64_t(scene.sample.seed));
           result.windows.push_back(std::move(coarse));
         }
       return result;
     }
-
-    // In the place of the axial strain, where the stages of the loading are something else: grains and continuum are compared at
-    // the same progress.
-    void count_by_progress(const LoadingOptions &loading, Comparison &c)
-    {
-      if (loading.mode == "descent")
-        return;
-      const bool time                    = loading.mode == "time";
-      c.discrete_history["axial_strain"] = column(c.discrete_history, time ? "time" : "shear_strain");
-      for (discrete::Snapshot &grains : c.grains)
-        grains.axial_strain = time ? grains.time : grains.shear_strain;
-    }
   } // namespace
 
-  Comparison compare(const Scene &scene, const std::string &directory)
+  Comparison compare(const Scene &scene, const Results &results)
   {
-    Comparison c;
-    c.discrete_history  = read_history(directory + "/discrete.csv");
-    c.continuum_history = read_history(directory + "/continuum.csv");
-    c.grains            = discrete::read_snapshots(directory + "/discrete.h5");
-    c.nodes             = continuum::read_snapshots(directory + "/continuum.h5");
-    count_by_progress(scene.loading, c);
-    // A panel that ended early leaves its last instant behind, which is no stage of the other.
-    std::size_t n = 0;
-    while (n < std::min(c.grains.size(), c.nodes.size()) && std::abs(c.grains[n].axial_strain - c.nodes[n].axial_strain) < 1e-6)
-      ++n;
-    if (n < 2)
-      throw std::runtime_error(directory + ": discrete.h5 (" + std::to_string(c.grains.size()) + " stages) and continuum.h5 (" +
-                               std::to_string(c.nodes.size()) + ") share no stage beyond the start");
-    c.grains.resize(n), c.nodes.resize(n);
+    const std::size_t n = n_common_snapshots(results);
+    Comparison        c;
+    c.discrete_history  = history_table(results.discrete.rows);
+    c.continuum_history = history_table(results.continuum.rows);
     for (std::size_t k = 1; k < n; ++k)
-      c.stages.push_back(make_stage(c, k, scene));
-    const std::vector<double> &edges = scene.comparison.window_edges;
-    for (std::size_t w = 0; w + 1 < edges.size(); ++w)
-      if (const int from = stage_at(c, edges[w]), to = stage_at(c, edges[w + 1]); from >= 0 && to >= 0)
-        c.windows.push_back(make_increment(stage_pair(c, from, to), scene.comparison.band, std::uint64_t(scene.sample.seed)));
-    c.coarse             = coarse_run(scene, c, directory + "/coarse");
-    c.resolution         = study_of(c, scene.comparison);
+      {
+        c.stages.push_back(make_stage(c, results, k, scene));
+        take_angles_to_stress(c.stages.back().increment, c.stages.back());
+      }
+    make_windows(scene, results, n, c);
+    c.coarse             = coarse_run(scene, results, n, c.windows);
+    c.resolution         = study_of(c, results.discrete.snapshots[n - 1], scene.comparison);
     const auto &material = scene.continuum.material;
-    if (scene.continuum.law != "linear_elastic")
+    if (continuum::traits(scene.continuum.law).is_plastic)
       c.theory = theory_lines(material.friction_angle_peak, material.dilatancy_angle_peak);
+    c.discrete  = summary_of(scene, results.discrete, results.discrete.snapshots[n - 1], c.discrete_history);
+    c.continuum = summary_of(scene, results.continuum, c.continuum_history);
+    c.cost      = summary_of(results.phases);
     return c;
   }
 } // namespace diptych::coupling

@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "coupling/comparison/history_table.h"
-#include "coupling/homogenisation/resolution_study.h"
+#include "coupling/statistics/history_table.h"
+#include "coupling/fields/resolution_study.h"
 #include "coupling/comparison/stage_record.h"
+#include "coupling/comparison/summary.h"
+#include "coupling/results/results.h"
 #include "coupling/bands/theory_lines.h"
 
 namespace diptych::coupling
@@ -20,21 +22,21 @@ namespace diptych::coupling
     Peak                   peak;
   };
 
-  // Everything the report shows. Lengths in the scene's own unit.
+  // Everything the report shows, but for the snapshots that it was made of. Lengths in the scene's own unit.
   struct Comparison
   {
-    std::vector<StageRecord>         stages;
-    std::vector<Increment>           windows;
-    CoarseRun                        coarse;
-    ResolutionStudy                  resolution; // of the last stage's grain stress
-    std::optional<TheoryLines>       theory;     // of the continuum's peak angles; none for an elastic law
-    HistoryTable                     discrete_history, continuum_history;
-    std::vector<discrete::Snapshot>  grains; // stage 0 first
-    std::vector<continuum::Snapshot> nodes;
+    std::vector<StageRecord>   stages; // stage k of both panels' snapshots, from the first on
+    std::vector<Increment>     windows;
+    CoarseRun                  coarse;
+    ResolutionStudy            resolution; // of the last stage's grain stress
+    std::optional<TheoryLines> theory;     // of the continuum's peak angles; none for an elastic law
+    HistoryTable               discrete_history, continuum_history;
+    DiscreteSummary            discrete;
+    ContinuumSummary           continuum;
+    CostSummary                cost;
   };
 
-  // From the files of a result folder, so that a comparison can be made again without any solver: discrete.h5/.csv,
-  // continuum.h5/.csv, coarse/continuum.h5/.csv. Stages that only one panel reached are left out.
-  // Throws std::runtime_error naming what is missing.
-  Comparison compare(const Scene &scene, const std::string &directory);
+  // Both panels of one scene, without any solver and without files. Stages that only one panel reached are left out. Throws
+  // std::invalid_argument where the panels share no stage beyond the start.
+  Comparison compare(const Scene &scene, const Results &results);
 } // namespace diptych::coupling

@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-#include "coupling/homogenisation/periodic.h"
+#include "coupling/averaging/periodic.h"
+#include "coupling/statistics/block_bootstrap.h"
 
 namespace diptych::coupling
 {
@@ -23,6 +24,17 @@ namespace diptych::coupling
       frame.mean_diameter    = to.mean_diameter;
       frame.platen_increment = to.upper_platen_displacement - from.upper_platen_displacement;
       return frame;
+    }
+
+    double displacement_unit(const SampleFrame &frame, const DisplacementField &grains)
+    {
+      if (const double platen = frame.platen_increment.norm(); platen > 1e-9 * frame.mean_diameter)
+        return platen;
+      std::vector<double> moved;
+      for (const Eigen::Vector2d &u : grains.increment)
+        moved.push_back(u.norm());
+      const double largest = moved.empty() ? 0 : quantile(moved, 0.98);
+      return largest > 0 ? largest : frame.mean_diameter;
     }
 
     // Both panels' strips lie along the grains' band; where they show none along the continuum's, else along the
@@ -46,13 +58,15 @@ namespace diptych::coupling
   {
     const double radius = strain_radius(pair.grains_to.mean_diameter);
     Increment    result;
-    result.from            = pair.grains_from.axial_strain;
-    result.to              = pair.grains_to.axial_strain;
+    result.from            = pair.grains_from.progress;
+    result.to              = pair.grains_to.progress;
+    result.duration        = pair.grains_to.time - pair.grains_from.time;
     result.frame           = make_frame(pair.grains_from, pair.grains_to);
     result.mesh            = quad_mesh(pair.nodes_to);
     result.discrete.field  = displacement_field(pair.grains_from, pair.grains_to);
     result.continuum.field = displacement_field(pair.nodes_from, pair.nodes_to);
     result.cover           = grain_cover(result.mesh, pair.grains_to);
+    result.displacement_unit = displacement_unit(result.frame, result.discrete.field);
 
     const std::vector<Eigen::Vector2d> centres = cell_centres(result.mesh);
     for (PanelIncrement *panel : {&result.discrete, &result.continuum})

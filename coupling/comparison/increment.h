@@ -7,8 +7,8 @@
 
 #include "continuum/snapshot.h"
 #include "coupling/bands/band.h"
-#include "coupling/comparison/cell_fields.h"
-#include "coupling/homogenisation/cell_cover.h"
+#include "coupling/fields/cell_fields.h"
+#include "coupling/averaging/cell_cover.h"
 #include "coupling/cells/mesh_cells.h"
 #include "coupling/bands/strips.h"
 #include "discrete/snapshot.h"
@@ -26,7 +26,10 @@ namespace diptych::coupling
 
   struct Increment
   {
-    double              from = 0, to = 0; // axial strain
+    double              from = 0, to = 0; // progress
+    double              duration = 0;     // of the grains' loading in between [time]
+    // What displacements count in: the upper platen's increment, or, where it rests, the 98th percentile of the grains' [length].
+    double              displacement_unit = 0;
     SampleFrame         frame;
     QuadMesh            mesh;  // of the continuum at `to`
     CellCover           cover; // by the grains at `to`

@@ -9,15 +9,27 @@
 
 namespace diptych::coupling
 {
-  PlatenBalance platen_balance(const HistoryTable &history, const double from_strain)
+  std::vector<double> platen_differences(const HistoryTable &history)
   {
-    const std::vector<double> &strain = column(history, "axial_strain"), &lower = column(history, "lower_fy"),
+    const std::vector<double> &lower = column(history, "lower_fy"), &upper = column(history, "upper_fy");
+    std::vector<double>        differences;
+    for (std::size_t k = 0; k < lower.size(); ++k)
+      {
+        const double size = 0.5 * (std::abs(lower[k]) + std::abs(upper[k]));
+        differences.push_back(size > 0 ? std::abs(lower[k] + upper[k]) / size : NAN);
+      }
+    return differences;
+  }
+
+  PlatenBalance platen_balance(const HistoryTable &history, const double from)
+  {
+    const std::vector<double> &progress = column(history, "progress"), &lower = column(history, "lower_fy"),
                               &upper = column(history, "upper_fy");
     std::vector<double> difference;
     PlatenBalance       result;
     double              below = 0, largest = 0;
-    for (std::size_t k = 0; k < strain.size(); ++k)
-      if (strain[k] > from_strain)
+    for (std::size_t k = 0; k < progress.size(); ++k)
+      if (is_beyond(progress[k], from))
         {
           difference.push_back((lower[k] + upper[k]) / (0.5 * (lower[k] - upper[k])));
           below += std::abs(difference.back()) < 0.01;

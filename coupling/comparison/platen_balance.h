@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "coupling/comparison/history_table.h"
+#include "coupling/statistics/history_table.h"
 #include "coupling/statistics/interval.h"
 
 namespace diptych::coupling
@@ -18,6 +18,9 @@ namespace diptych::coupling
     Interval mean;                        // signed, batch means of ten runs of steps
   };
 
-  // Steps beyond from_strain of axial strain; columns lower_fy and upper_fy. NaN where there are none.
-  PlatenBalance platen_balance(const HistoryTable &history, double from_strain = 0.002);
+  // |lower + upper| / mean size of the two, of every row; NaN where there is no force.
+  std::vector<double> platen_differences(const HistoryTable &history);
+
+  // Steps beyond `from` of the progress; columns lower_fy and upper_fy. NaN where there are none.
+  PlatenBalance platen_balance(const HistoryTable &history, double from = 0.002);
 } // namespace diptych::coupling

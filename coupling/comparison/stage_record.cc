@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "coupling/homogenisation/periodic.h"
+#include "coupling/averaging/periodic.h"
 #include "coupling/cells/principal_axes.h"
 
 namespace diptych::coupling
@@ -22,9 +22,9 @@ namespace diptych::coupling
     void map_fields(const StagePair &stage, const ComparisonOptions &options, StageRecord &record)
     {
       record.fields  = mesh_fields(record.increment.mesh, stage, options.averaging);
-      record.mapping = {record.fields.grains.total_relative_error, record.fields.grains.outside_share,
+      record.mapping = {discrete::name_of(options.averaging.method), record.fields.grains.total_relative_error, record.fields.grains.outside_share,
                         stage.grains_to.window_time, NAN};
-      if (options.averaging.method == "segments")
+      if (options.averaging.method == AveragingMethod::segments)
         record.mapping.nodal_residual = map_grains(record.fields.mesh, stage.grains_to).nodal_residual;
       record.grid = grid_fields(record.fields, stage, options.averaging, options.grid_size * stage.grains_to.mean_diameter);
       record.stress_differences = stress_differences(record.fields, stage, options.averaging);
@@ -141,7 +141,10 @@ namespace diptych::coupling
   StageRecord stage_record(Increment increment, const StagePair &stage, const Scene &scene)
   {
     StageRecord record;
+    record.progress     = stage.grains_to.progress;
     record.axial_strain = stage.grains_to.axial_strain;
+    record.shear_strain = stage.grains_to.shear_strain;
+    record.time         = stage.grains_to.time;
     record.increment    = std::move(increment);
     map_fields(stage, scene.comparison, record);
 

@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "coupling/comparison/band_difference.h"
 #include "coupling/probes/band_traction.h"
-#include "coupling/comparison/cell_fields.h"
+#include "coupling/fields/cell_fields.h"
 #include "coupling/probes/circular_probe.h"
 #include "coupling/probes/dissipation_split.h"
 #include "coupling/probes/force_chains.h"
@@ -15,8 +16,8 @@
 #include "coupling/statistics/interval.h"
 #include "coupling/probes/probe_statistics.h"
 #include "coupling/probes/probes.h"
-#include "coupling/scene.h"
-#include "coupling/comparison/stress_difference.h"
+#include "coupling/scene/scene.h"
+#include "coupling/fields/stress_difference.h"
 
 namespace diptych::coupling
 {
@@ -46,6 +47,7 @@ namespace diptych::coupling
 
   struct MappingRecord
   {
+    std::string method; // of the averaging
     double total_relative_error = 0, outside_share = 0;
     double window_time    = 0;   // over which the grains' forces are averaged: impulses / this time
     double nodal_residual = NAN; // of `segments` on the mesh; NaN for other methods, or where periodic.h says so
@@ -53,7 +55,7 @@ namespace diptych::coupling
 
   struct StageRecord
   {
-    double      axial_strain = 0;
+    double      progress = 0, axial_strain = 0, shear_strain = 0, time = 0; // of the grains' loading
     Increment   increment; // since the preceding stage
     PanelRecord discrete, continuum;
 
@@ -65,6 +67,10 @@ namespace diptych::coupling
     MappingRecord                 mapping;
     std::vector<StressDifference> stress_differences; // cells, 3 d, 6 d
     std::string                   stress_verdict;
+
+    Interval       stress_ratio_difference;            // continuum minus grains
+    double         volumetric_strain_difference = NAN; // likewise
+    BandDifference band_difference;
   };
 
   // increment: of the stage. Histories and intervals of the stress ratio are the caller's.

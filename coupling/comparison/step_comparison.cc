@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "discrete/text_file.h"
+#include "discrete/files/text_file.h"
 
 namespace diptych::coupling
 {
@@ -38,15 +38,6 @@ namespace diptych::coupling
       return value_at(table, name, time);
     }
 
-    // The strain that a loading drives: descent or travel of the upper platen; where neither advances, none.
-    std::string driven_strain(const HistoryTable &table)
-    {
-      for (const std::string name : {"axial_strain", "shear_strain"})
-        if (table.count(name) > 0 && std::abs(column(table, name).back()) > 1e-12)
-          return name;
-      return "";
-    }
-
     // Instants that all runs have reached, from one averaging window on.
     std::vector<double> instants(const std::vector<StepRun> &runs, const double window)
     {
@@ -61,16 +52,14 @@ namespace diptych::coupling
     }
   } // namespace
 
-  StepComparison compare_steps(const std::vector<StepRun> &runs, const double averaging_strain)
+  StepComparison compare_steps(const std::vector<StepRun> &runs, const double width, const discrete::Walk walk)
   {
     if (runs.size() < 2)
       throw std::invalid_argument("a study of the step needs at least two runs");
     const HistoryTable &finest = runs.back().history;
-    const std::string   strain = driven_strain(finest);
     const double        end    = column(finest, "time").back();
-    // Without a driven strain a tenth of the loading is averaged over.
-    const double              window = strain.empty() ? 0.1 * end
-                                                      : end * std::min(1., averaging_strain / std::abs(column(finest, strain).back()));
+    // In time: all is compared at equal times.
+    const double              window = end * std::min(1., width / std::abs(column(finest, "progress").back()));
     const std::vector<double> x      = instants(runs, window);
     std::vector<std::string>  names{"stress_ratio"};
     names.insert(names.end(), cumulated.begin(), cumulated.end());
@@ -90,7 +79,7 @@ namespace diptych::coupling
                 const double difference = std::abs(measured(run.history, name, time, window) -
                                                    measured(finest, name, time, window));
                 if (difference > largest && &run == &runs.front())
-                  q.at_strain = strain.empty() ? time : value_at(finest, strain, time);
+                  q.at_progress = value_at(finest, "progress", time);
                 largest = std::max(largest, difference);
               }
             q.largest_difference.push_back(scale > 0 ? largest / scale : 0);
@@ -105,8 +94,8 @@ namespace diptych::coupling
     text.precision(3);
     text << "step " << runs.front().step << " against " << runs.back().step << ": "
          << (comparison.largest <= margin ? "the step does not matter" : "the step matters") << ", largest difference "
-         << 100 * comparison.largest << " % (" << worst->name << ", at " << 100 * worst->at_strain << " % axial strain; margin "
-         << 100 * margin << " %)";
+         << 100 * comparison.largest << " % (" << worst->name << ", at " << text_of(walk, worst->at_progress)
+         << "; margin " << 100 * margin << " %)";
     comparison.verdict = text.str();
     return comparison;
   }
@@ -117,14 +106,14 @@ namespace diptych::coupling
                                               "impact_dissipation", "kinetic_energy", "max_penetration"};
     std::ostringstream             csv;
     csv.precision(10);
-    csv << "step,time,axial_strain";
+    csv << "step,time,progress";
     for (const std::string &name : columns)
       csv << ',' << name;
     csv << '\n';
     for (const StepRun &run : runs)
       for (std::size_t k = 0; k < column(run.history, "time").size(); ++k)
         {
-          csv << run.step << ',' << column(run.history, "time")[k] << ',' << column(run.history, "axial_strain")[k];
+          csv << run.step << ',' << column(run.history, "time")[k] << ',' << column(run.history, "progress")[k];
           for (const std::string &name : columns)
             csv << ',' << column(run.history, name)[k];
           csv << '\n';
@@ -136,7 +125,7 @@ namespace diptych::coupling
       root["steps"].push_back(run.step);
     for (const StepComparison::Quantity &q : comparison.quantities)
       root["quantities"].push_back(
-        {{"name", q.name}, {"largest_difference", q.largest_difference}, {"at_axial_strain", q.at_strain}});
+        {{"name", q.name}, {"largest_difference", q.largest_difference}, {"at_progress", q.at_progress}});
     discrete::write_text(directory + "/study_step.json", root.dump(1) + "\n");
   }
 } // namespace diptych::coupling

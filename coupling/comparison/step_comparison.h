@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "coupling/comparison/history_table.h"
+#include "coupling/statistics/history_table.h"
+#include "discrete/walk.h"
 
 namespace diptych::coupling
 {
@@ -17,7 +18,7 @@ namespace diptych::coupling
   };
 
   // What halving the step changes (Moreau 1997: compare energy against time). Energies are cumulated since the start of the
-  // loading; stress ratios are running means over `averaging_strain`, because single steps of rigid grains scatter; all is
+  // loading; stress ratios are running means, because single steps of rigid grains scatter; all is
   // compared at equal times.
   struct StepComparison
   {
@@ -26,17 +27,18 @@ namespace diptych::coupling
       std::string         name;               // column of discrete.csv
       std::vector<double> largest_difference; // of each run from the finest, relative to its largest stress ratio or,
                                               // for energies, to its largest external work
-      double at_strain = 0;                   // driven strain (none: time) where the coarsest run differs most
+      double at_progress = 0;                 // where the coarsest run differs most
     };
     std::vector<Quantity> quantities;
     double                largest = 0; // of the coarsest run, over all quantities
     std::string           verdict;
   };
 
-  // Runs from the coarsest to the finest. Throws std::invalid_argument for fewer than two.
-  StepComparison compare_steps(const std::vector<StepRun> &runs, double averaging_strain);
+  // Runs from the coarsest to the finest, all loaded along `walk`; `width`: of the running means, in its unit. Throws
+  // std::invalid_argument for fewer than two.
+  StepComparison compare_steps(const std::vector<StepRun> &runs, double width, discrete::Walk walk);
 
-  // study_step.csv (strain, time, and for every run stress ratio, external work, dissipations, kinetic energy) and
-  // study_step.json. Strains are those of the coarsest run.
+  // study_step.csv (progress, time, and for every run stress ratio, external work, dissipations, kinetic energy) and
+  // study_step.json.
   void write_step_comparison(const std::string &directory, const std::vector<StepRun> &runs, const StepComparison &comparison);
 } // namespace diptych::coupling

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <stdexcept>
 
 #include <nlohmann/json.hpp>
@@ -25,12 +24,23 @@ namespace diptych::coupling
       return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
     }
 
-    // What stands for a place, repeats a list, is an interval's end, or changes from run to run of the same seed.
-    bool is_left_out(const std::string &key)
+    // What a place of comparison.json holds; nothing for a place that is not listed.
+    const NumberDescription *description_of(const std::string &place)
     {
-      static const std::set<std::string> keys = {
-        "axial_strain", "from", "to", "strips", "low", "high", "resamples", "ns_per_update", "solver_share_of_cpu"};
-      return keys.count(key) > 0 || ends_with(key, "_cpu_s") || ends_with(key, "_wall_s") || ends_with(key, "_seconds");
+      static const NumberSchema                                   schema = comparison_schema();
+      static const std::map<std::string, const NumberDescription *> by_place = [] {
+        std::map<std::string, const NumberDescription *> result;
+        for (const NumberDescription &number : schema)
+          result[number.place] = &number;
+        return result;
+      }();
+      const auto found = by_place.find(place);
+      return found == by_place.end() ? nullptr : found->second;
+    }
+
+    bool is_averaged(const NumberDescription &number)
+    {
+      return number.kind == Kind::number || number.kind == Kind::line;
     }
 
     // Stages of two seeds may differ by rounding: six digits name them alike.
@@ -59,26 +69,39 @@ namespace diptych::coupling
       return found == names.end() ? key : found->second;
     }
 
-    void collect(const json &value, const std::string &place, Member &member);
-
-    void collect_list(const json &list, const std::string &place, const std::string &key, Member &member)
+    // Where in comparison.json a value stands, and how a member calls it.
+    struct Place
     {
+      std::string keys, name;
+
+      Place at(const std::string &key) const { return {keys + "/" + key, name + " " + key}; }
+    };
+
+    void collect(const json &value, const Place &place, Member &member);
+
+    void collect_list(const json &list, const Place &place, const std::string &key, Member &member)
+    {
+      const std::string keys = place.keys + "/" + key;
       if (key == "bands")
         {
-          member.band_counts.emplace_back(place, int(list.size()));
+          member.band_counts.emplace_back(place.name, int(list.size()));
           if (!list.empty())
-            collect(list.front(), place + " band", member);
+            collect(list.front(), {keys, place.name + " band"}, member);
           return;
         }
       for (const json &entry : list)
         if (const std::string name = name_of(entry); !name.empty())
-          collect(entry, place + " " + singular(key) + " " + name, member);
+          collect(entry, {keys, place.name + " " + singular(key) + " " + name}, member);
     }
 
-    void collect(const json &value, const std::string &place, Member &member)
+    void collect(const json &value, const Place &place, Member &member)
     {
       if (value.is_number())
-        member.numbers.emplace_back(place, value.get<double>());
+        {
+          const NumberDescription *number = description_of(place.keys);
+          if (number != nullptr && is_averaged(*number))
+            member.numbers.push_back({place.name, value.get<double>(), number});
+        }
       else if (value.is_object() && value.contains("value"))
         collect(value["value"], place, member);
       else if (value.is_object())
@@ -86,56 +109,28 @@ namespace diptych::coupling
           {
             if (entry.is_array())
               collect_list(entry, place, key, member);
-            else if (!is_left_out(key))
-              collect(entry, place + " " + key, member);
+            else
+              collect(entry, place.at(key), member);
           }
     }
 
-    void collect_windows(const json &windows, const std::string &prefix, Member &member)
+    void collect_windows(const json &windows, const Place &of_list, Member &member)
     {
       for (const json &window : windows)
-        collect(window, prefix + "window " + short_text(window.at("from")) + "-" + short_text(window.at("to")), member);
+        collect(window, {of_list.keys, of_list.name + "window " + short_text(window.at("from")) + "-" + short_text(window.at("to"))},
+                member);
     }
 
-    bool is_of_bands(const std::string &name)
+    // Of one panel's strongest band.
+    bool is_of_bands(const NumberDescription &number, const std::string &key)
     {
-      return name.find(" band ") != std::string::npos;
+      return ends_with(number.place, "/bands/" + key);
     }
 
-    bool is_difference(const std::string &name)
+    // Between the panels' bands: continuum minus grains.
+    bool is_difference_of_bands(const NumberDescription &number, const std::string &key)
     {
-      return name.find(" difference ") != std::string::npos;
-    }
-
-    // The angle between the panels' bands has no sign and is no line.
-    bool is_line(const std::string &name)
-    {
-      return !is_difference(name) &&
-             (ends_with(name, "angle_deg") || ends_with(name, "direction_deg") || ends_with(name, "fabric_to_stress_deg"));
-    }
-
-    std::string unit_of(const std::string &name)
-    {
-      // inside and outside are dissipations [energy / area].
-      static const std::map<std::string, std::string> units = {{"s1", "pressure"},
-                                                               {"s2", "pressure"},
-                                                               {"inside", "pressure"},
-                                                               {"outside", "pressure"},
-                                                               {"initial_height", "length"},
-                                                               {"radius", "length"},
-                                                               {"step", "time"},
-                                                               {"step_length", "time"},
-                                                               {"window_time", "time"},
-                                                               {"platen_speed", "length/time"}};
-      const std::string                               key   = name.substr(name.rfind(' ') + 1);
-      if (ends_with(key, "_deg"))
-        return "degrees";
-      if (ends_with(key, "_d"))
-        return "mean diameters";
-      if (name.find(" grain_pressure ") != std::string::npos && key != "grains")
-        return "pressure";
-      const auto found = units.find(key);
-      return found == units.end() ? "-" : found->second;
+      return number.place == "stages/difference/" + key || number.place == "windows/difference/" + key;
     }
 
     // Names in the order of their first appearance, with one value a member.
@@ -144,12 +139,13 @@ namespace diptych::coupling
       std::vector<Quantity>              quantities;
       std::map<std::string, std::size_t> place;
       for (std::size_t k = 0; k < members.size(); ++k)
-        for (const auto &[name, value] : members[k].numbers)
+        for (const MemberNumber &entry : members[k].numbers)
           {
-            const auto [found, is_new] = place.emplace(name, quantities.size());
+            const auto [found, is_new] = place.emplace(entry.name, quantities.size());
             if (is_new)
-              quantities.push_back({name, unit_of(name), {}, std::vector<double>(members.size(), no_value)});
-            quantities[found->second].values[k] = value;
+              quantities.push_back({entry.name, entry.number->unit, entry.number->kind == Kind::line, {},
+                                    std::vector<double>(members.size(), no_value)});
+            quantities[found->second].values[k] = entry.value;
           }
       return quantities;
     }
@@ -188,43 +184,51 @@ namespace diptych::coupling
       std::string quantity, discrete, continuum; // names of the panels' quantities
       double      margin;
       Measure     measure;
+      std::string unit; // of the margin
     };
 
     std::vector<Question> questions(const std::vector<BandCount> &bands, const EquivalenceMargins &margins)
     {
       const std::string     peak = "peak_stress_ratio", volume = "final_volumetric_strain", of_grains = " discrete";
       std::vector<Question> list = {
-        {peak, "discrete_summary " + peak, "continuum_summary " + peak, margins.peak_stress_ratio, Measure::relative},
-        {volume, "discrete_summary " + volume, "continuum_summary " + volume, margins.volumetric_strain, Measure::absolute}};
+        {peak, "discrete_summary " + peak, "continuum_summary " + peak, margins.peak_stress_ratio, Measure::relative, "-"},
+        {volume, "discrete_summary " + volume, "continuum_summary " + volume, margins.volumetric_strain, Measure::absolute, "-"}};
       for (const BandCount &count : bands)
         if (count.name.rfind("window ", 0) == 0 && ends_with(count.name, of_grains))
           {
             const std::string window = count.name.substr(0, count.name.size() - of_grains.size());
             for (const auto &[key, margin, measure] : {std::tuple{" band angle_deg", margins.angle, Measure::line},
                                                        std::tuple{" band width_10_90_d", margins.thickness, Measure::relative}})
-              list.push_back({window + key, window + of_grains + key, window + " continuum" + key, margin, measure});
+              list.push_back({window + key, window + of_grains + key, window + " continuum" + key, margin, measure,
+                              measure == Measure::line ? "degrees" : "-"});
           }
       return list;
     }
 
-    std::vector<double> values_of(const std::vector<Quantity> &quantities, const std::string &name, const std::size_t n)
+    const Quantity *quantity_of(const std::vector<Quantity> &quantities, const std::string &name)
     {
       for (const Quantity &quantity : quantities)
         if (quantity.name == name)
-          return quantity.values;
-      return std::vector<double>(n, no_value);
+          return &quantity;
+      return nullptr;
+    }
+
+    std::vector<double> values_of(const Quantity *quantity, const std::size_t n)
+    {
+      return quantity != nullptr ? quantity->values : std::vector<double>(n, no_value);
     }
 
     PanelVerdict answer(const Question &question, const std::vector<Quantity> &quantities, const std::size_t n_members)
     {
-      const bool   relative = question.measure == Measure::relative;
-      PanelVerdict result;
+      const bool      relative = question.measure == Measure::relative;
+      const Quantity *discrete = quantity_of(quantities, question.discrete), *continuum = quantity_of(quantities, question.continuum);
+      PanelVerdict    result;
       result.quantity  = question.quantity;
-      result.unit      = relative ? "-" : unit_of(question.quantity);
+      result.unit      = relative ? "-" : discrete != nullptr ? discrete->unit : continuum != nullptr ? continuum->unit : question.unit;
       result.margin    = question.margin;
       result.relative  = relative;
-      result.discrete  = values_of(quantities, question.discrete, n_members);
-      result.continuum = values_of(quantities, question.continuum, n_members);
+      result.discrete  = values_of(discrete, n_members);
+      result.continuum = values_of(continuum, n_members);
       std::vector<double> first, second, difference, turn;
       for (std::size_t k = 0; k < n_members; ++k)
         if (const double a = result.discrete[k], b = result.continuum[k]; std::isfinite(a) && std::isfinite(b))
@@ -246,49 +250,49 @@ namespace diptych::coupling
       {
         member.seed = comparison.at("seed");
         for (const char *panel : {"discrete_summary", "continuum_summary"})
-          collect(comparison.at(panel), panel, member);
-        collect_windows(comparison.at("windows"), "", member);
+          collect(comparison.at(panel), {panel, panel}, member);
+        collect_windows(comparison.at("windows"), {"windows", ""}, member);
         for (const json &stage : comparison.at("stages"))
-          collect(stage, "stage " + short_text(stage.at("axial_strain")), member);
+          collect(stage, {"stages", "stage " + short_text(stage.at("progress"))}, member);
         if (const json coarse = comparison.value("continuum_coarse", json::object()); coarse.contains("windows"))
           {
-            collect(coarse, "continuum_coarse", member);
-            collect_windows(coarse["windows"], "continuum_coarse ", member);
+            collect(coarse, {"continuum_coarse", "continuum_coarse"}, member);
+            collect_windows(coarse["windows"], {"continuum_coarse/windows", "continuum_coarse "}, member);
           }
       }
     catch (const json::exception &error)
       {
-        throw std::runtime_error(std::string("no comparison of two panels: ") + error.what());
+        throw std::invalid_argument(std::string("no comparison of two panels: ") + error.what());
       }
     return member;
   }
 
   bool is_mirror_symmetric(const Scene &scene)
   {
-    const discrete::WallDriveOptions &drives = scene.discrete.drives;
-    for (const std::string &drive : {drives.lower_x, drives.lower_y, drives.upper_x, drives.upper_y, drives.left_x, drives.left_y,
-                                     drives.right_x, drives.right_y})
-      if (drive != "auto")
-        return false;
-    return scene.loading.mode == "descent" && scene.loading.horizontal_over_vertical == 0 && scene.discrete.time.gravity_x == 0;
+    bool driven = false;
+    for_each_drive(scene.discrete.drives,
+                   [&](int, int, const char *, const discrete::DriveOption &drive) { driven = driven || !drive.is_auto(); });
+    return !driven && scene.loading.mode == discrete::LoadingMode::descent && scene.loading.horizontal_over_vertical == 0 &&
+           scene.discrete.time.gravity_x == 0;
   }
 
   void fold(Member &member)
   {
+    const auto                    band_of = [](const std::string &name) { return name.substr(0, name.rfind(' ')); };
     std::map<std::string, double> sign; // of the angle, by the band's place
-    for (const auto &[name, value] : member.numbers)
-      if (is_of_bands(name) && ends_with(name, " angle_deg"))
-        sign[name.substr(0, name.rfind(' '))] = value < 0 ? -1 : 1;
-    const auto was_between_images = [](const auto &number) {
-      return is_difference(number.first) && (ends_with(number.first, " angle_deg") || ends_with(number.first, " offset_d"));
+    for (const MemberNumber &entry : member.numbers)
+      if (is_of_bands(*entry.number, "angle_deg"))
+        sign[band_of(entry.name)] = entry.value < 0 ? -1 : 1;
+    const auto was_between_images = [](const MemberNumber &entry) {
+      return is_difference_of_bands(*entry.number, "angle_deg") || is_difference_of_bands(*entry.number, "offset_d");
     };
     auto &numbers = member.numbers;
     numbers.erase(std::remove_if(numbers.begin(), numbers.end(), was_between_images), numbers.end());
-    for (auto &[name, value] : numbers)
-      if (is_of_bands(name) && (ends_with(name, " angle_deg") || ends_with(name, " offset_d")))
-        value = std::abs(value);
-      else if (is_of_bands(name) && ends_with(name, " jump"))
-        value *= sign.emplace(name.substr(0, name.rfind(' ')), 1).first->second;
+    for (MemberNumber &entry : numbers)
+      if (is_of_bands(*entry.number, "angle_deg") || is_of_bands(*entry.number, "offset_d"))
+        entry.value = std::abs(entry.value);
+      else if (is_of_bands(*entry.number, "jump"))
+        entry.value *= sign.emplace(band_of(entry.name), 1).first->second;
   }
 
   Ensemble evaluate(const std::vector<Member> &members, const EquivalenceMargins &margins)
@@ -298,7 +302,7 @@ namespace diptych::coupling
       ensemble.seeds.push_back(member.seed);
     ensemble.quantities = tabulated(members);
     for (Quantity &quantity : ensemble.quantities)
-      quantity.statistics = is_line(quantity.name) ? line_statistics(known(quantity.values)) : statistics(known(quantity.values));
+      quantity.statistics = quantity.is_line ? line_statistics(known(quantity.values)) : statistics(known(quantity.values));
     ensemble.bands = counted(members);
     for (const Question &question : questions(ensemble.bands, margins))
       ensemble.verdicts.push_back(answer(question, ensemble.quantities, members.size()));

@@ -9,22 +9,31 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "coupling/statistics/equivalence.h"
-#include "coupling/scene.h"
+#include "coupling/statistics/equivalence_margins.h"
+#include "coupling/comparison/comparison_schema.h"
+#include "coupling/scene/scene.h"
 
 namespace diptych::coupling
 {
   // The numbers of one comparison.json that may be averaged over realisations.
+  struct MemberNumber
+  {
+    std::string              name;
+    double                   value  = 0;
+    const NumberDescription *number = nullptr; // what it is
+  };
+
   struct Member
   {
-    int                                         seed = 0;
-    std::vector<std::pair<std::string, double>> numbers;     // by name, in the order of the file
-    std::vector<std::pair<std::string, int>>    band_counts; // "window 0-0.01 discrete": bands found there
+    int                                      seed = 0;
+    std::vector<MemberNumber>                numbers;     // in the order of the file
+    std::vector<std::pair<std::string, int>> band_counts; // "window 0-0.01 discrete": bands found there
   };
 
   // Names are made of the place and the key: "stage 0.04 discrete stress_ratio", "stage 0.04 discrete probe zone t_over_s",
   // "window 0.02-0.04 continuum band angle_deg" (of the strongest band; absent where none was found), "discrete_summary
-  // peak_stress_ratio". Of {"value", "low", "high"} the value is taken; lists, texts, nulls, strips and what a clock measured are
-  // left out. Throws std::runtime_error naming what is missing.
+  // peak_stress_ratio". Of {"value", "low", "high"} the value is taken; lists, texts, nulls, and what comparison_numbers.h lists as
+  // a setting or as measured by a clock are left out. Throws std::invalid_argument naming what is missing.
   Member member_of(const nlohmann::json &comparison);
 
   // Whether nothing but chance tells left from right: vertical descent, no horizontal gravity, no wall driven by a key of its
@@ -38,7 +47,8 @@ namespace diptych::coupling
   struct Quantity
   {
     std::string         name, unit;
-    SampleStatistics    statistics; // of lines where the name is a line's angle
+    bool                is_line = false; // an angle that repeats after 180 degrees
+    SampleStatistics    statistics;
     std::vector<double> values;     // one a member; NaN where it has none
   };
 

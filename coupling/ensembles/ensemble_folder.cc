@@ -4,15 +4,13 @@
 
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <sstream>
-
-#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
-#include "coupling/result_folder.h"
-#include "discrete/text_file.h"
+#include "coupling/folders/result_folder.h"
+#include "coupling/scene/identity.h"
+#include "discrete/files/text_file.h"
 
 namespace diptych::coupling
 {
@@ -31,46 +29,22 @@ namespace diptych::coupling
       return text.str();
     }
 
-    bool may_differ(const std::string &key)
-    {
-      return key == "sample/seed" || key.rfind("output/", 0) == 0 || key.rfind("comparison/margin_", 0) == 0 ||
-             key == "discrete/checkpoint_minutes" || key == "continuum/checkpoint_minutes";
-    }
-
-    // Value by section/key of an echoed scene, of all that decides the result of one member.
-    std::map<std::string, std::string> settings_of(const std::string &echoed)
-    {
-      std::map<std::string, std::string> settings;
-      std::istringstream                 in(echoed);
-      const std::string                  begin = "subsection ", set = "  set ", equals = " = ";
-      std::string                        section;
-      for (std::string line; std::getline(in, line);)
-        if (line.rfind(begin, 0) == 0)
-          section = line.substr(begin.size());
-        else if (const auto at = line.find(equals); line.rfind(set, 0) == 0 && at != std::string::npos)
-          {
-            const std::string key = section + "/" + line.substr(set.size(), at - set.size());
-            if (!may_differ(key))
-              settings[key] = line.substr(at + equals.size());
-          }
-      return settings;
-    }
-
     // Names the first key with two values.
     void demand_same_scene(const Scene &scene)
     {
-      const auto earlier = settings_of(text_of_file(scene.output.directory + "/ensemble.prm")), now = settings_of(echo(scene));
-      for (const auto &[key, value] : now)
-        if (const auto found = earlier.find(key); found == earlier.end() || found->second != value)
-          throw SceneError("--resume: " + key + " = '" + value + "' is not that of " + scene.output.directory + "/ensemble.prm" +
-                           (found == earlier.end() ? "" : ", '" + found->second + "'") +
-                           "; resume with the same scene or start without --resume");
+      const std::string          file       = scene.output.directory + "/ensemble.prm";
+      const std::optional<Scene> earlier    = echoed_scene(file);
+      const std::string          difference = earlier ? first_difference(member_identity(scene), member_identity(*earlier)) :
+                                                        "it was written by another version";
+      if (!difference.empty())
+        throw SceneError("--resume: the scene is not that of " + file + ": " + difference +
+                         "; resume with the same scene or start without --resume");
     }
 
     // Only in a folder that holds a result of diptych: `diptych run` refuses any other, too.
     void forget_member(const std::string &folder)
     {
-      if (earlier_echo(folder).find(echo_title) == std::string::npos)
+      if (!is_echo(folder + "/scene.prm"))
         return;
       remove_results(folder, comparison_files);
       remove_results(folder, {"provenance.json", "checkpoint.h5", "continuum_checkpoint.h5", "coarse"});
@@ -89,16 +63,13 @@ namespace diptych::coupling
 
   bool is_ensemble_folder(const std::string &directory)
   {
-    return text_of_file(directory + "/ensemble.prm").find(echo_title) != std::string::npos;
+    return is_echo(directory + "/ensemble.prm");
   }
 
   void open_ensemble_folder(const Scene &scene, const std::vector<int> &seeds, const bool resume)
   {
     const std::string &directory = scene.output.directory;
-    std::error_code    error;
-    fs::create_directories(directory, error);
-    if (error || access(directory.c_str(), W_OK) != 0)
-      throw SceneError("output/directory = '" + directory + "' cannot be made or written to");
+    make_folder(directory);
     const bool is_ensemble = is_ensemble_folder(directory);
     if (!is_ensemble && !fs::is_empty(directory))
       throw SceneError("output/directory = '" + directory +
@@ -106,7 +77,7 @@ namespace diptych::coupling
     if (resume && is_ensemble)
       demand_same_scene(scene);
     // Killed before its end, this run must not leave the statistics of an earlier one.
-    remove_results(directory, {"ensemble.json", "ensemble.csv", "report.html"});
+    remove_results(directory, {"ensemble.json", "ensemble.csv", "ensemble.h5", "report.html"});
     for (const int seed : seeds)
       if (!resume)
         {
@@ -119,7 +90,8 @@ namespace diptych::coupling
   bool is_finished_member(const Scene &scene, const int seed)
   {
     const std::string folder = member_folder(scene.output.directory, seed);
-    if (settings_of(earlier_echo(folder)) != settings_of(echo(scene)))
+    const std::optional<Scene> earlier = echoed_scene(folder + "/scene.prm");
+    if (!earlier || member_identity(*earlier) != member_identity(scene))
       return false;
     if (scene.output.report && !fs::exists(folder + "/report.html"))
       return false;

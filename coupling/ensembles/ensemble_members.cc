@@ -7,15 +7,14 @@
 #include <iostream>
 #include <thread>
 
-#include <deal.II/base/mpi.h>
-
+#include <mpi.h>
 #include <unistd.h>
 
-#include "coupling/ensembles/child_process.h"
+#include "coupling/processes/child_process.h"
 #include "coupling/ensembles/ensemble_folder.h"
-#include "coupling/processes.h"
-#include "coupling/progress.h"
-#include "coupling/stop_signal.h"
+#include "coupling/processes/processes.h"
+#include "coupling/processes/progress.h"
+#include "coupling/processes/stop_signal.h"
 
 namespace diptych::coupling
 {
@@ -128,7 +127,7 @@ namespace diptych::coupling
     Share own_share(const MemberRuns &runs)
     {
       Share              share{runs};
-      const unsigned int n = n_processes(), own = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+      const unsigned int n = n_processes(), own = own_number();
       for (std::size_t k = 0; k < runs.seeds.size(); ++k)
         if (k % n == own)
           share.waiting.push_back(runs.seeds[k]);

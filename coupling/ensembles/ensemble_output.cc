@@ -7,8 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "coupling/scene_visitors.h"
-#include "discrete/text_file.h"
+#include "coupling/scene/keys.h"
+#include "discrete/files/text_file.h"
 
 #include "coupling/statistics/student.h"
 
@@ -82,7 +82,7 @@ namespace diptych::coupling
       json                        result = json::object();
       std::vector<KeyDescription> keys;
       EquivalenceMargins          copy = margins;
-      visit_parameters(copy, DescribeVisitor{"comparison", keys});
+      visit_parameters(copy, DescribeKeys{"comparison", keys});
       for (const KeyDescription &key : keys)
         result[key.name] = std::stod(key.value);
       return result;

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "coupling/homogenisation/cell_cover.h"
+#include "coupling/averaging/cell_cover.h"
 
 namespace diptych::coupling
 {

@@ -23,6 +23,8 @@ namespace diptych::coupling
         split.share_inside = split.inside / all;
       if (area > 0)
         split.area_share = area_inside / area;
+      if (split.area_share > 0 && split.area_share < 1 && split.share_inside < 1)
+        split.density_ratio = (split.share_inside / split.area_share) / ((1 - split.share_inside) / (1 - split.area_share));
       return split;
     }
   } // namespace

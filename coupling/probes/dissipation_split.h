@@ -16,6 +16,7 @@ namespace diptych::coupling
   {
     double inside = 0, outside = 0;
     double share_inside = NAN, area_share = NAN;
+    double density_ratio = NAN; // dissipated per area, inside over outside
   };
 
   // Contacts by their point. dissipation: n_contacts energies; outline: of the sample, counter-clockwise. Throws

@@ -143,22 +143,6 @@ namespace diptych::coupling
     }
   } // namespace
 
-  void check_probe_options(const ProbeOptions &options)
-  {
-    const std::vector<double> &rectangles = options.probe_rectangles, &circle = options.probe_circle;
-    if (rectangles.size() % 5 != 0)
-      throw std::invalid_argument("probe_rectangles: " + std::to_string(rectangles.size()) +
-                                  " numbers; five a probe are needed: x, y, length, thickness, angle");
-    for (std::size_t k = 0; k < rectangles.size(); k += 5)
-      if (!(rectangles[k + 2] > 0 && rectangles[k + 3] > 0))
-        throw std::invalid_argument("probe_rectangles: length and thickness of probe " + std::to_string(k / 5 + 1) +
-                                    " must be above 0");
-    if (!circle.empty() && circle.size() != 3)
-      throw std::invalid_argument("probe_circle: " + std::to_string(circle.size()) + " numbers; three are needed: x, y, radius");
-    if (!circle.empty() && !(circle[2] > 0))
-      throw std::invalid_argument("probe_circle: the radius must be above 0");
-  }
-
   std::optional<Eigen::Vector2d> band_middle(const std::vector<Eigen::Vector2d> &outline,
                                              const SampleFrame                  &frame,
                                              const Band                         &band)

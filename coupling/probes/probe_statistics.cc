@@ -8,7 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "coupling/homogenisation/cell_cover.h"
+#include "coupling/averaging/cell_cover.h"
 #include "coupling/cells/principal_axes.h"
 
 namespace diptych::coupling

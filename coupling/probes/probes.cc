@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "coupling/homogenisation/cell_cover.h"
+#include "coupling/averaging/cell_cover.h"
 #include "coupling/cells/principal_axes.h"
 
 namespace diptych::coupling

@@ -66,19 +66,20 @@ namespace diptych::coupling
     return around(all / total, interval_of_batches(sum));
   }
 
-  Interval mean_interval_over_strain(const HistoryTable &table,
-                                     const std::string  &name,
-                                     const double        from,
-                                     const double        to,
-                                     const int           n_batches)
+  Interval mean_interval_over_progress(const HistoryTable &table,
+                                       const std::string  &name,
+                                       const double        from,
+                                       const double        to,
+                                       const int           n_batches)
   {
     std::vector<double> batch;
     for (int k = 0; k < n_batches; ++k)
       batch.push_back(
-        mean_over_strain(table, name, from + (to - from) * k / n_batches, from + (to - from) * (k + 1) / n_batches));
-    const std::vector<double> &strain = column(table, "axial_strain");
-    const auto   rows  = std::count_if(strain.begin(), strain.end(), [&](const double e) { return e > from && e <= to; });
-    const double value = mean_over_strain(table, name, from, to);
+        mean_over_progress(table, name, from + (to - from) * k / n_batches, from + (to - from) * (k + 1) / n_batches));
+    const std::vector<double> &progress = column(table, "progress");
+    const auto                 rows     = std::count_if(progress.begin(), progress.end(),
+                                                        [&](const double at) { return is_beyond(at, from) && !is_beyond(at, to); });
+    const double               value    = mean_over_progress(table, name, from, to);
     return rows >= 2 * n_batches ? around(value, interval_of_batches(batch)) : Interval{value, NAN, NAN};
   }
 } // namespace diptych::coupling

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/comparison/history_table.h"
+#include "coupling/statistics/history_table.h"
 #include "coupling/statistics/interval.h"
 
 namespace diptych::coupling
@@ -21,10 +21,10 @@ namespace diptych::coupling
   // weight below 0 or a sum of weights that is not positive.
   Interval batch_mean_interval(const std::vector<double> &values, const std::vector<double> &weights, int n_batches);
 
-  // mean_over_strain() of a column, with batches of equal strain.
-  Interval mean_interval_over_strain(const HistoryTable &table,
-                                     const std::string  &name,
-                                     double              from,
-                                     double              to,
-                                     int                 n_batches = 4);
+  // mean_over_progress() of a column, with batches of equal progress.
+  Interval mean_interval_over_progress(const HistoryTable &table,
+                                       const std::string  &name,
+                                       double              from,
+                                       double              to,
+                                       int                 n_batches = 4);
 } // namespace diptych::coupling

@@ -321,7 +321,7 @@ namespace
     scene.discrete.drives.left_x  = "velocity 1";
     EXPECT_FALSE(is_mirror_symmetric(scene));
     scene.discrete.drives.left_x = "auto";
-    scene.loading.mode           = "shear";
+    scene.loading.mode           = diptych::discrete::LoadingMode::shear;
     EXPECT_FALSE(is_mirror_symmetric(scene));
   }
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "coupling/probes/probes.h"
-#include "tests/coupling/homogenisation/hexagonal_lattice.h"
+#include "tests/coupling/averaging/hexagonal_lattice.h"
 #include "tests/coupling/synthetic_samples.h"
 
 namespace

@@ -69,20 +69,20 @@ namespace
   }
 
   // A straight line from 0 to 1 over the strain 0 .. 1: quarters 0.125, 0.375, ...; s^2 = 5/48, lag-one correlation
-  // (0.046875 - 0.015625 + 0.046875)/0.3125 + 1/4 = 0.5. The value is that of mean_over_strain().
+  // (0.046875 - 0.015625 + 0.046875)/0.3125 + 1/4 = 0.5. The value is that of mean_over_progress().
   TEST(BatchMeans, OfAHistoryAreOfEqualStrain)
   {
     HistoryTable table;
     for (int k = 0; k <= 40; ++k)
       {
         const double strain = std::pow(k / 40., 1.5); // uneven rows
-        table["axial_strain"].push_back(strain);
+        table["progress"].push_back(strain);
         table["x"].push_back(strain);
       }
-    const Interval i = mean_interval_over_strain(table, "x", 0, 1);
+    const Interval i = mean_interval_over_progress(table, "x", 0, 1);
     EXPECT_NEAR(i.value, 0.5, 1e-12);
     EXPECT_NEAR(i.high - i.value, 3.182446 * std::sqrt(5. / 48 / 4 * 1.5 / 0.5), 1e-6);
-    EXPECT_TRUE(std::isnan(mean_interval_over_strain(table, "x", 0, 0.01).low)); // two rows
+    EXPECT_TRUE(std::isnan(mean_interval_over_progress(table, "x", 0, 0.01).low)); // two rows
   }
 
   // lower + upper = -0.02, 0.002 and 0.002 of 10: 0.2 %, 0.02 %, ...; the step before 0.2 % strain does not count.
@@ -91,7 +91,7 @@ namespace
     HistoryTable table;
     for (int k = 0; k < 40; ++k)
       {
-        table["axial_strain"].push_back(0.001 + 0.002 * k);
+        table["progress"].push_back(0.001 + 0.002 * k);
         table["lower_fy"].push_back(10);
         table["upper_fy"].push_back(k == 0 ? -5 : (k % 4 == 0 ? -10.5 : -9.995));
       }
@@ -101,6 +101,6 @@ namespace
     EXPECT_NEAR(balance.largest, 0.5 / 10.25, 1e-12);
     EXPECT_NEAR(balance.mean.value, (30 * 0.005 / 9.9975 - 9 * 0.5 / 10.25) / 39, 1e-12);
     EXPECT_LT(balance.mean.low, balance.mean.value);
-    EXPECT_EQ(platen_balance({{"axial_strain", {0.001}}, {"lower_fy", {1}}, {"upper_fy", {-1}}}).steps, 0);
+    EXPECT_EQ(platen_balance({{"progress", {0.001}}, {"lower_fy", {1}}, {"upper_fy", {-1}}}).steps, 0);
   }
 } // namespace

@@ -1,0 +1,150 @@
+// diptych: extensive quantities of grains distributed over cells, by one of several methods
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/averaging/averaging.h"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+#include "coupling/averaging/averaging_methods.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    void check(const AveragingOptions &options, const Carriers &c)
+    {
+      const auto rows_match = [](const Columns &columns, const std::size_t n) {
+        return columns.cols() == 0 || std::size_t(columns.rows()) == n;
+      };
+      if (c.radius.size() != c.position.size() || !rows_match(c.of_grains, c.position.size()))
+        throw std::invalid_argument("averaging: one radius and one row of quantities a grain are needed");
+      if (c.half_size.size() != c.half.size() || !rows_match(c.uniform, c.half.size()) || !rows_match(c.tapered, c.half.size()))
+        throw std::invalid_argument("averaging: one size and one row of quantities a half branch are needed");
+      for (const HalfBranch &half : c.half)
+        if (half.grain >= c.position.size())
+          throw std::invalid_argument("averaging: a half branch names grain " + std::to_string(half.grain) + " of " +
+                                      std::to_string(c.position.size()));
+      if (!(options.width > 0 && c.mean_diameter > 0))
+        throw std::invalid_argument("averaging_width and the mean diameter must be positive");
+    }
+  } // namespace
+
+  CellSums distribute(const AveragingOptions &options, const TargetCells &target, const Carriers &given)
+  {
+    check(options, given);
+    Carriers        wrapped;
+    const Carriers *carriers = &given;
+    if (target.period > 0)
+      {
+        wrapped = given;
+        for (Eigen::Vector2d &x : wrapped.position)
+          x = target.wrapped(x);
+        carriers = &wrapped;
+      }
+    const double width = options.width * given.mean_diameter;
+    switch (options.method)
+      {
+      case AveragingMethod::segments:
+        return average_by_segments(target, *carriers);
+      case AveragingMethod::centroid:
+        return average_by_centroid(target, *carriers);
+      case AveragingMethod::laguerre:
+        return average_by_laguerre(target, *carriers);
+      case AveragingMethod::kernel:
+        return average_by_kernel(target, *carriers, options.kernel, width);
+      case AveragingMethod::projection:
+        return average_by_projection(target, *carriers, width);
+      }
+    throw std::logic_error("averaging: a method without a function");
+  }
+
+  void refuse_contact(const discrete::ContactForce &contact)
+  {
+    throw std::invalid_argument("a contact names grains " + std::to_string(contact.i) + " and " + std::to_string(contact.j) +
+                                ", which are not both there");
+  }
+
+  Carriers moment_carriers(const std::vector<Eigen::Vector2d>        &position,
+                           const std::vector<double>                 &radius,
+                           const std::vector<discrete::ContactForce> &contacts)
+  {
+    Carriers c;
+    c.position = position;
+    c.radius   = radius;
+    std::vector<double> moment;
+    for (const discrete::ContactForce &contact : contacts)
+      if (!contact.force.isZero(0))
+        for_each_half(contact, position, [&](const unsigned int grain, const Eigen::Vector2d &l, const Eigen::Vector2d &f) {
+          c.half.push_back({grain, l});
+          c.half_size.push_back(f.norm() * l.norm());
+          moment.insert(moment.end(), {-f.x() * l.x(), -f.x() * l.y(), -f.y() * l.x(), -f.y() * l.y()});
+        });
+    c.uniform = Eigen::Map<const Columns>(moment.data(), Eigen::Index(c.half.size()), 4);
+    return c;
+  }
+
+  CellSums zero_sums(const TargetCells &target, const Carriers &carriers)
+  {
+    CellSums sums;
+    sums.of_grains = Columns::Zero(target.n_cells(), carriers.of_grains.cols());
+    sums.uniform   = Columns::Zero(target.n_cells(), carriers.uniform.cols());
+    sums.tapered   = Columns::Zero(target.n_cells(), carriers.tapered.cols());
+    return sums;
+  }
+
+  std::vector<double> joined_grains(const TargetCells &target, const Carriers &carriers, const GrainShares &shares)
+  {
+    if (!carriers.count_joined)
+      return {};
+    JoinedGrains                                 joined(target.n_cells());
+    std::vector<std::pair<unsigned int, double>> row;
+    for (std::size_t i = 0; i + 1 < shares.begin.size(); ++i)
+      {
+        row.clear();
+        for (std::size_t k = shares.begin[i]; k < shares.begin[i + 1]; ++k)
+          row.emplace_back(shares.cell[k], shares.share[k]);
+        std::sort(row.begin(), row.end());
+        for (std::size_t k = 0; k < row.size();)
+          {
+            const unsigned int cell  = row[k].first;
+            double             share = 0;
+            for (; k < row.size() && row[k].first == cell; ++k)
+              share += row[k].second;
+            joined.add(cell, share);
+          }
+      }
+    return joined.numbers();
+  }
+
+  CellSums sums_by_owner(const TargetCells &target, const Carriers &carriers, const GrainShares &shares)
+  {
+    // A grain's halves go where it goes, so their quantities are added up first.
+    Columns uniform = Columns::Zero(Eigen::Index(carriers.position.size()), carriers.uniform.cols());
+    Columns tapered = Columns::Zero(Eigen::Index(carriers.position.size()), carriers.tapered.cols());
+    double  outside = 0;
+    for (std::size_t h = 0; h < carriers.half.size(); ++h)
+      {
+        const unsigned int grain = carriers.half[h].grain;
+        if (carriers.uniform.cols() > 0)
+          uniform.row(grain) += carriers.uniform.row(Eigen::Index(h));
+        if (carriers.tapered.cols() > 0)
+          tapered.row(grain) += carriers.tapered.row(Eigen::Index(h));
+        outside += shares.outside[grain] ? carriers.half_size[h] : 0;
+      }
+
+    CellSums sums = zero_sums(target, carriers);
+    for (std::size_t i = 0; i < carriers.position.size(); ++i)
+      for (std::size_t k = shares.begin[i]; k < shares.begin[i + 1]; ++k)
+        {
+          if (carriers.of_grains.cols() > 0)
+            sums.of_grains.row(shares.cell[k]) += shares.share[k] * carriers.of_grains.row(Eigen::Index(i));
+          sums.uniform.row(shares.cell[k]) += shares.share[k] * uniform.row(Eigen::Index(i));
+          sums.tapered.row(shares.cell[k]) += shares.share[k] * tapered.row(Eigen::Index(i));
+        }
+    const double size  = std::accumulate(carriers.half_size.begin(), carriers.half_size.end(), 0.);
+    sums.outside_share = size > 0 ? outside / size : 0;
+    sums.joined        = joined_grains(target, carriers, shares);
+    return sums;
+  }
+} // namespace diptych::coupling

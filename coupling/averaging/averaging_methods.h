@@ -1,0 +1,59 @@
+// diptych: one function a method of averaging; sizes are checked and centres wrapped into the mesh by distribute()
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "coupling/averaging/averaging.h"
+
+namespace diptych::coupling
+{
+  CellSums average_by_segments(const TargetCells &target, const Carriers &carriers);
+  CellSums average_by_centroid(const TargetCells &target, const Carriers &carriers);
+  CellSums average_by_laguerre(const TargetCells &target, const Carriers &carriers);
+  // width: standard deviation [length]
+  CellSums average_by_kernel(const TargetCells &target, const Carriers &carriers, KernelShape shape, double width);
+  CellSums average_by_projection(const TargetCells &target, const Carriers &carriers, double width);
+
+  // n_cells rows of zeros for the columns of the carriers.
+  CellSums zero_sums(const TargetCells &target, const Carriers &carriers);
+
+  // Shares of grains in cells as compressed rows; each row sums to one.
+  struct GrainShares
+  {
+    std::vector<std::size_t>  begin = {0}; // n_grains + 1
+    std::vector<unsigned int> cell;
+    std::vector<double>       share;
+    std::vector<bool>         outside; // n_grains: assigned to a boundary cell because it has no place in the mesh
+
+    void add(const unsigned int c, const double s) { cell.push_back(c), share.push_back(s); }
+    void end_row(const bool is_outside) { begin.push_back(cell.size()), outside.push_back(is_outside); }
+  };
+
+  // Sums of the shares of grains in cells and of their squares.
+  struct JoinedGrains
+  {
+    std::vector<double> sum, squares; // n_cells
+
+    explicit JoinedGrains(const std::size_t n_cells)
+        : sum(n_cells, 0.),
+          squares(n_cells, 0.)
+    {}
+    void add(const unsigned int cell, const double share) { sum[cell] += share, squares[cell] += share * share; }
+
+    std::vector<double> numbers() const
+    {
+      std::vector<double> n;
+      for (std::size_t k = 0; k < sum.size(); ++k)
+        n.push_back(squares[k] > 0 ? sum[k] * sum[k] / squares[k] : 0);
+      return n;
+    }
+  };
+
+  // n_cells, or nothing where it is not wanted. Shares of one grain in one cell that come in parts are taken together.
+  std::vector<double> joined_grains(const TargetCells &target, const Carriers &carriers, const GrainShares &shares);
+
+  // A grain and its halves alike by the grain's shares.
+  CellSums sums_by_owner(const TargetCells &target, const Carriers &carriers, const GrainShares &shares);
+} // namespace diptych::coupling

@@ -1,0 +1,78 @@
+// diptych: the grains' stress at points, smoothed by a kernel
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/averaging/point_stress.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupling/averaging/averaging.h"
+#include "coupling/averaging/kernel.h"
+#include "coupling/averaging/point_bins.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    // x and its images by whole periods that are within reach of abscissae from low to high.
+    std::vector<Eigen::Vector2d> images_near(const Eigen::Vector2d &x,
+                                             const double           period,
+                                             const double           reach,
+                                             const double           low,
+                                             const double           high)
+    {
+      if (!(period > 0))
+        return {x};
+      std::vector<Eigen::Vector2d> images;
+      for (double k = std::ceil((low - reach - x.x()) / period); x.x() + k * period <= high + reach; ++k)
+        images.emplace_back(x.x() + k * period, x.y());
+      return images;
+    }
+  } // namespace
+
+  std::vector<Eigen::Matrix2d> stress_at_points(const QuadMesh                     &mesh,
+                                                const discrete::Snapshot           &grains,
+                                                const std::vector<Eigen::Vector2d> &points,
+                                                const KernelShape                   shape,
+                                                const double                        width)
+  {
+    const Kernel              kernel(shape, width);
+    const TargetCells         region(mesh, grains.cell_width);
+    KernelQuadrature          quadrature(region, kernel);
+    KernelQuadrature::Weights weights;
+
+    // quadrature points of the half branches with their part of the moment
+    const Carriers                  carriers = moment_carriers(grains.position, grains.radius, grains.window_forces);
+    std::vector<Eigen::Vector2d>    place;
+    std::vector<Eigen::RowVector4d> moment;
+    for (std::size_t h = 0; h < carriers.half.size(); ++h)
+      {
+        const HalfBranch     &half  = carriers.half[h];
+        const SegmentRule     rule  = segment_rule(half.vector.norm(), width);
+        const Eigen::Vector2d start = region.wrapped(carriers.position[half.grain]);
+        for (std::size_t q = 0; q < rule.t.size(); ++q)
+          {
+            place.push_back(start + rule.t[q] * half.vector);
+            moment.push_back(rule.weight[q] * carriers.uniform.row(Eigen::Index(h)));
+          }
+      }
+
+    double low = INFINITY, high = -INFINITY; // of the places
+    for (const Eigen::Vector2d &x : place)
+      low = std::min(low, x.x()), high = std::max(high, x.x());
+    const PointBins              bins(place, 0.5 * kernel.reach());
+    std::vector<Eigen::Matrix2d> stress;
+    for (const Eigen::Vector2d &point : points)
+      {
+        const Eigen::Vector2d x   = region.wrapped(point);
+        Eigen::RowVector4d    sum = Eigen::RowVector4d::Zero();
+        for (const Eigen::Vector2d &image : images_near(x, region.period, kernel.reach(), low, high))
+          bins.for_each_near(image, kernel.reach(),
+                             [&](const unsigned int k) { sum += kernel((place[k] - image).squaredNorm()) * moment[k]; });
+        quadrature.weights(x, weights);
+        Eigen::Matrix2d tensor;
+        tensor << sum[0], sum[1], sum[2], sum[3];
+        stress.push_back(weights.sum > 0 ? Eigen::Matrix2d(tensor / weights.sum) : Eigen::Matrix2d::Constant(NAN));
+      }
+    return stress;
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,24 @@
+// diptych: the grains' stress at points, smoothed by a kernel
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "coupling/averaging/averaging_options.h"
+#include "coupling/cells/mesh_cells.h"
+#include "discrete/snapshot.h"
+
+namespace diptych::coupling
+{
+  // Stress at points: sum over the half branches of -f (x) (integral of phi along it) over the integral of phi over the mesh,
+  // both around the point; raw, positive in compression [pressure]. width: standard deviation [length]. Images of a
+  // periodic sample count. NaN where no part of the mesh is in reach.
+  std::vector<Eigen::Matrix2d> stress_at_points(const QuadMesh                     &mesh,
+                                                const discrete::Snapshot           &grains,
+                                                const std::vector<Eigen::Vector2d> &points,
+                                                KernelShape                         kernel,
+                                                double                              width);
+} // namespace diptych::coupling

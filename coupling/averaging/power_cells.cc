@@ -1,0 +1,144 @@
+// diptych: power diagram (Laguerre tessellation) of discs
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/averaging/power_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "coupling/cells/cross_product.h"
+#include "coupling/averaging/point_bins.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    // Keeps what lies where normal . x <= bound. The new edge looks at `neighbour`. scratch keeps its memory between calls.
+    void clip(PowerCell &cell, const Eigen::Vector2d &normal, const double bound, const int neighbour, PowerCell &scratch)
+    {
+      scratch.corner.clear(), scratch.beyond.clear();
+      const std::size_t n = cell.corner.size();
+      for (std::size_t k = 0; k < n; ++k)
+        {
+          const Eigen::Vector2d &a = cell.corner[k], &b = cell.corner[(k + 1) % n];
+          const double           at_a = normal.dot(a) - bound, at_b = normal.dot(b) - bound;
+          if (at_a <= 0)
+            scratch.corner.push_back(a), scratch.beyond.push_back(cell.beyond[k]);
+          if ((at_a < 0 && at_b > 0) || (at_a > 0 && at_b < 0))
+            {
+              scratch.corner.push_back(a + at_a / (at_a - at_b) * (b - a));
+              scratch.beyond.push_back(at_a < 0 ? neighbour : cell.beyond[k]);
+            }
+          else if (at_a == 0 && at_b > 0)
+            scratch.beyond.back() = neighbour;
+        }
+      std::swap(cell, scratch);
+      if (cell.corner.size() < 3)
+        cell = {};
+    }
+
+    struct Discs
+    {
+      const std::vector<Eigen::Vector2d> &position;
+      const std::vector<double>          &radius;
+      double                              largest_radius;
+      PointBins                           bins;
+    };
+
+    // Clips cell i by the axis of disc j. reach: largest distance of a corner from the centre of i.
+    void clip_by_neighbour(const Discs &discs, const unsigned int i, const unsigned int j, const double reach, PowerCell &cell)
+    {
+      static thread_local PowerCell scratch;
+      const Eigen::Vector2d         between = discs.position[j] - discs.position[i];
+      const double                  ri = discs.radius[i], rj = discs.radius[j], squared = between.squaredNorm();
+      if (squared == 0)
+        {
+          if (rj > ri || (rj == ri && j < i))
+            cell = {};
+          return;
+        }
+      const double axis = 0.5 * (squared + ri * ri - rj * rj); // times 1/D: distance of the axis
+      if (axis < reach * std::sqrt(squared))
+        clip(cell, between, between.dot(discs.position[i]) + axis, int(j), scratch);
+    }
+
+    PowerCell clipped_cell(const Discs &discs, const unsigned int i, PowerCell cell)
+    {
+      const Eigen::Vector2d &x        = discs.position[i];
+      const auto             reach_of = [&x](const PowerCell &c) {
+        double squared = 0;
+        for (const Eigen::Vector2d &corner : c.corner)
+          squared = std::max(squared, (corner - x).squaredNorm());
+        return std::sqrt(squared);
+      };
+      const double r = discs.radius[i], R = discs.largest_radius;
+      double       reach = reach_of(cell);
+      for (int ring = 0; !cell.corner.empty(); ++ring)
+        {
+          // in the rings before this one: all discs closer than ring - 1 bins, and no closer one can have been missed
+          const double seen = (ring - 1) * discs.bins.bin_size();
+          if (seen >= reach + std::sqrt(reach * reach + R * R - r * r))
+            break;
+          const bool any = discs.bins.for_each_in_ring(x, ring, [&](const unsigned int j) {
+            if (j != i && !cell.corner.empty())
+              clip_by_neighbour(discs, i, j, reach, cell);
+          });
+          if (!any)
+            break;
+          reach = reach_of(cell);
+        }
+      return cell;
+    }
+  } // namespace
+
+  std::vector<PowerCell> power_cells(const std::vector<Eigen::Vector2d> &position,
+                                     const std::vector<double>          &radius,
+                                     const std::size_t                   n_cells,
+                                     const Eigen::Vector2d              &lower,
+                                     const Eigen::Vector2d              &upper)
+  {
+    if (radius.size() != position.size() || n_cells > position.size())
+      throw std::invalid_argument("power cells need one radius a disc");
+    std::vector<PowerCell> cells;
+    if (n_cells == 0)
+      return cells;
+    // bins of about one disc each
+    Eigen::Vector2d low = position.front(), high = low;
+    for (const Eigen::Vector2d &x : position)
+      low = low.cwiseMin(x), high = high.cwiseMax(x);
+    const Eigen::Vector2d extent  = high - low;
+    const double          largest = *std::max_element(radius.begin(), radius.end());
+    const double          spacing = std::sqrt(std::max(extent.x() * extent.y(), extent.squaredNorm() / position.size()) /
+                                              double(position.size()));
+    const Discs           discs{position, radius, largest, PointBins(position, spacing > 0 ? spacing : 1)};
+    const PowerCell       box{{lower, {upper.x(), lower.y()}, upper, {lower.x(), upper.y()}}, {-1, -1, -1, -1}};
+    cells.reserve(n_cells);
+    for (unsigned int i = 0; i < n_cells; ++i)
+      cells.push_back(clipped_cell(discs, i, box));
+    return cells;
+  }
+
+  double shared_area(const std::vector<Eigen::Vector2d>   &convex,
+                     const std::array<Eigen::Vector2d, 3> &triangle,
+                     std::vector<Eigen::Vector2d>         &corners)
+  {
+    static thread_local std::vector<Eigen::Vector2d> next;
+    corners = convex;
+    for (unsigned int side = 0; side < 3 && !corners.empty(); ++side)
+      {
+        const Eigen::Vector2d &from = triangle[side], edge = triangle[(side + 1) % 3] - from;
+        next.clear();
+        for (std::size_t k = 0; k < corners.size(); ++k)
+          {
+            const Eigen::Vector2d &a = corners[k], &b = corners[(k + 1) % corners.size()];
+            const double           at_a = cross(edge, a - from), at_b = cross(edge, b - from);
+            if (at_a >= 0)
+              next.push_back(a);
+            if ((at_a > 0 && at_b < 0) || (at_a < 0 && at_b > 0))
+              next.push_back(a + at_a / (at_a - at_b) * (b - a));
+          }
+        std::swap(corners, next);
+      }
+    return polygon_area(corners);
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,21 @@
+// diptych: cells ready to receive grain quantities, across the edge of a periodic sample, too
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/averaging/target_cells.h"
+
+#include "coupling/averaging/periodic.h"
+
+namespace diptych::coupling
+{
+  TargetCells::TargetCells(const QuadMesh &cells, const double period)
+      : mesh(cells),
+        period(period),
+        images(period > 0 ? tiled(cells, period) : cells),
+        search(images),
+        area(cell_areas(cells))
+  {
+    lower = upper = mesh.node[mesh.cell.front()[0]];
+    for (const CellTriangle &triangle : mesh.triangle)
+      for (const unsigned int node : triangle.node)
+        lower = lower.cwiseMin(mesh.node[node]), upper = upper.cwiseMax(mesh.node[node]);
+  }
+} // namespace diptych::coupling

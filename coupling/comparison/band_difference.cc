@@ -1,0 +1,32 @@
+// diptych: how far the strongest bands of the two panels are apart
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/comparison/band_difference.h"
+
+#include <cmath>
+
+#include "coupling/cells/principal_axes.h"
+
+namespace diptych::coupling
+{
+  Interval difference_of(const Interval &a, const Interval &b)
+  {
+    const double value = b.value - a.value;
+    return {value, value - std::hypot(b.value - b.low, a.high - a.value), value + std::hypot(b.high - b.value, a.value - a.low)};
+  }
+
+  BandDifference band_difference(const Increment &increment)
+  {
+    const std::vector<Band> &grains = increment.discrete.band.bands, &nodes = increment.continuum.band.bands;
+    if (grains.empty() || nodes.empty())
+      return {};
+    const BandIntervals &a = grains[0].interval, &b = nodes[0].interval;
+    const Interval       turn = difference_of(a.angle_deg, b.angle_deg);
+    const double         line = line_turn(turn.value, 0) - turn.value; // whole half turns
+    return {{turn.value + line, turn.low + line, turn.high + line},
+            difference_of(a.half_width, b.half_width),
+            difference_of(a.width_10_90, b.width_10_90),
+            difference_of(a.offset, b.offset),
+            difference_of(a.jump, b.jump),
+            difference_of(a.dilation_deg, b.dilation_deg)};
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,194 @@
+// diptych: the arrays of a comparison: comparison.h5 for the report, fields.vtu for ParaView
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/comparison/comparison_arrays.h"
+
+#include <cmath>
+
+#include "coupling/comparison/comparison_output.h"
+#include "coupling/files/vtu_file.h"
+#include "discrete/files/field_arrays.h"
+#include "discrete/files/hdf5_file.h"
+#include "discrete/files/staged_file.h"
+
+namespace diptych::coupling
+{
+  namespace arrays
+  {
+    std::vector<double> mean_stress(const std::vector<Eigen::Matrix2d> &stress)
+    {
+      std::vector<double> s;
+      for (const Eigen::Matrix2d &m : stress)
+        s.push_back(0.5 * m.trace());
+      return s;
+    }
+
+    std::vector<double> stress_ratio(const std::vector<Eigen::Matrix2d> &stress)
+    {
+      std::vector<double> ratio;
+      for (const Eigen::Matrix2d &m : stress)
+        {
+          const double s = 0.5 * m.trace();
+          ratio.push_back(s > 0 ? 0.5 * std::hypot(m(0, 0) - m(1, 1), m(0, 1) + m(1, 0)) / s : NAN);
+        }
+      return ratio;
+    }
+
+    std::vector<double> sizes_over(const std::vector<Eigen::Vector2d> &vectors, const double unit)
+    {
+      std::vector<double> sizes;
+      for (const Eigen::Vector2d &v : vectors)
+        sizes.push_back(v.norm() / unit);
+      return sizes;
+    }
+
+    std::vector<double> difference(const std::vector<double> &a, const std::vector<double> &b)
+    {
+      std::vector<double> result;
+      for (std::size_t k = 0; k < a.size() && k < b.size(); ++k)
+        result.push_back(a[k] - b[k]);
+      return result;
+    }
+
+    std::vector<Eigen::Matrix2d> difference(const std::vector<Eigen::Matrix2d> &a, const std::vector<Eigen::Matrix2d> &b)
+    {
+      std::vector<Eigen::Matrix2d> result;
+      for (std::size_t k = 0; k < a.size() && k < b.size(); ++k)
+        result.push_back(a[k] - b[k]);
+      return result;
+    }
+
+    std::vector<Eigen::Matrix2d> grain_stress(const discrete::Snapshot &grains)
+    {
+      double discs = 0;
+      for (const double r : grains.radius)
+        discs += M_PI * r * r;
+      const double                 solid_fraction = discs / grains.area;
+      std::vector<Eigen::Matrix2d> stress;
+      for (std::size_t i = 0; i < grains.mean_internal_moment.size(); ++i)
+        stress.push_back(grains.mean_internal_moment[i] * solid_fraction / (M_PI * grains.radius[i] * grains.radius[i]));
+      return stress;
+    }
+  } // namespace arrays
+
+  MotionUnits motion_units(const Increment &i)
+  {
+    return {i.displacement_unit, i.duration > 0 ? i.displacement_unit / i.duration : NAN};
+  }
+
+  namespace
+  {
+    // Writes listed arrays below a group.
+    struct IntoGroup
+    {
+      discrete::Hdf5Writer &file;
+      std::string           group;
+
+      template <class T> void operator()(const ArrayEntry &entry, const std::vector<T> &values) const
+      {
+        const std::string name = group + "/" + entry.key;
+        file.write(name, values); // vectors and tensors of the plane
+        file.attribute(name, "title", entry.title);
+        file.attribute(name, "unit", entry.unit);
+        file.attribute(name, "meaning", entry.meaning);
+      }
+    };
+
+    void write_mesh(discrete::Hdf5Writer &file, const std::string &group, const QuadMesh &mesh)
+    {
+      std::vector<int> corners;
+      for (const auto &cell : mesh.cell)
+        corners.insert(corners.end(), cell.begin(), cell.end());
+      const IntoGroup into{file, group};
+      into(ArrayEntry{"node", "place", "length", "of the nodes"}, mesh.node);
+      file.write(group + "/cell", corners, {mesh.cell.size(), 4});
+      file.attribute(group + "/cell", "meaning", "nodes of a cell, anticlockwise");
+    }
+
+    // Mean increment of each cell's corners.
+    std::vector<Eigen::Vector2d> moved_cells(const continuum::Snapshot &from, const continuum::Snapshot &to)
+    {
+      return continuum_fields(from, to).displacement_increment;
+    }
+
+    void write_attributes(discrete::Hdf5Writer &file, const std::string &group, const Increment &increment)
+    {
+      file.attribute(group, "from", increment.from);
+      file.attribute(group, "to", increment.to);
+      file.attribute(group, "displacement_unit", increment.displacement_unit);
+      file.attribute(group, "velocity_unit", motion_units(increment).velocity);
+      file.attribute(group, "centre", std::vector<double>{increment.frame.centre.x(), increment.frame.centre.y()});
+    }
+
+    void write_stage(discrete::Hdf5Writer &file, const std::string &group, const StageRecord &stage, const Results &results, std::size_t k)
+    {
+      const auto &snapshots = results.discrete.snapshots;
+      list_increment_arrays(stage.increment, snapshots[k], IntoGroup{file, group});
+      list_grain_arrays(stage.increment, snapshots[k - 1], snapshots[k], IntoGroup{file, group});
+      for (const auto &[name, fields] : {std::pair{"/cells", &stage.fields}, std::pair{"/grid", &stage.grid}})
+        {
+          write_mesh(file, group + name, fields->mesh);
+          list_cell_arrays(*fields, motion_units(stage.increment), IntoGroup{file, group + name});
+        }
+      write_attributes(file, group, stage.increment);
+    }
+
+    // Which snapshot stands at a progress.
+    std::size_t snapshot_at(const Results &results, const double progress)
+    {
+      std::size_t k = 0;
+      while (std::abs(results.discrete.snapshots[k].progress - progress) >= 1e-6)
+        ++k;
+      return k;
+    }
+
+    void write_window(discrete::Hdf5Writer &file, const std::string &group, const Increment &window, const Results &results)
+    {
+      const std::size_t from = snapshot_at(results, window.from), to = snapshot_at(results, window.to);
+      list_increment_arrays(window, results.discrete.snapshots[to], IntoGroup{file, group});
+      write_mesh(file, group + "/cells", window.mesh);
+      list_window_cell_arrays(window, moved_cells(results.continuum.snapshots[from], results.continuum.snapshots[to]),
+                              IntoGroup{file, group + "/cells"});
+      write_attributes(file, group, window);
+    }
+
+    VtuGrid vtu_of(const CellFields &fields, const MotionUnits &unit)
+    {
+      VtuGrid grid{fields.mesh.node, {}, VtkCell::quadrilateral, {}};
+      for (const auto &cell : fields.mesh.cell)
+        grid.cells.insert(grid.cells.end(), cell.begin(), cell.end());
+      list_cell_arrays(fields, unit, [&](const ArrayEntry &entry, const auto &values) {
+        using Value = typename std::decay_t<decltype(values)>::value_type;
+        grid.fields.push_back({entry.key, unsigned(discrete::n_components<Value>), discrete::flat(values)});
+      });
+      return grid;
+    }
+  } // namespace
+
+  void write_comparison_h5(const std::string &directory, const Scene &scene, const Comparison &c, const Results &results)
+  {
+    discrete::Hdf5Writer file(directory + "/comparison.h5");
+    for (std::size_t k = 0; k < c.stages.size(); ++k)
+      write_stage(file, discrete::stage_name(k + 1), c.stages[k], results, k + 1);
+    for (std::size_t k = 0; k < c.windows.size(); ++k)
+      write_window(file, "window_" + std::to_string(k), c.windows[k], results);
+    const double width = averaging_width(scene);
+    list_history_arrays(c.discrete_history, width, IntoGroup{file, "histories/discrete"});
+    list_history_arrays(c.continuum_history, width, IntoGroup{file, "histories/continuum"});
+
+    const discrete::Snapshot &start   = results.discrete.snapshots.front();
+    const discrete::Outline  &outline = start.outline;
+    file.attribute("/", "mean_diameter", scene.sample.mean_diameter);
+    file.attribute("/", "pressure", scene.loading.pressure);
+    file.attribute("/", "height0", start.upper_y - start.lower_y);
+    file.attribute("/", "width0", start.area / (outline.left.back().y() - outline.left.front().y()));
+    file.attribute("/", "walk", discrete::name_of(discrete::walk_of(scene.loading.mode)));
+    file.finish();
+  }
+
+  void write_fields_vtu(const std::string &directory, const Comparison &c)
+  {
+    const StageRecord &last = c.stages.back();
+    write_vtu(directory + "/fields.vtu", vtu_of(last.fields, motion_units(last.increment)));
+    write_vtu(directory + "/grid.vtu", vtu_of(last.grid, motion_units(last.increment)));
+  }
+} // namespace diptych::coupling

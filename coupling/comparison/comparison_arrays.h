@@ -1,0 +1,181 @@
+// diptych: the one list of the arrays of a comparison
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "coupling/comparison/comparison.h"
+
+namespace diptych::coupling
+{
+  // Every list calls visit(ArrayEntry, values), a vector of numbers, vectors or tensors; of cells NaN where a panel has no value.
+  // Tensors are positive in compression, row index = component of the force; rotations anticlockwise.
+  struct ArrayEntry
+  {
+    const char *key;   // of the dataset of comparison.h5 and of the array of fields.vtu and grid.vtu
+    const char *title; // short, for a picture
+    const char *unit, *meaning;
+  };
+
+  namespace arrays
+  {
+    // s = (s_xx + s_yy)/2 and t/s of the symmetric part; NaN in tension.
+    std::vector<double> mean_stress(const std::vector<Eigen::Matrix2d> &stress);
+    std::vector<double> stress_ratio(const std::vector<Eigen::Matrix2d> &stress);
+
+    std::vector<double>          sizes_over(const std::vector<Eigen::Vector2d> &vectors, double unit);
+    std::vector<double>          difference(const std::vector<double> &a, const std::vector<double> &b); // a - b, where both are
+    std::vector<Eigen::Matrix2d> difference(const std::vector<Eigen::Matrix2d> &a, const std::vector<Eigen::Matrix2d> &b);
+
+    // Stress of single grains: moment over the grain's share of the sample's area [pressure].
+    std::vector<Eigen::Matrix2d> grain_stress(const discrete::Snapshot &grains);
+  } // namespace arrays
+
+  // What an increment's displacements and velocities count in.
+  struct MotionUnits
+  {
+    double displacement = 1, velocity = 1; // [length], [length/time]
+  };
+  MotionUnits motion_units(const Increment &increment);
+
+  // Of a stage, on the cells of one mesh or grid.
+  template <class Visit> void list_cell_arrays(const CellFields &f, const MotionUnits &unit, Visit &&visit)
+  {
+    const GrainFields     &g = f.grains;
+    const ContinuumFields &c = f.continuum;
+    visit(ArrayEntry{"discrete_stress", "stress", "pressure", "grains: mean over the stage"}, g.stress);
+    visit(ArrayEntry{"discrete_contact_stress", "contact stress", "pressure", "the same without the dynamic part"}, g.contact_stress);
+    visit(ArrayEntry{"discrete_mean_stress", "mean stress s", "pressure", "grains: (s_1 + s_2)/2"}, arrays::mean_stress(g.stress));
+    visit(ArrayEntry{"discrete_stress_ratio", "stress ratio t/s", "-", "grains: (s_1 - s_2)/(s_1 + s_2)"}, arrays::stress_ratio(g.stress));
+    visit(ArrayEntry{"discrete_strain_increment", "strain increment", "-", "grains: affine fit over 2.5 d"},
+          strain_increments(g.displacement_gradient));
+    visit(ArrayEntry{"discrete_shear_strain_increment", "shear strain increment", "-", "grains: eps_1 - eps_2"},
+          g.shear_strain_increment);
+    visit(ArrayEntry{"discrete_displacement_increment", "displacement increment", "length", "grains: mean by disc area"},
+          g.displacement_increment);
+    visit(ArrayEntry{"discrete_displacement_over_platen", "displacement over the platen's", "-", "grains: size of the increment"},
+          arrays::sizes_over(g.displacement_increment, unit.displacement));
+    visit(ArrayEntry{"discrete_velocity", "velocity", "length/time", "grains: at the end of the stage, mean by mass"}, g.velocity);
+    visit(ArrayEntry{"discrete_speed_over_platen", "speed over the platen's", "-", "grains: at the end of the stage"},
+          arrays::sizes_over(g.velocity, unit.velocity));
+    visit(ArrayEntry{"discrete_rotation_increment", "rotation increment", "rad", "grains: mean by disc area"}, g.rotation_increment);
+    visit(ArrayEntry{"discrete_spin_increment", "spin increment of the medium", "rad", "grains: half the curl of the displacement"},
+          g.spin_increment);
+    visit(ArrayEntry{"discrete_relative_rotation", "rotation minus spin", "rad", "grains: of the same grains"}, g.relative_rotation);
+    visit(ArrayEntry{"discrete_couple_stress", "couple stress", "pressure length",
+                     "grains: power-conjugate of the gradient of rotation"},
+          g.couple_stress);
+    visit(ArrayEntry{"discrete_dissipation", "dissipation", "pressure", "grains: by friction, over the stage, per area"}, g.dissipation);
+    visit(ArrayEntry{"discrete_coordination_number", "coordination number", "-", "contacts a grain, at the end of the stage"},
+          g.coordination_number);
+    visit(ArrayEntry{"discrete_fabric", "fabric", "-", "mean of n (x) n, at the end of the stage"}, g.fabric);
+    visit(ArrayEntry{"discrete_granular_temperature", "granular temperature", "length^2/time^2",
+                     "half the squared velocity about the affine motion"},
+          g.granular_temperature);
+    visit(ArrayEntry{"discrete_standard_error", "standard error of the mean pressure", "pressure", "grains taken as independent"},
+          g.standard_error);
+    visit(ArrayEntry{"grain_count", "grains", "-", "sum of the shares of grains in the cell"}, g.grain_count);
+    visit(ArrayEntry{"solid_fraction", "solid fraction", "-", "area of discs / area of the cell"}, g.solid_fraction);
+    visit(ArrayEntry{"continuum_stress", "stress", "pressure", "continuum: mean over the stage"}, c.stress);
+    visit(ArrayEntry{"continuum_mean_stress", "mean stress s", "pressure", "continuum: (s_1 + s_2)/2"}, arrays::mean_stress(c.stress));
+    visit(ArrayEntry{"continuum_stress_ratio", "stress ratio t/s", "-", "continuum: (s_1 - s_2)/(s_1 + s_2)"},
+          arrays::stress_ratio(c.stress));
+    visit(ArrayEntry{"continuum_strain_increment", "strain increment", "-", "continuum: by the grains' operator"},
+          strain_increments(f.continuum_gradient));
+    visit(ArrayEntry{"continuum_shear_strain_increment", "shear strain increment", "-", "continuum: eps_1 - eps_2"},
+          f.continuum_shear);
+    visit(ArrayEntry{"continuum_displacement_increment", "displacement increment", "length", "continuum: mean of the corners"},
+          c.displacement_increment);
+    visit(ArrayEntry{"continuum_displacement_over_platen", "displacement over the platen's", "-", "continuum: size of the increment"},
+          arrays::sizes_over(c.displacement_increment, unit.displacement));
+    visit(ArrayEntry{"continuum_rotation_increment", "rotation increment", "rad", "continuum: Cosserat rotation"},
+          c.rotation_increment);
+    visit(ArrayEntry{"continuum_spin_increment", "spin increment of the medium", "rad",
+                     "continuum: half the curl of the displacement"},
+          f.continuum_spin);
+    visit(ArrayEntry{"continuum_relative_rotation", "rotation minus spin", "rad", "continuum: Cosserat rotation minus spin"},
+          arrays::difference(c.rotation_increment, f.continuum_spin));
+    visit(ArrayEntry{"continuum_couple_stress", "couple stress", "pressure length", "continuum: with the sign of the grains'"},
+          c.couple_stress);
+    visit(ArrayEntry{"continuum_dissipation", "dissipation", "pressure", "continuum: plastic work over the stage, per area"},
+          c.dissipation);
+    visit(ArrayEntry{"stress_difference", "difference of the stresses", "pressure", "continuum minus grains"},
+          arrays::difference(c.stress, g.stress));
+  }
+
+  // Of a stage or a window, below the increment's group.
+  template <class Visit> void list_increment_arrays(const Increment &i, const discrete::Snapshot &to, Visit &&visit)
+  {
+    const MotionUnits unit = motion_units(i);
+    visit(ArrayEntry{"discrete/position", "place", "length", "centres of the grains at the end"}, i.discrete.field.position);
+    visit(ArrayEntry{"discrete/radius", "radius", "length", "of the grains"}, to.radius);
+    visit(ArrayEntry{"discrete/displacement_increment", "displacement increment", "length", "of the grains"},
+          i.discrete.field.increment);
+    visit(ArrayEntry{"discrete/displacement_over_platen", "displacement over the platen's", "-", "size of the increment"},
+          arrays::sizes_over(i.discrete.field.increment, unit.displacement));
+    visit(ArrayEntry{"discrete/shear_strain_increment", "shear strain increment", "-", "eps_1 - eps_2 around each grain"},
+          i.grain_shear);
+    visit(ArrayEntry{"nodes/position", "place", "length", "of the continuum's nodes at the end"}, i.continuum.field.position);
+    visit(ArrayEntry{"nodes/displacement_increment", "displacement increment", "length", "of the continuum's nodes"},
+          i.continuum.field.increment);
+  }
+
+  // Of a window, on the cells of the continuum's mesh at its end.
+  template <class Visit> void list_window_cell_arrays(const Increment &i, const std::vector<Eigen::Vector2d> &moved, Visit &&visit)
+  {
+    visit(ArrayEntry{"discrete_shear_strain_increment", "shear strain increment", "-", "grains: eps_1 - eps_2"}, i.discrete.cell_shear);
+    visit(ArrayEntry{"continuum_shear_strain_increment", "shear strain increment", "-", "continuum: eps_1 - eps_2"},
+          i.continuum.cell_shear);
+    visit(ArrayEntry{"continuum_displacement_over_platen", "displacement over the platen's", "-", "continuum: size of the increment"},
+          arrays::sizes_over(moved, motion_units(i).displacement));
+  }
+
+  // Of a stage: what the grains are at its end, and the forces that they carried in it.
+  template <class Visit>
+  void list_grain_arrays(const Increment &i, const discrete::Snapshot &from, const discrete::Snapshot &to, Visit &&visit)
+  {
+    std::vector<double> rotation;
+    for (std::size_t k = 0; k < to.rotation.size(); ++k)
+      rotation.push_back(to.rotation[k] - from.rotation[k]);
+    std::vector<Eigen::Vector2d> point, force;
+    std::vector<int>             first, second;
+    for (const discrete::ContactForce &contact : to.window_forces)
+      {
+        point.push_back(contact.point), force.push_back(contact.force);
+        first.push_back(contact.i), second.push_back(contact.j);
+      }
+    const std::vector<Eigen::Matrix2d> stress = arrays::grain_stress(to);
+    visit(ArrayEntry{"discrete/velocity", "velocity", "length/time", "at the end of the stage"}, to.velocity);
+    visit(ArrayEntry{"discrete/speed_over_platen", "speed over the platen's", "-", "at the end of the stage"},
+          arrays::sizes_over(to.velocity, motion_units(i).velocity));
+    visit(ArrayEntry{"discrete/rotation_increment", "rotation increment", "rad", "of the grains"}, rotation);
+    visit(ArrayEntry{"discrete/internal_moment", "internal moment", "pressure length^2", "mean over the stage"},
+          to.mean_internal_moment);
+    visit(ArrayEntry{"discrete/stress", "stress", "pressure", "internal moment over the grain's share of the sample's area"}, stress);
+    visit(ArrayEntry{"discrete/mean_stress", "mean stress s", "pressure", "(s_1 + s_2)/2"}, arrays::mean_stress(stress));
+    visit(ArrayEntry{"discrete/stress_ratio", "stress ratio t/s", "-", "(s_1 - s_2)/(s_1 + s_2)"}, arrays::stress_ratio(stress));
+    visit(ArrayEntry{"discrete/rattler", "rattlers", "-", "1 where the grain carries no contact force"},
+          std::vector<int>(to.rattler.begin(), to.rattler.end()));
+    visit(ArrayEntry{"contacts/point", "contact point", "length", "of every pair that touched in the stage"}, point);
+    visit(ArrayEntry{"contacts/force", "contact force", "pressure length", "mean over the stage, on the first body"}, force);
+    visit(ArrayEntry{"contacts/i", "first body", "-", "grains count from 0"}, first);
+    visit(ArrayEntry{"contacts/j", "second body", "-", "grains count from 0, walls on from the number of grains"}, second);
+    visit(ArrayEntry{"outline/left", "left side", "length", "of the sample's outline, upward"}, to.outline.left);
+    visit(ArrayEntry{"outline/right", "right side", "length", "of the sample's outline, upward"}, to.outline.right);
+  }
+
+  // Of a panel's whole history, one entry a row of its .csv.
+  template <class Visit> void list_history_arrays(const HistoryTable &history, const double width, Visit &&visit)
+  {
+    visit(ArrayEntry{"progress", "progress", "as walk says", "of the loading"}, column(history, "progress"));
+    visit(ArrayEntry{"stress_ratio_mean", "stress ratio t/s", "-", "running mean"}, running_mean(history, "stress_ratio", width));
+    visit(ArrayEntry{"lower_fy_mean", "force of the lower platen", "pressure length", "running mean"},
+          running_mean(history, "lower_fy", width));
+    visit(ArrayEntry{"upper_fy_mean", "force of the upper platen", "pressure length", "running mean"},
+          running_mean(history, "upper_fy", width));
+    visit(ArrayEntry{"platen_difference", "difference of the platen forces", "-", "|lower + upper| / their mean size"},
+          platen_differences(history));
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,480 @@
+// diptych: the one list of the numbers of a comparison
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "coupling/comparison/comparison.h"
+#include "coupling/numbers/number_entry.h"
+
+namespace diptych::coupling
+{
+  // See number_entry.h. Lengths are told in mean diameters where the unit says so, stresses in the scene's unit, positive in
+  // compression; angles from the horizontal, anticlockwise.
+
+  template <class Visitor> void list_numbers(const Band &b, Visitor &v)
+  {
+    const BandIntervals &i = b.interval;
+    v({"angle_deg", "degrees", "inclination", Kind::line}, i.angle_deg);
+    v({"half_width_d", "mean diameters", "half width δ of the hyperbolic tangent", Kind::number, true}, i.half_width);
+    v({"width_10_90_d", "mean diameters", "10–90 % width", Kind::number, true}, i.width_10_90);
+    v({"offset_d", "mean diameters", "offset from the sample's centre along the normal", Kind::number, true}, i.offset);
+    v({"jump", "-", "jump of the displacement over the platen's, with the sign of the slip"}, i.jump);
+    v({"dilation_deg", "degrees", "dilation angle"}, i.dilation_deg);
+    v({"to_minor_stress_deg", "degrees", "angle to the minor principal stress of the zone"}, b.to_minor_stress_deg);
+    v({"resamples", "-", "resamples behind the intervals", Kind::setting}, i.resamples);
+    v({"lost_share", "-", "share of the resamples in which the band was lost"}, i.lost_share);
+    v({"r_squared", "-", "R² at the points"}, b.r_squared);
+    v({"r_squared_strips", "-", "R² of means over strips"}, b.r_squared_strips);
+  }
+
+  template <class Visitor> void list_numbers(const Strips &s, Visitor &v)
+  {
+    v({"angle_deg", "degrees", "direction of the strips", Kind::setting}, s.angle_deg);
+    v({"edges_d", "mean diameters", "edges along the normal", Kind::setting, true}, s.edges);
+    v({"mean", "platen increments", "mean displacement along the strips"}, s.mean);
+    v({"deviation", "platen increments", "its standard deviation"}, s.deviation);
+    v({"count", "-", "points in a strip"}, s.count);
+  }
+
+  // What both kinds of increments tell of a panel.
+  template <class Visitor> void list_numbers(const PanelIncrement &p, Visitor &v)
+  {
+    v.list("bands", "shear bands, the strongest first", p.band.bands);
+    v({"band_verdict", "-", "the detector's words"}, p.band.verdict);
+    v({"bic_of_0_1_2_bands", "-", "Bayesian information criterion of none, one and two bands"}, p.band.bic);
+    v({"independent_samples", "-", "independent samples assumed"}, p.band.n_effective);
+    v.group("strips", "means over strips parallel to the band", p.strips);
+  }
+
+  template <class Visitor> void list_numbers(const BandDifference &d, Visitor &v)
+  {
+    v({"angle_deg", "degrees", "turn from the grains' band to the continuum's"}, d.angle_deg);
+    v({"half_width_d", "mean diameters", "difference of the half widths", Kind::number, true}, d.half_width);
+    v({"width_10_90_d", "mean diameters", "difference of the 10–90 % widths", Kind::number, true}, d.width_10_90);
+    v({"offset_d", "mean diameters", "difference of the offsets", Kind::number, true}, d.offset);
+    v({"jump", "-", "difference of the jumps"}, d.jump);
+    v({"dilation_deg", "degrees", "difference of the dilation angles"}, d.dilation_deg);
+  }
+
+  template <class Visitor> void list_numbers(const Increment &w, Visitor &v)
+  {
+    v({"from", "as walk says", "progress at the beginning", Kind::setting}, w.from);
+    v({"to", "as walk says", "progress at the end", Kind::setting}, w.to);
+    v({"duration", "time", "of the grains' loading", Kind::setting}, w.duration);
+    v({"displacement_unit_d", "mean diameters", "what displacements count in: the upper platen's", Kind::setting, true},
+      w.displacement_unit);
+    v.group("discrete", "the grains", w.discrete);
+    v.group("continuum", "the continuum", w.continuum);
+    v.group("difference", "continuum minus grains", band_difference(w));
+  }
+
+  struct PressurePercentiles
+  {
+    std::array<double, 5> values = {{NAN, NAN, NAN, NAN, NAN}};
+  };
+  template <class Visitor> void list_numbers(const PressurePercentiles &p, Visitor &v)
+  {
+    constexpr const char *keys[] = {"5", "25", "50", "75", "95"};
+    static_assert(percentile_levels.size() == std::size(keys));
+    for (std::size_t k = 0; k < p.values.size(); ++k)
+      v({keys[k], "pressure", "that so many per cent of the grains stay below"}, p.values[k]);
+  }
+
+  template <class Visitor> void list_numbers(const GrainPressure &p, Visitor &v)
+  {
+    v({"mean", "pressure", "mean pressure of single grains"}, p.mean);
+    v({"deviation", "pressure", "standard deviation"}, p.deviation);
+    v({"grains", "-", "grains"}, p.grains);
+    v.group("percentiles", "percentiles of the pressure of single grains", PressurePercentiles{p.percentiles});
+  }
+
+  namespace numbers
+  {
+    // What of a probe both panels tell.
+    template <class Visitor> void list_place_and_stress(const ProbeRecord &p, Visitor &v)
+    {
+      v({"name", "-", "of the probe", Kind::setting}, p.region.name);
+      v({"polygon", "length", "corners of the probe", Kind::setting}, p.region.polygon);
+      v({"stress", "pressure", "mean stress"}, p.stress.stress);
+      v({"count", "-", "grains or cells averaged over"}, p.stress.count);
+    }
+  } // namespace numbers
+
+  // A probe of the grains: with fabric and intervals.
+  struct GrainProbe : ProbeRecord
+  {};
+  template <class Visitor> void list_numbers(const GrainProbe &p, Visitor &v)
+  {
+    const ProbeIntervals &i = p.intervals;
+    numbers::list_place_and_stress(p, v);
+    v({"s1", "pressure", "major principal stress"}, i.s1);
+    v({"s2", "pressure", "minor principal stress"}, i.s2);
+    v({"direction_deg", "degrees", "direction of the major principal stress", Kind::line}, i.direction_deg);
+    v({"t_over_s", "-", "stress ratio t/s"}, i.t_over_s);
+    v({"blocks", "-", "blocks that were resampled"}, i.blocks);
+    v({"fabric", "-", "fabric tensor, mean of n (x) n"}, p.fabric.fabric);
+    v({"fabric_direction_deg", "degrees", "major direction of the fabric", Kind::line}, i.fabric_direction_deg);
+    v({"fabric_direction_error_deg", "degrees", "its standard error, contacts taken as independent"}, p.fabric.direction_error_deg);
+    v({"fabric_to_stress_deg", "degrees", "turn from the stress's direction to the fabric's", Kind::line}, i.fabric_to_stress_deg);
+    v({"anisotropy", "-", "anisotropy of the fabric"}, i.anisotropy);
+    v({"anisotropy_error", "-", "its standard error, contacts taken as independent"}, p.fabric.anisotropy_error);
+    v({"normals_24", "-", "contact normals in sectors of 15 degrees"}, p.fabric.normals_24);
+    v({"contacts", "-", "contacts that transmit force"}, p.fabric.contacts);
+    v.group("grain_pressure", "pressure of single grains", p.pressure);
+  }
+
+  struct CellProbe : ProbeRecord
+  {};
+  template <class Visitor> void list_numbers(const CellProbe &p, Visitor &v)
+  {
+    numbers::list_place_and_stress(p, v);
+    v({"s1", "pressure", "major principal stress"}, p.stress.s1);
+    v({"s2", "pressure", "minor principal stress"}, p.stress.s2);
+    v({"direction_deg", "degrees", "direction of the major principal stress", Kind::line}, p.stress.direction_deg);
+    v({"t_over_s", "-", "stress ratio t/s"}, p.stress.t_over_s);
+  }
+
+  template <class Visitor> void list_numbers(const CircularProbe &c, Visitor &v)
+  {
+    v({"centre", "length", "of the circle", Kind::setting}, c.circle.centre);
+    v({"radius", "length", "of the circle"}, c.circle.radius);
+    v({"stress", "pressure", "mean stress"}, c.stress);
+    v({"angles_deg", "degrees", "directions of the diameters", Kind::setting}, c.angles_deg);
+    v({"normal", "pressure", "normal traction across the diameters"}, c.normal);
+    v({"tangential", "pressure", "tangential traction"}, c.tangential);
+    v({"predicted_normal", "pressure", "normal traction that the mean stress gives"}, c.predicted_normal);
+    v({"predicted_tangential", "pressure", "tangential traction that the mean stress gives"}, c.predicted_tangential);
+    v({"normal_error", "pressure", "standard error, blocks along the diameter taken as independent"}, c.normal_error);
+    v({"tangential_error", "pressure", "standard error, blocks along the diameter taken as independent"}, c.tangential_error);
+    v({"relative_l2", "-", "relative difference of measured and predicted tractions"}, c.relative_l2);
+    v({"independent_blocks", "-", "the same norm of the standard errors"}, c.independent_blocks);
+  }
+
+  template <class Visitor> void list_numbers(const DissipationSplit &d, Visitor &v)
+  {
+    v({"inside", "pressure length^2", "dissipated inside the grains' band"}, d.inside);
+    v({"outside", "pressure length^2", "dissipated outside"}, d.outside);
+    v({"share_inside", "-", "share inside the grains' band"}, d.share_inside);
+    v({"area_share", "-", "the band's share of the area"}, d.area_share);
+    v({"density_ratio", "-", "dissipated per area, inside over outside"}, d.density_ratio);
+  }
+
+  template <class Visitor> void list_numbers(const BandTraction &t, Visitor &v)
+  {
+    v({"edges_d", "mean diameters", "edges of the strips along the normal", Kind::setting, true}, t.edges);
+    v({"normal", "pressure", "normal traction on planes parallel to the band"}, t.normal);
+    v({"shear", "pressure", "shear traction on them"}, t.shear);
+    v({"variation_normal", "-", "deviation over the strips / size of the mean traction"}, t.variation_normal);
+    v({"variation_shear", "-", "deviation over the strips / size of the mean traction"}, t.variation_shear);
+    v({"normal_error", "pressure", "standard error, blocks along the strip taken as independent"}, t.normal_error);
+    v({"shear_error", "pressure", "standard error, blocks along the strip taken as independent"}, t.shear_error);
+    v({"independent_normal", "-", "mean standard error / size of the mean traction"}, t.independent_normal);
+    v({"independent_shear", "-", "mean standard error / size of the mean traction"}, t.independent_shear);
+  }
+
+  template <class Visitor> void list_numbers(const ChainDistribution &d, Visitor &v)
+  {
+    v({"grains", "-", "grains"}, d.count);
+    v({"mean", "-", "mean, relative to that of all grains"}, d.mean);
+    v({"share_above_mean", "-", "share above the mean of all grains"}, d.share_above_mean);
+    v({"values", "-", "values at the quantiles"}, d.values);
+  }
+
+  template <class Visitor> void list_numbers(const ForceChains &f, Visitor &v)
+  {
+    v.group("inside", "grains inside the band", f.inside);
+    v.group("outside", "grains outside", f.outside);
+    v({"quantiles", "-", "where the distributions have their values", Kind::setting}, chain_quantiles);
+    v({"largest_distance", "-", "largest distance of the two distributions"}, f.largest_distance);
+    v({"blocks", "-", "blocks that were resampled"}, f.blocks);
+    v({"verdict", "-", "whether the force chains see the zone"}, f.verdict);
+  }
+
+  template <class Visitor> void list_numbers(const ProbeDifference &d, Visitor &v)
+  {
+    v({"of", "-", "a probe", Kind::setting}, d.first);
+    v({"and", "-", "the one it is compared with", Kind::setting}, d.second);
+    v({"t_over_s", "-", "difference of t/s"}, d.t_over_s);
+    v({"anisotropy", "-", "difference of the anisotropy"}, d.anisotropy);
+    v({"direction_deg", "degrees", "turn of the major principal stress", Kind::line}, d.direction_deg);
+    v({"verdict", "-", "whether they differ"}, d.verdict);
+  }
+
+  // One panel at a stage: forces as a pair.
+  struct PlatenResultants
+  {
+    Eigen::Vector2d lower = Eigen::Vector2d::Zero(), upper = lower;
+  };
+  template <class Visitor> void list_numbers(const PlatenResultants &p, Visitor &v)
+  {
+    v({"lower", "pressure length", "of the lower platen on the sample"}, p.lower);
+    v({"upper", "pressure length", "of the upper platen on the sample"}, p.upper);
+  }
+
+  namespace numbers
+  {
+    template <class Visitor> void list_panel(const PanelRecord &p, const PanelIncrement &increment, Visitor &v)
+    {
+      const bool has_circle = p.circle.circle.radius > 0;
+      v({"volumetric_strain", "-", "volumetric strain, dilation negative"}, p.volumetric_strain);
+      v.group("platen_resultants", "forces, averaged like the stress ratio", PlatenResultants{p.lower_force, p.upper_force});
+      v({"dynamic_share", "-", "spin term / mean stress, over the stage"}, p.dynamic_share);
+      v({"minor_direction_deg", "degrees", "direction of the least compression of the mean stress", Kind::line},
+        p.minor_direction_deg);
+      v.group("circular_probe", "tractions across the diameters of a circle",
+              has_circle ? std::optional<CircularProbe>(p.circle) : std::nullopt);
+      v.group("dissipation", "inside and outside the grains' band", p.dissipation);
+      v.group("band_traction", "on planes parallel to the grains' band", p.traction);
+      list_numbers(increment, v);
+    }
+
+    template <class Probe> std::vector<Probe> probes_as(const std::vector<ProbeRecord> &probes)
+    {
+      std::vector<Probe> result;
+      for (const ProbeRecord &probe : probes)
+        result.push_back(Probe{probe});
+      return result;
+    }
+  } // namespace numbers
+
+  struct GrainsOfStage
+  {
+    const StageRecord &stage;
+  };
+  template <class Visitor> void list_numbers(const GrainsOfStage &g, Visitor &v)
+  {
+    const StageRecord &s = g.stage;
+    v({"stress_ratio", "-", "t/s of the whole sample, mean over the last part of the stage"}, s.discrete.stress_ratio);
+    numbers::list_panel(s.discrete, s.increment.discrete, v);
+    v.list("probes", "rectangular probes", numbers::probes_as<GrainProbe>(s.discrete.probes));
+    v({"acceleration_share", "-", "acceleration term / mean stress, in the last step"}, s.discrete.acceleration_share);
+    v.group("force_chains", "major principal stress of single grains", s.force_chains);
+    v.list("probe_differences", "the zone's probe minus each of the others", s.probe_differences);
+  }
+
+  struct ContinuumOfStage
+  {
+    const StageRecord &stage;
+  };
+  template <class Visitor> void list_numbers(const ContinuumOfStage &c, Visitor &v)
+  {
+    const StageRecord &s = c.stage;
+    v({"stress_ratio", "-", "t/s of the whole sample, mean over the last part of the stage"}, s.continuum.stress_ratio.value);
+    numbers::list_panel(s.continuum, s.increment.continuum, v);
+    v.list("probes", "rectangular probes", numbers::probes_as<CellProbe>(s.continuum.probes));
+  }
+
+  // In mean diameters of the sample, as all lengths of a comparison.
+  template <class Visitor> void list_numbers(const StressDifference &d, Visitor &v)
+  {
+    v({"label", "-", "of the cells", Kind::setting}, d.label);
+    v({"resolution_d", "mean diameters", "size of the cells", Kind::number, true}, d.size);
+    v({"cells", "-", "cells that carry both values"}, d.cells);
+    v({"relative_l2", "-", "relative difference of the stresses"}, d.relative_l2);
+    v({"direction_deg", "degrees", "root mean square angle between the principal directions"}, d.direction_deg);
+    v({"sampling_alone", "-", "the grains' scatter about their own smooth field"}, d.sampling_alone);
+    v({"lowest_scatter", "-", "scatter of independent grains: a lower bound"}, d.lowest_scatter);
+  }
+
+  struct DifferenceOfStage
+  {
+    const StageRecord &stage;
+  };
+  template <class Visitor> void list_numbers(const DifferenceOfStage &d, Visitor &v)
+  {
+    const StageRecord &s = d.stage;
+    v({"stress_ratio", "-", "difference of t/s"}, s.stress_ratio_difference);
+    v({"volumetric_strain", "-", "difference of the volumetric strains"}, s.volumetric_strain_difference);
+    v({"stress_l2_relative", "-", "relative difference of the stresses on the mesh's cells"},
+      s.stress_differences.empty() ? NAN : s.stress_differences.front().relative_l2);
+    v.list("stress", "difference of the stresses by the size of the cells", s.stress_differences);
+    v({"stress_verdict", "-", "what the widest cells say"}, s.stress_verdict);
+    list_numbers(s.band_difference, v);
+  }
+
+  template <class Visitor> void list_numbers(const MappingRecord &m, Visitor &v)
+  {
+    v({"method", "-", "of the averaging", Kind::setting}, m.method);
+    v({"total_relative_error", "-", "relative error of the total moment"}, m.total_relative_error);
+    v({"nodal_residual", "-", "nodal residual of equilibrium"}, m.nodal_residual);
+    v({"outside_share", "-", "share from outside the mesh"}, m.outside_share);
+    v({"window_time", "time", "over which the grains' forces are averaged"}, m.window_time);
+  }
+
+  template <class Visitor> void list_numbers(const StageRecord &s, Visitor &v)
+  {
+    v({"progress", "as walk says", "progress at the end of the stage", Kind::setting}, s.progress);
+    v({"axial_strain", "-", "axial strain of the grains at the end", Kind::setting}, s.axial_strain);
+    v({"shear_strain", "-", "shear strain of the grains at the end", Kind::setting}, s.shear_strain);
+    v({"time", "time", "since the start of the grains' loading", Kind::setting}, s.time);
+    v({"duration", "time", "of the stage", Kind::setting}, s.increment.duration);
+    v({"displacement_unit_d", "mean diameters", "what displacements count in: the upper platen's", Kind::setting, true},
+      s.increment.displacement_unit);
+    v.group("discrete", "the grains", GrainsOfStage{s});
+    v.group("continuum", "the continuum", ContinuumOfStage{s});
+    v.group("difference", "continuum minus grains", DifferenceOfStage{s});
+    v.group("mapping", "of the grains' moments onto the mesh", s.mapping);
+  }
+
+  // Of the coarse run: the continuum alone.
+  struct CoarseWindow
+  {
+    double            from = 0, to = 0;
+    std::vector<Band> bands;
+  };
+  template <class Visitor> void list_numbers(const CoarseWindow &w, Visitor &v)
+  {
+    v({"from", "as walk says", "progress at the beginning", Kind::setting}, w.from);
+    v({"to", "as walk says", "progress at the end", Kind::setting}, w.to);
+    v.list("bands", "shear bands, the strongest first", w.bands);
+  }
+
+  template <class Visitor> void list_numbers(const CoarseRun &c, Visitor &v)
+  {
+    std::vector<CoarseWindow> windows;
+    for (const Increment &window : c.windows)
+      windows.push_back({window.from, window.to, window.continuum.band.bands});
+    v({"element_size_d", "mean diameters", "element size"}, c.element_size);
+    v({"peak_stress_ratio", "-", "peak stress ratio t/s, of the running mean"}, c.peak.value);
+    v.list("windows", "windows of the loading", windows);
+  }
+
+  template <class Visitor> void list_numbers(const PointStress &p, Visitor &v)
+  {
+    v({"name", "-", "of the point", Kind::setting}, p.name);
+    v({"s", "pressure", "mean stress s"}, p.s);
+    v({"t_over_s", "-", "stress ratio t/s"}, p.t_over_s);
+  }
+
+  namespace numbers
+  {
+    template <class Visitor> void list_row(const char *key, const char *meaning, const ResolutionRow &r, Visitor &v)
+    {
+      v({key, "mean diameters", meaning, Kind::setting}, r.width);
+      v.list("points", "stress at points", r.points);
+      v({"scatter_s", "-", "scatter of s over the sample, relative to its mean"}, r.scatter_s);
+      v({"scatter_t", "-", "scatter of t over the sample, relative to its mean"}, r.scatter_t);
+    }
+
+    template <class Row> std::vector<Row> rows_as(const std::vector<ResolutionRow> &rows)
+    {
+      std::vector<Row> result;
+      for (const ResolutionRow &row : rows)
+        result.push_back(Row{row});
+      return result;
+    }
+  } // namespace numbers
+
+  struct KernelRow : ResolutionRow
+  {};
+  template <class Visitor> void list_numbers(const KernelRow &r, Visitor &v)
+  {
+    numbers::list_row("width_d", "standard deviation of the kernel", r, v);
+  }
+  struct CellRow : ResolutionRow
+  {};
+  template <class Visitor> void list_numbers(const CellRow &r, Visitor &v)
+  {
+    numbers::list_row("size_d", "size of the cells", r, v);
+  }
+
+  template <class Visitor> void list_numbers(const ResolutionStudy &s, Visitor &v)
+  {
+    v.list("kernel", "stress smoothed by a kernel", numbers::rows_as<KernelRow>(s.kernel));
+    v.list("cells", "stress of square cells", numbers::rows_as<CellRow>(s.cells));
+    v({"plateau_d", "mean diameters", "widths between which the values at points do not depend on it"}, s.plateau);
+    v({"verdict", "-", "what the study says"}, s.verdict);
+  }
+
+  template <class Visitor> void list_numbers(const TheoryLines &t, Visitor &v)
+  {
+    v({"coulomb_deg", "degrees", "45° + φ/2"}, t.coulomb_deg);
+    v({"roscoe_deg", "degrees", "45° + ψ/2"}, t.roscoe_deg);
+    v({"arthur_deg", "degrees", "45° + (φ + ψ)/4"}, t.arthur_deg);
+  }
+
+  template <class Visitor> void list_numbers(const DiscreteSummary &s, Visitor &v)
+  {
+    v({"grains", "-", "grains"}, s.grains);
+    v({"steps", "-", "steps"}, s.steps);
+    v({"sweeps", "-", "solver sweeps in all"}, s.sweeps);
+    v({"step_length", "time", "step length"}, s.step_length);
+    v({"max_penetration_d", "mean diameters", "largest penetration"}, s.max_penetration);
+    v({"mean_inertial_number", "-", "mean inertial number"}, s.mean_inertial_number);
+    v({"energy_residual", "-", "energy residual, relative"}, s.energy_residual);
+    v({"momentum_residual", "-", "momentum residual"}, s.momentum_residual);
+    v({"residual", "-", "largest contact residual (natural map, relative)"}, s.residual);
+    v({"solver_noise", "-", "residual × step / inertial number"}, s.solver_noise);
+    v({"grain_stress_error", "-", "error of single grains' stress"}, s.grain_stress_error);
+    v({"peak_stress_ratio", "-", "peak stress ratio t/s, of the running mean"}, s.peak.value);
+    v({"strain_at_peak", "as walk says", "progress at the peak"}, s.peak.progress);
+    v({"final_volumetric_strain", "-", "volumetric strain at the end"}, s.final_volumetric_strain);
+    v({"spin_term_share", "-", "largest spin term over mean stress"}, s.spin_term_share);
+    v({"kinetic_energy_ratio_median", "-", "kinetic energy over M|V|²/4, median"}, s.kinetic_energy_ratio_median);
+    v({"kinetic_energy_ratio_largest", "-", "kinetic energy over M|V|²/4, largest"}, s.kinetic_energy_ratio_largest);
+    v({"contacts", "-", "contacts at the end"}, s.contacts);
+    v({"coordination_number", "-", "coordination number"}, s.coordination_number);
+    v({"rattlers", "-", "grains without contact force"}, s.rattlers);
+    v({"platen_difference_share_below_1_percent", "-", "share of steps with platen forces equal within 1 %"},
+      s.balance.share_below_1_percent);
+    v({"platen_difference_mean", "-", "mean difference of the platen forces"}, s.balance.mean);
+    v({"platen_difference_largest", "-", "largest difference of the platen forces"}, s.balance.largest);
+    list_numbers(s.facts, v);
+  }
+
+  template <class Visitor> void list_numbers(const ContinuumSummary &s, Visitor &v)
+  {
+    v({"element_size_d", "mean diameters", "element size"}, s.element_size);
+    v({"newton_iterations", "-", "Newton iterations"}, s.newton_iterations);
+    v({"cut_backs", "-", "load steps cut back"}, s.cut_backs);
+    v({"peak_stress_ratio", "-", "peak stress ratio t/s, of the running mean"}, s.peak.value);
+    v({"strain_at_peak", "as walk says", "progress at the peak"}, s.peak.progress);
+    v({"final_volumetric_strain", "-", "volumetric strain at the end"}, s.final_volumetric_strain);
+    v({"share_zz_not_intermediate", "-", "points where σ_zz is not intermediate"}, s.share_zz_not_intermediate);
+    v({"viscous_share", "-", "largest share of the strength that viscosity carries"}, s.viscous_share);
+    v({"max_equivalent_plastic_strain", "-", "largest equivalent plastic strain"}, s.max_equivalent_plastic_strain);
+    v({"platen_unbalance", "-", "platen forces out of balance, at the end"}, s.platen_unbalance);
+    v({"law", "-", "constitutive law", Kind::setting}, s.law);
+    v({"internal_length_d", "mean diameters", "internal length of the law"}, s.internal_length);
+    v({"parameters_from", "-", "where the parameters come from", Kind::setting}, s.parameters_from);
+    list_numbers(s.facts, v);
+  }
+
+  template <class Visitor> void list_numbers(const CostSummary &c, Visitor &v)
+  {
+    v({"preparation_cpu_s", "s", "preparation of the grains", Kind::clock}, c.preparation_cpu_s);
+    v({"discrete_cpu_s", "s", "grains, loading", Kind::clock}, c.discrete_cpu_s);
+    v({"continuum_cpu_s", "s", "continuum", Kind::clock}, c.continuum_cpu_s);
+    v({"comparison_cpu_s", "s", "homogenisation and comparison", Kind::clock}, c.comparison_cpu_s);
+    v({"peak_memory_mb", "MB", "peak memory", Kind::clock}, c.peak_memory_mb);
+  }
+
+  // comparison.json as a whole.
+  struct ComparisonDocument
+  {
+    const Scene      &scene;
+    const Comparison &comparison;
+  };
+  template <class Visitor> void list_numbers(const ComparisonDocument &d, Visitor &v)
+  {
+    const Comparison &c = d.comparison;
+    v({"format", "-", "of this file", Kind::setting}, 2);
+    v({"scene", "-", "name of the scene", Kind::setting}, d.scene.name);
+    v({"seed", "-", "of the sample", Kind::setting}, d.scene.sample.seed);
+    v({"walk", "-", "what progress is: axial_strain, shear_strain or time", Kind::setting},
+      discrete::name_of(discrete::walk_of(d.scene.loading.mode)));
+    v({"mean_diameter", "length", "mean diameter d of the grains", Kind::setting}, d.scene.sample.mean_diameter);
+    v({"pressure", "pressure", "P of the lateral action", Kind::setting}, d.scene.loading.pressure);
+    v({"averaging_width", "as walk says", "of the running means", Kind::setting}, averaging_width(d.scene));
+    v.list("stages", "instants at which both panels are compared", c.stages);
+    v.list("windows", "windows over which displacement increments are compared", c.windows);
+    v.group("continuum_coarse", "the continuum on the coarse mesh", c.coarse);
+    v.group("discrete_summary", "the grains' run as a whole", c.discrete);
+    v.group("continuum_summary", "the continuum's run as a whole", c.continuum);
+    v.group("cost", "CPU time and memory", c.cost);
+    v.group("resolution_study", "the grains' stress against the length it is averaged over", c.resolution);
+    v.group("theory", "inclinations that theories expect, to the minor principal stress", c.theory);
+  }
+} // namespace diptych::coupling

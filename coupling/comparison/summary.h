@@ -1,0 +1,58 @@
+// diptych: counts, extremes and costs of a whole run
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coupling/comparison/platen_balance.h"
+#include "coupling/results/results.h"
+#include "coupling/scene/scene.h"
+#include "coupling/statistics/history_table.h"
+
+namespace diptych::coupling
+{
+  struct DiscreteSummary
+  {
+    int           grains = 0, steps = 0;
+    double        sweeps = 0, step_length = NAN; // [-], [time]
+    double        max_penetration = NAN;         // [mean diameters]
+    double        mean_inertial_number = NAN;
+    double        energy_residual = NAN, momentum_residual = NAN, residual = NAN;
+    double        solver_noise = NAN;       // residual x step [d sqrt(rho/P)] / mean inertial number
+    double        grain_stress_error = NAN; // error over residual x residual; NaN where it was not measured
+    Peak          peak;                     // of the running mean of t/s
+    double        final_volumetric_strain = NAN, spin_term_share = NAN;
+    double        kinetic_energy_ratio_median = NAN, kinetic_energy_ratio_largest = NAN;
+    double        contacts = NAN, coordination_number = NAN, rattlers = NAN; // at the end
+    PlatenBalance balance;
+    DiscreteFacts facts;
+  };
+
+  struct ContinuumSummary
+  {
+    double                element_size = NAN; // [mean diameters]
+    double                newton_iterations = NAN, cut_backs = NAN;
+    Peak                  peak;
+    double                final_volumetric_strain = NAN, share_zz_not_intermediate = NAN, viscous_share = NAN;
+    double                max_equivalent_plastic_strain = NAN;
+    double                platen_unbalance = NAN; // of the vertical forces, at the end, relative to their mean size
+    std::string           law;
+    std::optional<double> internal_length; // [mean diameters]; none: the law has none, the mesh sets its band
+    std::string           parameters_from;
+    ContinuumFacts        facts;
+  };
+
+  // CPU seconds of phases; none: it did not run.
+  struct CostSummary
+  {
+    std::optional<double> preparation_cpu_s, discrete_cpu_s, continuum_cpu_s, comparison_cpu_s;
+    double                peak_memory_mb = 0;
+  };
+
+  // `history`: of the rows; `last`: the last instant that is compared.
+  DiscreteSummary  summary_of(const Scene &scene, const DiscreteResults &results, const discrete::Snapshot &last, const HistoryTable &history);
+  ContinuumSummary summary_of(const Scene &scene, const ContinuumResults &results, const HistoryTable &history);
+  CostSummary      summary_of(const std::vector<PhaseCost> &phases);
+} // namespace diptych::coupling

@@ -1,0 +1,109 @@
+// diptych: running means of every member of an ensemble, and of all together
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/ensembles/ensemble_curves.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "continuum/history.h"
+#include "coupling/ensembles/ensemble_folder.h"
+#include "coupling/statistics/equivalence.h"
+#include "coupling/statistics/history_table.h"
+#include "discrete/files/hdf5_file.h"
+#include "discrete/files/table_file.h"
+#include "discrete/panel/history.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    constexpr int n_points = 401;
+
+    const std::vector<std::string> quantities = {"stress_ratio", "volumetric_strain"};
+
+    template <class Row>
+    std::vector<HistoryTable> histories(const std::string &directory, const std::vector<int> &seeds, const std::string &file)
+    {
+      std::vector<HistoryTable> tables;
+      for (const int seed : seeds)
+        tables.push_back(history_table(discrete::read_rows<Row>(member_folder(directory, seed) + "/" + file)));
+      return tables;
+    }
+
+    double last_progress(const std::vector<HistoryTable> &tables)
+    {
+      double last = 0;
+      for (const HistoryTable &table : tables)
+        last = std::max(last, column(table, "progress").back());
+      return last;
+    }
+
+    // Along the broken line through known values; NaN beyond them.
+    std::vector<double> on_grid(const std::vector<double> &x, const std::vector<double> &y, const std::vector<double> &grid)
+    {
+      std::vector<double> values;
+      for (const double at : grid)
+        {
+          const std::size_t k = std::size_t(std::lower_bound(x.begin(), x.end(), at) - x.begin());
+          if (k < x.size() && x[k] == at)
+            values.push_back(y[k]);
+          else if (k == 0 || k == x.size())
+            values.push_back(NAN);
+          else
+            values.push_back(y[k - 1] + (y[k] - y[k - 1]) * (at - x[k - 1]) / (x[k] - x[k - 1]));
+        }
+      return values;
+    }
+
+    void write_curves(discrete::Hdf5Writer &file, const std::string &group, const EnsembleCurves &curves)
+    {
+      std::vector<double> all;
+      for (const std::vector<double> &member : curves.members)
+        all.insert(all.end(), member.begin(), member.end());
+      file.write(group + "/members", all, {curves.members.size(), std::size_t(n_points)});
+      file.write(group + "/mean", curves.mean);
+      file.write(group + "/low", curves.low);
+      file.write(group + "/high", curves.high);
+    }
+  } // namespace
+
+  EnsembleCurves with_means(std::vector<std::vector<double>> members)
+  {
+    EnsembleCurves    curves{std::move(members), {}, {}, {}};
+    const std::size_t n = curves.members.empty() ? 0 : curves.members.front().size();
+    for (std::size_t k = 0; k < n; ++k)
+      {
+        std::vector<double> values;
+        for (const std::vector<double> &member : curves.members)
+          values.push_back(member[k]);
+        const bool             known = std::all_of(values.begin(), values.end(), [](const double v) { return std::isfinite(v); });
+        const SampleStatistics s     = known ? statistics(values) : SampleStatistics();
+        curves.mean.push_back(s.mean), curves.low.push_back(s.low), curves.high.push_back(s.high);
+      }
+    return curves;
+  }
+
+  void write_ensemble_curves(const std::string &directory, const Scene &scene, const std::vector<int> &seeds)
+  {
+    const auto          discrete  = histories<discrete::HistoryRow>(directory, seeds, "discrete.csv");
+    const auto          continuum = histories<continuum::HistoryRow>(directory, seeds, "continuum.csv");
+    const double        last      = std::max(last_progress(discrete), last_progress(continuum));
+    std::vector<double> grid;
+    for (int k = 0; k < n_points; ++k)
+      grid.push_back(last * k / (n_points - 1));
+
+    discrete::Hdf5Writer file(directory + "/ensemble.h5");
+    file.write("progress", grid);
+    file.write("seeds", seeds);
+    file.attribute("/", "averaging_width", averaging_width(scene));
+    for (const auto &[panel, tables] : {std::pair{"discrete", &discrete}, std::pair{"continuum", &continuum}})
+      for (const std::string &quantity : quantities)
+        {
+          std::vector<std::vector<double>> members;
+          for (const HistoryTable &table : *tables)
+            members.push_back(on_grid(column(table, "progress"), running_mean(table, quantity, averaging_width(scene)), grid));
+          write_curves(file, std::string(panel) + "/" + quantity, with_means(std::move(members)));
+        }
+    file.finish();
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,186 @@
+// diptych: where a result comes from and what it cost
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/folders/provenance.h"
+
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+#include <thread>
+
+#include <sys/resource.h>
+
+#include "coupling/numbers/number_json.h"
+#include "coupling/version.h"
+#include "discrete/files/text_file.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    double seconds(const timeval &t)
+    {
+      return double(t.tv_sec) + 1e-6 * double(t.tv_usec);
+    }
+
+    rusage usage(const int who)
+    {
+      rusage result{};
+      getrusage(who, &result);
+      return result;
+    }
+
+    std::string cpu_name()
+    {
+      std::ifstream file("/proc/cpuinfo");
+      for (std::string line; std::getline(file, line);)
+        if (line.rfind("model name", 0) == 0)
+          return line.substr(line.find(':') + 2);
+      return "unknown";
+    }
+
+    std::string now_utc()
+    {
+      const std::time_t now = std::time(nullptr);
+      char              text[32];
+      std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
+      return text;
+    }
+  } // namespace
+
+  double cpu_seconds(const bool children)
+  {
+    const rusage self = usage(RUSAGE_SELF);
+    double       sum  = seconds(self.ru_utime) + seconds(self.ru_stime);
+    if (children)
+      {
+        const rusage others = usage(RUSAGE_CHILDREN);
+        sum += seconds(others.ru_utime) + seconds(others.ru_stime);
+      }
+    return sum;
+  }
+
+  PhaseTimer::PhaseTimer(std::string name)
+      : name(std::move(name)),
+        wall(std::chrono::steady_clock::now()),
+        cpu(cpu_seconds(true))
+  {}
+
+  PhaseCost PhaseTimer::stop() const
+  {
+    return {name, std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count(), cpu_seconds(true) - cpu,
+            double(usage(RUSAGE_SELF).ru_maxrss) / 1024};
+  }
+
+  namespace
+  {
+    using nlohmann::json;
+
+    std::string path_of(const std::string &directory)
+    {
+      return directory + "/provenance.json";
+    }
+
+    json read_record(const std::string &directory)
+    {
+      std::ifstream file(path_of(directory));
+      if (!file)
+        return json::object();
+      json record = json::parse(file, nullptr, /* exceptions */ false);
+      if (!record.is_object())
+        throw std::invalid_argument(path_of(directory) + ": is no JSON object; take it away to go on without it");
+      return record;
+    }
+
+    void write_record(const std::string &directory, const json &record)
+    {
+      discrete::write_text(path_of(directory), record.dump(2) + "\n");
+    }
+
+    template <class Facts> void put_facts(const std::string &directory, const std::string &part, const Facts &facts)
+    {
+      json          record = read_record(directory);
+      NumbersToJson writer{record[part] = json::object(), 1};
+      list_numbers(facts, writer);
+      write_record(directory, record);
+    }
+
+    template <class Facts> Facts get_facts(const json &record, const char *part)
+    {
+      Facts facts;
+      if (const auto found = record.find(part); found != record.end())
+        {
+          NumbersFromJson reader{*found};
+          list_numbers(facts, reader);
+        }
+      return facts;
+    }
+  } // namespace
+
+  void forget_fact(const std::string &directory, const std::string &name)
+  {
+    json record = read_record(directory);
+    if (record.erase(name) > 0)
+      write_record(directory, record);
+  }
+
+  void record_phases(const std::string            &directory,
+                     const Scene                  &scene,
+                     const std::string            &command,
+                     const std::vector<PhaseCost> &phases)
+  {
+    json record            = read_record(directory);
+    record["program"]      = "diptych";
+    record["version"]      = version;
+    record["git_revision"] = git_revision;
+    record["libraries"]    = {{"deal.II", deal_ii_version}, {"Trilinos", trilinos_version}, {"Eigen", eigen_version},
+                              {"HDF5", hdf5_version},       {"compiler", compiler_version}, {"build", build_type}};
+    record["command"]      = command;
+    record["scene"]        = scene.name;
+    record["seed"]         = scene.sample.seed;
+    record["host"]         = {{"cpu", cpu_name()}, {"cores", std::thread::hardware_concurrency()}};
+    record["date"]         = now_utc();
+    json &stored           = record["phases"];
+    if (!stored.is_array())
+      stored = json::array();
+    for (const PhaseCost &phase : phases)
+      {
+        json          row = json::object();
+        NumbersToJson writer{row, 1};
+        list_numbers(phase, writer);
+        const auto old = std::find_if(stored.begin(), stored.end(), [&](const json &one) { return one["name"] == phase.name; });
+        if (old != stored.end())
+          *old = row;
+        else
+          stored.push_back(row);
+      }
+    write_record(directory, record);
+  }
+
+  void record_facts(const std::string &directory, const DiscreteFacts &facts)
+  {
+    put_facts(directory, "discrete", facts);
+  }
+
+  void record_facts(const std::string &directory, const std::string &part, const ContinuumFacts &facts)
+  {
+    put_facts(directory, part, facts);
+  }
+
+  RunFacts read_run_facts(const std::string &directory)
+  {
+    const json record = read_record(directory);
+    RunFacts   facts{get_facts<DiscreteFacts>(record, "discrete"), get_facts<ContinuumFacts>(record, "continuum"),
+                     get_facts<ContinuumFacts>(record, "continuum_coarse"), {}};
+    for (const json &row : record.value("phases", json::array()))
+      {
+        NumbersFromJson reader{row};
+        list_numbers(facts.phases.emplace_back(), reader);
+      }
+    return facts;
+  }
+
+  std::string recorded_scene(const std::string &directory)
+  {
+    return read_record(directory).value("scene", "");
+  }
+} // namespace diptych::coupling

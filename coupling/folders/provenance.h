@@ -1,0 +1,44 @@
+// diptych: where a result comes from and what it cost
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "coupling/results/facts.h"
+#include "coupling/scene/scene.h"
+
+namespace diptych::coupling
+{
+  class PhaseTimer
+  {
+  public:
+    explicit PhaseTimer(std::string name);
+    PhaseCost stop() const;
+
+  private:
+    std::string                           name;
+    std::chrono::steady_clock::time_point wall;
+    double                                cpu;
+  };
+
+  // CPU seconds of the process, all threads; children (the report) only with `children`.
+  double cpu_seconds(bool children = false);
+
+  // provenance.json of the result folder, merged: phases of the same name are replaced, other members kept, so that each
+  // command adds its own. Throws std::runtime_error where it cannot be written, std::invalid_argument where what stands there is
+  // broken.
+  void record_phases(const std::string &directory, const Scene &scene, const std::string &command, const std::vector<PhaseCost> &);
+
+  // The facts of one part: "discrete", "continuum" or "continuum_coarse".
+  void record_facts(const std::string &directory, const DiscreteFacts &facts);
+  void record_facts(const std::string &directory, const std::string &part, const ContinuumFacts &facts);
+
+  // Takes a fact of an earlier run away, before a new one makes it untrue.
+  void forget_fact(const std::string &directory, const std::string &name);
+
+  // What is not there has the values of facts that nobody recorded.
+  RunFacts    read_run_facts(const std::string &directory);
+  std::string recorded_scene(const std::string &directory); // its name; empty where there is none
+} // namespace diptych::coupling

@@ -1,0 +1,33 @@
+// diptych: the folder that a run writes to
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "coupling/scene/scene.h"
+
+namespace diptych::coupling
+{
+  // Files derived from the panels' results.
+  extern const std::vector<std::string> comparison_files;
+
+  // What was derived from other results of the folder must not outlive them.
+  void remove_results(const std::string &directory, const std::vector<std::string> &names);
+
+  // Makes a folder that can be written to. Throws std::runtime_error naming it and what the system says.
+  void make_folder(const std::string &directory);
+
+  // Makes the folder and writes the echo, once the whole scene has been found good. Results of another sample are removed.
+  // Throws SceneError where the folder holds foreign content or (resume) belongs to another scene, std::runtime_error where it
+  // cannot be made.
+  void open_result_folder(const Scene &scene, bool resume);
+
+  // "kept in results/mine: scene.prm, discrete.csv, discrete.h5, checkpoint.h5"
+  std::string kept_in(const std::string &directory);
+
+  // Runs `work` for a folder. An error that is neither wrong input nor a broken invariant (a full disk, a library that throws) is
+  // passed on as std::runtime_error with what the folder keeps.
+  int keeping(const std::string &directory, const std::function<int()> &work);
+} // namespace diptych::coupling

@@ -1,0 +1,34 @@
+// diptych: what is said of every number of a result: its key, unit, kind and meaning
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <utility>
+
+namespace diptych::coupling
+{
+  enum class Kind
+  {
+    number,  // may be averaged over realisations
+    line,    // angle of a line or axis, which repeats after 180 degrees
+    setting, // a place, a choice, the size of a computation: the same in every realisation, or without a mean
+    clock    // what a clock measured
+  };
+  constexpr auto choices(Kind)
+  {
+    return std::array{std::pair{Kind::number, "number"}, std::pair{Kind::line, "line"}, std::pair{Kind::setting, "setting"},
+                      std::pair{Kind::clock, "clock"}};
+  }
+
+  // A record whose numbers are told to others has a function beside it
+  //   template <class Visitor> void list_numbers(const Record &record, Visitor &visitor)
+  // which calls visitor(NumberEntry{...}, member) for each number, text or list of numbers, visitor.group(key, meaning, member)
+  // for a record (or one that may be missing) and visitor.list(key, meaning, member) for a list of records. It is the only place
+  // that knows keys and units: JSON, CSV, ensembles, the page and `diptych explain results` come from it.
+  struct NumberEntry
+  {
+    const char *key, *unit, *meaning;
+    Kind        kind         = Kind::number;
+    bool        in_diameters = false; // the member is a length, told in mean diameters
+  };
+} // namespace diptych::coupling

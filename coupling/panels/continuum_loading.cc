@@ -1,0 +1,265 @@
+// diptych: the grains' loading as the continuum takes it
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/panels/continuum_loading.h"
+
+#include <algorithm>
+#include <cmath>
+#include <array>
+#include <filesystem>
+
+#include "continuum/mesh/mesh.h"
+#include "coupling/panels/continuum_mesh.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    using discrete::AppliedForce;
+    using discrete::Lateral;
+    using discrete::LoadingMode;
+    using discrete::PrescribedVelocity;
+    using discrete::SideMotion;
+    using discrete::TimeTable;
+
+    [[noreturn]] void refuse(const std::string &key, const std::string &value, const std::string &why)
+    {
+      throw SceneError(key + " = " + value + ": the continuum panel has no counterpart: " + why +
+                       "; the grains alone run with `diptych discrete`");
+    }
+
+    struct DriveKey
+    {
+      std::string           key;
+      discrete::DriveOption option;
+
+      bool        is_auto() const { return option.is_auto(); }
+      std::string text() const { return text_of(option); }
+    };
+
+    // As State::walls: lower and upper platen, left and right wall; [x, y] each.
+    std::array<std::array<DriveKey, 2>, 4> drives_of(const Scene &scene)
+    {
+      std::array<std::array<DriveKey, 2>, 4> drives;
+      for_each_drive(scene.discrete.drives, [&](const int wall, const int axis, const std::string &key, const discrete::DriveOption &option) {
+        drives[std::size_t(wall)][std::size_t(axis)] = {"discrete/" + key, option};
+      });
+      return drives;
+    }
+
+    double rate_of(const Scene &scene)
+    {
+      return discrete::strain_rate(discrete_loading(scene.loading), scene.sample.mean_diameter, scene.sample.density);
+    }
+
+    // int_0^t v: v linear between the table's times and constant before the first and after the last.
+    double displacement(const TimeTable &velocity, const double t)
+    {
+      const auto since_first = [&](const double end) {
+        const auto &time = velocity.time, &v = velocity.value;
+        if (end <= time.front())
+          return v.front() * (end - time.front());
+        double sum = 0;
+        for (std::size_t k = 1; k < time.size() && time[k - 1] < end; ++k)
+          {
+            const double to = std::min(end, time[k]);
+            sum += 0.5 * (v[k - 1] + velocity.at(to)) * (to - time[k - 1]);
+          }
+        return sum + v.back() * std::max(0., end - time.back());
+      };
+      return since_first(t) - since_first(0);
+    }
+
+    continuum::Drive drive_of(const DriveKey &key, const double rate)
+    {
+      const discrete::Drive drive = discrete::read_drive(key.key, key.option);
+      if (const auto *moved = std::get_if<PrescribedVelocity>(&drive))
+        return {false, [table = moved->velocity, rate](const double progress) { return displacement(table, progress / rate); }};
+      if (const auto *pushed = std::get_if<AppliedForce>(&drive))
+        return {true, [table = pushed->force, rate](const double progress) { return table.at(progress / rate); }};
+      return {};
+    }
+
+    // The velocity where it is one number, whatever the time.
+    std::optional<double> constant_velocity(const DriveKey &key)
+    {
+      const discrete::Drive drive = discrete::read_drive(key.key, key.option);
+      const auto           *moved = std::get_if<PrescribedVelocity>(&drive);
+      if (moved == nullptr)
+        return std::nullopt;
+      const auto &values = moved->velocity.value;
+      const bool  same   = std::all_of(values.begin(), values.end(), [&](const double v) { return v == values[0]; });
+      return same ? std::optional<double>(values[0]) : std::nullopt;
+    }
+
+    continuum::Walk continuum_walk(const LoadingMode mode)
+    {
+      switch (discrete::walk_of(mode))
+        {
+        case discrete::Walk::axial_strain:
+          return continuum::Walk::axial_strain;
+        case discrete::Walk::shear_strain:
+          return continuum::Walk::shear_strain;
+        case discrete::Walk::time:
+          break;
+        }
+      return continuum::Walk::time;
+    }
+
+    continuum::LateralCondition lateral_of(const Scene &scene)
+    {
+      const discrete::LateralOptions &o    = scene.discrete.lateral;
+      const double                    rate = rate_of(scene);
+      std::optional<double>           widening;
+      if (o.side_motion == SideMotion::velocity)
+        widening = o.side_velocity / rate;
+      switch (o.lateral)
+        {
+        case Lateral::rigid_walls:
+          if (const DriveKey right = drives_of(scene)[3][0]; !right.is_auto())
+            widening = *constant_velocity(right) / rate;
+          return continuum::RigidSides{widening};
+        case Lateral::periodic:
+          return continuum::PeriodicSides{widening};
+        case Lateral::none:
+          return continuum::FreeSides{};
+        case Lateral::end_grains:
+          break;
+        }
+      return continuum::SidePressure{};
+    }
+
+    // What the mode says; drives of the scene come on top.
+    void set_mode(const LoadingOptions &o, const ContinuumSample &sample, continuum::Loading &loading)
+    {
+      const auto travel = [](const double rate) {
+        return continuum::Drive{false, [rate](const double progress) { return rate * progress; }};
+      };
+      auto &[x, y] = loading.platens[1];
+      if (o.mode == LoadingMode::descent)
+        x = travel(o.horizontal_over_vertical * sample.height), y = travel(-sample.height);
+      else if (o.mode != LoadingMode::time)
+        x = travel(sample.height);
+      if (o.mode == LoadingMode::plane_shear)
+        y = {true, [force = -o.normal_pressure * sample.platen_width](double) { return force; }};
+    }
+
+    void check_platen_drives(const Scene &scene)
+    {
+      const auto        drives   = drives_of(scene);
+      const LoadingMode mode     = scene.loading.mode;
+      const DriveKey   &progress = mode == LoadingMode::descent ? drives[1][1] : drives[1][0];
+      if (mode != LoadingMode::time && !progress.is_auto())
+        refuse(progress.key, progress.text(),
+               "loading/mode = " + discrete::name_of(mode) + " moves that itself; time is for walls of all kinds");
+      const bool smooth = scene.continuum.platens == continuum::Platens::smooth;
+      for (const auto *platen : {&drives[0], &drives[1]})
+        if (smooth && !(*platen)[0].is_auto())
+          refuse((*platen)[0].key, (*platen)[0].text(), "continuum/platens = smooth leaves the horizontal motion alone");
+      const auto is_force = [&](const DriveKey &key) {
+        return std::holds_alternative<AppliedForce>(discrete::read_drive(key.key, key.option));
+      };
+      const bool pressed = mode == LoadingMode::plane_shear && drives[1][1].is_auto();
+      if (is_force(drives[0][1]) && (pressed || is_force(drives[1][1])))
+        refuse(drives[0][1].key, drives[0][1].text(), "the upper platen moves freely in that component, too");
+      if (is_force(drives[0][0]) && is_force(drives[1][0]) && scene.discrete.lateral.lateral != Lateral::rigid_walls)
+        refuse(drives[0][0].key, drives[0][0].text(), "the upper platen moves freely in that component, too");
+    }
+
+    void check_side_drives(const Scene &scene)
+    {
+      const auto drives = drives_of(scene);
+      for (const DriveKey &key : {drives[2][0], drives[2][1], drives[3][1]})
+        if (!key.is_auto() && constant_velocity(key) != 0.)
+          refuse(key.key, key.text(), "side walls are smooth, and only the right one moves, to left and right");
+      const DriveKey &right = drives[3][0];
+      if (!right.is_auto() && !constant_velocity(right))
+        refuse(right.key, right.text(), "a constant velocity is, or the pressure (discrete/side_motion)");
+    }
+
+    void check_sides(const Scene &scene)
+    {
+      const bool periodic = scene.discrete.lateral.lateral == Lateral::periodic;
+      if (periodic && scene.discrete.lateral.side_motion == SideMotion::pressure &&
+          scene.continuum.platens == continuum::Platens::rough)
+        refuse("continuum/platens", "rough",
+               "a period that is free under the pressure (discrete/side_motion = pressure) needs platens that stretch: smooth");
+      if (periodic && scene.continuum.refinement == continuum::Refinement::adaptive)
+        refuse("continuum/refinement", "adaptive", "periodic sides (discrete/lateral) must match node by node: uniform");
+      if (scene.continuum.platens == continuum::Platens::smooth &&
+          (scene.loading.mode == LoadingMode::shear || scene.loading.mode == LoadingMode::plane_shear))
+        refuse("loading/mode", discrete::name_of(scene.loading.mode), "continuum/platens = smooth do not shear; rough does");
+    }
+
+    void check_rectangle(const Scene &scene)
+    {
+      const continuum::Options &o    = scene.continuum;
+      const double              edge = first_edge(scene, o.element_size);
+      if (edge > std::min(o.rectangle_width, o.rectangle_height))
+        throw SceneError("continuum/element_size = " + std::to_string(o.element_size) + ": elements of " + std::to_string(edge) +
+                         " [length] at first do not fit into continuum/rectangle_width = " + std::to_string(o.rectangle_width) +
+                         " and rectangle_height = " + std::to_string(o.rectangle_height));
+      if (o.platen_width > o.rectangle_width)
+        throw SceneError("continuum/platen_width = " + std::to_string(o.platen_width) +
+                         " must not exceed continuum/rectangle_width = " + std::to_string(o.rectangle_width));
+    }
+
+    // A mesh of the user's is read whole, before a result folder is opened for it.
+    void check_mesh_key(const Scene &scene)
+    {
+      const continuum::MeshOption &mesh = scene.continuum.mesh;
+      using Kind                        = continuum::MeshOption::Kind;
+      if (mesh.kind != Kind::outline && scene.continuum.initial_stress == continuum::InitialStress::mapped)
+        throw SceneError("continuum/initial_stress = mapped with continuum/mesh = " + text_of(mesh) +
+                         ": only outline, the mesh of the grain sample, has its stress");
+      if (mesh.kind == Kind::rectangle)
+        check_rectangle(scene);
+      if (mesh.kind != Kind::file)
+        return;
+      const std::string ending = std::filesystem::path(mesh.file).extension();
+      if ((ending != ".msh" && ending != ".geo") || !std::filesystem::is_regular_file(mesh.file))
+        throw SceneError("continuum/mesh = '" + mesh.file +
+                         "' is not allowed: outline, rectangle or a .msh or .geo file that can be read is");
+      try
+        {
+          (void)continuum::read_mesh(mesh.file);
+        }
+      catch (const std::invalid_argument &error)
+        {
+          throw SceneError("continuum/mesh = '" + mesh.file + "': " + error.what());
+        }
+    }
+  } // namespace
+
+  void require_continuum(const Scene &scene)
+  {
+    check_sides(scene);
+    check_platen_drives(scene);
+    check_side_drives(scene);
+    check_mesh_key(scene);
+  }
+
+  ContinuumSample measured(const continuum::QuadMesh &mesh, const double solid_fraction)
+  {
+    const continuum::MeshSummary summary = continuum::summarise(mesh);
+    return {summary.height, summary.platen_width, solid_fraction};
+  }
+
+  continuum::Loading continuum_loading(const Scene &scene, const ContinuumSample &sample)
+  {
+    continuum::Loading loading;
+    loading.pressure   = scene.loading.pressure;
+    loading.lateral    = lateral_of(scene);
+    loading.body_force = scene.sample.density * sample.solid_fraction *
+                         Eigen::Vector2d(scene.discrete.time.gravity_x, scene.discrete.time.gravity_y);
+    loading.stages            = stages(scene.loading);
+    loading.walk              = continuum_walk(scene.loading.mode);
+    loading.time_per_progress = loading.walk == continuum::Walk::time ? 1. : 1 / rate_of(scene);
+    set_mode(scene.loading, sample, loading);
+    const auto drives = drives_of(scene);
+    for (std::size_t p = 0; p < 2; ++p)
+      for (std::size_t c = 0; c < 2; ++c)
+        if (!drives[p][c].is_auto())
+          loading.platens[p][c] = drive_of(drives[p][c], rate_of(scene));
+    return loading;
+  }
+} // namespace diptych::coupling

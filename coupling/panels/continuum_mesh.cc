@@ -1,0 +1,100 @@
+// diptych: the sample that the continuum panel runs on, and its meshes
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/panels/continuum_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iostream>
+
+#include "continuum/mesh/mesh.h"
+#include "coupling/processes/progress.h"
+#include "coupling/processes/stop_signal.h"
+#include "discrete/panel/panel.h"
+
+namespace diptych::coupling
+{
+  double first_edge(const Scene &scene, const double element_size)
+  {
+    const double larger = scene.continuum.refinement == continuum::Refinement::adaptive ? std::exp2(scene.continuum.refinement_levels) : 1;
+    return larger * element_size * scene.sample.mean_diameter;
+  }
+
+  namespace
+  {
+    bool has_coarse(const Scene &scene)
+    {
+      const continuum::Options &o = scene.continuum;
+      if (scene.comparison.coarse_element_size == 0)
+        return false;
+      if (o.mesh.kind == continuum::MeshOption::Kind::rectangle)
+        return first_edge(scene, scene.comparison.coarse_element_size) <= std::min(o.rectangle_width, o.rectangle_height);
+      return o.mesh.kind == continuum::MeshOption::Kind::outline;
+    }
+  } // namespace
+
+  std::vector<ContinuumPart> continuum_parts(const Scene &scene)
+  {
+    const std::string         &directory = scene.output.directory;
+    std::vector<ContinuumPart> parts     = {{"continuum", "continuum panel", directory, scene.continuum.element_size}};
+    if (has_coarse(scene))
+      parts.push_back(
+        {"continuum_coarse", "continuum panel, coarse mesh", directory + "/coarse", scene.comparison.coarse_element_size});
+    return parts;
+  }
+
+  std::optional<discrete::Snapshot> prepared_grains(const Scene &scene, const bool quiet)
+  {
+    Progress        progress(quiet);
+    discrete::Hooks hooks;
+    hooks.stop_requested = stop_requested;
+    hooks.on_progress    = [&](const std::string &phase, const double fraction) { progress.update(phase, fraction); };
+    discrete::Panel panel(scene.sample, discrete_loading(scene.loading), scene.discrete, hooks);
+    const bool      quieted = panel.prepare() == discrete::Status::finished;
+    progress.finish();
+    if (quieted)
+      return panel.snapshot();
+    std::cerr << "preparing the sample: " << (stop_requested() ? "stopped on request" : panel.report().message) << std::endl;
+    return std::nullopt;
+  }
+
+  double solid_fraction(const discrete::Snapshot &grains)
+  {
+    double area = 0;
+    for (const double r : grains.radius)
+      area += M_PI * r * r;
+    return area / grains.area;
+  }
+
+  continuum::QuadMesh mesh_of(const Scene &scene, const ContinuumPart &part, const discrete::Snapshot *grains)
+  {
+    const continuum::Options &o    = scene.continuum;
+    const double              edge = first_edge(scene, part.element_size);
+    switch (o.mesh.kind)
+      {
+      case continuum::MeshOption::Kind::outline:
+        return continuum::outline_mesh({grains->outline.left, grains->outline.right}, edge);
+      case continuum::MeshOption::Kind::rectangle:
+        return continuum::rectangle_mesh({o.rectangle_width, o.rectangle_height, o.platen_width, edge});
+      case continuum::MeshOption::Kind::file:
+        break;
+      }
+    return continuum::read_mesh(o.mesh.file);
+  }
+
+  std::string identity_of(const continuum::QuadMesh &mesh)
+  {
+    std::uint64_t hash = 14695981039346656037ull; // FNV-1a
+    const auto    add  = [&](const void *bytes, const std::size_t n) {
+      for (std::size_t k = 0; k < n; ++k)
+        hash = (hash ^ static_cast<const unsigned char *>(bytes)[k]) * 1099511628211ull;
+    };
+    for (const Eigen::Vector2d &x : mesh.vertices)
+      add(x.data(), sizeof x);
+    for (const auto &cell : mesh.cells)
+      add(cell.data(), sizeof cell);
+    for (const auto &edge : mesh.boundary)
+      add(edge.vertices.data(), sizeof edge.vertices), add(&edge.id, sizeof edge.id);
+    return "mesh " + std::to_string(hash);
+  }
+} // namespace diptych::coupling

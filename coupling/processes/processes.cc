@@ -1,0 +1,176 @@
+// diptych: several processes that run the continuum together
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/processes/processes.h"
+
+#include <chrono>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include <mpi.h>
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    enum class Kind
+    {
+      none,
+      input,
+      invariant,
+      other
+    };
+
+    Kind kind_of(const std::exception &error)
+    {
+      if (dynamic_cast<const std::invalid_argument *>(&error) != nullptr)
+        return Kind::input;
+      return dynamic_cast<const std::logic_error *>(&error) != nullptr ? Kind::invariant : Kind::other;
+    }
+
+    [[noreturn]] void throw_as(const Kind kind, const std::string &text)
+    {
+      if (kind == Kind::input)
+        throw std::invalid_argument(text);
+      if (kind == Kind::invariant)
+        throw std::logic_error(text);
+      throw std::runtime_error(text);
+    }
+
+    int size_of(const MPI_Comm communicator)
+    {
+      int size = 1;
+      MPI_Comm_size(communicator, &size);
+      return size;
+    }
+
+    int rank_in(const MPI_Comm communicator)
+    {
+      int rank = 0;
+      MPI_Comm_rank(communicator, &rank);
+      return rank;
+    }
+
+    std::string broadcast(std::string text)
+    {
+      int length = int(text.size());
+      MPI_Bcast(&length, 1, MPI_INT, 0, MPI_COMM_WORLD);
+      text.resize(std::size_t(length));
+      MPI_Bcast(text.data(), length, MPI_CHAR, 0, MPI_COMM_WORLD);
+      return text;
+    }
+
+    // Whether every process arrives here soon: then they met the same error, or all of them their own.
+    bool all_arrive(const MPI_Comm communicator)
+    {
+      constexpr std::chrono::seconds patience(5);
+      MPI_Request                    request;
+      MPI_Ibarrier(communicator, &request);
+      const auto begin = std::chrono::steady_clock::now();
+      for (int arrived = 0; std::chrono::steady_clock::now() - begin < patience;)
+        {
+          MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
+          if (arrived != 0)
+            return true;
+          std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+      return false;
+    }
+  } // namespace
+
+  bool is_first_process()
+  {
+    return rank_in(MPI_COMM_WORLD) == 0;
+  }
+
+  unsigned int n_processes()
+  {
+    return unsigned(size_of(MPI_COMM_WORLD));
+  }
+
+  unsigned int own_number()
+  {
+    return unsigned(rank_in(MPI_COMM_WORLD));
+  }
+
+  int on_first_process(const std::function<int()> &work)
+  {
+    if (n_processes() == 1)
+      return work();
+    std::exception_ptr thrown;
+    std::string        text;
+    int                code_and_kind[2] = {0, int(Kind::none)};
+    if (is_first_process())
+      try
+        {
+          code_and_kind[0] = work();
+        }
+      catch (const std::exception &error)
+        {
+          thrown           = std::current_exception();
+          text             = error.what();
+          code_and_kind[1] = int(kind_of(error));
+        }
+    MPI_Bcast(code_and_kind, 2, MPI_INT, 0, MPI_COMM_WORLD);
+    text = broadcast(text);
+    if (thrown)
+      std::rethrow_exception(thrown);
+    if (code_and_kind[1] != int(Kind::none))
+      throw_as(Kind(code_and_kind[1]), text);
+    return code_and_kind[0];
+  }
+
+  double sum_over_processes(const double value)
+  {
+    double sum = 0;
+    MPI_Allreduce(&value, &sum, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    return sum;
+  }
+
+  double from_first_process(double value)
+  {
+    MPI_Bcast(&value, 1, MPI_DOUBLE, 0, MPI_COMM_WORLD);
+    return value;
+  }
+
+  std::vector<double> from_first_process(std::vector<double> values)
+  {
+    int n = int(values.size());
+    MPI_Bcast(&n, 1, MPI_INT, 0, MPI_COMM_WORLD);
+    values.resize(std::size_t(n));
+    MPI_Bcast(values.data(), n, MPI_DOUBLE, 0, MPI_COMM_WORLD);
+    return values;
+  }
+
+  bool any_process(const bool value)
+  {
+    const int mine = int(value);
+    int       any  = 0;
+    MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+    return any == 1;
+  }
+
+  int answer_for(const std::function<int()> &work, int (*code_of)(const std::exception &))
+  {
+    // A communicator of its own: the barrier must not be taken for one of those that `work` waits in.
+    MPI_Comm communicator = MPI_COMM_NULL;
+    MPI_Comm_dup(MPI_COMM_WORLD, &communicator);
+    int code = 0;
+    try
+      {
+        code = work();
+      }
+    catch (const std::exception &error)
+      {
+        code              = code_of(error);
+        const bool shared = all_arrive(communicator);
+        if (is_first_process() || !shared)
+          std::cerr << "diptych: " << error.what() << std::endl;
+        if (!shared)
+          MPI_Abort(MPI_COMM_WORLD, code);
+      }
+    MPI_Comm_free(&communicator);
+    return code;
+  }
+} // namespace diptych::coupling

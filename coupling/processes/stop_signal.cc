@@ -1,0 +1,30 @@
+// diptych: Ctrl-C and SIGTERM end the run at the next step
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/processes/stop_signal.h"
+
+#include <csignal>
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    volatile std::sig_atomic_t stop = 0;
+
+    void request_stop(const int signal)
+    {
+      stop = 1;
+      std::signal(signal, SIG_DFL);
+    }
+  } // namespace
+
+  void install_stop_signals()
+  {
+    std::signal(SIGINT, request_stop);
+    std::signal(SIGTERM, request_stop);
+  }
+
+  bool stop_requested()
+  {
+    return stop != 0;
+  }
+} // namespace diptych::coupling

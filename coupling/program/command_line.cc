@@ -1,0 +1,257 @@
+// diptych: what the program is asked to do
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/program/command_line.h"
+
+#include <iostream>
+#include <map>
+#include <stdexcept>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include "coupling/program/completion.h"
+#include "coupling/version.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    constexpr char footer[] = "Exit codes: 0 done, 1 a stated invariant failed, 2 wrong input, 3 did not converge or was stopped (what was "
+                              "reached is kept),\n4 the system failed: disk, folder, library, script (what was kept is said)";
+
+    // The commands with the options that each of them uses, and no others.
+    class Commands
+    {
+    public:
+      explicit Commands(CommandLine &line)
+          : line(line),
+            app("One granular sample twice, every grain beside a continuum", "diptych")
+      {
+        app.require_subcommand(1);
+        app.footer(footer);
+        app.set_version_flag("--version", std::string("diptych ") + version + " (" + git_revision + ")");
+        add_run();
+        add_panels();
+        add_solve();
+        add_results();
+        add_others();
+      }
+
+      CLI::App &parser() { return app; }
+
+      Command chosen() const
+      {
+        for (const auto &[subcommand, command] : by_parser)
+          if (subcommand->parsed())
+            return command;
+        throw std::logic_error("a command line without a command");
+      }
+
+    private:
+      CLI::App *add(const Command command, const std::string &description)
+      {
+        CLI::App *added  = app.add_subcommand(name_of(command), description);
+        by_parser[added] = command;
+        return added;
+      }
+
+      // clang-format off
+      void add_scene(CLI::App *to) { to->add_option("SCENE", line.target, "scene file, .prm or .json")->required(); }
+      void add_output(CLI::App *to) { to->add_option("--output", line.output, "result folder (default: results/<scene name>)")->type_name("DIR"); }
+      void add_set(CLI::App *to)
+      {
+        to->add_option("--set", line.overrides, "section/key=value: change one key of the scene; may be repeated")
+          ->allow_extra_args(false)->type_name("KEY=VALUE");
+      }
+      void add_threads(CLI::App *to)
+      {
+        to->add_option("--threads", line.threads, "of the contact solver; the same bits for every number")->check(CLI::Range(1, 1024));
+      }
+      void add_resume(CLI::App *to, const std::string &of) { to->add_flag("--resume", line.resume, "go on from the checkpoint of an interrupted run, " + of); }
+      void add_quiet(CLI::App *to) { to->add_flag("--quiet", line.quiet, "no progress"); }
+      // clang-format on
+
+      void add_run()
+      {
+        CLI::App *run = add(Command::run, "both panels, homogenisation, comparison, report");
+        add_scene(run), add_output(run), add_set(run), add_threads(run), add_resume(run, "grains or continuum");
+        auto *seeds = run->add_option("--seeds", line.seeds,
+                                      "the scene on every sample of a list like 1-8 or 1,3,5-7, each in DIR/seed_K, then means, "
+                                      "intervals and verdicts over them (default folder: results/<scene name>_ensemble; also under "
+                                      "mpirun)");
+        seeds->type_name("LIST")->check([](const std::string &list) { return list.empty() ? "the list is empty; a list like 1-8" : ""; });
+        run->add_option("--jobs", line.jobs,
+                        "with --seeds: how many of them at once, on each process (default: cores it may use / threads; under mpirun 1)")
+          ->check(CLI::Range(1, 4096))
+          ->needs(seeds);
+        add_quiet(run);
+      }
+
+      void add_panels()
+      {
+        CLI::App *grains = add(Command::discrete, "the grains alone");
+        add_scene(grains), add_output(grains), add_set(grains), add_threads(grains), add_resume(grains, "of the grains");
+        grains->add_option_function<std::string>(
+                "--study", [this](const std::string &) { line.study_of_step = true; },
+                "step: run with step h, h/2 and h/4 and compare energy and stress ratio")
+          ->check(CLI::IsMember({"step"}));
+        add_quiet(grains);
+
+        CLI::App *continuum = add(Command::continuum, "the continuum alone (continuum/mesh = outline prepares the grains); also "
+                                                      "under mpirun");
+        add_scene(continuum), add_output(continuum), add_set(continuum), add_resume(continuum, "of the continuum");
+        add_quiet(continuum);
+
+        CLI::App *point = add(Command::material_point, "the continuum's law on one point along the biaxial path: material_point.csv");
+        add_scene(point), add_output(point), add_set(point), add_quiet(point);
+      }
+
+      void add_solve()
+      {
+        CLI::App *solve = add(Command::solve, "one stored contact problem (FCLIB layout): sweeps, residual, seconds");
+        solve->add_option("PROBLEM", line.target, "problem file, .h5 or .hdf5")->required();
+        solve->add_option("--output", line.output, "file for the problem with its solution")->type_name("FILE");
+        std::vector<std::string> names;
+        for (const auto &choice : choices(discrete::ContactSolver()))
+          names.emplace_back(choice.second);
+        solve->add_option_function<std::string>(
+               "--solver", [this](const std::string &name) { line.solver = *discrete::value_of<discrete::ContactSolver>(name); },
+               "default: psor")
+          ->check(CLI::IsMember(names));
+        solve->add_option("--tolerance", line.tolerance, "natural map relative to |r| (default: 1e-8)")->check(CLI::Range(1e-300, 0.999999));
+        solve->add_option("--max-sweeps", line.max_sweeps, "(default: 1000000)")->check(CLI::Range(1, 2147483647));
+        solve->add_option("--form", line.form, "body or local (default: body where the file has one)")->check(CLI::IsMember({"body", "local"}));
+        add_threads(solve);
+      }
+
+      void add_results()
+      {
+        CLI::App *compare = add(Command::compare, "homogenise and compare again from a result folder, or evaluate an ensemble again");
+        compare->add_option("DIR", line.target, "result folder")->required();
+        add_set(compare), add_quiet(compare);
+        CLI::App *report = add(Command::report, "draw report.html of a result folder or an ensemble again");
+        report->add_option("DIR", line.target, "result folder")->required();
+        add_quiet(report);
+      }
+
+      void add_others()
+      {
+        add(Command::explain, "every key of a scene: default, unit, range, meaning; or all that result files hold")
+          ->add_option("SECTION", line.target, "a section of a scene, or: results");
+        add(Command::completion, "a script that completes command lines: source <(diptych completion bash)")
+          ->add_option("SHELL", line.target)
+          ->required()
+          ->check(CLI::IsMember({"bash", "zsh"}));
+      }
+
+      CommandLine                   &line;
+      CLI::App                       app;
+      std::map<CLI::App *, Command>  by_parser;
+    };
+
+    // "diptych compare: ...; its options are --set, --quiet and --help"
+    std::string refusal(CLI::App &app, const CLI::ParseError &error)
+    {
+      const std::vector<CLI::App *> found = app.get_subcommands();
+      CLI::App                     &asked = found.empty() ? app : *found.front();
+      std::string                   text  = "diptych" + (found.empty() ? "" : " " + asked.get_name()) + ": " + error.what() + "; it has";
+      if (found.empty())
+        {
+          text = std::string("diptych: ") + error.what() + "; the commands are";
+          for (const CLI::App *command : app.get_subcommands({}))
+            text += " " + command->get_name();
+          return text + "; see diptych --help";
+        }
+      for (const std::string &option : option_names(asked))
+        text += " " + option;
+      return text;
+    }
+  } // namespace
+
+  std::string name_of(const Command command)
+  {
+    switch (command)
+      {
+      case Command::run:
+        return "run";
+      case Command::discrete:
+        return "discrete";
+      case Command::continuum:
+        return "continuum";
+      case Command::material_point:
+        return "material-point";
+      case Command::solve:
+        return "solve";
+      case Command::compare:
+        return "compare";
+      case Command::report:
+        return "report";
+      case Command::explain:
+        return "explain";
+      case Command::completion:
+        break;
+      }
+    return "completion";
+  }
+
+  ParsedLine parse_command_line(const std::vector<std::string> &words)
+  {
+    ParsedLine parsed;
+    Commands   commands(parsed.line);
+    CLI::App  &app = commands.parser();
+    parsed.line.text = "diptych";
+    for (const std::string &word : words)
+      parsed.line.text += " " + word;
+    if (words.empty() || words[0] == "help")
+      {
+        std::cout << app.help();
+        parsed.exit_code = words.empty() ? wrong_input : done;
+        return parsed;
+      }
+    try
+      {
+        app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+        parsed.line.command = commands.chosen();
+        if (parsed.line.command == Command::completion)
+          {
+            std::cout << completion_script(app, parsed.line.target);
+            parsed.exit_code = done;
+          }
+      }
+    catch (const CLI::Success &asked) // for help or the version
+      {
+        parsed.exit_code = app.exit(asked);
+      }
+    catch (const CLI::ParseError &error)
+      {
+        std::cerr << refusal(app, error) << std::endl;
+        parsed.exit_code = wrong_input;
+      }
+    return parsed;
+  }
+
+  Scene scene_of(const CommandLine &line)
+  {
+    Scene scene = read_scene(line.target, line.overrides, line.command == Command::run);
+    if (!line.output.empty())
+      scene.output.directory = line.output;
+    scene.discrete.threads = line.threads;
+    for (const std::string &warning : line.tells_warnings ? scene.warnings : std::vector<std::string>())
+      std::cerr << "diptych: warning: " << warning << std::endl;
+    return scene;
+  }
+
+  void say(const CommandLine &line, const std::string &text)
+  {
+    if (!line.quiet)
+      std::cout << text << std::endl;
+  }
+
+  int code_of(const std::exception &error)
+  {
+    if (dynamic_cast<const std::invalid_argument *>(&error) != nullptr)
+      return wrong_input;
+    return dynamic_cast<const std::logic_error *>(&error) != nullptr ? invariant : system_failure;
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,75 @@
+// diptych: what the program is asked to do
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coupling/scene/scene.h"
+#include "discrete/solvers/solver.h"
+
+namespace diptych::coupling
+{
+  enum ExitCode
+  {
+    done           = 0,
+    invariant      = 1, // a stated one failed: the program is wrong
+    wrong_input    = 2,
+    not_converged  = 3, // or stopped; what was reached is kept
+    system_failure = 4  // a full disk, a folder that cannot be written to, a library or a script that fails
+  };
+
+  enum class Command
+  {
+    run,
+    discrete,
+    continuum,
+    material_point,
+    solve,
+    compare,
+    report,
+    explain,
+    completion
+  };
+
+  // A member is of use to the commands that have its option.
+  struct CommandLine
+  {
+    Command                  command = Command::explain;
+    std::string              target;              // scene or problem file, result folder, section or shell
+    std::string              output;              // --output
+    std::vector<std::string> overrides;           // --set section/key=value
+    int                      threads = 1;         // --threads
+    bool                     resume  = false;     // --resume
+    bool                     study_of_step = false; // --study step
+    std::string              seeds;               // --seeds: "1-8", "1,3,5-7"
+    int                      jobs = 0;            // --jobs; 0: as many as fit
+    discrete::ContactSolver  solver     = discrete::ContactSolver::psor; // --solver, --tolerance, --max-sweeps, --form: of solve
+    double                   tolerance  = 1e-8;
+    int                      max_sweeps = 1000000;
+    std::string              form;
+    bool                     quiet = false; // --quiet
+    bool                     tells_warnings = true; // the first of several processes does
+    std::string              text;                  // as it was typed
+  };
+
+  // The words after the program's name; or, where they ask for help, the version or a completion script or are wrong, the exit
+  // code after that was told.
+  struct ParsedLine
+  {
+    std::optional<int> exit_code;
+    CommandLine        line;
+  };
+  ParsedLine parse_command_line(const std::vector<std::string> &words);
+
+  std::string name_of(Command command);
+
+  // The scene of a command line, with its output folder. Its warnings go to standard error.
+  Scene scene_of(const CommandLine &line);
+
+  void say(const CommandLine &line, const std::string &text); // to standard output, unless --quiet
+
+  // 1 for a broken invariant, 2 for wrong input, 4 for everything else that is thrown.
+  [[nodiscard]] int code_of(const std::exception &error);
+} // namespace diptych::coupling

@@ -1,0 +1,87 @@
+// diptych: homogenisation and comparison of what a folder holds
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/program/compare_command.h"
+
+#include <filesystem>
+#include <iostream>
+
+#include "coupling/comparison/comparison_output.h"
+#include "coupling/ensembles/ensemble_folder.h"
+#include "coupling/folders/provenance.h"
+#include "coupling/folders/result_folder.h"
+#include "coupling/processes/progress.h"
+#include "coupling/program/ensemble_record.h"
+#include "coupling/program/report_command.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    int comparison_of(const CommandLine &line, const Scene &scene)
+    {
+      const std::string &directory = scene.output.directory;
+      Progress           progress(line.quiet);
+      progress.update("comparing", 0);
+      const PhaseTimer timer("comparison");
+      Results          results = load_results(directory);
+      Comparison       c       = compare(scene, results);
+      write_comparison_h5(directory, scene, c, results);
+      write_fields_vtu(directory, c);
+      record_phases(directory, scene, line.text, {timer.stop()});
+      c.cost = summary_of(read_run_facts(directory).phases); // now with the comparison's own
+      write_comparison(directory, scene, c);
+      progress.finish();
+      for (const StageRecord &stage : c.stages)
+        if (!(stage.mapping.total_relative_error < 1e-12))
+          {
+            std::cerr << "the mapping at " << text_of(discrete::walk_of(scene.loading.mode), stage.progress)
+                      << " misses the grains' total by " << stage.mapping.total_relative_error << std::endl;
+            return invariant;
+          }
+      return done;
+    }
+
+    // The scene that a result folder was made with, with overrides for what the comparison may change.
+    Scene scene_of_folder(const CommandLine &line)
+    {
+      if (!std::filesystem::is_directory(line.target))
+        throw SceneError(line.target + ": no result folder");
+      for (const std::string &text : line.overrides)
+        if (text.rfind("comparison/", 0) != 0 && text.rfind("output/", 0) != 0)
+          throw SceneError("--set " + text + ": only comparison/ and output/ can be changed without running the panels again");
+      Scene scene            = read_scene(line.target + "/scene.prm", line.overrides);
+      scene.output.directory = line.target;
+      if (const std::string name = recorded_scene(line.target); !name.empty())
+        scene.name = name;
+      return scene;
+    }
+  } // namespace
+
+  void check_comparable(const Scene &scene)
+  {
+    if (scene.comparison.coarse_element_size == 0)
+      throw SceneError("comparison/coarse_element_size = 0: `diptych run` compares with that run; a number from 0.1 on");
+    if (scene.continuum.mesh.kind != continuum::MeshOption::Kind::outline)
+      throw SceneError("continuum/mesh = " + text_of(scene.continuum.mesh) +
+                       ": `diptych run` compares both panels on one sample and needs outline; the continuum alone runs with "
+                       "`diptych continuum`");
+  }
+
+  int compare_and_report(const CommandLine &line, const Scene &scene)
+  {
+    if (const int code = comparison_of(line, scene); code != done || !scene.output.report)
+      return code;
+    const PhaseTimer timer("report");
+    draw_page(line, Drawing::page, scene.output.directory);
+    record_phases(scene.output.directory, scene, line.text, {timer.stop()});
+    return done;
+  }
+
+  int compare_again(const CommandLine &line)
+  {
+    if (is_ensemble_folder(line.target))
+      return keeping(line.target, [&] { return compare_ensemble_again(line); });
+    const Scene scene = scene_of_folder(line);
+    return keeping(line.target, [&] { return compare_and_report(line, scene); });
+  }
+} // namespace diptych::coupling

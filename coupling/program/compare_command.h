@@ -1,0 +1,16 @@
+// diptych: homogenisation and comparison of what a folder holds
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "coupling/program/command_line.h"
+
+namespace diptych::coupling
+{
+  // Throws SceneError where the panels of a scene cannot be compared, before anything is written.
+  void check_comparable(const Scene &scene);
+
+  // Both panels' results of scene.output.directory: compares, writes, draws where the scene asks for it. Returns an ExitCode.
+  int compare_and_report(const CommandLine &line, const Scene &scene);
+
+  int compare_again(const CommandLine &line); // compare DIR: of a result folder or of an ensemble
+} // namespace diptych::coupling

@@ -1,0 +1,68 @@
+// diptych: completion of command lines
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/program/completion.h"
+
+#include <sstream>
+
+#include <CLI/App.hpp>
+
+#include "coupling/scene/keys.h"
+#include "coupling/scene/scene.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    std::string joined(const std::vector<std::string> &words)
+    {
+      std::string text;
+      for (const std::string &word : words)
+        text += (text.empty() ? "" : " ") + word;
+      return text;
+    }
+
+    std::string keys_of_scenes()
+    {
+      std::vector<KeyDescription> keys;
+      Scene                       defaults;
+      for_each_section(defaults, [&](const char *section, auto &options) { visit_parameters(options, DescribeKeys{section, keys}); });
+      std::vector<std::string> words;
+      for (const KeyDescription &key : keys)
+        words.push_back(key.section + "/" + key.name + "=");
+      return joined(words);
+    }
+  } // namespace
+
+  std::vector<std::string> option_names(CLI::App &command)
+  {
+    std::vector<std::string> names;
+    for (const CLI::Option *option : command.get_options())
+      for (const std::string &name : option->get_lnames())
+        names.push_back("--" + name);
+    return names;
+  }
+
+  std::string completion_script(CLI::App &app, const std::string &shell)
+  {
+    std::ostringstream       out;
+    std::vector<std::string> commands;
+    out << "# diptych: completion, made by `diptych completion " << shell << "`\n";
+    if (shell == "zsh")
+      out << "autoload -U +X bashcompinit && bashcompinit\n";
+    out << "_diptych()\n{\n  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} options=\"\"\n"
+        << "  case ${COMP_WORDS[1]} in\n";
+    for (CLI::App *command : app.get_subcommands({}))
+      {
+        commands.push_back(command->get_name());
+        out << "    " << command->get_name() << ") options=\"" << joined(option_names(*command)) << "\" ;;\n";
+      }
+    out << "  esac\n  if [ \"$COMP_CWORD\" -eq 1 ]; then\n    COMPREPLY=($(compgen -W \"" << joined(commands)
+        << " --help --version\" -- \"$word\"))\n"
+        << "  elif [ \"$before\" = --set ]; then\n    compopt -o nospace 2>/dev/null\n    COMPREPLY=($(compgen -W \"" << keys_of_scenes()
+        << "\" -- \"$word\"))\n"
+        << "  elif [ \"${word#-}\" != \"$word\" ]; then\n    COMPREPLY=($(compgen -W \"$options\" -- \"$word\"))\n"
+        << "  else\n    compopt -o filenames 2>/dev/null\n    COMPREPLY=($(compgen -f -- \"$word\"))\n  fi\n}\n"
+        << "complete -F _diptych diptych\n";
+    return out.str();
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,220 @@
+// diptych: the continuum alone: meshes, run, checkpoints, resume; on one process or several
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/program/continuum_command.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <sstream>
+
+#include "coupling/folders/provenance.h"
+#include "coupling/folders/result_folder.h"
+#include "coupling/panels/continuum_loading.h"
+#include "coupling/processes/processes.h"
+#include "coupling/program/recorded_continuum.h"
+#include "coupling/scene/identity.h"
+#include "discrete/panel/snapshot_file.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    // What the runs take over from the grains. The snapshot is the first process's.
+    struct Grains
+    {
+      double                            solid_fraction = 0;
+      std::optional<discrete::Snapshot> snapshot;
+
+      const discrete::Snapshot *pointer() const { return snapshot ? &*snapshot : nullptr; }
+    };
+
+    ContinuumFacts facts_of_part(const RunFacts &facts, const ContinuumPart &part)
+    {
+      return part.name == "continuum" ? facts.continuum : facts.continuum_coarse;
+    }
+
+    // Its provenance says so, and no stage is missing: either alone may be left of another run.
+    bool is_finished(const Scene &scene, const ContinuumPart &part)
+    {
+      return facts_of_part(read_run_facts(scene.output.directory), part).finished && !std::filesystem::exists(part.checkpoint()) &&
+             count_continuum_snapshots(part.directory + "/continuum.h5") == stages(scene.loading).size() + 1;
+    }
+
+    ContinuumFacts facts_of(const continuum::Report &report)
+    {
+      ContinuumFacts f;
+      f.cells     = int(report.n_cells);
+      f.unknowns  = int(report.n_unknowns);
+      f.steps     = report.steps;
+      f.processes = int(n_processes());
+      if (report.localisation_progress)
+        f.localisation_strain = *report.localisation_progress, f.localisation_angle = report.localisation_angle;
+      f.finished             = report.status == continuum::Status::finished;
+      f.reached_progress     = report.progress;
+      f.reached_axial_strain = report.axial_strain;
+      f.reached_shear_strain = report.shear_strain;
+      f.message              = report.message;
+      return f;
+    }
+
+    // Nothing of an earlier run may be left to be taken for this one's.
+    void clear(const Scene &scene, const ContinuumPart &part)
+    {
+      forget_fact(scene.output.directory, part.name);
+      remove_results(part.directory, {"continuum.h5", "continuum.xdmf", "continuum.csv", "continuum.pvd", "continuum",
+                                      "continuum_checkpoint.h5"});
+    }
+
+    int take_grains(const CommandLine &line, const Scene &scene, const ContinuumTask &task, Grains &grains)
+    {
+      const bool with_grains = scene.continuum.mesh.kind == continuum::MeshOption::Kind::outline;
+      if (with_grains && task.grains_from_file)
+        grains.snapshot = discrete::read_snapshots(scene.output.directory + "/discrete.h5").front();
+      else if (with_grains)
+        grains.snapshot = prepared_grains(scene, line.quiet);
+      if (with_grains && !grains.snapshot)
+        return not_converged;
+      grains.solid_fraction = with_grains ? solid_fraction(*grains.snapshot) : scene.sample.solid_fraction;
+      return done;
+    }
+
+    // What the curve says, and what should not be overlooked in it.
+    void say_result(const CommandLine &line, const Scene &scene, const ContinuumPart &part, const continuum::Report &report)
+    {
+      const auto rows = discrete::read_rows<continuum::HistoryRow>(part.directory + "/continuum.csv");
+      if (rows.empty())
+        return;
+      const auto larger_by = [](const auto member) {
+        return [member](const auto &a, const auto &b) { return a.*member < b.*member; };
+      };
+      const auto largest = [&](const auto member) { return *std::max_element(rows.begin(), rows.end(), larger_by(member)); };
+      const auto peak    = largest(&continuum::HistoryRow::stress_ratio);
+      const auto at      = [](const continuum::HistoryRow &row) { return text_of(row.walk, row.progress); };
+      std::ostringstream text;
+      text << part.title << ": t/s " << peak.stress_ratio << " at most, at " << at(peak) << ", " << rows.back().stress_ratio
+           << " at " << at(rows.back()) << "; " << report.n_cells << " elements, " << report.n_unknowns << " unknowns, "
+           << report.steps << " steps, " << report.cut_backs << " cut-backs";
+      if (report.localisation_progress)
+        text << "\n  ellipticity first lost, at one point, at " << text_of(peak.walk, *report.localisation_progress)
+             << ", along a line at " << report.localisation_angle << " degrees";
+      if (const double share = largest(&continuum::HistoryRow::viscous_share).viscous_share; share > 0)
+        text << "\n  viscosity carries up to " << 100 * share << " % of the shear strength where the sample yields";
+      double outside = 0; // at rest all three stresses are equal, and nothing depends on their order
+      for (const continuum::HistoryRow &row : rows)
+        outside = row.step > 0 ? std::max(outside, row.share_zz_not_intermediate) : outside;
+      if (continuum::traits(scene.continuum.law).stays_in_plane && outside > 0)
+        text << "\n  sigma_zz is not the intermediate principal stress in up to " << 100 * outside
+             << " % of the area, where this law's in-plane form is not exact"
+             << (outside > 0.05 ? ": hold the result against cosserat_drucker_prager" : "");
+      say(line, text.str());
+    }
+
+    void say_how_it_ended(const CommandLine &line, const Scene &scene, const ContinuumPart &part, const continuum::Report &report)
+    {
+      if (report.status == continuum::Status::finished || !is_first_process())
+        return;
+      std::cerr << part.title << ": " << report.message << "; reached "
+                << text_of(discrete::walk_of(scene.loading.mode), report.progress) << ", kept in " << part.directory;
+      if (report.status == continuum::Status::stopped_by_user && std::filesystem::exists(part.checkpoint()))
+        std::cerr << "; to go on: " << (n_processes() > 1 ? "mpirun -np " + std::to_string(n_processes()) + " " : "")
+                  << "diptych " << name_of(line.command) << ' ' << line.target << " --output " << scene.output.directory
+                  << " --resume (with the same --set)";
+      std::cerr << std::endl;
+    }
+
+    // The part from the beginning or from its checkpoint, with its cost and facts.
+    continuum::Status run_and_record(const CommandLine   &line,
+                                     const Scene         &scene,
+                                     const ContinuumPart &part,
+                                     const Grains        &grains,
+                                     const bool           wants_resume)
+    {
+      const bool       resume = on_first_process([&] {
+        const bool found = wants_resume && std::filesystem::exists(part.checkpoint());
+        if (wants_resume && !found)
+          say(line, part.title + ": no checkpoint in " + part.directory + ": from the beginning");
+        if (!found)
+          clear(scene, part);
+        return int(found);
+      });
+      const PhaseTimer        timer(part.name);
+      RecordedContinuum       recorded(line, scene, part, grains.pointer(), grains.solid_fraction, resume);
+      const continuum::Report report = recorded.run();
+      PhaseCost               cost   = timer.stop();
+      cost.cpu_s                     = sum_over_processes(cost.cpu_s);
+      on_first_process([&] {
+        record_phases(scene.output.directory, scene, line.text, {cost});
+        record_facts(scene.output.directory, part.name, facts_of(report));
+        say_result(line, scene, part, report);
+        return 0;
+      });
+      say_how_it_ended(line, scene, part, report);
+      return report.status;
+    }
+  } // namespace
+
+  bool may_resume_continuum(const Scene &scene)
+  {
+    const std::string          &directory = scene.output.directory;
+    const std::optional<Scene> earlier    = echoed_scene(directory + "/scene.prm");
+    const std::string          difference = earlier ? first_difference(continuum_identity(scene), continuum_identity(*earlier)) : "";
+    if (earlier && difference.empty())
+      return true;
+    for (const std::string &folder : {directory, directory + "/coarse"})
+      if (const std::string file = folder + "/continuum_checkpoint.h5"; std::filesystem::exists(file))
+        throw SceneError("--resume: " + file + " belongs to another scene: " + difference +
+                         "; resume with the same scene or start without --resume");
+    return false;
+  }
+
+  int continuum_panel(const CommandLine &line, const Scene &scene, const ContinuumTask &task)
+  {
+    // Asked of all parts before the first runs: what was finished before is not run again.
+    std::vector<ContinuumPart> to_run;
+    for (const ContinuumPart &part : continuum_parts(scene))
+      if (on_first_process([&] { return int(task.resume && is_finished(scene, part)); }) == 0)
+        to_run.push_back(part);
+      else
+        say(line, part.title + " is finished in " + part.directory + ": not run again");
+    if (to_run.empty())
+      return done;
+
+    Grains grains;
+    if (const int code = on_first_process([&] {
+          remove_results(scene.output.directory, comparison_files);
+          if (!task.resume)
+            remove_results(scene.output.directory, {"coarse"});
+          return take_grains(line, scene, task, grains);
+        });
+        code != done)
+      return code;
+    grains.solid_fraction = from_first_process(grains.solid_fraction);
+
+    int code = done;
+    for (const ContinuumPart &part : to_run)
+      {
+        const continuum::Status status = run_and_record(line, scene, part, grains, task.resume);
+        if (status != continuum::Status::finished)
+          code = not_converged;
+        if (status == continuum::Status::stopped_by_user)
+          break;
+      }
+    return code;
+  }
+
+  int run_continuum(const CommandLine &line)
+  {
+    const Scene scene = scene_of(line);
+    require_continuum(scene);
+    return keeping(scene.output.directory, [&] {
+      ContinuumTask task;
+      task.resume = on_first_process([&] {
+        const bool resume = line.resume && may_resume_continuum(scene);
+        open_result_folder(scene, line.resume);
+        return int(resume);
+      });
+      return continuum_panel(line, scene, task);
+    });
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,372 @@
+// diptych: the grains alone: run, checkpoints, resume, study of the step
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/program/discrete_command.h"
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <sstream>
+
+#include "coupling/comparison/step_comparison.h"
+#include "coupling/folders/provenance.h"
+#include "coupling/folders/result_folder.h"
+#include "coupling/processes/progress.h"
+#include "coupling/processes/stop_signal.h"
+#include "coupling/program/report_command.h"
+#include "coupling/scene/identity.h"
+#include "discrete/files/table_file.h"
+#include "discrete/panel/checkpoint.h"
+#include "discrete/panel/snapshot_file.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    using Rows = std::vector<discrete::HistoryRow>;
+
+    // How often the kinetic energy rose above twice M |V|^2/4: dynamic crises of the slow deformation.
+    int bursts(const Rows &rows)
+    {
+      int count = 0;
+      for (std::size_t k = 1; k < rows.size(); ++k)
+        count += rows[k].kinetic_energy_ratio > 2 && rows[k - 1].kinetic_energy_ratio <= 2;
+      return count;
+    }
+
+    DiscreteFacts facts_of(const discrete::Report &r, const Rows &rows)
+    {
+      DiscreteFacts f;
+      f.preparation_solid_fraction         = r.preparation.solid_fraction;
+      f.preparation_friction               = r.preparation.friction;
+      f.preparation_steps                  = r.preparation.steps;
+      f.preparation_residual               = r.preparation.residual;
+      f.preparation_unbalanced_force       = r.preparation.unbalanced_force;
+      f.initial_height                     = r.initial_height;
+      f.platen_speed                       = r.platen_speed;
+      f.step                               = r.step;
+      f.step_bound                         = r.step_bound;
+      f.halved_steps                       = r.halved_steps;
+      f.kinetic_energy_bursts              = bursts(rows);
+      f.ns_per_update                      = r.updates > 0 ? 1e9 * r.solver_cpu_s / double(r.updates) : 0;
+      f.solver_share_of_cpu                = r.loading_cpu_s > 0 ? r.solver_cpu_s / r.loading_cpu_s : 0;
+      f.residual_factor                    = r.error_over_residual;
+      f.residual_factor_reference_residual = r.reference_residual;
+      f.residual_factor_error              = r.reference_error;
+      f.residual_factor_estimate           = r.estimated_error;
+      f.snapshots_sampled                  = r.snapshots_sampled;
+      f.snapshots_accurate                 = r.snapshots_accurate;
+      f.finished                           = r.status == discrete::Status::finished;
+      f.reached_progress                   = r.progress;
+      f.reached_axial_strain               = r.axial_strain;
+      f.reached_shear_strain               = r.shear_strain;
+      f.message                            = r.message;
+      return f;
+    }
+
+    std::string problem_name(const int stage)
+    {
+      char name[32];
+      std::snprintf(name, sizeof name, "/problem_%04d.h5", stage);
+      return name;
+    }
+
+    std::string checkpoint_file(const Scene &scene)
+    {
+      return scene.output.directory + "/checkpoint.h5";
+    }
+
+    // What an interrupted run left, or nothing where it left nothing of use.
+    std::optional<discrete::StoredCheckpoint> found_checkpoint(const Scene &scene)
+    {
+      const std::string path = checkpoint_file(scene);
+      if (!std::filesystem::exists(path))
+        return std::nullopt;
+      discrete::StoredCheckpoint checkpoint = discrete::read_checkpoint(path);
+      if (checkpoint.scene != text_of(sample_identity(scene)))
+        throw SceneError("--resume: " + path + " belongs to another scene: the sections sample, loading or discrete differ");
+      return checkpoint;
+    }
+
+    bool is_finished(const Scene &scene)
+    {
+      return read_run_facts(scene.output.directory).discrete.finished &&
+             std::filesystem::exists(scene.output.directory + "/discrete.h5");
+    }
+
+    // Tells of every sampled snapshot how accurate its grain stress is.
+    std::string accuracy_text(const discrete::Snapshot &s, const double wanted)
+    {
+      if (std::isnan(s.stress_error))
+        return "";
+      std::ostringstream out;
+      out.precision(2);
+      out << "snapshot at " << text_of(s.walk, s.progress) << ": residual " << s.residual << ", error of grain stress ";
+      if (std::isfinite(s.stress_error))
+        out << 100 * s.stress_error << " % (estimated)";
+      else
+        out << "not known (it still changed by " << 100 * s.stress_change << " % in the last doubling of the sweeps)";
+      if (!std::isnan(s.error_over_residual))
+        out << ", error/residual " << s.error_over_residual;
+      if (!(s.stress_error <= wanted))
+        out << "; snapshot_accuracy " << 100 * wanted << " % not reached in snapshot_max_sweeps";
+      return out.str();
+    }
+
+    // What makes a finished run doubtful goes to standard error, quiet or not.
+    void warn(const Rows &rows)
+    {
+      constexpr double doubtful_penetration = 0.02, doubtful_gain = 0.1;
+      double           penetration = 0;
+      for (const discrete::HistoryRow &row : rows)
+        penetration = std::max(penetration, row.max_penetration);
+      if (penetration > doubtful_penetration)
+        std::cerr << "discrete panel: warning: grains interpenetrate by up to " << penetration
+                  << " mean diameters; a shorter step or a smaller tolerance is needed" << std::endl;
+      if (!rows.empty() && rows.back().impact_dissipation < -doubtful_gain * std::abs(rows.back().external_work))
+        std::cerr << "discrete panel: warning: contacts gave " << -rows.back().impact_dissipation
+                  << " of energy against an external work of " << rows.back().external_work << "; the step is too long"
+                  << std::endl;
+    }
+
+    // What came of the copy that was solved on to measure error against residual.
+    std::string reference_text(const discrete::Report &report)
+    {
+      if (std::isnan(report.reference_residual))
+        return "";
+      std::ostringstream out;
+      out.precision(2);
+      out << "first snapshot solved on for reference_sweeps: residual " << report.reference_residual
+          << ", grain stress differs by " << 100 * report.reference_error << " %; ";
+      if (std::isnan(report.error_over_residual))
+        out << "too far from a solution to measure error over residual against";
+      else
+        out << "error over residual " << report.error_over_residual;
+      return out.str() + "\n";
+    }
+
+    // The panel with its files: rows and snapshots as they come, a checkpoint when it is time.
+    class RecordedPanel
+    {
+      using Clock = std::chrono::steady_clock;
+
+    public:
+      RecordedPanel(const CommandLine &line, const Scene &scene, const std::optional<discrete::StoredCheckpoint> &checkpoint)
+          : line(line),
+            scene(scene),
+            identity(text_of(sample_identity(scene))),
+            progress(line.quiet),
+            panel(scene.sample, discrete_loading(scene.loading), scene.discrete, hooks())
+      {
+        if (!checkpoint)
+          return;
+        table.emplace(path("discrete.csv"), discrete::csv_header<discrete::HistoryRow>(), checkpoint->n_rows);
+        snapshots.emplace(path("discrete"), std::size_t(checkpoint->panel.stage) + 1);
+        panel.resume(checkpoint->panel);
+      }
+
+      std::string warnings;
+
+      const discrete::Report &run()
+      {
+        if (!table)
+          prepare();
+        for (int stage = panel.stage() + 1; panel.report().status == discrete::Status::finished && stage <= n_stages(); ++stage)
+          {
+            const bool reached = panel.advance_to(stage) == discrete::Status::finished;
+            if (reached || panel.has_snapshot())
+              add_snapshot();
+          }
+        progress.finish();
+        if (table)
+          table->flush();
+        if (panel.report().status == discrete::Status::stopped_by_user && table)
+          save();
+        if (panel.report().status == discrete::Status::finished)
+          {
+            snapshots->close();
+            remove_results(scene.output.directory, {"checkpoint.h5"});
+          }
+        return panel.report();
+      }
+
+    private:
+      std::string path(const std::string &name) const { return scene.output.directory + "/" + name; }
+      int         n_stages() const { return int(stages(scene.loading).size()); }
+
+      discrete::Hooks hooks()
+      {
+        discrete::Hooks hooks;
+        hooks.stop_requested = stop_requested;
+        hooks.on_progress    = [this](const std::string &phase, const double fraction) { progress.update(phase, fraction); };
+        hooks.before_step    = [this] { save_if_due(); };
+        hooks.on_row         = [this](const discrete::HistoryRow &row) { add_row(row); };
+        hooks.on_problem     = [this](const int stage, const discrete::ContactProblem &problem, const discrete::StoredGeometry &geometry,
+                                  const std::vector<discrete::Impulse> &impulses) {
+          discrete::write_fclib(scene.output.directory + problem_name(stage), problem,
+                                    {scene.name + ", stage " + std::to_string(stage), line.text}, geometry, impulses);
+        };
+        return hooks;
+      }
+
+      void prepare()
+      {
+        if (panel.prepare() != discrete::Status::finished)
+          return;
+        table.emplace(path("discrete.csv"), discrete::csv_header<discrete::HistoryRow>());
+        snapshots.emplace(path("discrete"));
+        add_snapshot();
+      }
+
+      void add_row(const discrete::HistoryRow &row)
+      {
+        table->add(discrete::csv_line(row));
+        if (Clock::now() - flushed < std::chrono::seconds(1))
+          return;
+        table->flush();
+        flushed = Clock::now();
+      }
+
+      void add_snapshot()
+      {
+        const discrete::Snapshot snapshot = panel.snapshot();
+        table->flush();
+        snapshots->add(snapshot);
+        if (const std::string text = accuracy_text(snapshot, scene.discrete.sampling.snapshot_accuracy); !text.empty())
+          warnings += text + "\n";
+      }
+
+      void save_if_due()
+      {
+        if (std::chrono::duration<double>(Clock::now() - saved).count() >= 60 * scene.discrete.method.checkpoint_minutes)
+          save();
+      }
+
+      // Rows first: the checkpoint says how many are its own.
+      void save()
+      {
+        table->flush();
+        discrete::write_checkpoint(checkpoint_file(scene), {panel.checkpoint(), table->n_rows(), identity});
+        saved = Clock::now();
+      }
+
+      const CommandLine                    &line;
+      const Scene                          &scene;
+      const std::string                     identity;
+      Progress                              progress;
+      std::optional<discrete::TableFile>    table; // from the prepared sample on
+      std::optional<discrete::SnapshotFile> snapshots;
+      Clock::time_point                     saved = Clock::now(), flushed = saved;
+      discrete::Panel                       panel;
+    };
+
+    void forget_earlier_run(const Scene &scene)
+    {
+      const std::string &directory = scene.output.directory;
+      forget_fact(directory, "discrete"); // killed, this one is not finished
+      remove_results(directory, {"discrete.h5", "discrete.xdmf", "discrete.csv", "discrete", "checkpoint.h5"});
+      for (std::size_t stage = 1; stage <= stages(scene.loading).size(); ++stage)
+        std::filesystem::remove(directory + problem_name(int(stage)));
+    }
+
+    void record(const CommandLine &line, const Scene &scene, const discrete::Report &report, const Rows &rows, const PhaseTimer &timer, const bool resumed)
+    {
+      PhaseCost loading = timer.stop(), preparation = loading;
+      preparation.name  = "preparation";
+      preparation.cpu_s = preparation.wall_s = report.preparation_cpu_s;
+      if (!resumed)
+        loading.cpu_s -= report.preparation_cpu_s, loading.wall_s -= report.preparation_cpu_s;
+      record_phases(scene.output.directory, scene, line.text, {preparation, loading});
+      record_facts(scene.output.directory, facts_of(report, rows));
+    }
+
+    int say_how_it_ended(const CommandLine &line, const Scene &scene, const discrete::Report &report)
+    {
+      if (report.status == discrete::Status::finished)
+        return done;
+      std::cerr << "discrete panel: "
+                << (report.status == discrete::Status::stopped_by_user ? "stopped on request" : report.message) << "; reached "
+                << text_of(discrete::walk_of(scene.loading.mode), report.progress) << ", kept in " << scene.output.directory;
+      if (report.status == discrete::Status::stopped_by_user && std::filesystem::exists(checkpoint_file(scene)))
+        std::cerr << "; to go on: diptych " << name_of(line.command) << ' ' << line.target << " --output " << scene.output.directory
+                  << " --resume (with the same --set)";
+      std::cerr << std::endl;
+      return not_converged;
+    }
+
+    void check_study(const Scene &scene)
+    {
+      if (scene.discrete.method.method == discrete::Method::penalty)
+        throw SceneError(
+          "--study step: discrete/method = penalty takes its step from penalty_step_fraction, not from discrete/step");
+      if (!scene.discrete.time.step)
+        throw SceneError("--study step: discrete/step must be a number to be halved, not auto");
+    }
+
+    // The same prepared sample at h, h/2 and h/4 in the folders step_1, step_2, step_4; study_step.csv, .json and .png compare
+    // energy and stress ratio against time and give a verdict.
+    int step_study(const CommandLine &line, const Scene &scene)
+    {
+      std::vector<StepRun> runs;
+      for (const int divisor : {1, 2, 4})
+        {
+          Scene part            = scene;
+          part.output.directory = scene.output.directory + "/step_" + std::to_string(divisor);
+          *part.discrete.time.step /= divisor;
+          open_result_folder(part, line.resume);
+          if (const int code = discrete_panel(line, part); code != done)
+            return code;
+          runs.push_back({*part.discrete.time.step,
+                          history_table(discrete::read_rows<discrete::HistoryRow>(part.output.directory + "/discrete.csv"))});
+        }
+      const StepComparison comparison = compare_steps(runs, averaging_width(scene), discrete::walk_of(scene.loading.mode));
+      write_step_comparison(scene.output.directory, runs, comparison);
+      draw(Drawing::step_study, scene.output.directory);
+      say(line, comparison.verdict);
+      say(line, "study of the step: " + scene.output.directory + "/study_step.png");
+      return done;
+    }
+  } // namespace
+
+  int discrete_panel(const CommandLine &line, const Scene &scene)
+  {
+    const std::string &directory  = scene.output.directory;
+    const auto         checkpoint = line.resume ? found_checkpoint(scene) : std::nullopt;
+    if (line.resume && !checkpoint && is_finished(scene))
+      {
+        say(line, "the grains are finished in " + directory + ": not run again");
+        return done;
+      }
+    if (line.resume && !checkpoint)
+      say(line, "no checkpoint in " + directory + ": from the beginning");
+    remove_results(directory, comparison_files);
+    if (!checkpoint)
+      forget_earlier_run(scene);
+
+    const PhaseTimer        timer("discrete");
+    RecordedPanel           recorded(line, scene, checkpoint);
+    const discrete::Report &report = recorded.run();
+    const std::string       csv    = directory + "/discrete.csv";
+    const Rows              rows   = std::filesystem::exists(csv) ? discrete::read_rows<discrete::HistoryRow>(csv) : Rows();
+    record(line, scene, report, rows, timer, checkpoint.has_value());
+    recorded.warnings += reference_text(report);
+    warn(rows);
+    if (!recorded.warnings.empty() && report.snapshots_accurate < report.snapshots_sampled)
+      std::cerr << recorded.warnings << std::flush;
+    else if (!recorded.warnings.empty())
+      say(line, recorded.warnings.substr(0, recorded.warnings.size() - 1));
+    return say_how_it_ended(line, scene, report);
+  }
+
+  int run_discrete(const CommandLine &line)
+  {
+    const Scene scene = scene_of(line);
+    if (line.study_of_step)
+      check_study(scene);
+    return keeping(scene.output.directory, [&] {
+      open_result_folder(scene, line.resume);
+      return line.study_of_step ? step_study(line, scene) : discrete_panel(line, scene);
+    });
+  }
+} // namespace diptych::coupling

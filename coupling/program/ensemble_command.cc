@@ -1,0 +1,123 @@
+// diptych: run SCENE --seeds: the same scene on many samples
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/program/ensemble_command.h"
+
+#include <algorithm>
+#include <iostream>
+
+#include "coupling/ensembles/ensemble_folder.h"
+#include "coupling/ensembles/seed_list.h"
+#include "coupling/folders/result_folder.h"
+#include "coupling/panels/continuum_loading.h"
+#include "coupling/processes/child_process.h"
+#include "coupling/processes/processes.h"
+#include "coupling/program/compare_command.h"
+#include "coupling/program/ensemble_record.h"
+#include "coupling/program/report_command.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    std::string joined(const std::vector<int> &seeds)
+    {
+      std::string text;
+      for (const int seed : seeds)
+        text += (text.empty() ? "" : ", ") + std::to_string(seed);
+      return text;
+    }
+
+    // Everything that would make all members fail is refused here.
+    Scene ensemble_scene(const CommandLine &line)
+    {
+      for (const std::string &text : line.overrides)
+        if (text.rfind("sample/seed=", 0) == 0)
+          throw SceneError("--set " + text + ": --seeds " + line.seeds + " sets the seed of each member");
+      Scene scene = scene_of(line);
+      if (!scene.sample.file.empty())
+        throw SceneError("--seeds " + line.seeds + ": sample/file = '" + scene.sample.file +
+                         "' is one sample; only samples that are generated depend on a seed");
+      require_continuum(scene);
+      check_comparable(scene);
+      // A single run of the scene may stand in its own folder.
+      if (line.output.empty() && scene.output.directory == "results/" + scene.name)
+        scene.output.directory += "_ensemble";
+      return scene;
+    }
+
+    MemberRuns runs_of(const CommandLine &line, const Scene &scene)
+    {
+      MemberRuns runs;
+      runs.command = {own_path(), "run", line.target, "--quiet", "--threads", std::to_string(line.threads)};
+      for (const std::string &text : line.overrides)
+        runs.command.insert(runs.command.end(), {"--set", text});
+      if (line.resume)
+        runs.command.emplace_back("--resume");
+      runs.directory = scene.output.directory;
+      // mpirun starts a process for every core that is to work.
+      const int fitting = n_processes() > 1 ? 1 : std::max(1, n_usable_cores() / line.threads);
+      runs.jobs         = line.jobs > 0 ? line.jobs : fitting;
+      runs.quiet        = line.quiet;
+      return runs;
+    }
+
+    std::string how_to_resume(const CommandLine &line, const Scene &scene)
+    {
+      return (n_processes() > 1 ? "mpirun -np " + std::to_string(n_processes()) + " " : "") + "diptych run " + line.target +
+             " --seeds " + line.seeds + " --output " + scene.output.directory + " --resume (with the same --set)";
+    }
+
+    int conclude(const CommandLine &line, const Scene &scene, const EnsembleRecord &record)
+    {
+      const std::string done_text = std::to_string(record.ensemble.seeds.size()) + " of " + std::to_string(record.seeds.size()) +
+                                    " seeds are done";
+      std::vector<int> failed;
+      for (const FailedMember &member : record.failed)
+        failed.push_back(member.seed);
+      if (!failed.empty())
+        std::cerr << "failed: seed " << joined(failed) << "; " << done_text << ", kept in " << scene.output.directory
+                  << std::endl;
+      if (!record.interrupted.empty())
+        std::cerr << "stopped on request; " << done_text << ", kept in " << scene.output.directory
+                  << "; to go on: " << how_to_resume(line, scene) << std::endl;
+      return failed.empty() && record.interrupted.empty() ? done : not_converged;
+    }
+
+    // Makes the folder ready; the seeds that are not finished yet.
+    std::vector<int> prepared_seeds(const CommandLine &line, const Scene &scene, const std::vector<int> &seeds)
+    {
+      std::vector<int> pending = seeds;
+      on_first_process([&] {
+        if (line.resume && !is_ensemble_folder(scene.output.directory))
+          say(line, "no ensemble in " + scene.output.directory + ": from the beginning");
+        open_ensemble_folder(scene, seeds, line.resume);
+        const auto is_finished = [&](const int seed) { return line.resume && is_finished_member(scene, seed); };
+        pending.erase(std::remove_if(pending.begin(), pending.end(), is_finished), pending.end());
+        if (pending.size() < seeds.size())
+          say(line, std::to_string(seeds.size() - pending.size()) + " of " + std::to_string(seeds.size()) +
+                      " seeds are finished in " + scene.output.directory + ": not run again");
+        return 0;
+      });
+      const std::vector<double> shared = from_first_process(std::vector<double>(pending.begin(), pending.end()));
+      return {shared.begin(), shared.end()};
+    }
+  } // namespace
+
+  int run_ensemble(const CommandLine &line)
+  {
+    const std::vector<int> seeds = read_seeds(line.seeds);
+    const Scene            scene = ensemble_scene(line);
+    const PhaseTimer       timer("ensemble");
+    MemberRuns             runs = runs_of(line, scene);
+    runs.seeds                  = prepared_seeds(line, scene, seeds);
+    runs.n_finished_before      = int(seeds.size() - runs.seeds.size());
+    const auto outcomes         = run_members(runs);
+    return on_first_process([&] {
+      const EnsembleRecord record = record_of(scene, seeds, outcomes);
+      write_record(line, scene, record, timer);
+      if (scene.output.report && record.interrupted.empty())
+        draw_page(line, Drawing::ensemble, scene.output.directory);
+      return conclude(line, scene, record);
+    });
+  }
+} // namespace diptych::coupling

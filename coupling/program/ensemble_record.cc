@@ -1,0 +1,121 @@
+// diptych: what the finished members of an ensemble say together
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/program/ensemble_record.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+#include "coupling/ensembles/ensemble_curves.h"
+#include "coupling/ensembles/ensemble_folder.h"
+#include "coupling/program/report_command.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    using nlohmann::json;
+
+    Member read_member(const Scene &scene, const int seed)
+    {
+      const std::string path = member_folder(scene.output.directory, seed) + "/comparison.json";
+      try
+        {
+          std::ifstream file(path);
+          Member        member = member_of(json::parse(file));
+          if (is_mirror_symmetric(scene))
+            fold(member);
+          return member;
+        }
+      catch (const std::exception &error)
+        {
+          throw std::invalid_argument(path + ": " + error.what());
+        }
+    }
+
+    // "window 0-0.01 band angle_deg: cannot tell: continuum - grains -1.1 [-3.8, 1.6] degrees, margin 3, 8 pairs"
+    std::string text_of(const PanelVerdict &verdict)
+    {
+      const Equivalence &e     = verdict.equivalence;
+      const double       scale = verdict.relative ? 100 : 1;
+      const std::string  unit  = verdict.relative ? " % of the grains' mean" : verdict.unit == "-" ? "" : " " + verdict.unit;
+      std::ostringstream out;
+      out.precision(3);
+      out << verdict.quantity << ": " << coupling::text_of(e.verdict);
+      if (e.n > 0)
+        out << ": continuum - grains " << scale * e.difference.value << " [" << scale * e.difference.low << ", "
+            << scale * e.difference.high << ']' << unit << ", margin " << scale * verdict.margin;
+      out << ", " << e.n << " pairs";
+      return out.str();
+    }
+
+    Scene scene_of_ensemble(const CommandLine &line)
+    {
+      for (const std::string &text : line.overrides)
+        if (text.rfind("comparison/margin_", 0) != 0 && text.rfind("output/", 0) != 0)
+          throw SceneError("--set " + text +
+                           ": only comparison/margin_* and output/ can be changed without running the members again");
+      Scene scene            = read_scene(line.target + "/ensemble.prm", line.overrides);
+      scene.output.directory = line.target;
+      if (const std::string name = recorded_scene(line.target); !name.empty())
+        scene.name = name;
+      return scene;
+    }
+  } // namespace
+
+  EnsembleRecord record_of(const Scene &scene, const std::vector<int> &seeds, const std::vector<MemberOutcome> &outcomes)
+  {
+    EnsembleRecord record;
+    record.seeds              = seeds;
+    std::vector<int> finished = seeds;
+    const auto       drop     = [&finished](const int seed) {
+      finished.erase(std::remove(finished.begin(), finished.end(), seed), finished.end());
+    };
+    for (const MemberOutcome &outcome : outcomes)
+      if (outcome.interrupted)
+        record.interrupted.push_back(outcome.seed), drop(outcome.seed);
+      else if (outcome.exit_code != 0)
+        {
+          const std::string log = member_log(scene.output.directory, outcome.seed);
+          record.failed.push_back({outcome.seed, outcome.exit_code, last_words(log)}), drop(outcome.seed);
+        }
+    std::vector<Member> members;
+    for (const int seed : finished)
+      members.push_back(read_member(scene, seed));
+    record.ensemble = evaluate(members, scene.comparison.margins);
+    return record;
+  }
+
+  void write_record(const CommandLine &line, const Scene &scene, const EnsembleRecord &record, const PhaseTimer &timer)
+  {
+    const std::string &directory = scene.output.directory;
+    write_ensemble_json(directory, scene, record);
+    write_ensemble_csv(directory, record.ensemble);
+    write_ensemble_curves(directory, scene, record.ensemble.seeds);
+    record_phases(directory, scene, line.text, {timer.stop()});
+    for (const PanelVerdict &verdict : record.ensemble.verdicts)
+      say(line, text_of(verdict));
+  }
+
+  int compare_ensemble_again(const CommandLine &line)
+  {
+    const Scene                scene = scene_of_ensemble(line);
+    const PhaseTimer           timer("statistics");
+    std::ifstream              file(line.target + "/ensemble.json");
+    const json                 earlier = json::parse(file, nullptr, /* exceptions */ false);
+    std::vector<MemberOutcome> outcomes;
+    if (!earlier.is_object() || !earlier.contains("seeds"))
+      throw SceneError(line.target + "/ensemble.json is missing or broken");
+    for (const json &failed : earlier.value("failed", json::array()))
+      outcomes.push_back({failed.at("seed"), failed.at("exit_code")});
+    for (const int seed : earlier.value("interrupted", std::vector<int>()))
+      outcomes.push_back({seed, 0, true});
+    write_record(line, scene, record_of(scene, earlier["seeds"], outcomes), timer);
+    if (scene.output.report)
+      draw_page(line, Drawing::ensemble, scene.output.directory);
+    return done;
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,23 @@
+// diptych: what the finished members of an ensemble say together
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "coupling/ensembles/ensemble_members.h"
+#include "coupling/ensembles/ensemble_output.h"
+#include "coupling/folders/provenance.h"
+#include "coupling/program/command_line.h"
+
+namespace diptych::coupling
+{
+  // Reads the members that finished and evaluates them. Throws std::invalid_argument naming a member's file that is broken.
+  EnsembleRecord record_of(const Scene &scene, const std::vector<int> &seeds, const std::vector<MemberOutcome> &outcomes);
+
+  // ensemble.json, .csv and .h5 and the phase; tells the verdicts.
+  void write_record(const CommandLine &line, const Scene &scene, const EnsembleRecord &record, const PhaseTimer &timer);
+
+  // compare DIR of an ensemble: statistics and verdicts again from the members' comparison.json; margins may be changed.
+  int compare_ensemble_again(const CommandLine &line);
+} // namespace diptych::coupling

@@ -1,0 +1,72 @@
+// diptych: what the continuum's and the comparison's files hold
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "continuum/history.h"
+#include "continuum/laws/material_point_row.h"
+#include "continuum/snapshot_fields.h"
+#include "coupling/comparison/comparison_arrays.h"
+#include "coupling/comparison/comparison_schema.h"
+#include "coupling/program/result_entries.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    void add_continuum_file(ResultList &result)
+    {
+      const std::string         h5 = "continuum.h5, group stage_NNNN; continuum/stage_NNNN.vtu";
+      const continuum::Snapshot s;
+      continuum::visit_attributes(s, [&](const char *name, const auto &value, const char *unit, const char *meaning) {
+        result.push_back({h5, name, "attribute, " + value_shape(value), unit, meaning});
+      });
+      result.push_back({h5, continuum::cells_name, "nine whole numbers a cell", "-", continuum::cells_meaning});
+      continuum::visit_node_fields(s, [&](const std::string &name, const auto &values, const char *unit, const char *meaning) {
+        result.push_back({h5, name, array_shape<typename std::decay_t<decltype(values)>::value_type>(), unit, meaning});
+      });
+      const continuum::CellState cell;
+      continuum::visit_cell_fields(cell, [&](const std::string &name, const auto &value, const char *unit, const char *meaning) {
+        result.push_back({h5, name, array_shape<std::decay_t<decltype(value)>>(), unit, meaning});
+      });
+    }
+
+    // What list functions of comparison_arrays.h give, below a place of comparison.h5.
+    struct AddArrays
+    {
+      std::string file, place;
+      ResultList &result;
+
+      template <class T> void operator()(const ArrayEntry &entry, const std::vector<T> &) const
+      {
+        result.push_back({file, place + entry.key, array_shape<T>(), entry.unit, std::string(entry.title) + "; " + entry.meaning});
+      }
+    };
+
+    void add_comparison_arrays(ResultList &result)
+    {
+      const Increment          increment;
+      const discrete::Snapshot grains;
+      const CellFields         fields;
+      const HistoryTable       history = history_table(std::vector<discrete::HistoryRow>(1));
+      const std::string        stages = "comparison.h5, group stage_NNNN", windows = "comparison.h5, group window_N";
+      list_increment_arrays(increment, grains, AddArrays{stages, "", result});
+      list_grain_arrays(increment, grains, grains, AddArrays{stages, "", result});
+      result.push_back({stages, "cells/node, grid/node", "vectors", "length", "nodes of the mesh and of the regular grid"});
+      result.push_back({stages, "cells/cell, grid/cell", "four whole numbers a cell", "-", "its nodes, anticlockwise"});
+      list_cell_arrays(fields, {}, AddArrays{stages + "; fields.vtu (cells), grid.vtu (grid)", "cells/, grid/ ", result});
+      list_increment_arrays(increment, grains, AddArrays{windows, "", result});
+      list_window_cell_arrays(increment, {}, AddArrays{windows, "cells/", result});
+      list_history_arrays(history, 1, AddArrays{"comparison.h5, groups histories/discrete and histories/continuum", "", result});
+    }
+  } // namespace
+
+  ResultList comparison_result_entries()
+  {
+    ResultList result;
+    add_columns<continuum::HistoryRow>("continuum.csv", result);
+    add_continuum_file(result);
+    add_columns<continuum::MaterialPointRow>("material_point.csv", result);
+    for (const NumberDescription &number : comparison_schema())
+      result.push_back({"comparison.json, comparison.csv", number.place, number.shape, number.unit, number.meaning});
+    add_comparison_arrays(result);
+    return result;
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,126 @@
+// diptych: the program; what needs the continuum's libraries is done by another one beside it, so that the rest starts at once
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+
+#include <unistd.h>
+
+#include "coupling/processes/child_process.h"
+#include "coupling/processes/stop_signal.h"
+#include "coupling/program/command_line.h"
+#include "coupling/program/discrete_command.h"
+#include "coupling/program/explain_command.h"
+#include "coupling/program/report_command.h"
+#include "coupling/program/solve_command.h"
+#ifdef DIPTYCH_CONTINUUM
+#  include "coupling/program/compare_command.h"
+#endif
+
+namespace
+{
+  using namespace diptych::coupling;
+
+#ifdef DIPTYCH_CONTINUUM
+  const std::vector<std::function<ResultList()>> result_lists = {discrete_result_entries, comparison_result_entries};
+
+  int compare(const CommandLine &line)
+  {
+    return compare_again(line);
+  }
+
+  // diptych-panels beside this program, or in PREFIX/libexec where it is installed.
+  [[noreturn]] void become_the_panels(char **argv)
+  {
+    namespace fs             = std::filesystem;
+    const fs::path    folder = fs::path(own_path()).parent_path();
+    const std::string name   = "diptych-panels";
+    for (const fs::path &program : {folder / name, folder.parent_path() / "libexec/diptych" / name})
+      if (fs::exists(program))
+        {
+          argv[0] = const_cast<char *>(program.c_str());
+          execv(program.c_str(), argv);
+          throw std::runtime_error("cannot start " + program.string() + ": " + std::strerror(errno));
+        }
+    throw std::runtime_error(name + " is not beside " + own_path() + "; the installation is broken");
+  }
+#else
+  const std::vector<std::function<ResultList()>> result_lists = {discrete_result_entries};
+
+  int compare(const CommandLine &)
+  {
+    throw SceneError("diptych compare: this program was built without the continuum; it has discrete, solve, report and explain");
+  }
+
+  [[noreturn]] void become_the_panels(char **argv)
+  {
+    throw SceneError(std::string("diptych ") + argv[1] +
+                     ": this program was built without the continuum; it has discrete, solve, report and explain");
+  }
+#endif
+
+  // Of an MPI job; 1 without one.
+  int n_processes()
+  {
+    for (const char *variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
+      if (const char *size = std::getenv(variable))
+        return std::atoi(size);
+    return 1;
+  }
+
+  bool is_first_process()
+  {
+    for (const char *variable : {"OMPI_COMM_WORLD_RANK", "PMI_RANK"})
+      if (const char *rank = std::getenv(variable))
+        return std::atoi(rank) == 0;
+    return true;
+  }
+
+  int execute(const CommandLine &line, char **argv)
+  {
+    switch (line.command)
+      {
+      case Command::run:
+      case Command::continuum:
+      case Command::material_point:
+        become_the_panels(argv);
+      default:
+        break;
+      }
+    if (n_processes() > 1)
+      throw SceneError("mpirun: diptych " + name_of(line.command) +
+                       " runs on one process; several may run `diptych continuum` alone or `diptych run` with --seeds");
+    install_stop_signals();
+    switch (line.command)
+      {
+      case Command::discrete:
+        return run_discrete(line);
+      case Command::solve:
+        return solve_stored_problem(line);
+      case Command::compare:
+        return compare(line);
+      case Command::report:
+        return report_again(line);
+      default:
+        return explain(line, result_lists);
+      }
+  }
+} // namespace
+
+int main(int argc, char **argv)
+{
+  try
+    {
+      const ParsedLine parsed = parse_command_line({argv + 1, argv + argc});
+      return parsed.exit_code ? *parsed.exit_code : execute(parsed.line, argv);
+    }
+  catch (const std::exception &error)
+    {
+      if (is_first_process())
+        std::cerr << "diptych: " << error.what() << std::endl;
+      return code_of(error);
+    }
+}

@@ -1,0 +1,49 @@
+// diptych: the commands that need the continuum's libraries; `diptych` starts this program for them
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <iostream>
+
+#include <deal.II/base/mpi.h>
+
+#include "coupling/processes/processes.h"
+#include "coupling/processes/stop_signal.h"
+#include "coupling/program/continuum_command.h"
+#include "coupling/program/ensemble_command.h"
+#include "coupling/program/material_point_command.h"
+#include "coupling/program/run_command.h"
+
+namespace
+{
+  using namespace diptych::coupling;
+
+  int execute(const CommandLine &line)
+  {
+    if (n_processes() > 1 && line.command != Command::continuum && line.seeds.empty())
+      throw SceneError("mpirun: diptych " + name_of(line.command) +
+                       " runs on one process; several may run `diptych continuum` alone or `diptych run` with --seeds");
+    switch (line.command)
+      {
+      case Command::run:
+        return line.seeds.empty() ? run_both(line) : run_ensemble(line);
+      case Command::continuum:
+        return run_continuum(line);
+      case Command::material_point:
+        return run_material_point(line);
+      default:
+        throw SceneError("diptych-panels: " + name_of(line.command) + " is a command of `diptych`");
+      }
+  }
+} // namespace
+
+int main(int argc, char **argv)
+{
+  // Words of the command line, before there is any other process to answer to.
+  ParsedLine parsed = parse_command_line({argv + 1, argv + argc});
+  if (parsed.exit_code)
+    return *parsed.exit_code;
+  // One thread: deal.II's pool would change nothing but the clock.
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  parsed.line.quiet       = parsed.line.quiet || !is_first_process();
+  parsed.line.tells_warnings = is_first_process();
+  install_stop_signals();
+  return answer_for([&] { return execute(parsed.line); }, code_of);
+}

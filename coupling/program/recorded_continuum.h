@@ -1,0 +1,62 @@
+// diptych: the continuum panel with its files
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "continuum/panel/panel.h"
+#include "coupling/files/continuum_checkpoint_file.h"
+#include "coupling/files/continuum_snapshot_file.h"
+#include "coupling/panels/continuum_mesh.h"
+#include "coupling/processes/progress.h"
+#include "coupling/program/command_line.h"
+#include "discrete/files/table_file.h"
+
+namespace diptych::coupling
+{
+  // Rows and snapshots go into the part's files as they come, a checkpoint when it is time. Files are the first process's; all
+  // functions are collective.
+  class RecordedContinuum
+  {
+  public:
+    // `grains`: the first process's, for the mesh and a mapped stress. `resume`: from part.checkpoint(). Throws SceneError where
+    // that belongs to another scene or mesh.
+    RecordedContinuum(const CommandLine              &line,
+                      const Scene                    &scene,
+                      const ContinuumPart            &part,
+                      const discrete::Snapshot       *grains,
+                      double                          solid_fraction,
+                      bool                            resume);
+
+    const continuum::Report &run();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    std::string      path(const std::string &name) const { return part.directory + "/" + name; }
+    continuum::Hooks hooks();
+    void             take_up();
+    void             prepare();
+    void             add_row(const continuum::HistoryRow &row);
+    void             add_snapshot();
+    void             flush_rows();
+    void             save();
+
+    const CommandLine                      &line;
+    const Scene                            &scene;
+    const ContinuumPart                    &part;
+    const discrete::Snapshot               *grains;
+    continuum::QuadMesh                     mesh;
+    continuum::Loading                      loading;
+    std::string                             scene_identity, sample_identity;
+    Progress                                progress;
+    std::optional<discrete::TableFile>      table;
+    std::optional<ContinuumSnapshotFile>    snapshots;
+    Clock::time_point                       saved = Clock::now(), flushed = saved;
+    std::unique_ptr<continuum::Panel>       panel;
+    bool                                    is_under_way = false;
+  };
+} // namespace diptych::coupling

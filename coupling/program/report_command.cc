@@ -1,0 +1,64 @@
+// diptych: pictures and pages, drawn by the Python package of the report
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/program/report_command.h"
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "coupling/ensembles/ensemble_folder.h"
+#include "coupling/folders/result_folder.h"
+#include "coupling/processes/child_process.h"
+#include "coupling/processes/progress.h"
+#include "coupling/version.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    // Beside the program where it is installed (PREFIX/bin and PREFIX/share), else where it was built.
+    std::string package_folder()
+    {
+      const fs::path prefix = fs::path(own_path()).parent_path().parent_path();
+      for (const fs::path &folder : {prefix / "share/diptych/report", prefix.parent_path() / "share/diptych/report"})
+        if (fs::exists(folder / "draw.py"))
+          return folder.string();
+      return report_folder;
+    }
+
+    const char *word_of(const Drawing drawing)
+    {
+      return drawing == Drawing::page ? "page" : drawing == Drawing::ensemble ? "ensemble" : "step-study";
+    }
+  } // namespace
+
+  void draw(const Drawing drawing, const std::string &directory)
+  {
+    const std::string script = package_folder() + "/draw.py";
+    if (!fs::exists(script))
+      throw std::runtime_error("the report cannot be drawn: " + script + " is missing; the installation is broken");
+    if (const int code = run_program({python, script, word_of(drawing), directory}); code != 0)
+      throw std::runtime_error("the report could not be drawn: " + std::string(python) + " " + script + " " + word_of(drawing) + " " +
+                               directory + " ended with exit code " + std::to_string(code));
+  }
+
+  void draw_page(const CommandLine &line, const Drawing drawing, const std::string &directory)
+  {
+    Progress progress(line.quiet);
+    progress.update("drawing the report", 0);
+    draw(drawing, directory);
+    progress.finish();
+    say(line, "report: " + fs::absolute(directory + "/report.html").lexically_normal().string());
+  }
+
+  int report_again(const CommandLine &line)
+  {
+    if (!fs::is_directory(line.target))
+      throw SceneError(line.target + ": no result folder");
+    return keeping(line.target, [&] {
+      draw_page(line, is_ensemble_folder(line.target) ? Drawing::ensemble : Drawing::page, line.target);
+      return int(done);
+    });
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,28 @@
+// diptych: run SCENE: both panels, homogenisation, comparison, report
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/program/run_command.h"
+
+#include "coupling/folders/result_folder.h"
+#include "coupling/panels/continuum_loading.h"
+#include "coupling/program/compare_command.h"
+#include "coupling/program/continuum_command.h"
+#include "coupling/program/discrete_command.h"
+
+namespace diptych::coupling
+{
+  int run_both(const CommandLine &line)
+  {
+    const Scene scene = scene_of(line);
+    require_continuum(scene);
+    check_comparable(scene);
+    return keeping(scene.output.directory, [&] {
+      const bool resume_continuum = line.resume && may_resume_continuum(scene);
+      open_result_folder(scene, line.resume);
+      if (const int code = discrete_panel(line, scene); code != done)
+        return code;
+      if (const int code = continuum_panel(line, scene, {true, resume_continuum}); code != done)
+        return code;
+      return compare_and_report(line, scene);
+    });
+  }
+} // namespace diptych::coupling

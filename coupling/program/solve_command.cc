@@ -1,0 +1,87 @@
+// diptych: one stored contact problem, solved and measured
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/program/solve_command.h"
+
+#include <filesystem>
+#include <algorithm>
+#include <iostream>
+#include <sstream>
+#include <stdexcept>
+
+#include "discrete/problem_files/fclib.h"
+#include "discrete/solvers/solver.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    discrete::SolverOptions options_of(const CommandLine &line)
+    {
+      discrete::SolverOptions options;
+      options.solver     = line.solver;
+      options.tolerance  = line.tolerance;
+      options.max_sweeps = line.max_sweeps;
+      return options;
+    }
+
+    // The form asked for, by default the better one that the file has.
+    std::string form_of(const CommandLine &line, const discrete::StoredProblem &problem)
+    {
+      if (line.form.empty())
+        return problem.form;
+      if (line.form == "body" && !problem.bodies)
+        throw std::invalid_argument("--form body: " + line.target + " has no such form: " + problem.reason);
+      return line.form;
+    }
+
+    void print_problem(const CommandLine &line, const discrete::StoredProblem &problem, const std::string &form)
+    {
+      std::cout << "problem: " << line.target << "\ncontacts: " << problem.local.n_contacts() << "\n";
+      if (problem.bodies)
+        std::cout << "bodies: " << problem.bodies->free_velocity.size() << "\n";
+      std::cout << "form: " << form;
+      if (!problem.bodies)
+        std::cout << " (" << problem.reason << ")";
+      std::cout << "\n";
+    }
+
+    std::string status_of(const discrete::SolveReport &report)
+    {
+      return discrete::name_of(report.status);
+    }
+
+    void print_result(const CommandLine                    &line,
+                      const discrete::SolveReport          &report,
+                      const discrete::DelassusProblem      &local,
+                      const std::vector<discrete::Impulse> &r)
+    {
+      const double sweeps = double(std::max(1l, report.sweeps)), updates = sweeps * double(std::max<std::size_t>(1, r.size()));
+      std::cout << "solver: " << discrete::name_of(line.solver) << "\ntolerance: " << line.tolerance << "\nsweeps: " << report.sweeps
+                << "\nresidual: " << report.residual << "\nsiconos_residual: " << siconos_residual(local, r)
+                << "\ncpu_s: " << report.cpu_s << "\nus_per_sweep: " << 1e6 * report.cpu_s / sweeps
+                << "\nns_per_update: " << 1e9 * report.cpu_s / updates << "\nstatus: " << status_of(report) << std::endl;
+    }
+  } // namespace
+
+  int solve_stored_problem(const CommandLine &line)
+  {
+    const discrete::SolverOptions options = options_of(line);
+    std::error_code               error;
+    if (!line.output.empty() && std::filesystem::equivalent(line.target, line.output, error))
+      throw SceneError("--output " + line.output + " is the problem itself: name another file");
+    const discrete::StoredProblem problem = discrete::read_fclib(line.target);
+    const std::string             form    = form_of(line, problem);
+
+    std::vector<discrete::Impulse> r(problem.local.n_contacts());
+    discrete::ThreadTeam           team(line.threads);
+    const discrete::SolveReport    report = form == "body" ? discrete::solve(*problem.bodies, options, r, team)
+                                                           : discrete::solve(problem.local, options, r);
+    print_problem(line, problem, form);
+    print_result(line, report, problem.local, r);
+    if (!line.output.empty())
+      discrete::write_solution(
+        line.target, line.output,
+        {r, relative_velocities(problem.local, r), discrete::name_of(line.solver) + ", " + form + " form", status_of(report), report.residual});
+    return report.status == discrete::SolveStatus::converged ? done : not_converged;
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,121 @@
+// diptych: what makes two scenes the same
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/scene/identity.h"
+
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <vector>
+
+#include "coupling/scene/keys.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    const std::set<std::string> without_effect = {"discrete/checkpoint_minutes", "discrete/store_problems",
+                                                  "continuum/checkpoint_minutes"};
+
+    // FNV-1a, 64 bits, of a file's content.
+    std::string digest(const std::string &path)
+    {
+      if (path.empty())
+        return "";
+      std::ifstream file(path, std::ios::binary);
+      if (!file)
+        return "no file";
+      std::uint64_t hash = 14695981039346656037ull;
+      for (std::istreambuf_iterator<char> byte(file), end; byte != end; ++byte)
+        hash = (hash ^ std::uint8_t(*byte)) * 1099511628211ull;
+      return "content " + std::to_string(hash);
+    }
+
+    // Every value in the place of its text.
+    struct Values
+    {
+      std::string section;
+      Identity   &identity;
+
+      template <class Number> void operator()(const char *name, const Number &value, const char *, Range, const char *) const
+      {
+        put(name, text_of(value));
+      }
+      void operator()(const char *name, const discrete::FileName &file, const char *, const char *) const
+      {
+        put(name, digest(file.path));
+      }
+      void operator()(const char *name, const discrete::DriveOption &drive, const char *, const char *) const
+      {
+        discrete::DriveOption shown = drive;
+        if (drive.names_a_file())
+          shown.value = digest(drive.value);
+        put(name, text_of(shown));
+      }
+      void operator()(const char *name, const continuum::MeshOption &mesh, const char *, const char *) const
+      {
+        put(name, mesh.kind == continuum::MeshOption::Kind::file ? digest(mesh.file) : text_of(mesh));
+      }
+      template <class Value> void operator()(const char *name, const Value &value, const char *, const char *) const
+      {
+        put(name, text_of(value));
+      }
+
+    private:
+      void put(const std::string &name, const std::string &value) const
+      {
+        if (const std::string key = section + "/" + name; without_effect.count(key) == 0)
+          identity[key] = value;
+      }
+    };
+
+    Identity of_sections(const Scene &scene, const std::set<std::string> &wanted)
+    {
+      Identity identity;
+      Scene    copy = scene;
+      for_each_section(copy, [&](const std::string &section, auto &options) {
+        if (wanted.count(section) > 0)
+          visit_parameters(options, Values{section, identity});
+      });
+      return identity;
+    }
+  } // namespace
+
+  Identity sample_identity(const Scene &scene)
+  {
+    return of_sections(scene, {"sample", "loading", "discrete"});
+  }
+
+  Identity continuum_identity(const Scene &scene)
+  {
+    Identity          identity = of_sections(scene, {"sample", "loading", "discrete", "continuum"});
+    const std::string coarse   = "comparison/coarse_element_size";
+    identity[coarse]           = of_sections(scene, {"comparison"}).at(coarse);
+    return identity;
+  }
+
+  Identity member_identity(const Scene &scene)
+  {
+    Identity identity = of_sections(scene, {"sample", "loading", "discrete", "continuum", "comparison"});
+    identity.erase("sample/seed");
+    for (auto value = identity.begin(); value != identity.end();)
+      value = value->first.rfind("comparison/margin_", 0) == 0 ? identity.erase(value) : std::next(value);
+    return identity;
+  }
+
+  std::string text_of(const Identity &identity)
+  {
+    std::string text;
+    for (const auto &[key, value] : identity)
+      text += key + " = " + value + '\n';
+    return text;
+  }
+
+  std::string first_difference(const Identity &here, const Identity &there)
+  {
+    for (const auto &[key, value] : here)
+      if (const auto other = there.find(key); other == there.end() || other->second != value)
+        return key + " = '" + value + "' here, " + (other == there.end() ? "not set" : "'" + other->second + "'") + " there";
+    return "";
+  }
+} // namespace diptych::coupling

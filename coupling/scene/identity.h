@@ -1,0 +1,33 @@
+// diptych: what makes two scenes the same
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "coupling/scene/scene.h"
+
+namespace diptych::coupling
+{
+  // Typed values by section/key, files by what is in them: neither the wording of a help text nor the place of a file is part of
+  // it, nor a key that changes no result (output, time between checkpoints).
+  using Identity = std::map<std::string, std::string>;
+
+  Identity sample_identity(const Scene &scene);    // which sample both panels show, and how the grains are loaded
+  Identity continuum_identity(const Scene &scene); // that, and what the continuum shows of it
+  Identity member_identity(const Scene &scene);    // all that members of an ensemble have in common: not seed and margins
+
+  // One line a value, for files.
+  std::string text_of(const Identity &identity);
+
+  // "sample/seed = '2' here, '1' there": the first value that differs; empty where none does.
+  std::string first_difference(const Identity &here, const Identity &there);
+
+  // Whether a file is the echo of a scene, of any version.
+  bool is_echo(const std::string &file);
+
+  // The scene of an echo in a result folder (scene.prm, ensemble.prm), as it was used; files that it names may be gone. Nothing
+  // where there is no echo, or one of a version with other keys.
+  std::optional<Scene> echoed_scene(const std::string &file);
+} // namespace diptych::coupling

@@ -1,0 +1,162 @@
+// diptych: what may be done with a list of keys: describe them, set one from a text
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "continuum/options.h"
+#include "discrete/options.h"
+
+namespace diptych::coupling
+{
+  using Range = std::array<double, 2>;
+
+  struct KeyDescription
+  {
+    std::string section, name, value, unit, allowed, meaning;
+  };
+
+  // Numbers as they are written everywhere: the shortest text that reads back as the same number.
+  std::string text_of(double value);
+  std::string text_of(const std::optional<double> &value); // or auto
+  std::string text_of(const std::vector<double> &values);  // separated by ", "
+  inline std::string text_of(const bool value)
+  {
+    return value ? "true" : "false";
+  }
+  inline std::string text_of(const int value)
+  {
+    return std::to_string(value);
+  }
+  inline std::string text_of(const std::string &value)
+  {
+    return value;
+  }
+  template <class E, std::enable_if_t<std::is_enum_v<E>, int> = 0> std::string text_of(const E value)
+  {
+    return discrete::name_of(value);
+  }
+
+  // What a value may be, in words. Lists and numbers name their range.
+  std::string        allowed_number(const Range &range);
+  inline std::string allowed_value(const bool)
+  {
+    return "true or false";
+  }
+  inline std::string allowed_value(const std::string &)
+  {
+    return "any text";
+  }
+  inline std::string allowed_value(const discrete::DriveOption &)
+  {
+    return "auto, velocity V or force F, V and F a number or a CSV file";
+  }
+  inline std::string allowed_value(const continuum::MeshOption &)
+  {
+    return "outline, rectangle or a .msh or .geo file";
+  }
+  template <class E, std::enable_if_t<std::is_enum_v<E>, int> = 0> std::string allowed_value(const E)
+  {
+    std::string text;
+    for (const auto &choice : choices(E()))
+      text += (text.empty() ? "one of " : ", ") + std::string(choice.second);
+    return text;
+  }
+
+  // Collects each key with its present value.
+  struct DescribeKeys
+  {
+    std::string                  section;
+    std::vector<KeyDescription> &keys;
+
+    template <class Number>
+    void operator()(const char *name, const Number &value, const char *unit, const Range range, const char *meaning) const
+    {
+      std::string allowed = allowed_number(range);
+      if constexpr (std::is_same_v<Number, int>)
+        allowed = "a whole " + allowed.substr(2);
+      if constexpr (std::is_same_v<Number, std::optional<double>>)
+        allowed = "auto or " + allowed;
+      if constexpr (std::is_same_v<Number, std::vector<double>>)
+        allowed = "a list of numbers" + allowed.substr(std::string("a number").size());
+      keys.push_back({section, name, text_of(value), unit, allowed, meaning});
+    }
+    void operator()(const char *name, const discrete::FileName &file, const char *unit, const char *meaning) const
+    {
+      keys.push_back({section, name, file.path, unit, "the name of a file", meaning});
+    }
+    template <class Value> void operator()(const char *name, const Value &value, const char *unit, const char *meaning) const
+    {
+      keys.push_back({section, name, text_of(value), unit, allowed_value(value), meaning});
+    }
+  };
+
+  // A text as a value; nothing where it is none. Numbers are read as in C whatever the locale.
+  std::optional<double>              read_number(const std::string &text, const Range &range);
+  std::optional<int>                 read_whole(const std::string &text, const Range &range);
+  std::optional<std::vector<double>> read_list(const std::string &text, const Range &range);
+
+  // Absolute path of a file that a key names; empty stays empty.
+  std::string resolved(const std::string &path, const std::string &folder);
+
+  // Sets the one key of that name. Files are looked for in `folder`. After a visit: whether the key is there, and whether the text
+  // is a value of it.
+  struct SetKey
+  {
+    std::string name, text, folder;
+    bool        found = false, good = false;
+
+    template <class Number> void operator()(const char *key, Number &value, const char *, const Range range, const char *)
+    {
+      if (!is_mine(key))
+        return;
+      if constexpr (std::is_same_v<Number, int>)
+        take(read_whole(text, range), value);
+      else if constexpr (std::is_same_v<Number, std::vector<double>>)
+        take(read_list(text, range), value);
+      else if (std::is_same_v<Number, std::optional<double>> && text == "auto")
+        value = Number(), good = true;
+      else if (const std::optional<double> number = read_number(text, range))
+        value = *number, good = true;
+    }
+    void operator()(const char *key, const discrete::FileName &file, const char *, const char *)
+    {
+      if (is_mine(key))
+        file.path = resolved(text, folder), good = true;
+    }
+    void operator()(const char *key, bool &value, const char *, const char *)
+    {
+      if (is_mine(key) && (text == "true" || text == "false"))
+        value = text == "true", good = true;
+    }
+    void operator()(const char *key, std::string &value, const char *, const char *)
+    {
+      if (is_mine(key))
+        value = text, good = true;
+    }
+    void operator()(const char *key, discrete::DriveOption &value, const char *, const char *);
+    void operator()(const char *key, continuum::MeshOption &value, const char *, const char *);
+    template <class E, std::enable_if_t<std::is_enum_v<E>, int> = 0>
+    void operator()(const char *key, E &value, const char *, const char *)
+    {
+      if (is_mine(key))
+        take(discrete::value_of<E>(text), value);
+    }
+
+  private:
+    bool is_mine(const std::string &key)
+    {
+      found = found || key == name;
+      return key == name;
+    }
+    template <class Value> void take(const std::optional<Value> &read, Value &value)
+    {
+      if (read)
+        value = *read, good = true;
+    }
+  };
+} // namespace diptych::coupling

@@ -1,0 +1,155 @@
+// diptych: the scene, every parameter of one comparison
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "continuum/options.h"
+#include "coupling/averaging/averaging_options.h"
+#include "coupling/bands/band_options.h"
+#include "coupling/probes/probe_options.h"
+#include "coupling/scene/scene_error.h"
+#include "coupling/statistics/equivalence_margins.h"
+#include "discrete/options.h"
+
+namespace diptych::coupling
+{
+  // What is done to the sample, in both panels alike.
+  struct LoadingOptions
+  {
+    double pressure                 = 1;
+    double inertial_number          = 3e-5;
+    double horizontal_over_vertical = 1;
+    double axial_strain             = 0.04;
+    double stage_strain             = 0.005;
+    bool   affine_start             = true;
+
+    discrete::LoadingMode mode            = discrete::LoadingMode::descent;
+    double                strain_rate     = 0;
+    double                normal_pressure = 1;
+    double                duration        = 10;
+    double                stage_time      = 1;
+  };
+
+  template <class Visitor> void visit_parameters(LoadingOptions &o, Visitor &&visitor)
+  {
+    visitor("pressure", o.pressure, "pressure", {1e-12, 1e15}, "P of the lateral action; also the initial isotropic stress");
+    visitor("inertial_number", o.inertial_number, "-", {1e-9, 0.1},
+            "I = strain rate d sqrt(rho/P): fixes the speed of the upper platen in the discrete panel");
+    visitor("horizontal_over_vertical", o.horizontal_over_vertical, "-", {-10., 10.},
+            "travel of the upper platen to the right per descent: 1 is 45 degrees, 0 vertical");
+    visitor("axial_strain", o.axial_strain, "-", {1e-6, 5.},
+            "at the end: axial strain, descent of the upper platen / initial height (modes shear and plane_shear: shear strain, its "
+            "travel / initial height)");
+    visitor("stage_strain", o.stage_strain, "-", {1e-6, 5.},
+            "strain between two stages, at which both panels are compared");
+    visitor("affine_start", o.affine_start, "-",
+            "grains start with the affine velocity field between the platens, not at rest (an impulsive start)");
+    visitor(
+      "mode", o.mode, "-",
+      "the upper platen descends and moves sideways; moves sideways at constant height; moves sideways under normal_pressure x "
+      "width; or the walls move as discrete/drive_* say, for `duration`");
+    visitor("strain_rate", o.strain_rate, "1/time", {0., 1e12}, "of the loading, if not 0, in the place of inertial_number's");
+    visitor("normal_pressure", o.normal_pressure, "pressure", {0., 1e15},
+            "plane_shear: on the upper platen, free to rise and sink");
+    visitor("duration", o.duration, "time", {1e-12, 1e12}, "mode time: of the loading");
+    visitor("stage_time", o.stage_time, "time", {1e-12, 1e12}, "mode time: between two snapshots");
+  }
+
+  struct ComparisonOptions
+  {
+    std::vector<double> window_edges        = {0, 0.01, 0.02, 0.04};
+    double              coarse_element_size = 4;
+    double              averaging_strain    = 0.005;
+    BandOptions         band;
+    ProbeOptions        probes;
+    EquivalenceMargins  margins;
+    AveragingOptions    averaging;
+    double              grid_size = 3;
+    std::string         parameters_from;
+  };
+
+  template <class Visitor> void visit_parameters(ComparisonOptions &o, Visitor &&visitor)
+  {
+    visitor(
+      "window_edges", o.window_edges, "strain (mode time: time)", {0., 1e12},
+      "edges of the windows over which displacement increments are compared; each must be a stage (mode time: a time) or 0");
+    visitor(
+      "coarse_element_size", o.coarse_element_size, "mean diameters", {0., 100.},
+      "element size of the second continuum run that shows what the mesh does to the band, from 0.1 on; 0: no such run (`diptych "
+      "run` needs one)");
+    visitor("averaging_strain", o.averaging_strain, "strain", {1e-9, 0.5},
+            "last part of a stage over which stress ratio and platen forces are averaged, in both panels; mode time: the whole "
+            "stage");
+    visit_parameters(o.band, visitor);
+    visit_parameters(o.probes, visitor);
+    visit_parameters(o.margins, visitor);
+    visit_parameters(o.averaging, visitor);
+    visitor(
+      "parameters_from", o.parameters_from, "-",
+      "where the continuum's parameters come from (fitted on what, or predicted): the report says it beside every comparison");
+    visitor("grid_size", o.grid_size, "mean diameters", {0.5, 1000.},
+            "about the side of the regular grid's cells, on which all fields are given beside the continuum's mesh");
+  }
+
+  struct OutputOptions
+  {
+    std::string directory;
+    bool        report = true;
+  };
+
+  template <class Visitor> void visit_parameters(OutputOptions &o, Visitor &&visitor)
+  {
+    visitor("directory", o.directory, "-", "result folder; empty: results/<scene name>");
+    visitor("report", o.report, "-", "draw report.html at the end of a run");
+  }
+
+  struct Scene
+  {
+    std::string             name; // of the scene file's folder, or of the file where it is not called scene.*
+    discrete::SampleOptions sample;
+    LoadingOptions          loading;
+    discrete::Options       discrete;
+    continuum::Options      continuum;
+    ComparisonOptions       comparison;
+    OutputOptions           output;
+
+    std::vector<std::string> warnings; // of its reader: keys that nothing reads, values that are doubtful
+  };
+
+  // The sections of a scene, in their order: function(name, options). A new section is added here and nowhere else.
+  template <class AnyScene, class Function> void for_each_section(AnyScene &scene, Function &&function)
+  {
+    function("sample", scene.sample);
+    function("loading", scene.loading);
+    function("discrete", scene.discrete);
+    function("continuum", scene.continuum);
+    function("comparison", scene.comparison);
+    function("output", scene.output);
+  }
+
+  // Reads a .prm or .json file, then applies `overrides` of the form section/key=value. Files that the scene names are found
+  // relative to the scene's own folder, those of overrides relative to the working directory. Throws SceneError. `compares`:
+  // whether both panels will be compared, so that the windows must be stages.
+  Scene read_scene(const std::string &file, const std::vector<std::string> &overrides, bool compares = true);
+
+  // Stands in the first line of every echo, and so tells a result folder's scene.prm from one written by hand.
+  inline constexpr char echo_title[] = "every parameter, as it was used";
+
+  // The whole scene with every default, in .prm format, each key with its meaning; files by their absolute paths.
+  std::string echo(const Scene &scene);
+
+  // Every key of a section (of all, if empty): default, unit, range, meaning. Throws SceneError on an unknown section.
+  std::string explain(const std::string &section);
+
+  // Values of the progress (strains; mode time: times), ascending, from the first on. In discrete_loading(), too.
+  std::vector<double> stages(const LoadingOptions &loading);
+  discrete::Loading   discrete_loading(const LoadingOptions &loading);
+
+  // In what the keys of the continuum's law count.
+  continuum::Units continuum_units(const Scene &scene);
+
+  // The last part of a stage over which stress ratio and platen forces are averaged, in the unit of the stages.
+  double averaging_width(const Scene &scene);
+} // namespace diptych::coupling

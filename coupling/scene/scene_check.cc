@@ -1,0 +1,195 @@
+// diptych: what a scene must not be, and what should be pointed out of it
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/scene/scene_check.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+
+#include "coupling/scene/keys.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    using discrete::LoadingMode;
+
+    // `last`: the end in the unit of the stages.
+    void check_windows(const std::string &file, const Scene &scene, const double last)
+    {
+      const bool   time     = scene.loading.mode == LoadingMode::time;
+      const double interval = time ? scene.loading.stage_time : scene.loading.stage_strain;
+      for (const double edge : scene.comparison.window_edges)
+        {
+          const double k = edge / interval;
+          if (std::abs(k - std::round(k)) > 1e-6 || edge > last * (1 + 1e-9))
+            throw SceneError(file + ": comparison/window_edges holds " + std::to_string(edge) +
+                             ", which is no stage: stages are multiples of loading/" + (time ? "stage_time" : "stage_strain") +
+                             " = " + std::to_string(interval) + " up to loading/" + (time ? "duration" : "axial_strain") + " = " +
+                             std::to_string(last));
+        }
+    }
+
+    void check_stages(const std::string &file, const Scene &scene, const bool compares)
+    {
+      const LoadingOptions &loading = scene.loading;
+      const bool            time    = loading.mode == LoadingMode::time;
+      const double          last    = time ? loading.duration : loading.axial_strain;
+      const double          count   = last / (time ? loading.stage_time : loading.stage_strain);
+      if (time && (std::abs(count - std::round(count)) > 1e-6 || count < 0.5))
+        throw SceneError(file + ": loading/duration = " + std::to_string(loading.duration) +
+                         " is not a whole number of loading/stage_time = " + std::to_string(loading.stage_time));
+      if (!time && (std::abs(count - std::round(count)) > 1e-6 || count < 0.5))
+        throw SceneError(file + ": loading/axial_strain = " + std::to_string(loading.axial_strain) +
+                         " is not a whole number of loading/stage_strain = " + std::to_string(loading.stage_strain));
+      const std::vector<double> &edges = scene.comparison.window_edges;
+      if (edges.size() < 2 || std::adjacent_find(edges.begin(), edges.end(), std::greater_equal<double>()) != edges.end())
+        throw SceneError(file + ": comparison/window_edges must be at least two ascending values of what the loading walks along");
+      if (compares)
+        check_windows(file, scene, last);
+    }
+
+    bool is_word(const std::string &text, const std::size_t at, const std::size_t length)
+    {
+      const auto joins = [&](const std::size_t k) { return k < text.size() && (std::isalnum(text[k]) != 0 || text[k] == '_'); };
+      return !(at > 0 && joins(at - 1)) && !joins(at + length);
+    }
+
+    bool speaks_of(const std::string &message, const std::string &key)
+    {
+      for (std::size_t at = message.find(key); at != std::string::npos; at = message.find(key, at + 1))
+        if (is_word(message, at, key.size()))
+          return true;
+      return false;
+    }
+
+    // "; FILE, line 12: continuum/cohesion = '3'" for every key of the section that a message speaks of, as it was set last.
+    std::string places_of(const std::string &message, const std::string &section, const std::vector<Entry> &entries)
+    {
+      std::map<std::string, Entry> last;
+      for (const Entry &entry : entries)
+        if (entry.section == section)
+          last[entry.key] = entry;
+      std::string text;
+      for (const auto &[key, entry] : last)
+        if (speaks_of(message, key))
+          text += "; " + entry.place + ": " + section + "/" + key + " = '" + entry.value + "'";
+      return text;
+    }
+
+    // Runs `check`; an error gets the file in front and the lines behind that it speaks of.
+    template <class Check>
+    void in_section(const std::string &file, const std::string &section, const std::vector<Entry> &entries, Check &&check)
+    {
+      try
+        {
+          check();
+        }
+      catch (const std::invalid_argument &error)
+        {
+          throw SceneError(file + ": " + (section.empty() ? "" : "section " + section + ": ") + error.what() +
+                           places_of(error.what(), section, entries));
+        }
+    }
+
+    struct Unused
+    {
+      std::string key, because; // section and name of both
+    };
+
+    std::vector<Unused> unused_keys(const LoadingOptions &o)
+    {
+      std::vector<Unused> keys;
+      const auto          unless = [&](const bool read, const std::string &because, const std::vector<const char *> &names) {
+        for (const char *name : names)
+          if (!read)
+            keys.push_back({std::string("loading/") + name, because});
+      };
+      const std::string mode = "loading/mode = " + text_of(o.mode);
+      const bool        time = o.mode == LoadingMode::time;
+      unless(time, mode, {"duration", "stage_time"});
+      unless(!time, mode, {"axial_strain", "stage_strain", "inertial_number", "strain_rate", "affine_start"});
+      unless(o.mode == LoadingMode::descent, mode, {"horizontal_over_vertical"});
+      unless(o.mode == LoadingMode::plane_shear, mode, {"normal_pressure"});
+      unless(time || !(o.strain_rate > 0), "loading/strain_rate = " + text_of(o.strain_rate), {"inertial_number"});
+      return keys;
+    }
+
+    std::vector<Unused> unused_keys(const ComparisonOptions &o)
+    {
+      std::vector<Unused>   keys;
+      const AveragingMethod method = o.averaging.method;
+      const std::string     because = "comparison/averaging = " + text_of(method);
+      if (method != AveragingMethod::kernel)
+        keys.push_back({"comparison/averaging_kernel", because});
+      if (method != AveragingMethod::kernel && method != AveragingMethod::projection)
+        keys.push_back({"comparison/averaging_width", because});
+      for (const char *name : {"zone_length", "aspect", "minimum_side"})
+        if (!o.probes.probe_rectangles.empty())
+          keys.push_back({std::string("comparison/") + name, "comparison/probe_rectangles are given"});
+      return keys;
+    }
+
+    std::vector<Unused> unused_keys(const Scene &scene)
+    {
+      std::vector<Unused> keys = unused_keys(scene.loading);
+      for (const auto &[key, because] : discrete::unused_keys(scene.sample, scene.discrete))
+        keys.push_back({key, because});
+      for (const auto &[key, because] : continuum::unused_keys(scene.continuum))
+        keys.push_back({"continuum/" + key, "continuum/" + because});
+      for (const Unused &unused : unused_keys(scene.comparison))
+        keys.push_back(unused);
+      return keys;
+    }
+
+    // Value by section/key.
+    std::map<std::string, std::string> values_of(const Scene &scene)
+    {
+      std::map<std::string, std::string> values;
+      Scene                              copy = scene;
+      for_each_section(copy, [&](const char *section, auto &options) {
+        std::vector<KeyDescription> keys;
+        visit_parameters(options, DescribeKeys{section, keys});
+        for (const KeyDescription &key : keys)
+          values[key.section + "/" + key.name] = key.value;
+      });
+      return values;
+    }
+  } // namespace
+
+  void check_scene(const Scene &scene, const std::string &file, const std::vector<Entry> &entries, const bool compares)
+  {
+    if (const double coarse = scene.comparison.coarse_element_size; coarse > 0 && coarse < 0.1)
+      throw SceneError(file + ": comparison/coarse_element_size = " + text_of(coarse) + ": 0 or a number from 0.1 on");
+    check_stages(file, scene, compares);
+    in_section(file, "comparison", entries, [&] { check_probe_options(scene.comparison.probes); });
+    in_section(file, "", entries, [&] {
+      const discrete::Loading loading = discrete_loading(scene.loading);
+      discrete::validate(scene.sample, loading, scene.discrete);
+      discrete::check_sample_file(scene.sample, discrete::preparation_setting(loading, scene.discrete));
+    });
+    in_section(file, "continuum", entries, [&] { continuum::validate(scene.continuum); });
+  }
+
+  std::vector<std::string> warnings_of(const Scene &scene, const std::vector<Entry> &entries)
+  {
+    const auto                         values = values_of(scene), defaults = values_of(Scene());
+    std::map<std::string, std::string> place;
+    for (const Entry &entry : entries)
+      place[entry.section + "/" + entry.key] = entry.place;
+    std::vector<std::string> warnings;
+    for (const auto &[key, because] : unused_keys(scene))
+      if (place.count(key) > 0 && values.at(key) != defaults.at(key))
+        {
+          warnings.push_back(place[key] + ": " + key + " = '" + values.at(key) + "' is not used: " + because);
+          place.erase(key); // one reason is enough
+        }
+    for (const std::string &text : continuum::doubtful_values(scene.continuum))
+      {
+        const std::string key = "continuum/" + text.substr(0, text.find(' '));
+        warnings.push_back((place.count(key) > 0 ? place[key] + ": " : "") + "continuum/" + text);
+      }
+    return warnings;
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,19 @@
+// diptych: what a scene must not be, and what should be pointed out of it
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "coupling/scene/scene.h"
+#include "coupling/scene/scene_text.h"
+
+namespace diptych::coupling
+{
+  // Throws SceneError naming file, lines, keys and values that contradict each other.
+  void check_scene(const Scene &scene, const std::string &file, const std::vector<Entry> &entries, bool compares);
+
+  // Keys that the scene sets to another value than the default and that nothing reads, each with the key that says so; moduli and
+  // cohesions that are probably meant in another unit.
+  std::vector<std::string> warnings_of(const Scene &scene, const std::vector<Entry> &entries);
+} // namespace diptych::coupling

@@ -1,0 +1,82 @@
+// diptych: the assignments in the text of a scene
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/scene/scene_text.h"
+
+#include <filesystem>
+#include <optional>
+
+#include <strings.h>
+
+#include "coupling/scene/scene_error.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    std::string trimmed(const std::string &text)
+    {
+      const auto first = text.find_first_not_of(" \t\r\n");
+      return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+    }
+
+    std::string without_comment(const std::string &line)
+    {
+      return trimmed(line.substr(0, line.find('#')));
+    }
+
+    // What follows a keyword, in letters of either case, and at least one blank; nothing where the line begins otherwise.
+    std::optional<std::string> after(const std::string &keyword, const std::string &line)
+    {
+      if (line.size() <= keyword.size() || strncasecmp(line.c_str(), keyword.c_str(), keyword.size()) != 0 ||
+          (line[keyword.size()] != ' ' && line[keyword.size()] != '\t'))
+        return std::nullopt;
+      return trimmed(line.substr(keyword.size()));
+    }
+  } // namespace
+
+  std::vector<Entry> entries_of_prm(const std::string &file, std::istream &in)
+  {
+    const std::string  folder = std::filesystem::path(file).parent_path().string();
+    std::vector<Entry> entries;
+    std::string        section, raw;
+    int                number = 0;
+    while (std::getline(in, raw))
+      {
+        const std::string place = file + ", line " + std::to_string(++number);
+        std::string       line  = without_comment(raw);
+        while (!line.empty() && line.back() == '\\' && std::getline(in, raw))
+          line = trimmed(line.substr(0, line.size() - 1)) + " " + without_comment(raw), ++number;
+        if (line.empty())
+          continue;
+        if (const auto name = after("subsection", line))
+          {
+            if (!section.empty())
+              throw SceneError(place + ": subsection '" + *name + "' inside '" + section + "'; 'end' is missing");
+            section = *name;
+          }
+        else if (strcasecmp(line.c_str(), "end") == 0)
+          {
+            if (section.empty())
+              throw SceneError(place + ": 'end' without a subsection");
+            section.clear();
+          }
+        else if (const auto set = after("set", line); set && set->find('=') != std::string::npos && set->find('=') > 0)
+          entries.push_back(
+            {section, trimmed(set->substr(0, set->find('='))), trimmed(set->substr(set->find('=') + 1)), place, folder});
+        else
+          throw SceneError(place + ": '" + line + "' is neither 'subsection NAME', 'set KEY = VALUE' nor 'end'");
+      }
+    if (!section.empty())
+      throw SceneError(file + ", line " + std::to_string(number) + ": subsection '" + section + "' has no 'end'");
+    return entries;
+  }
+
+  Entry entry_of_override(const std::string &text)
+  {
+    const std::size_t slash = text.find('/'), equals = text.find('=');
+    if (slash == std::string::npos || equals == std::string::npos || slash == 0 || equals <= slash + 1 ||
+        text.substr(slash + 1, equals - slash - 1).find('/') != std::string::npos)
+      throw SceneError("--set " + text + ": not of the form section/key=value");
+    return {text.substr(0, slash), text.substr(slash + 1, equals - slash - 1), text.substr(equals + 1), "--set " + text, ""};
+  }
+} // namespace diptych::coupling

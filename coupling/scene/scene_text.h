@@ -1,0 +1,26 @@
+// diptych: the assignments in the text of a scene
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <istream>
+#include <string>
+#include <vector>
+
+namespace diptych::coupling
+{
+  // One assignment, where it was made, and where the files that it names are looked for.
+  struct Entry
+  {
+    std::string section, key, value, place, folder;
+  };
+
+  // subsection NAME / set KEY = VALUE / end, '#' comments and '\\' continuation: the format of deal.II's parameter files. Throws
+  // SceneError naming file and line.
+  std::vector<Entry> entries_of_prm(const std::string &file, std::istream &in);
+
+  // {"section": {"key": value}}; the value may also stand as {"value": ...}. Throws SceneError naming file and line.
+  std::vector<Entry> entries_of_json(const std::string &file, std::istream &in);
+
+  // "section/key=value" of the command line. Throws SceneError.
+  Entry entry_of_override(const std::string &text);
+} // namespace diptych::coupling

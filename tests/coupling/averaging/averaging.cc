@@ -1,0 +1,258 @@
+// diptych: invariants that every method of averaging keeps on every mesh
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/averaging/averaging.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "benchmarks/homogenisation/airy_network.h"
+#include "tests/coupling/averaging/averaging_cases.h"
+
+namespace
+{
+  using namespace diptych::coupling;
+  using namespace diptych::coupling::synthetic;
+
+  template <class Action> void for_each_case(Action &&action)
+  {
+    for (const NamedMesh &mesh : averaging_meshes())
+      for (const AveragingOptions &options : averaging_methods)
+        {
+          SCOPED_TRACE(name_of(options) + " on " + mesh.name);
+          action(options, mesh.mesh);
+        }
+  }
+
+  // |sum over cells - sum over carriers| of every column, relative to the sum of absolute values over carriers.
+  double loss(const Columns &cells, const Columns &carriers)
+  {
+    double largest = 0;
+    for (Eigen::Index k = 0; k < cells.cols(); ++k)
+      largest = std::max(largest, std::abs(cells.col(k).sum() - carriers.col(k).sum()) / carriers.col(k).cwiseAbs().sum());
+    return largest;
+  }
+
+  double loss(const CellSums &sums, const Carriers &c)
+  {
+    return std::max({loss(sums.of_grains, c.of_grains), loss(sums.uniform, c.uniform), loss(sums.tapered, c.tapered)});
+  }
+
+  // Mass, momentum and moments, contacts with platens included; also where a third of the sample lies outside the mesh.
+  TEST(Averaging, CellsAddUpToWhatTheGrainsCarry)
+  {
+    const Carriers inside  = random_carriers(random_network({0, 0}, {20, 30}, 600, 1), 2);
+    const Carriers outside = random_carriers(random_network({-3, -3}, {23, 33}, 600, 3), 4);
+    for_each_case([&](const AveragingOptions &options, const QuadMesh &mesh) {
+      const TargetCells target(mesh);
+      EXPECT_LT(loss(distribute(options, target, inside), inside), 1e-12);
+      const CellSums sums = distribute(options, target, outside);
+      EXPECT_LT(loss(sums, outside), 1e-12);
+      EXPECT_GE(sums.outside_share, 0);
+      EXPECT_LT(sums.outside_share, 0.5);
+    });
+  }
+
+  // Grains whose own abscissa lies in another period than the mesh, and contacts across its sides.
+  TEST(Averaging, CellsOfAPeriodicSampleAddUpToWhatTheGrainsCarry)
+  {
+    const Network still = random_network({0, 0}, {20, 30}, 600, 5);
+    // network in which a grain at x stands at x - 7 or x + 13: the old sides are in the middle
+    Network moved = made_periodic(still, 20, 6);
+    for (Eigen::Vector2d &x : moved.position)
+      x.x() -= 7;
+    for (auto &c : moved.contacts)
+      c.point.x() -= 7;
+    const Carriers carriers = random_carriers(moved, 7);
+    for_each_case([&](const AveragingOptions &options, const QuadMesh &mesh) {
+      const CellSums sums = distribute(options, TargetCells(mesh, 20), carriers);
+      EXPECT_LT(loss(sums, carriers), 1e-12);
+    });
+  }
+
+  // In a periodic sample the sides are nowhere: moving the grains by one column of a regular grid moves the sums by one column.
+  TEST(Averaging, PeriodicSampleHasNoSeam)
+  {
+    const unsigned int columns = 10, rows = 12;
+    const QuadMesh     mesh = box_mesh({0, 0}, {20, 30}, columns, rows);
+    const TargetCells  target(mesh, 20);
+    const Network      first = random_network({0, 0}, {20, 30}, 400, 8);
+    Network            moved = made_periodic(first, 20, 9);
+    for (Eigen::Vector2d &x : moved.position)
+      x.x() += 2;
+    for (auto &c : moved.contacts)
+      c.point.x() += 2;
+    for (const AveragingOptions &options : averaging_methods)
+      {
+        SCOPED_TRACE(name_of(options));
+        const CellSums before = distribute(options, target, random_carriers(first, 10));
+        CellSums       after = distribute(options, target, random_carriers(moved, 10)), back = after;
+        for (unsigned int r = 0; r < rows; ++r)
+          for (unsigned int c = 0; c < columns; ++c)
+            {
+              const unsigned int to = r * columns + c, from = r * columns + (c + 1) % columns;
+              back.of_grains.row(to) = after.of_grains.row(from);
+              back.uniform.row(to)   = after.uniform.row(from);
+              back.tapered.row(to)   = after.tapered.row(from);
+            }
+        EXPECT_LT(difference(before, back), 1e-10);
+      }
+  }
+
+  // Grains and halves coloured in three, each colour's quantities averaged alone: the parts add up cell by cell.
+  TEST(Averaging, PartsOfTheSampleAddUp)
+  {
+    const Carriers all = random_carriers(random_network({0, 0}, {20, 30}, 300, 11), 12);
+    for_each_case([&](const AveragingOptions &options, const QuadMesh &mesh) {
+      const TargetCells target(mesh);
+      const CellSums    whole = distribute(options, target, all);
+      CellSums          sum;
+      for (int colour = 0; colour < 3; ++colour)
+        {
+          Carriers part = all;
+          for (Eigen::Index i = 0; i < part.of_grains.rows(); ++i)
+            part.of_grains.row(i) *= i % 3 == colour;
+          for (Eigen::Index h = 0; h < part.uniform.rows(); ++h)
+            part.uniform.row(h) *= h % 3 == colour, part.tapered.row(h) *= h % 3 == colour;
+          const CellSums sums = distribute(options, target, part);
+          sum.of_grains       = colour == 0 ? sums.of_grains : Columns(sum.of_grains + sums.of_grains);
+          sum.uniform         = colour == 0 ? sums.uniform : Columns(sum.uniform + sums.uniform);
+          sum.tapered         = colour == 0 ? sums.tapered : Columns(sum.tapered + sums.tapered);
+        }
+      EXPECT_LT(difference(whole, sum), 1e-12);
+    });
+  }
+
+  // Every second cell cut in four. Methods that divide the plane among grains: the parts add up to the cell. The kernel's
+  // quadrature points differ: 1e-3 of the largest cell. The projection has other functions, so that only totals are equal.
+  TEST(Averaging, RefinementLeavesCellsAndTotalsAsTheyWere)
+  {
+    const QuadMesh coarse = box_mesh({0, 0}, {20, 30}, 9, 13, 0.2);
+    const Refined  fine   = refined(coarse, [](const Eigen::Vector2d &x) { return std::fmod(x.x() + x.y(), 5) < 2.5; });
+    const Carriers c      = random_carriers(random_network({0, 0}, {20, 30}, 600, 13), 14);
+    for (const AveragingOptions &options : averaging_methods)
+      {
+        SCOPED_TRACE(name_of(options));
+        const CellSums on_coarse = distribute(options, TargetCells(coarse), c),
+                       on_fine   = distribute(options, TargetCells(fine.mesh), c);
+        EXPECT_LT(loss(on_fine, c), 1e-12);
+        if (options.method == AveragingMethod::projection)
+          continue;
+        CellSums added = on_coarse;
+        added.of_grains.setZero(), added.uniform.setZero(), added.tapered.setZero();
+        for (std::size_t k = 0; k < fine.children.size(); ++k)
+          for (const unsigned int child : fine.children[k])
+            {
+              added.of_grains.row(Eigen::Index(k)) += on_fine.of_grains.row(child);
+              added.uniform.row(Eigen::Index(k)) += on_fine.uniform.row(child);
+              added.tapered.row(Eigen::Index(k)) += on_fine.tapered.row(child);
+            }
+        EXPECT_LT(difference(on_coarse, added), options.method == AveragingMethod::kernel ? 1e-3 : 1e-11);
+      }
+  }
+
+  // Sample and mesh moved away: the same sums.
+  TEST(Averaging, OriginDoesNotMatter)
+  {
+    const Network         network = random_network({0, 0}, {20, 30}, 500, 15);
+    const Eigen::Vector2d shift(-137.3, 81.7);
+    Network               moved = network;
+    for (Eigen::Vector2d &x : moved.position)
+      x += shift;
+    for (auto &c : moved.contacts)
+      c.point += shift;
+    for_each_case([&](const AveragingOptions &options, const QuadMesh &mesh) {
+      QuadMesh moved_mesh = mesh;
+      for (Eigen::Vector2d &x : moved_mesh.node)
+        x += shift;
+      const CellSums here  = distribute(options, TargetCells(mesh), random_carriers(network, 16));
+      const CellSums there = distribute(options, TargetCells(moved_mesh), random_carriers(moved, 16));
+      EXPECT_LT(difference(here, there), 1e-10);
+    });
+  }
+
+  // Sample and mesh turned by 0.7: scalars stay, vectors and tensors turn.
+  TEST(Averaging, TurningTheSampleTurnsEveryTensor)
+  {
+    const Eigen::Matrix2d turn    = Eigen::Rotation2Dd(0.7).toRotationMatrix();
+    const Network         network = random_network({0, 0}, {20, 30}, 500, 17);
+    Network               turned  = network;
+    for (Eigen::Vector2d &x : turned.position)
+      x = turn * x;
+    for (auto &c : turned.contacts)
+      c.point = turn * c.point, c.force = turn * c.force;
+    const Carriers carriers                = random_carriers(network, 18);
+    Carriers       turned_carriers         = random_carriers(turned, 18); // turns the moments with the forces and branches
+    turned_carriers.of_grains.rightCols(2) = carriers.of_grains.rightCols(2) * turn.transpose();
+    turned_carriers.tapered                = carriers.tapered * turn.transpose();
+    for_each_case([&](const AveragingOptions &options, const QuadMesh &mesh) {
+      QuadMesh turned_mesh = mesh;
+      for (Eigen::Vector2d &x : turned_mesh.node)
+        x = turn * x;
+      CellSums       expected         = distribute(options, TargetCells(mesh), carriers);
+      const CellSums sums             = distribute(options, TargetCells(turned_mesh), turned_carriers);
+      expected.of_grains.rightCols(2) = (expected.of_grains.rightCols(2) * turn.transpose()).eval();
+      expected.tapered                = (expected.tapered * turn.transpose()).eval();
+      for (Eigen::Index k = 0; k < expected.uniform.rows(); ++k)
+        {
+          Eigen::Matrix2d m;
+          m << expected.uniform(k, 0), expected.uniform(k, 1), expected.uniform(k, 2), expected.uniform(k, 3);
+          m = (turn * m * turn.transpose()).eval();
+          expected.uniform.row(k) << m(0, 0), m(0, 1), m(1, 0), m(1, 1);
+        }
+      EXPECT_LT(difference(expected, sums), 1e-10);
+    });
+  }
+
+  // Velocities v = b + A x of the grains, mass weighted: every method gives b + A (centre of mass of the cell's grains) to
+  // round-off, so that a uniform velocity is reproduced exactly, and an added velocity V adds V.
+  TEST(Averaging, AffineVelocityIsReproducedAtTheCentreOfMass)
+  {
+    const Network         network = random_network({0, 0}, {20, 30}, 800, 19);
+    const Eigen::Vector2d b(3, -7);
+    Eigen::Matrix2d       a;
+    a << 0.4, -1.1, 0.7, 0.2;
+    Carriers c = moment_carriers(network.position, network.radius, {});
+    c.of_grains.resize(Eigen::Index(network.position.size()), 5);
+    for (Eigen::Index i = 0; i < c.of_grains.rows(); ++i)
+      {
+        const Eigen::Vector2d &x = network.position[i], v = b + a * x;
+        const double           m = network.radius[i] * network.radius[i];
+        c.of_grains.row(i) << m, m * x.x(), m * x.y(), m * v.x(), m * v.y();
+      }
+    for_each_case([&](const AveragingOptions &options, const QuadMesh &mesh) {
+      const Columns sums   = distribute(options, TargetCells(mesh), c).of_grains;
+      int           filled = 0;
+      for (Eigen::Index k = 0; k < sums.rows(); ++k)
+        if (sums(k, 0) > 0.1)
+          {
+            const Eigen::Vector2d centre   = sums.row(k).segment<2>(1) / sums(k, 0),
+                                  velocity = sums.row(k).segment<2>(3) / sums(k, 0);
+            EXPECT_LT((velocity - b - a * centre).norm(), 1e-11);
+            ++filled;
+          }
+      EXPECT_GT(filled, 50);
+    });
+  }
+
+  // Random stress waves about a pressure of 1, every grain in equilibrium: sum |K| sigma = -sum f (x) x over the forces of the
+  // box on the sample, f at x.
+  TEST(Averaging, InEquilibriumTheBoundaryForcesGiveTheTotal)
+  {
+    const auto network = diptych::benchmarks::airy_network({0, 0}, {20, 30}, diptych::benchmarks::pressure_wave(0.3, 12), 21);
+    Eigen::Matrix2d boundary = Eigen::Matrix2d::Zero();
+    for (const auto &c : network.contacts)
+      if (c.j == int(network.position.size()))
+        boundary -= c.force * c.point.transpose();
+    const Carriers c = moment_carriers(network.position, network.radius, network.contacts);
+    for_each_case([&](const AveragingOptions &options, const QuadMesh &mesh) {
+      const CellSums           sums  = distribute(options, TargetCells(mesh), c);
+      const Eigen::RowVector4d total = sums.uniform.colwise().sum();
+      EXPECT_NEAR(total[0], boundary(0, 0), 1e-10 * boundary.norm());
+      EXPECT_NEAR(total[1], boundary(0, 1), 1e-10 * boundary.norm());
+      EXPECT_NEAR(total[2], boundary(1, 0), 1e-10 * boundary.norm());
+      EXPECT_NEAR(total[3], boundary(1, 1), 1e-10 * boundary.norm());
+      // phi = -r^2/2 + ...: the pressure of the whole box is 1 up to the wave's mean, below 0.3 x 2 / (k 20) = 0.06
+      EXPECT_NEAR(0.5 * (total[0] + total[3]) / 600, 1, 0.06);
+    });
+  }
+} // namespace

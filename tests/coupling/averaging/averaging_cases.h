@@ -1,0 +1,125 @@
+// diptych: meshes, samples and methods that every invariant of averaging is tested on
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "coupling/averaging/averaging.h"
+#include "discrete/choices.h"
+#include "tests/coupling/synthetic_samples.h"
+
+namespace diptych::coupling::synthetic
+{
+  inline const std::vector<AveragingOptions> averaging_methods = {
+    {AveragingMethod::segments, KernelShape::gauss, 1.5}, {AveragingMethod::centroid, KernelShape::gauss, 1.5},
+    {AveragingMethod::laguerre, KernelShape::gauss, 1.5}, {AveragingMethod::kernel, KernelShape::gauss, 1.5},
+    {AveragingMethod::kernel, KernelShape::lucy, 0.8},    {AveragingMethod::projection, KernelShape::gauss, 1.5}};
+
+  inline std::string name_of(const AveragingOptions &o)
+  {
+    const std::string method = discrete::name_of(o.method);
+    return o.method == AveragingMethod::kernel ? method + " " + discrete::name_of(o.kernel) : method;
+  }
+
+  // Every cell for which `chosen` says so cut into four by the middles of its edges and its centre; its neighbours are left
+  // with hanging nodes. children[c]: the cells that cell c became.
+  struct Refined
+  {
+    QuadMesh                               mesh;
+    std::vector<std::vector<unsigned int>> children;
+  };
+  template <class Chosen> Refined refined(const QuadMesh &coarse, Chosen &&chosen)
+  {
+    Refined result;
+    result.mesh.node = coarse.node;
+    std::map<std::pair<unsigned int, unsigned int>, unsigned int> middle;
+    const auto                                                    middle_of = [&](const unsigned int a, const unsigned int b) {
+      const auto [place, is_new] = middle.insert({std::minmax(a, b), result.mesh.node.size()});
+      if (is_new)
+        result.mesh.node.push_back(0.5 * (coarse.node[a] + coarse.node[b]));
+      return place->second;
+    };
+    for (unsigned int c = 0; c < coarse.cell.size(); ++c)
+      {
+        const auto &n = coarse.cell[c];
+        result.children.emplace_back();
+        const auto add = [&](const std::array<unsigned int, 4> &cell) {
+          result.children.back().push_back(result.mesh.cell.size());
+          result.mesh.cell.push_back(cell);
+        };
+        if (!chosen(cell_centre(coarse, c)))
+          {
+            add(n);
+            continue;
+          }
+        const unsigned int centre = result.mesh.node.size();
+        result.mesh.node.push_back(cell_centre(coarse, c));
+        for (unsigned int k = 0; k < 4; ++k)
+          add({{n[k], middle_of(n[k], n[(k + 1) % 4]), centre, middle_of(n[(k + 3) % 4], n[k])}});
+      }
+    triangulate(result.mesh);
+    return result;
+  }
+
+  struct NamedMesh
+  {
+    std::string name;
+    QuadMesh    mesh;
+  };
+
+  // Over the box [0, 20] x [0, 30].
+  inline std::vector<NamedMesh> averaging_meshes()
+  {
+    const QuadMesh quads = box_mesh({0, 0}, {20, 30}, 11, 16, 0.25);
+    return {{"quads", quads},
+            {"hanging nodes", refined(quads, [](const Eigen::Vector2d &x) { return x.x() > 8 && x.y() < x.x(); }).mesh},
+            {"regular grid", regular_grid({0, 0}, {20, 30}, 2.4)}};
+  }
+
+  // The network's contacts across the sides of a cell of the given width, and grains that have wandered out of it.
+  inline Network made_periodic(Network network, const double width, const std::uint64_t seed)
+  {
+    std::mt19937_64     random(seed);
+    std::vector<double> shift;
+    for (Eigen::Vector2d &x : network.position)
+      {
+        shift.push_back(width * std::floor(uniform(random, -1, 2)));
+        x.x() += shift.back();
+      }
+    for (discrete::ContactForce &c : network.contacts)
+      {
+        // the whole contact moves with i; j, where it is a grain, has moved by its own shift
+        c.point.x() += shift[c.i];
+        if (c.j < int(shift.size()))
+          c.shift = shift[c.i] - shift[c.j];
+      }
+    return network;
+  }
+
+  // Random quantities of every kind: grains carry mass, momentum, and a number that changes sign.
+  inline Carriers random_carriers(const Network &network, const std::uint64_t seed)
+  {
+    std::mt19937_64 random(seed);
+    Carriers        c = moment_carriers(network.position, network.radius, network.contacts);
+    c.of_grains.resize(Eigen::Index(network.position.size()), 3);
+    for (Eigen::Index i = 0; i < c.of_grains.rows(); ++i)
+      for (Eigen::Index k = 0; k < 3; ++k)
+        c.of_grains(i, k) = k == 0 ? uniform(random, 0.3, 1) : normal(random);
+    c.tapered.resize(Eigen::Index(c.half.size()), 2);
+    for (Eigen::Index h = 0; h < c.tapered.rows(); ++h)
+      c.tapered.row(h) << normal(random), normal(random);
+    return c;
+  }
+
+  // Largest difference of two sets of sums, relative to the largest sum of the first; columns of unlike size apart.
+  inline double difference(const CellSums &a, const CellSums &b)
+  {
+    const auto relative = [](const Columns &x, const Columns &y) {
+      return x.size() == 0 ? 0. : (x - y).cwiseAbs().maxCoeff() / x.cwiseAbs().maxCoeff();
+    };
+    return std::max({relative(a.of_grains, b.of_grains), relative(a.uniform, b.uniform), relative(a.tapered, b.tapered)});
+  }
+} // namespace diptych::coupling::synthetic

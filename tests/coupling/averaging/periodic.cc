@@ -1,0 +1,113 @@
+// diptych: stress of a periodic sample on cells
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/averaging/periodic.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+  using namespace diptych;
+  using namespace diptych::coupling;
+
+  // Cells of 1 x 1 over [0, nx] x [0, ny].
+  QuadMesh cells(const unsigned int nx, const unsigned int ny)
+  {
+    QuadMesh mesh;
+    for (unsigned int j = 0; j <= ny; ++j)
+      for (unsigned int i = 0; i <= nx; ++i)
+        mesh.node.emplace_back(i, j);
+    for (unsigned int j = 0; j < ny; ++j)
+      for (unsigned int i = 0; i < nx; ++i)
+        {
+          const unsigned int first = j * (nx + 1) + i;
+          mesh.cell.push_back({{first, first + 1, first + nx + 2, first + nx + 1}});
+        }
+    triangulate(mesh);
+    return mesh;
+  }
+
+  // n discs of diameter 1 side by side at half height, the last touching the first across the edge, all pressed by `force`.
+  // `drift`: how far the first one has wandered out of the cell.
+  discrete::Snapshot ring(const int n, const double force, const double drift)
+  {
+    discrete::Snapshot s;
+    s.cell_width = n;
+    for (int i = 0; i < n; ++i)
+      {
+        s.position.emplace_back(i + 0.25 + (i == 0 ? drift : 0), 0.5);
+        s.radius.push_back(0.5);
+        s.mean_spin_term.push_back(0);
+      }
+    for (int i = 0; i < n; ++i)
+      {
+        discrete::ContactForce c;
+        c.i = i, c.j = (i + 1) % n;
+        c.shift  = std::round((s.position[i].x() + 1 - s.position[c.j].x()) / n) * n;
+        c.point  = s.position[i] + Eigen::Vector2d(0.5, 0);
+        c.normal = {-1, 0};
+        c.force  = {-force, 0};
+        s.window_forces.push_back(c);
+      }
+    return s;
+  }
+
+  // A force f across every vertical section of height 1: sigma_xx = f in every cell, whatever period a grain's own abscissa
+  // lies in.
+  TEST(PeriodicMapping, ARingOfDiscsIsUniformlyStressed)
+  {
+    const QuadMesh mesh = cells(6, 1);
+    for (const double drift : {0., -6., 6., -24., 600.})
+      {
+        const MappedGrains mapped = map_grains(mesh, ring(6, 3, drift));
+        for (const Eigen::Matrix2d &stress : cell_stress(mesh, mapped.moment))
+          {
+            EXPECT_NEAR(stress(0, 0), 3, 1e-12) << "drift " << drift;
+            EXPECT_NEAR(stress(1, 1), 0, 1e-12);
+          }
+        EXPECT_NEAR(mapped.moment.outside_share, 0, 1e-12);
+        EXPECT_TRUE(mapped.has_collar);
+        EXPECT_LT(mapped.nodal_residual, 1e-13);
+      }
+  }
+
+  // Six discs of area pi/4 in six cells of area 1, the first one half outside on the left.
+  TEST(PeriodicMapping, DiscsCoverBothSidesOfTheEdge)
+  {
+    for (const double drift : {0., -6., 60.})
+      {
+        const CellCover cover = grain_cover(cells(6, 1), ring(6, 1, drift));
+        int             count = 0;
+        for (std::size_t k = 0; k < 6; ++k)
+          {
+            EXPECT_NEAR(cover.solid_fraction[k], M_PI / 4, 1e-12) << "drift " << drift;
+            count += cover.grain_count[k];
+          }
+        EXPECT_EQ(count, 6) << "drift " << drift;
+      }
+  }
+
+  TEST(PeriodicMapping, AMeshWithHangingNodesHasItsNodalIdentityAndItsTotal)
+  {
+    // [0, 2] x [0, 2]: three cells of 1 x 1, the last one divided in four
+    QuadMesh mesh;
+    mesh.node = {{0, 0}, {1, 0}, {2, 0},   {0, 1},   {1, 1},     {2, 1},   {0, 2},
+                 {1, 2}, {2, 2}, {1.5, 1}, {1, 1.5}, {1.5, 1.5}, {2, 1.5}, {1.5, 2}};
+    mesh.cell = {{{0, 1, 4, 3}},   {{1, 2, 5, 4}},    {{3, 4, 7, 6}},   {{4, 9, 11, 10}},
+                 {{9, 5, 12, 11}}, {{10, 11, 13, 7}}, {{11, 12, 8, 13}}};
+    triangulate(mesh);
+    discrete::Snapshot s;
+    s.position                 = {{0.8, 0.9}, {1.6, 1.7}};
+    s.radius                   = {0.5, 0.6};
+    s.mean_spin_term           = {0, 0};
+    s.window_forces            = {{0, 1, {1.2, 1.3}, {-0.7, -0.7}, {-1, -2}}};
+    const MappedGrains divided = map_grains(mesh, s), whole = map_grains(cells(2, 2), s);
+    EXPECT_LT(divided.nodal_residual, 1e-12);
+    EXPECT_LT(whole.nodal_residual, 1e-12);
+    // f = (-1, -2) on the branch (0.8, 0.8): -f (x) l
+    Eigen::Matrix2d expected;
+    expected << 0.8, 0.8, 1.6, 1.6;
+    EXPECT_LT(total_relative_error(divided.moment, expected), 1e-14);
+  }
+} // namespace

@@ -1,0 +1,73 @@
+// diptych: increments of the continuum's cells between two stages
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/fields/continuum_fields.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+  using namespace diptych;
+  using namespace diptych::coupling;
+
+  // n x n nine-node cells on the square of side 2, moved by u = t (x, -y), turned by t (1 + x + y), x and y of the initial shape.
+  continuum::Snapshot squeezed(const int n, const double t)
+  {
+    continuum::Snapshot s;
+    const int           m = 2 * n + 1;
+    for (int j = 0; j < m; ++j)
+      for (int i = 0; i < m; ++i)
+        {
+          const Eigen::Vector2d x(2. * i / (m - 1), 2. * j / (m - 1));
+          s.displacement.emplace_back(t * x.x(), -t * x.y());
+          s.position.emplace_back(x + s.displacement.back());
+          s.rotation.push_back(t * (1 + x.x() + x.y()));
+        }
+    const auto node = [m](const int i, const int j) { return unsigned(j * m + i); };
+    for (int j = 0; j < 2 * n; j += 2)
+      for (int i = 0; i < 2 * n; i += 2)
+        {
+          s.cells.push_back({{node(i, j), node(i + 2, j), node(i + 2, j + 2), node(i, j + 2), node(i + 1, j), node(i + 2, j + 1),
+                              node(i + 1, j + 2), node(i, j + 1), node(i + 1, j + 1)}});
+          continuum::CellState state;
+          state.stress.diagonal() = Eigen::Vector3d(1, 2 + t, 1.5);
+          state.dissipation       = 10 * t + (i < n ? 0 : 1); // the right half dissipated more before
+          state.couple_stress     = {t, 0};
+          s.cell_state.push_back(state);
+        }
+    return s;
+  }
+
+  // From t = 0.1 to 0.2: stress in the middle, dissipation 10 x 0.1, mean displacement increment 0.1 (x, -y) at the centre of
+  // the initial cell, rotation 0.1 (1 + x + y) there; the couple stress changes its sign to that of compression.
+  void expect_increments(const ContinuumFields &f, const int n)
+  {
+    for (int k = 0; k < n * n; ++k)
+      {
+        const Eigen::Vector2d x((k % n + 0.5) * 2 / n, (k / n + 0.5) * 2 / n);
+        EXPECT_NEAR(f.stress[k](1, 1), 2.15, 1e-14);
+        EXPECT_NEAR(f.dissipation[k], 1, 1e-12);
+        EXPECT_NEAR((f.displacement_increment[k] - 0.1 * Eigen::Vector2d(x.x(), -x.y())).norm(), 0, 1e-13);
+        EXPECT_NEAR(f.rotation_increment[k], 0.1 * (1 + x.sum()), 1e-13);
+        EXPECT_NEAR(f.couple_stress[k].x(), -0.2, 1e-15);
+      }
+  }
+
+  TEST(ContinuumFields, AreDifferencesOfTheSameCells)
+  {
+    expect_increments(continuum_fields(squeezed(2, 0.1), squeezed(2, 0.2)), 2);
+  }
+
+  TEST(ContinuumFields, CellsDividedInBetweenHadWhatTheirParentsHad)
+  {
+    expect_increments(continuum_fields(squeezed(2, 0.1), squeezed(4, 0.2)), 4);
+  }
+
+  TEST(ContinuumFields, ALawWithoutRotationHasNoRotationIncrement)
+  {
+    auto from = squeezed(2, 0.1), to = squeezed(2, 0.2);
+    from.rotation.clear(), to.rotation.clear();
+    EXPECT_TRUE(std::isnan(continuum_fields(from, to).rotation_increment[0]));
+  }
+} // namespace

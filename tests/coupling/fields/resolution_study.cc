@@ -1,0 +1,120 @@
+// diptych: stress of grains against the length over which it is averaged
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/fields/resolution_study.h"
+#include "coupling/averaging/point_stress.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "benchmarks/homogenisation/airy_network.h"
+#include "tests/coupling/averaging/averaging_cases.h"
+
+namespace
+{
+  using namespace diptych;
+  using namespace diptych::coupling;
+
+  ResolutionRow row(const double width, const std::vector<std::pair<double, double>> &values)
+  {
+    ResolutionRow result;
+    result.width = width;
+    for (const auto &[s, t_over_s] : values)
+      result.points.push_back({"", s, t_over_s});
+    return result;
+  }
+
+  // Point 1 is steady from 0.5 to 4, point 2 from 1 to 3 only: 5 % of the mean of 1, 1.06, 1.06 (1.04) allow 0.988 .. 1.092, but
+  // not the 0.9 at 0.5 or the t/s of 0.6 at 4.
+  TEST(ResolutionStudy, PlateauIsTheWidestRangeInWhichEveryPointIsSteady)
+  {
+    const std::vector<ResolutionRow> rows    = {row(0.5, {{1, 0.3}, {0.9, 0.5}}), row(1, {{1, 0.3}, {1, 0.5}}),
+                                                row(2, {{1, 0.3}, {1.06, 0.5}}), row(3, {{1, 0.3}, {1.06, 0.5}}),
+                                                row(4, {{1, 0.3}, {1.06, 0.6}})};
+    const auto                       plateau = find_plateau(rows);
+    ASSERT_TRUE(plateau);
+    EXPECT_EQ((*plateau)[0], 1);
+    EXPECT_EQ((*plateau)[1], 3);
+  }
+
+  // Steady between 2 and 3 only, less than a factor of two; a point without a value has no plateau; no points, no verdict.
+  TEST(ResolutionStudy, WithoutASteadyRangeThereIsNoPlateau)
+  {
+    EXPECT_FALSE(find_plateau({row(1, {{1, 0.3}}), row(2, {{2, 0.3}}), row(3, {{2, 0.3}}), row(4, {{4, 0.3}})}));
+    EXPECT_FALSE(find_plateau({row(1, {{1, NAN}}), row(2, {{1, NAN}})}));
+    EXPECT_FALSE(find_plateau({row(1, {}), row(2, {})}));
+  }
+
+  // Hexagonal lattice of diameter 1 under sqrt(3) in all directions, periodic sides. The kernel sees the lattice's ripple, of
+  // relative size 6 exp(-8 pi^2 w^2 / 3) = 0.8 % at w = 0.5, and nothing of it beyond: a plateau over all widths, t = 0.
+  // Its reach at the largest width, 16, does not touch the ends.
+  TEST(ResolutionStudy, UniformLatticeIsAPlateau)
+  {
+    const double       row_height = std::sqrt(3.) / 2;
+    const int          columns = 12, rows = 44;
+    discrete::Snapshot s;
+    for (int r = 0; r < rows; ++r)
+      for (int c = 0; c < columns; ++c)
+        s.position.emplace_back(c + 0.5 * (r % 2), (r + 0.5) * row_height), s.radius.push_back(0.5);
+    s.cell_width = columns;
+    for (int r = 0; r < rows; ++r)
+      for (int c = 0; c < columns; ++c)
+        for (const auto &[dr, dc] : {std::pair(0, 1), std::pair(1, r % 2), std::pair(1, r % 2 - 1)})
+          if (r + dr < rows)
+            {
+              const int             i = r * columns + c, j = (r + dr) * columns + (c + dc + columns) % columns;
+              const double          shift = columns * std::round((s.position[i].x() - s.position[j].x()) / columns);
+              const Eigen::Vector2d n     = s.position[i] - s.position[j] - Eigen::Vector2d(shift, 0);
+              s.window_forces.push_back({i, j, s.position[i] - 0.5 * n, n, n, shift});
+            }
+    const QuadMesh        mesh   = synthetic::box_mesh({0, 0}, {columns, rows * row_height}, 6, 22);
+    const double          middle = 0.5 * rows * row_height;
+    const ResolutionStudy study  = resolution_study(mesh, s, {{"middle", {5, middle}}, {"side", {12, middle + 0.3}}});
+    for (const ResolutionRow &r : study.kernel)
+      for (const PointStress &p : r.points)
+        {
+          EXPECT_NEAR(p.s / std::sqrt(3.), 1, r.width == 0.5 ? 0.01 : 1e-3)
+            << r.width << p.name; // 1e-3: the quadrature of the mesh
+          EXPECT_LT(p.t_over_s, r.width == 0.5 ? 0.01 : 1e-3);
+        }
+    ASSERT_TRUE(study.plateau);
+    EXPECT_EQ((*study.plateau)[0], 0.5);
+    EXPECT_EQ((*study.plateau)[1], 4);
+    ASSERT_EQ(study.kernel.size(), kernel_widths.size());
+    ASSERT_EQ(study.cells.size(), cell_sizes.size());
+    EXPECT_EQ(study.kernel[0].points[1].name, "side");
+  }
+
+  // A pressure wave of amplitude 0.3 and length 20 in a disordered network: a Gauss kernel of deviation w takes off
+  // exp(-k^2 w^2) of it (half of the exponent for x, half for y), whatever the grains' disorder adds. The amplitude is fitted to
+  // points 2 apart over L x L = 58 x 58; of the rest, of root mean square e, an area of 4 pi w^2 counts as one independent value,
+  // so that the amplitude is within 3 e / sqrt(L^2/(4 pi w^2)) / sqrt(1/4), 1/4 the wave's mean square. A branch of length 1
+  // spreads its force by itself, variance 1/12: less than k^2/12 = 0.8 % of the amplitude.
+  TEST(ResolutionStudy, KernelDampsAWaveAsAGaussDoes)
+  {
+    const double       length = 20, k = 2 * M_PI / length;
+    const auto         network = benchmarks::airy_network({0, 0}, {80, 80}, benchmarks::pressure_wave(0.3, length), 1);
+    discrete::Snapshot s;
+    s.position = network.position, s.radius = network.radius, s.window_forces = network.contacts;
+    const QuadMesh               mesh = regular_grid({0, 0}, {80, 80}, 2);
+    std::vector<Eigen::Vector2d> points;
+    for (double x = 11; x < 70; x += 2)
+      for (double y = 11; y < 70; y += 2)
+        points.emplace_back(x, y);
+    const auto wave = [k](const Eigen::Vector2d &x) { return std::cos(k * x.x()) * std::cos(k * x.y()); };
+    for (const double w : {1., 2.})
+      {
+        const auto stress  = stress_at_points(mesh, s, points, KernelShape::gauss, w);
+        double     squares = 0, product = 0, rest = 0;
+        for (std::size_t p = 0; p < points.size(); ++p)
+          squares += std::pow(wave(points[p]), 2), product += wave(points[p]) * (0.5 * stress[p].trace() - 1);
+        const double amplitude = product / squares;
+        for (std::size_t p = 0; p < points.size(); ++p)
+          rest += std::pow(0.5 * stress[p].trace() - 1 - amplitude * wave(points[p]), 2) / double(points.size());
+        const double error = std::sqrt(rest) * std::sqrt(4 * M_PI) * w / 58 / 0.5;
+        EXPECT_LT(error, 0.01); // so that the next line can fail
+        const double exact = 0.3 * std::exp(-k * k * w * w);
+        EXPECT_NEAR(amplitude, exact, 3 * error + exact * k * k / 12) << w;
+      }
+  }
+} // namespace

@@ -1,0 +1,170 @@
+// diptych: snapshots and rows of which no two values are alike, and what it takes to compare them after a file
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "continuum/history.h"
+#include "continuum/snapshot_fields.h"
+
+namespace diptych::coupling::files
+{
+  namespace fs = std::filesystem;
+  using continuum::CellState;
+  using continuum::HistoryRow;
+  using continuum::Snapshot;
+
+  struct Folder
+  {
+    std::string path;
+
+    explicit Folder(const std::string &name = "")
+        : path((fs::path(testing::TempDir()) / ("diptych_files" + name + std::to_string(::getpid()))).string())
+    {
+      fs::remove_all(path);
+      fs::create_directory(path);
+    }
+    ~Folder() { fs::remove_all(path); }
+    std::string operator/(const std::string &name) const { return path + "/" + name; }
+  };
+
+  // No two values are alike, so that no two fields can be mistaken for each other.
+  struct Numbers
+  {
+    int                                   n;
+    double                                operator()() { return std::sin(++n) / 3; }
+    void                                  operator()(double &value) { value = (*this)(); }
+    void                                  operator()(int &value) { value = ++n; }
+    void                                  operator()(continuum::Walk &) {}
+    template <int rows, int columns> void operator()(Eigen::Matrix<double, rows, columns> &m)
+    {
+      for (int k = 0; k < m.size(); ++k)
+        m(k) = (*this)();
+    }
+  };
+
+  // n x n cells of nine nodes on the unit square.
+  inline Snapshot example(const unsigned int n, const double progress, const bool cosserat)
+  {
+    Snapshot s;
+    Numbers  next{int(1e6 * progress)};
+    visit_attributes(s, [&](const char *, auto &value, const char *, const char *) { next(value); });
+    s.progress              = progress;
+    s.walk                  = continuum::Walk::shear_strain;
+    const unsigned int side = 2 * n + 1;
+    for (unsigned int k = 0; k < side * side; ++k)
+      {
+        s.position.emplace_back(double(k % side) / (2 * n), double(k / side) / (2 * n));
+        s.displacement.emplace_back(next(), next());
+        s.weight.push_back(next());
+        if (cosserat)
+          s.rotation.push_back(next());
+      }
+    for (unsigned int k = 0; k < n * n; ++k)
+      {
+        const unsigned int a = 2 * (k % n) + 2 * side * (k / n), b = a + side, c = b + side;
+        s.cells.push_back({a, a + 2, c + 2, c, a + 1, b + 2, c + 1, b, b + 1});
+        s.cell_state.emplace_back();
+        visit_cell_fields(s.cell_state.back(), [&](const char *, auto &value, const char *, const char *) { next(value); });
+      }
+    return s;
+  }
+
+  inline bool same_bits(const double a, const double b)
+  {
+    return std::memcmp(&a, &b, sizeof a) == 0;
+  }
+  template <int rows, int columns>
+  bool same_bits(const Eigen::Matrix<double, rows, columns> &a, const Eigen::Matrix<double, rows, columns> &b)
+  {
+    return std::memcmp(a.data(), b.data(), sizeof a) == 0;
+  }
+  template <class T> bool same_bits(const std::vector<T> &a, const std::vector<T> &b)
+  {
+    return a.size() == b.size() &&
+           std::equal(a.begin(), a.end(), b.begin(), [](const T &x, const T &y) { return same_bits(x, y); });
+  }
+
+  inline bool same_bits(const continuum::Walk a, const continuum::Walk b)
+  {
+    return a == b;
+  }
+
+  // A member added to CellState does not compile here: it needs a line in the list of fields, too.
+  inline void expect_same(const CellState &x, const CellState &y)
+  {
+    const auto &[stress, strain, plastic_strain, couple_stress, area, kappa, dissipation, overstress, zz, determinant, angle] = x;
+    EXPECT_TRUE(same_bits(stress, y.stress)) << stress << "\n\n" << y.stress;
+    EXPECT_TRUE(same_bits(strain, y.strain)) << strain << "\n\n" << y.strain;
+    EXPECT_TRUE(same_bits(plastic_strain, y.plastic_strain)) << plastic_strain << "\n\n" << y.plastic_strain;
+    EXPECT_TRUE(same_bits(couple_stress, y.couple_stress)) << couple_stress << "\n\n" << y.couple_stress;
+    EXPECT_TRUE(same_bits(area, y.area));
+    EXPECT_TRUE(same_bits(kappa, y.equivalent_plastic_strain));
+    EXPECT_TRUE(same_bits(dissipation, y.dissipation));
+    EXPECT_TRUE(same_bits(overstress, y.overstress));
+    EXPECT_TRUE(same_bits(zz, y.share_zz_not_intermediate));
+    EXPECT_TRUE(same_bits(determinant, y.acoustic_determinant));
+    EXPECT_TRUE(same_bits(angle, y.localisation_angle));
+  }
+
+  inline void expect_same(const Snapshot &x, const Snapshot &y)
+  {
+    const auto &[progress, axial_strain, shear_strain, time, walk, position, displacement, rotation, weight, cells, states, lower,
+                 upper, mean_stress, area] = x;
+    EXPECT_TRUE(same_bits(progress, y.progress));
+    EXPECT_TRUE(same_bits(axial_strain, y.axial_strain));
+    EXPECT_TRUE(same_bits(shear_strain, y.shear_strain));
+    EXPECT_TRUE(same_bits(time, y.time));
+    EXPECT_EQ(walk, y.walk);
+    EXPECT_TRUE(same_bits(position, y.position));
+    EXPECT_TRUE(same_bits(displacement, y.displacement));
+    EXPECT_TRUE(same_bits(rotation, y.rotation));
+    EXPECT_TRUE(same_bits(weight, y.weight));
+    EXPECT_EQ(cells, y.cells);
+    EXPECT_TRUE(same_bits(lower, y.lower_platen_force));
+    EXPECT_TRUE(same_bits(upper, y.upper_platen_force));
+    EXPECT_TRUE(same_bits(mean_stress, y.mean_stress));
+    EXPECT_TRUE(same_bits(area, y.area));
+    ASSERT_EQ(states.size(), y.cell_state.size());
+    for (std::size_t c = 0; c < states.size(); ++c)
+      expect_same(states[c], y.cell_state[c]);
+  }
+
+  inline std::string contents_of(const std::string &path)
+  {
+    std::ifstream in(path, std::ios::binary);
+    EXPECT_TRUE(in) << path;
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  inline void put(const std::string &path, const std::string &contents)
+  {
+    std::ofstream(path, std::ios::binary | std::ios::trunc) << contents;
+  }
+
+  template <class Action> void expect_error_naming(const std::vector<std::string> &names, Action &&action)
+  {
+    try
+      {
+        action();
+        FAIL() << "no error";
+      }
+    catch (const std::invalid_argument &error)
+      {
+        for (const std::string &name : names)
+          EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << "no '" << name << "' in: " << error.what();
+      }
+  }
+} // namespace diptych::coupling::files

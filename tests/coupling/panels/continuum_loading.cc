@@ -1,0 +1,223 @@
+// diptych: the grains' loadings as the continuum takes them
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/panels/continuum_loading.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "continuum/mesh/mesh.h"
+
+namespace
+{
+  using namespace diptych;
+  using namespace diptych::coupling;
+  using diptych::discrete::LoadingMode;
+
+  const ContinuumSample sample{75, 50, 0.8}; // height, width of the platen, solid fraction
+
+  // d = 1, P = 1, density 1: the strain rate is the inertial number.
+  Scene scene_with(const LoadingMode mode)
+  {
+    Scene scene;
+    scene.loading.mode            = mode;
+    scene.loading.inertial_number = 0.01;
+    return scene;
+  }
+
+  double at(const continuum::Drive &drive, const double progress)
+  {
+    return drive.value ? drive.value(progress) : 0;
+  }
+
+  std::string refusal_of(const Scene &scene)
+  {
+    try
+      {
+        require_continuum(scene);
+      }
+    catch (const SceneError &error)
+      {
+        return error.what();
+      }
+    return "";
+  }
+
+  TEST(ContinuumLoading, DescentGoesDownByTheHeightAndSidewaysByItsRatio)
+  {
+    Scene scene                            = scene_with(LoadingMode::descent);
+    scene.loading.horizontal_over_vertical = -0.5;
+    const continuum::Loading loading       = continuum_loading(scene, sample);
+    EXPECT_DOUBLE_EQ(at(loading.platens[1][0], 0.02), -0.75); // -0.5 x 75 x 0.02
+    EXPECT_DOUBLE_EQ(at(loading.platens[1][1], 0.02), -1.5);
+    EXPECT_EQ(at(loading.platens[0][0], 0.02), 0);
+    EXPECT_EQ(loading.stages.front(), 0);
+    EXPECT_EQ(loading.stages.back(), scene.loading.axial_strain);
+    EXPECT_TRUE(std::holds_alternative<continuum::SidePressure>(loading.lateral));
+  }
+
+  TEST(ContinuumLoading, ShearKeepsTheHeightAndPlaneShearCarriesPressureTimesWidth)
+  {
+    const continuum::Loading shear = continuum_loading(scene_with(LoadingMode::shear), sample);
+    EXPECT_DOUBLE_EQ(at(shear.platens[1][0], 0.1), 7.5);
+    EXPECT_FALSE(shear.platens[1][1].is_force);
+    EXPECT_EQ(at(shear.platens[1][1], 0.1), 0);
+    Scene scene                   = scene_with(LoadingMode::plane_shear);
+    scene.loading.normal_pressure = 2;
+    const continuum::Loading free = continuum_loading(scene, sample);
+    EXPECT_DOUBLE_EQ(at(free.platens[1][0], 0.1), 7.5);
+    EXPECT_TRUE(free.platens[1][1].is_force);
+    EXPECT_DOUBLE_EQ(at(free.platens[1][1], 0.1), -100);
+  }
+
+  TEST(ContinuumLoading, VelocitiesOfATableAreIntegratedExactly)
+  {
+    const auto path = std::filesystem::path(testing::TempDir()) / ("drive" + std::to_string(::getpid()) + ".csv");
+    std::ofstream(path) << "time,velocity\n1,0\n3,4\n4,-2\n";
+    Scene scene                    = scene_with(LoadingMode::time);
+    scene.discrete.drives.upper_x  = "velocity " + path.string();
+    scene.discrete.drives.lower_y  = "velocity 0.5";
+    scene.discrete.drives.upper_y  = "force -3";
+    const continuum::Loading moved = continuum_loading(scene, sample);
+    // 0 until 1; 4 (t-1)^2/4 until 3: 4; the trapezium 4 -> -2 in one unit adds 1; then -2 a unit.
+    for (const auto &[t, x] : {std::pair{0.5, 0.}, {2., 1.}, {3., 4.}, {3.5, 5.25}, {4., 5.}, {6., 1.}})
+      EXPECT_NEAR(at(moved.platens[1][0], t), x, 1e-12) << "at time " << t;
+    EXPECT_DOUBLE_EQ(at(moved.platens[0][1], 3), 1.5);
+    EXPECT_TRUE(moved.platens[1][1].is_force);
+    EXPECT_EQ(at(moved.platens[1][1], 7), -3);
+    std::filesystem::remove(path);
+  }
+
+  TEST(ContinuumLoading, ATableThatBeginsBeforeTheStartIsIntegratedFromTheStart)
+  {
+    const auto path = std::filesystem::path(testing::TempDir()) / ("early" + std::to_string(::getpid()) + ".csv");
+    std::ofstream(path) << "time,velocity\n-1,1\n1,3\n";
+    Scene scene                   = scene_with(LoadingMode::time);
+    scene.discrete.drives.lower_x = "velocity " + path.string();
+    const auto drive              = continuum_loading(scene, sample).platens[0][0]; // int_0^1 (2 + t) = 2.5
+    EXPECT_NEAR(at(drive, 0), 0, 1e-15);
+    EXPECT_NEAR(at(drive, 1), 2.5, 1e-12);
+    std::filesystem::remove(path);
+  }
+
+  TEST(ContinuumLoading, OutsideTheModeTimeAWallIsWhereItsTimeSays)
+  {
+    Scene scene                   = scene_with(LoadingMode::descent);
+    scene.discrete.drives.lower_x = "velocity 0.2";
+    // progress 0.05 at the strain rate 0.01 is time 5
+    EXPECT_NEAR(at(continuum_loading(scene, sample).platens[0][0], 0.05), 1, 1e-12);
+  }
+
+  TEST(ContinuumLoading, SidesMoveByTheirSpeedOverTheStrainRate)
+  {
+    Scene scene                          = scene_with(LoadingMode::descent);
+    scene.discrete.lateral.lateral       = discrete::Lateral::rigid_walls;
+    const auto pressed                   = continuum_loading(scene, sample).lateral;
+    scene.discrete.lateral.side_motion   = discrete::SideMotion::velocity;
+    scene.discrete.lateral.side_velocity = 0.3;
+    const auto moved                     = continuum_loading(scene, sample).lateral;
+    scene.discrete.drives.right_x        = "velocity -0.1";
+    const auto driven                    = continuum_loading(scene, sample).lateral;
+    EXPECT_FALSE(std::get<continuum::RigidSides>(pressed).widening);
+    EXPECT_DOUBLE_EQ(*std::get<continuum::RigidSides>(moved).widening, 30);
+    EXPECT_DOUBLE_EQ(*std::get<continuum::RigidSides>(driven).widening, -10);
+    scene.discrete.drives.right_x  = "auto";
+    scene.discrete.lateral.lateral = discrete::Lateral::periodic;
+    scene.loading.mode             = LoadingMode::time; // the progress is the time itself
+    EXPECT_DOUBLE_EQ(*std::get<continuum::PeriodicSides>(continuum_loading(scene, sample).lateral).widening, 0.3);
+    scene.discrete.lateral.side_motion = discrete::SideMotion::pressure;
+    EXPECT_FALSE(std::get<continuum::PeriodicSides>(continuum_loading(scene, sample).lateral).widening);
+    scene.discrete.lateral.lateral = discrete::Lateral::none;
+    EXPECT_TRUE(std::holds_alternative<continuum::FreeSides>(continuum_loading(scene, sample).lateral));
+  }
+
+  // Grains of density 3 fill 0.8 of the area: 3 x 0.8 x (0.5, -2)
+  TEST(ContinuumLoading, TheWeightIsThatOfTheGrains)
+  {
+    Scene scene                   = scene_with(LoadingMode::descent);
+    scene.sample.density          = 3;
+    scene.discrete.time.gravity_x = 0.5;
+    scene.discrete.time.gravity_y = -2;
+    EXPECT_LT((continuum_loading(scene, sample).body_force - Eigen::Vector2d(1.2, -4.8)).norm(), 1e-14);
+  }
+
+  TEST(ContinuumLoading, WhatHasNoCounterpartIsRefusedByItsKey)
+  {
+    using Change                                              = std::function<void(Scene &)>;
+    const std::vector<std::pair<std::string, Change>> refused = {
+      {"discrete/drive_upper_y", [](Scene &s) { s.discrete.drives.upper_y = "velocity -1"; }},
+      {"discrete/drive_upper_x", [](Scene &s) { s.loading.mode = LoadingMode::shear, s.discrete.drives.upper_x = "velocity 1"; }},
+      {"discrete/drive_lower_x",
+       [](Scene &s) { s.continuum.platens = continuum::Platens::smooth, s.discrete.drives.lower_x = "velocity 1"; }},
+      {"loading/mode", [](Scene &s) { s.continuum.platens = continuum::Platens::smooth, s.loading.mode = LoadingMode::shear; }},
+      {"discrete/drive_lower_y",
+       [](Scene &s) {
+         s.loading.mode            = LoadingMode::time;
+         s.discrete.drives.lower_y = "force 1", s.discrete.drives.upper_y = "force -1";
+       }},
+      {"discrete/drive_lower_y",
+       [](Scene &s) { s.loading.mode = LoadingMode::plane_shear, s.discrete.drives.lower_y = "force 1"; }},
+      {"discrete/drive_lower_x",
+       [](Scene &s) {
+         s.loading.mode            = LoadingMode::time;
+         s.discrete.drives.lower_x = "force 1", s.discrete.drives.upper_x = "force -1";
+       }},
+      {"discrete/drive_left_x", [](Scene &s) { s.discrete.drives.left_x = "velocity 1"; }},
+      {"discrete/drive_right_y", [](Scene &s) { s.discrete.drives.right_y = "velocity 1"; }},
+      {"discrete/drive_right_x", [](Scene &s) { s.discrete.drives.right_x = "force -1"; }},
+      {"continuum/platens", [](Scene &s) { s.discrete.lateral.lateral = discrete::Lateral::periodic; }},
+      {"continuum/refinement",
+       [](Scene &s) {
+         s.discrete.lateral.lateral     = discrete::Lateral::periodic,
+         s.discrete.lateral.side_motion = discrete::SideMotion::velocity;
+         s.continuum.refinement         = continuum::Refinement::adaptive;
+       }},
+      {"continuum/mesh", [](Scene &s) { s.continuum.mesh = "no_such.msh"; }},
+      {"continuum/element_size",
+       [](Scene &s) {
+         s.continuum.mesh = "rectangle", s.continuum.refinement = continuum::Refinement::adaptive;
+         s.continuum.rectangle_width = s.continuum.rectangle_height = 3; // 2 x 2 at first
+       }},
+      {"continuum/platen_width",
+       [](Scene &s) {
+         s.continuum.mesh            = "rectangle";
+         s.continuum.rectangle_width = s.continuum.rectangle_height = 5, s.continuum.platen_width = 6;
+       }},
+      {"continuum/mesh", [](Scene &s) { s.continuum.mesh = "somewhere"; }},
+      {"continuum/initial_stress",
+       [](Scene &s) { s.continuum.mesh = "rectangle", s.continuum.initial_stress = continuum::InitialStress::mapped; }}};
+    EXPECT_EQ(refusal_of(scene_with(LoadingMode::descent)), "");
+    for (const auto &[key, change] : refused)
+      {
+        Scene scene = scene_with(LoadingMode::descent);
+        change(scene);
+        EXPECT_EQ(refusal_of(scene).rfind(key, 0), 0u) << key << " is not what is refused first in: " << refusal_of(scene);
+      }
+  }
+
+  TEST(ContinuumLoading, AMeshIsMeasuredWithItsPlaten)
+  {
+    const ContinuumSample sample = measured(continuum::rectangle_mesh({12, 8, 4, 1}), 0.8);
+    EXPECT_NEAR(sample.height, 8, 1e-12);
+    EXPECT_NEAR(sample.platen_width, 4, 1e-12);
+    EXPECT_EQ(sample.solid_fraction, 0.8);
+  }
+
+  // What both panels walk along is the same, and so is the time that they take for it.
+  TEST(ContinuumLoading, BothPanelsWalkAlongTheSame)
+  {
+    for (const auto &[mode, walk] : {std::pair{LoadingMode::descent, continuum::Walk::axial_strain},
+                                     {LoadingMode::shear, continuum::Walk::shear_strain},
+                                     {LoadingMode::plane_shear, continuum::Walk::shear_strain},
+                                     {LoadingMode::time, continuum::Walk::time}})
+      {
+        const continuum::Loading loading = continuum_loading(scene_with(mode), sample);
+        EXPECT_EQ(loading.walk, walk);
+        EXPECT_EQ(loading.time_per_progress, mode == LoadingMode::time ? 1 : 100);
+        EXPECT_EQ(discrete::name_of(discrete::walk_of(mode)), continuum::name_of(walk));
+      }
+  }
+} // namespace

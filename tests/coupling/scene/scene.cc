@@ -1,0 +1,173 @@
+// diptych: scene files: every wrong word is named with its place and its nearest neighbour
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "coupling/scene/scene.h"
+
+namespace
+{
+  using namespace diptych::coupling;
+
+  // A scene file that lives as long as the test.
+  struct SceneFile
+  {
+    std::string path;
+
+    explicit SceneFile(const std::string &text, const std::string &ending = ".prm")
+        : path((std::filesystem::path(testing::TempDir()) / ("scene_test" + std::to_string(::getpid()) + ending)).string())
+    {
+      std::ofstream(path) << text;
+    }
+    ~SceneFile() { std::filesystem::remove(path); }
+  };
+
+  std::string error_of(const std::string              &text,
+                       const std::vector<std::string> &overrides = {},
+                       const std::string              &ending    = ".prm")
+  {
+    const SceneFile file(text, ending);
+    try
+      {
+        read_scene(file.path, overrides);
+      }
+    catch (const SceneError &error)
+      {
+        return error.what();
+      }
+    return "";
+  }
+
+  void expect_words(const std::string &text, const std::vector<std::string> &words)
+  {
+    for (const std::string &word : words)
+      EXPECT_NE(text.find(word), std::string::npos) << "'" << word << "' is missing in: " << text;
+  }
+
+  TEST(Scene, ReadsSectionsAndKeepsDefaults)
+  {
+    const SceneFile file("# comment\nsubsection sample\n  set grains = 500 # trailing\nend\n\nsubsection comparison\n"
+                         "  set window_edges = 0, 0.01, \\\n    0.02\nend\n");
+    const Scene     scene = read_scene(file.path, {"loading/inertial_number=1e-4", "discrete/solver=nsgs"});
+    EXPECT_EQ(scene.sample.grains, 500);
+    EXPECT_EQ(scene.sample.radius_min, 0.3);
+    EXPECT_EQ(scene.loading.inertial_number, 1e-4);
+    EXPECT_EQ(scene.discrete.solver.solver, diptych::discrete::ContactSolver::nsgs);
+    EXPECT_EQ(scene.comparison.window_edges, (std::vector<double>{0, 0.01, 0.02}));
+  }
+
+  TEST(Scene, ReadsTheSameFromJson)
+  {
+    const SceneFile file("{\"sample\": {\"grains\": 500},\n \"discrete\": {\"friction\": {\"value\": \"0.3\"}},\n"
+                         " \"comparison\": {\"window_edges\": [0, 0.02]}}",
+                         ".json");
+    const Scene     scene = read_scene(file.path, {});
+    EXPECT_EQ(scene.sample.grains, 500);
+    EXPECT_EQ(scene.discrete.law.friction, 0.3);
+    EXPECT_EQ(scene.comparison.window_edges, (std::vector<double>{0, 0.02}));
+  }
+
+  TEST(Scene, ReadsEveryKindOfValueOfTheContinuum)
+  {
+    const Scene scene = read_scene(
+      SceneFile("").path, {"continuum/hardening=table", "continuum/table_strain=0, 0.1", "continuum/table_friction_angle=30, 20",
+                           "continuum/table_dilatancy_angle=10, 0", "continuum/table_cohesion=0.1, 0.2",
+                           "continuum/cohesion_residual=0.25", "continuum/refinement_levels=3", "continuum/mesh=mine.msh"});
+    EXPECT_EQ(scene.continuum.material.hardening, diptych::continuum::HardeningKind::table);
+    EXPECT_EQ(scene.continuum.material.table_strain, (std::vector<double>{0, 0.1}));
+    EXPECT_EQ(scene.continuum.material.table_friction_angle, (std::vector<double>{30, 20}));
+    EXPECT_EQ(scene.continuum.material.cohesion_residual, std::optional<double>(0.25));
+    EXPECT_EQ(scene.continuum.refinement_levels, 3);
+    EXPECT_EQ(scene.continuum.mesh.file, std::filesystem::current_path() / "mine.msh");
+    EXPECT_FALSE(read_scene(SceneFile("").path, {}).continuum.material.cohesion_residual);
+    EXPECT_TRUE(read_scene(SceneFile("").path, {}).continuum.material.table_strain.empty());
+  }
+
+  TEST(Scene, OnlyAComparisonAsksItsWindowsToBeStages)
+  {
+    const SceneFile file("subsection comparison\n  set window_edges = 0, 0.013\nend\n");
+    EXPECT_THROW(read_scene(file.path, {}), SceneError);
+    EXPECT_NO_THROW(read_scene(file.path, {}, false));
+  }
+
+  TEST(Scene, AnUnknownKeyIsNamedWithFileLineAndNearestKey)
+  {
+    expect_words(error_of("subsection sample\n\n  set grians = 500\nend\n"),
+                 {".prm", "line 3", "sample/grians", "sample/grains"});
+    expect_words(error_of("{\n\"sample\":\n {\"grians\": 500}}", {}, ".json"),
+                 {".json", "line 3", "sample/grians", "sample/grains"});
+    expect_words(error_of("", {"sample/sead=3"}), {"--set", "sample/sead", "sample/seed"});
+  }
+
+  TEST(Scene, AnUnknownSectionIsNamed)
+  {
+    expect_words(error_of("subsection continum\n  set law = linear_elastic\nend\n"), {"line 2", "continum", "'continuum'"});
+  }
+
+  TEST(Scene, ValuesOfWrongTypeOrRangeAreNamedWithWhatIsAllowed)
+  {
+    expect_words(error_of("subsection discrete\n  set friction = rough\nend\n"),
+                 {"line 2", "discrete/friction", "'rough'", "a number from 0 to 100"});
+    expect_words(error_of("subsection discrete\n  set friction = -1\nend\n"), {"discrete/friction", "'-1'", "from 0 to 100"});
+    expect_words(error_of("subsection sample\n  set grains = 4.5\nend\n"), {"sample/grains", "'4.5'", "whole number"});
+    expect_words(error_of("subsection discrete\n  set solver = lemke\nend\n"), {"'lemke'", "psor, nsgs"});
+    expect_words(error_of("subsection output\n  set report = maybe\nend\n"), {"'maybe'", "true or false"});
+  }
+
+  TEST(Scene, BrokenStructureIsNamedWithItsLine)
+  {
+    expect_words(error_of("subsection sample\n  set grains = 500\n"), {"sample", "no 'end'"});
+    expect_words(error_of("subsection sample\n  grains = 500\nend\n"), {"line 2", "grains = 500"});
+    expect_words(error_of("end\n"), {"line 1", "without a subsection"});
+    expect_words(error_of("{\"sample\": {\"grains\": 500}\n", {}, ".json"), {"line 2", "JSON"});
+    expect_words(error_of("", {"sample.grains=3"}), {"--set sample.grains=3", "section/key=value"});
+  }
+
+  TEST(Scene, ContradictionsBetweenKeysAreNamed)
+  {
+    expect_words(error_of("subsection loading\n  set axial_strain = 0.012\nend\n"),
+                 {"loading/axial_strain", "loading/stage_strain"});
+    expect_words(error_of("subsection comparison\n  set window_edges = 0, 0.013\nend\n"), {"window_edges", "0.013"});
+    expect_words(error_of("subsection continuum\n  set friction_angle_peak = 10\nend\n"),
+                 {"friction_angle_peak", "line 2", "continuum/friction_angle_peak = '10'"});
+    expect_words(error_of("", {"continuum/element=q1_bbar"}), {"continuum", "element = q1_bbar", "--set"});
+    expect_words(error_of("", {"continuum/mesh=rectangle", "continuum/rectangle_width=3"}), {"rectangle_height = 0"});
+    expect_words(error_of("", {"loading/mode=time", "comparison/window_edges=0, 5.5"}),
+                 {"window_edges", "5.5", "stage_time", "duration"});
+    expect_words(error_of("subsection sample\n  set radius_max = 0.8\nend\n"), {"radius_min", "radius_max"});
+  }
+
+  // The echo holds every key with its value, so that reading it back gives the same scene.
+  TEST(Scene, TheEchoReadsBackAsTheSameScene)
+  {
+    const SceneFile file(
+      "subsection sample\n  set grains = 777\nend\nsubsection continuum\n  set poisson_ratio = 0.123456789\nend\n");
+    const Scene     scene = read_scene(file.path, {});
+    const SceneFile echoed(echo(scene), "_echo.prm");
+    Scene           again = read_scene(echoed.path, {});
+    EXPECT_EQ(again.sample.grains, 777);
+    again.name = scene.name;
+    EXPECT_EQ(echo(again), echo(scene));
+  }
+
+  TEST(Scene, ExplainListsEveryKeyAndRefusesUnknownSections)
+  {
+    const std::string all = explain("");
+    expect_words(all, {"sample", "grains", "loading", "inertial_number", "discrete", "tolerance", "continuum",
+                       "friction_angle_peak", "comparison", "window_edges", "output", "directory"});
+    EXPECT_THROW(explain("sampel"), SceneError);
+  }
+
+  TEST(Scene, StagesAreWholeMultiplesUpToTheEnd)
+  {
+    LoadingOptions loading;
+    loading.axial_strain = 0.03, loading.stage_strain = 0.005;
+    const std::vector<double> strains = stages(loading);
+    ASSERT_EQ(strains.size(), 6u);
+    EXPECT_DOUBLE_EQ(strains.back(), 0.03);
+  }
+} // namespace

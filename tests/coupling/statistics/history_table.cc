@@ -1,0 +1,91 @@
+// diptych: means over strain from rows at uneven strains
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "coupling/statistics/history_table.h"
+
+namespace
+{
+  using namespace diptych::coupling;
+
+  // y = 10 x at uneven x: the mean over [0.1, 0.4] is 10 * 0.25 however the rows lie.
+  TEST(HistoryTable, MeanOfALineDoesNotDependOnItsRows)
+  {
+    const HistoryTable table = {{"progress", {0, 0.05, 0.07, 0.3, 0.31, 0.5}}, {"y", {0, 0.5, 0.7, 3, 3.1, 5}}};
+    EXPECT_NEAR(mean_over_progress(table, "y", 0.1, 0.4), 2.5, 1e-14);
+    EXPECT_NEAR(mean_over_progress(table, "y", 0.4, 0.5), 4.5, 1e-14);
+  }
+
+  // A hat of height 1 and half width 0.1 about 0.5: the best mean over 0.1 lies symmetrically: 1 - 0.05/2/0.1 = 0.75.
+  TEST(HistoryTable, PeakOfTheRunningMean)
+  {
+    HistoryTable table;
+    for (int k = 0; k <= 1000; ++k)
+      {
+        const double x = 0.001 * k;
+        table["progress"].push_back(x);
+        table["y"].push_back(std::max(0., 1 - std::abs(x - 0.5) / 0.1));
+      }
+    const Peak peak = peak_of_running_mean(table, "y", 0.1);
+    EXPECT_NEAR(peak.value, 0.75, 1e-3);
+    EXPECT_NEAR(peak.progress, 0.55, 2e-3);
+  }
+
+  // A running mean is the mean over each row's last width, whatever lies between: a tenth of the rows that a loop over windows
+  // would read, the same numbers.
+  TEST(HistoryTable, RunningMeanIsTheMeanOfEveryWindow)
+  {
+    HistoryTable table;
+    double       x = 0;
+    for (int k = 0; k < 300; ++k)
+      {
+        x += 0.001 * (1 + k % 7);
+        table["progress"].push_back(x);
+        table["y"].push_back(std::sin(20 * x) + (k % 2 ? 0.3 : -0.3));
+      }
+    const std::vector<double> mean = running_mean(table, "y", 0.05);
+    ASSERT_EQ(mean.size(), 300u);
+    for (std::size_t k = 0; k < mean.size(); ++k)
+      {
+        const double to = table["progress"][k];
+        if (to < 0.05)
+          EXPECT_TRUE(std::isnan(mean[k])) << k;
+        else
+          EXPECT_NEAR(mean[k], mean_over_progress(table, "y", to - 0.05, to), 1e-12) << k;
+      }
+  }
+
+  // 0.1 + 0.2 is not 0.3, and yet not beyond it.
+  TEST(HistoryTable, WhatRoundingAddsIsNotBeyond)
+  {
+    EXPECT_FALSE(is_beyond(0.1 + 0.2, 0.3));
+    EXPECT_FALSE(is_beyond(0, 0));
+    EXPECT_TRUE(is_beyond(1e-12, 0));
+    EXPECT_TRUE(is_beyond(0.3001, 0.3));
+  }
+
+  struct Row
+  {
+    int         step;
+    double      force;
+    std::string words;
+  };
+  template <class Visit> void visit_columns(const Row &row, Visit &&visit)
+  {
+    visit("step", row.step, "-", "");
+    visit("force", row.force, "pressure length", "");
+    visit("words", row.words, "-", "");
+  }
+
+  TEST(HistoryTable, HoldsTheNumbersOfRows)
+  {
+    const HistoryTable table = history_table(std::vector<Row>{{1, 0.5, "a"}, {2, 0.25, "b"}});
+    EXPECT_EQ(table, (HistoryTable{{"step", {1, 2}}, {"force", {0.5, 0.25}}}));
+    EXPECT_THROW((void)column(table, "words"), std::invalid_argument);
+  }
+} // namespace
