@@ -23,12 +23,6 @@ def draw_bands(axis, panel, points):
             axis.plot(*ends.T, color="white", linestyle=style, linewidth=1.2 if side == 0 else 0.8)
 
 
-def mesh_at(file, strain):
-    """Corners of the cells at a strain: a window ends with a stage, which has the mesh."""
-    stages = [group for name, group in file.items() if name.startswith("stage_")]
-    return min(stages, key=lambda group: abs(group.attrs["axial_strain"] - strain))["cells/corners"][()]
-
-
 def draw_window(folder, window, path):
     """Shear strain increment of the grains and of the continuum over one window of a result folder, on one colour scale. Lengths
     are mean diameters: for scenes with mean_diameter = 1."""
@@ -42,7 +36,7 @@ def draw_window(folder, window, path):
         group = file[f"window_{window}"]
         position, radius = group["discrete/position"][()][:, :2], group["discrete/radius"][()]
         grains = group["discrete/shear_strain_increment"][()]
-        corners, cells = mesh_at(file, group.attrs["axial_strain"]), group["cells/continuum_shear_strain_increment"][()]
+        corners, cells = group["cells/node"][()][group["cells/cell"][()]], group["cells/continuum_shear_strain_increment"][()]
     top = numpy.nanpercentile(grains, 97)
     figure, axes = pyplot.subplots(1, 2, figsize=(8.4, 5.6), constrained_layout=True, sharey=True)
     axes[0].add_collection(EllipseCollection(2 * radius, 2 * radius, numpy.zeros_like(radius), units="xy", offsets=position,

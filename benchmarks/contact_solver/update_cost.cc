@@ -5,6 +5,7 @@
 #include "benchmarks/contact_solver/measuring.h"
 #include "benchmarks/contact_solver/sections.h"
 #include "benchmarks/contact_solver/sheared_states.h"
+#include "discrete/contacts/natural_map.h"
 #include "discrete/solvers/batched_sweep.h"
 #include "discrete/solvers/solver.h"
 #include "discrete/solvers/sweeps.h"

@@ -20,11 +20,15 @@ namespace diptych::benchmarks
     const char                *name;
     coupling::AveragingOptions options;
   };
-  inline const std::vector<NamedMethod> methods = {{"segments", {"segments", "gauss", 1.5}},
-                                                   {"centroid", {"centroid", "gauss", 1.5}},
-                                                   {"laguerre", {"laguerre", "gauss", 1.5}},
-                                                   {"kernel gauss w = 0.75", {"kernel", "gauss", 0.75}},
-                                                   {"kernel gauss w = 1.5", {"kernel", "gauss", 1.5}},
-                                                   {"kernel lucy w = 1.5", {"kernel", "lucy", 1.5}},
-                                                   {"projection w = 1.5", {"projection", "gauss", 1.5}}};
+  inline const std::vector<NamedMethod> methods = [] {
+    using coupling::AveragingMethod;
+    using coupling::KernelShape;
+    return std::vector<NamedMethod>{{"segments", {AveragingMethod::segments}},
+                                    {"centroid", {AveragingMethod::centroid}},
+                                    {"laguerre", {AveragingMethod::laguerre}},
+                                    {"kernel gauss w = 0.75", {AveragingMethod::kernel, KernelShape::gauss, 0.75}},
+                                    {"kernel gauss w = 1.5", {AveragingMethod::kernel, KernelShape::gauss, 1.5}},
+                                    {"kernel lucy w = 1.5", {AveragingMethod::kernel, KernelShape::lucy, 1.5}},
+                                    {"projection w = 1.5", {AveragingMethod::projection, KernelShape::gauss, 1.5}}};
+  }();
 } // namespace diptych::benchmarks

@@ -116,7 +116,7 @@ namespace diptych::benchmarks
     std::vector<StudyPoint>  points;
     for (const double share : {0.75, 0.5, 0.25})
       points.push_back({share == 0.5 ? "middle" : share > 0.5 ? "upper" : "lower", {x, last.lower_y + share * height}});
-    for (const std::string kernel : {"gauss", "lucy"})
+    for (const KernelShape kernel : {KernelShape::gauss, KernelShape::lucy})
       {
         const ResolutionStudy study = resolution_study(mesh, last, points, kernel);
         const auto            print = [&](const char *title, const std::vector<ResolutionRow> &rows) {
@@ -129,8 +129,8 @@ namespace diptych::benchmarks
               std::printf("   %5.1f %5.1f\n", 100 * row.scatter_s, 100 * row.scatter_t);
             }
         };
-        print(("kernel " + kernel).c_str(), study.kernel);
-        if (kernel == "gauss")
+        print(kernel == KernelShape::gauss ? "kernel gauss" : "kernel lucy", study.kernel);
+        if (kernel == KernelShape::gauss)
           print("cells", study.cells);
         std::printf("%s\n", study.verdict.c_str());
       }

@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "coupling/averaging/averaging.h"
+#include "coupling/averaging/averaging_options.h"
+#include "coupling/averaging/carriers.h"
+#include "coupling/averaging/target_cells.h"
 
 namespace diptych::coupling
 {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "coupling/bands/band.h"
+#include "coupling/fields/strain_increment.h"
 
 namespace diptych::coupling
 {

@@ -14,23 +14,52 @@ namespace diptych::coupling
 {
   namespace arrays
   {
+    namespace
+    {
+      double mean_of(const Eigen::Matrix2d &m)
+      {
+        return 0.5 * m.trace();
+      }
+
+      // t of the symmetric part: half the difference of the principal stresses.
+      double deviator_of(const Eigen::Matrix2d &m)
+      {
+        return 0.5 * std::hypot(m(0, 0) - m(1, 1), m(0, 1) + m(1, 0));
+      }
+
+      template <class Of> std::vector<double> of_each(const std::vector<Eigen::Matrix2d> &stress, Of &&of)
+      {
+        std::vector<double> values;
+        values.reserve(stress.size());
+        for (const Eigen::Matrix2d &m : stress)
+          values.push_back(of(m));
+        return values;
+      }
+    } // namespace
+
     std::vector<double> mean_stress(const std::vector<Eigen::Matrix2d> &stress)
     {
-      std::vector<double> s;
-      for (const Eigen::Matrix2d &m : stress)
-        s.push_back(0.5 * m.trace());
-      return s;
+      return of_each(stress, mean_of);
     }
 
     std::vector<double> stress_ratio(const std::vector<Eigen::Matrix2d> &stress)
     {
-      std::vector<double> ratio;
-      for (const Eigen::Matrix2d &m : stress)
-        {
-          const double s = 0.5 * m.trace();
-          ratio.push_back(s > 0 ? 0.5 * std::hypot(m(0, 0) - m(1, 1), m(0, 1) + m(1, 0)) / s : NAN);
-        }
-      return ratio;
+      return of_each(stress, [](const Eigen::Matrix2d &m) { return mean_of(m) > 0 ? deviator_of(m) / mean_of(m) : NAN; });
+    }
+
+    std::vector<double> major_stress(const std::vector<Eigen::Matrix2d> &stress)
+    {
+      return of_each(stress, [](const Eigen::Matrix2d &m) { return mean_of(m) + deviator_of(m); });
+    }
+
+    std::vector<double> minor_stress(const std::vector<Eigen::Matrix2d> &stress)
+    {
+      return of_each(stress, [](const Eigen::Matrix2d &m) { return mean_of(m) - deviator_of(m); });
+    }
+
+    std::vector<double> stress_direction(const std::vector<Eigen::Matrix2d> &stress)
+    {
+      return of_each(stress, [](const Eigen::Matrix2d &m) { return 0.5 * std::atan2(m(0, 1) + m(1, 0), m(0, 0) - m(1, 1)); });
     }
 
     std::vector<double> sizes_over(const std::vector<Eigen::Vector2d> &vectors, const double unit)

@@ -25,6 +25,11 @@ namespace diptych::coupling
     std::vector<double> mean_stress(const std::vector<Eigen::Matrix2d> &stress);
     std::vector<double> stress_ratio(const std::vector<Eigen::Matrix2d> &stress);
 
+    // Principal stresses s_1 >= s_2 of the symmetric part [pressure], and the direction of s_1 from the horizontal [rad].
+    std::vector<double> major_stress(const std::vector<Eigen::Matrix2d> &stress);
+    std::vector<double> minor_stress(const std::vector<Eigen::Matrix2d> &stress);
+    std::vector<double> stress_direction(const std::vector<Eigen::Matrix2d> &stress);
+
     std::vector<double>          sizes_over(const std::vector<Eigen::Vector2d> &vectors, double unit);
     std::vector<double>          difference(const std::vector<double> &a, const std::vector<double> &b); // a - b, where both are
     std::vector<Eigen::Matrix2d> difference(const std::vector<Eigen::Matrix2d> &a, const std::vector<Eigen::Matrix2d> &b);
@@ -82,6 +87,12 @@ namespace diptych::coupling
     visit(ArrayEntry{"continuum_mean_stress", "mean stress s", "pressure", "continuum: (s_1 + s_2)/2"}, arrays::mean_stress(c.stress));
     visit(ArrayEntry{"continuum_stress_ratio", "stress ratio t/s", "-", "continuum: (s_1 - s_2)/(s_1 + s_2)"},
           arrays::stress_ratio(c.stress));
+    visit(ArrayEntry{"continuum_major_stress", "major principal stress", "pressure", "continuum: s_1"},
+          arrays::major_stress(c.stress));
+    visit(ArrayEntry{"continuum_minor_stress", "minor principal stress", "pressure", "continuum: s_2"},
+          arrays::minor_stress(c.stress));
+    visit(ArrayEntry{"continuum_stress_direction", "direction of the major stress", "rad", "continuum: from the horizontal"},
+          arrays::stress_direction(c.stress));
     visit(ArrayEntry{"continuum_strain_increment", "strain increment", "-", "continuum: by the grains' operator"},
           strain_increments(f.continuum_gradient));
     visit(ArrayEntry{"continuum_shear_strain_increment", "shear strain increment", "-", "continuum: eps_1 - eps_2"},
@@ -156,6 +167,10 @@ namespace diptych::coupling
     visit(ArrayEntry{"discrete/stress", "stress", "pressure", "internal moment over the grain's share of the sample's area"}, stress);
     visit(ArrayEntry{"discrete/mean_stress", "mean stress s", "pressure", "(s_1 + s_2)/2"}, arrays::mean_stress(stress));
     visit(ArrayEntry{"discrete/stress_ratio", "stress ratio t/s", "-", "(s_1 - s_2)/(s_1 + s_2)"}, arrays::stress_ratio(stress));
+    visit(ArrayEntry{"discrete/major_stress", "major principal stress", "pressure", "s_1"}, arrays::major_stress(stress));
+    visit(ArrayEntry{"discrete/minor_stress", "minor principal stress", "pressure", "s_2"}, arrays::minor_stress(stress));
+    visit(ArrayEntry{"discrete/stress_direction", "direction of the major stress", "rad", "from the horizontal"},
+          arrays::stress_direction(stress));
     visit(ArrayEntry{"discrete/rattler", "rattlers", "-", "1 where the grain carries no contact force"},
           std::vector<int>(to.rattler.begin(), to.rattler.end()));
     visit(ArrayEntry{"contacts/point", "contact point", "length", "of every pair that touched in the stage"}, point);

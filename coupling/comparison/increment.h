@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "continuum/snapshot.h"
-#include "coupling/bands/band.h"
+#include "coupling/bands/band_detection.h"
 #include "coupling/fields/cell_fields.h"
 #include "coupling/averaging/cell_cover.h"
 #include "coupling/cells/mesh_cells.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/results/facts.h"
+#include "coupling/folders/facts.h"
 #include "coupling/scene/scene.h"
 
 namespace diptych::coupling

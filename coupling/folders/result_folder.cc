@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "coupling/scene/identity.h"
+#include "coupling/scene/scene_file.h"
 #include "discrete/files/text_file.h"
 
 namespace diptych::coupling

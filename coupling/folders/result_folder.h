@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "coupling/scene/scene.h"
+#include "coupling/scene/scene_error.h"
 
 namespace diptych::coupling
 {

@@ -9,6 +9,7 @@
 
 #include "continuum/mesh/mesh.h"
 #include "coupling/panels/continuum_mesh.h"
+#include "coupling/scene/scene_error.h"
 
 namespace diptych::coupling
 {

@@ -7,6 +7,7 @@
 #include "continuum/loading.h"
 #include "continuum/mesh/quad_mesh.h"
 #include "coupling/scene/scene.h"
+#include "coupling/scene/scene_error.h"
 
 namespace diptych::coupling
 {

@@ -11,6 +11,7 @@
 #include <CLI/Formatter.hpp>
 
 #include "coupling/program/completion.h"
+#include "coupling/scene/scene_file.h"
 #include "coupling/version.h"
 
 namespace diptych::coupling

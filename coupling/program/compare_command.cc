@@ -12,6 +12,7 @@
 #include "coupling/processes/progress.h"
 #include "coupling/program/ensemble_record.h"
 #include "coupling/program/report_command.h"
+#include "coupling/scene/scene_file.h"
 
 namespace diptych::coupling
 {

@@ -14,6 +14,7 @@
 #include "coupling/processes/processes.h"
 #include "coupling/program/recorded_continuum.h"
 #include "coupling/scene/identity.h"
+#include "coupling/scene/scene_file.h"
 #include "discrete/panel/snapshot_file.h"
 
 namespace diptych::coupling

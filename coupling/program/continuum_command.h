@@ -3,6 +3,7 @@
 #pragma once
 
 #include "coupling/program/command_line.h"
+#include "coupling/scene/scene_error.h"
 
 namespace diptych::coupling
 {

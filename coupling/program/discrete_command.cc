@@ -16,6 +16,7 @@
 #include "coupling/processes/stop_signal.h"
 #include "coupling/program/report_command.h"
 #include "coupling/scene/identity.h"
+#include "coupling/scene/scene_error.h"
 #include "discrete/files/table_file.h"
 #include "discrete/panel/checkpoint.h"
 #include "discrete/panel/snapshot_file.h"

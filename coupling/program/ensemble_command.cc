@@ -14,6 +14,7 @@
 #include "coupling/program/compare_command.h"
 #include "coupling/program/ensemble_record.h"
 #include "coupling/program/report_command.h"
+#include "coupling/scene/scene_error.h"
 
 namespace diptych::coupling
 {

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "coupling/program/result_entries.h"
+#include "coupling/scene/scene_file.h"
 #include "discrete/panel/history.h"
 #include "discrete/snapshot_fields.h"
 

@@ -3,20 +3,12 @@
 #pragma once
 
 #include <functional>
-#include <string>
-#include <vector>
 
 #include "coupling/program/command_line.h"
+#include "coupling/program/result_entries.h"
 
 namespace diptych::coupling
 {
-  // One entry of a result file.
-  struct ResultEntry
-  {
-    std::string file, name, shape, unit, meaning;
-  };
-  using ResultList = std::vector<ResultEntry>;
-
   ResultList discrete_result_entries();   // discrete.csv, discrete.h5
   ResultList comparison_result_entries(); // those of the continuum and of the comparison
 

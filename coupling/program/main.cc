@@ -16,6 +16,7 @@
 #include "coupling/program/explain_command.h"
 #include "coupling/program/report_command.h"
 #include "coupling/program/solve_command.h"
+#include "coupling/scene/scene_error.h"
 #ifdef DIPTYCH_CONTINUUM
 #  include "coupling/program/compare_command.h"
 #endif

@@ -7,6 +7,7 @@
 #include "continuum/laws/material_point.h"
 #include "coupling/folders/result_folder.h"
 #include "coupling/program/material_point_command.h"
+#include "coupling/scene/scene_error.h"
 #include "discrete/files/table_file.h"
 
 namespace diptych::coupling

@@ -10,6 +10,7 @@
 #include "coupling/program/ensemble_command.h"
 #include "coupling/program/material_point_command.h"
 #include "coupling/program/run_command.h"
+#include "coupling/scene/scene_error.h"
 
 namespace
 {

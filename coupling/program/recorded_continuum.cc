@@ -11,6 +11,7 @@
 #include "coupling/processes/processes.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/scene/identity.h"
+#include "coupling/scene/scene_error.h"
 
 namespace diptych::coupling
 {

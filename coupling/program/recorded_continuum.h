@@ -13,6 +13,7 @@
 #include "coupling/panels/continuum_mesh.h"
 #include "coupling/processes/progress.h"
 #include "coupling/program/command_line.h"
+#include "coupling/scene/scene_error.h"
 #include "discrete/files/table_file.h"
 
 namespace diptych::coupling

@@ -9,6 +9,7 @@
 #include "coupling/folders/result_folder.h"
 #include "coupling/processes/child_process.h"
 #include "coupling/processes/progress.h"
+#include "coupling/scene/scene_error.h"
 #include "coupling/version.h"
 
 namespace diptych::coupling

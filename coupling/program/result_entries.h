@@ -4,12 +4,19 @@
 
 #include <string>
 #include <type_traits>
+#include <vector>
 
-#include "coupling/program/explain_command.h"
 #include "discrete/files/field_arrays.h"
 
 namespace diptych::coupling
 {
+  // One entry of a result file.
+  struct ResultEntry
+  {
+    std::string file, name, shape, unit, meaning;
+  };
+  using ResultList = std::vector<ResultEntry>;
+
   template <class Value> std::string array_shape()
   {
     if constexpr (discrete::is_whole<Value>)

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "coupling/scene/scene_error.h"
 #include "discrete/problem_files/fclib.h"
 #include "discrete/solvers/solver.h"
 

@@ -7,7 +7,7 @@
 
 #include "continuum/history.h"
 #include "continuum/snapshot.h"
-#include "coupling/results/facts.h"
+#include "coupling/folders/facts.h"
 #include "discrete/panel/history.h"
 #include "discrete/snapshot.h"
 

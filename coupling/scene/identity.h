@@ -3,7 +3,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
 
 #include "coupling/scene/scene.h"
@@ -23,11 +22,4 @@ namespace diptych::coupling
 
   // "sample/seed = '2' here, '1' there": the first value that differs; empty where none does.
   std::string first_difference(const Identity &here, const Identity &there);
-
-  // Whether a file is the echo of a scene, of any version.
-  bool is_echo(const std::string &file);
-
-  // The scene of an echo in a result folder (scene.prm, ensemble.prm), as it was used; files that it names may be gone. Nothing
-  // where there is no echo, or one of a version with other keys.
-  std::optional<Scene> echoed_scene(const std::string &file);
 } // namespace diptych::coupling

@@ -9,7 +9,6 @@
 #include "coupling/averaging/averaging_options.h"
 #include "coupling/bands/band_options.h"
 #include "coupling/probes/probe_options.h"
-#include "coupling/scene/scene_error.h"
 #include "coupling/statistics/equivalence_margins.h"
 #include "discrete/options.h"
 
@@ -128,20 +127,6 @@ namespace diptych::coupling
     function("comparison", scene.comparison);
     function("output", scene.output);
   }
-
-  // Reads a .prm or .json file, then applies `overrides` of the form section/key=value. Files that the scene names are found
-  // relative to the scene's own folder, those of overrides relative to the working directory. Throws SceneError. `compares`:
-  // whether both panels will be compared, so that the windows must be stages.
-  Scene read_scene(const std::string &file, const std::vector<std::string> &overrides, bool compares = true);
-
-  // Stands in the first line of every echo, and so tells a result folder's scene.prm from one written by hand.
-  inline constexpr char echo_title[] = "every parameter, as it was used";
-
-  // The whole scene with every default, in .prm format, each key with its meaning; files by their absolute paths.
-  std::string echo(const Scene &scene);
-
-  // Every key of a section (of all, if empty): default, unit, range, meaning. Throws SceneError on an unknown section.
-  std::string explain(const std::string &section);
 
   // Values of the progress (strains; mode time: times), ascending, from the first on. In discrete_loading(), too.
   std::vector<double> stages(const LoadingOptions &loading);

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "coupling/scene/keys.h"
+#include "coupling/scene/scene_error.h"
 
 namespace diptych::coupling
 {

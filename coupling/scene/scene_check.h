@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "coupling/scene/scene.h"
+#include "coupling/scene/scene_error.h"
 #include "coupling/scene/scene_text.h"
 
 namespace diptych::coupling

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "coupling/scene/scene_error.h"
+
 namespace diptych::coupling
 {
   // One assignment, where it was made, and where the files that it names are looked for.

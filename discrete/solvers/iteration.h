@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "discrete/solvers/solver.h"
+#include "discrete/solvers/solver_options.h"
 
 namespace diptych::discrete
 {

@@ -4,6 +4,7 @@
 
 #include <ctime>
 
+#include "discrete/contacts/natural_map.h"
 #include "discrete/solvers/iteration.h"
 #include "discrete/solvers/stall_relief.h"
 #include "discrete/solvers/sweeps.h"

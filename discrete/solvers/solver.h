@@ -4,72 +4,12 @@
 
 #include <functional>
 
-#include "discrete/choices.h"
 #include "discrete/contacts/contact_problem.h"
+#include "discrete/solvers/solver_options.h"
 #include "discrete/solvers/thread_team.h"
 
 namespace diptych::discrete
 {
-  enum class ContactSolver
-  {
-    psor, // over-relaxed Gauss-Seidel, omega by contact status
-    nsgs  // plain Gauss-Seidel, the reference
-  };
-
-  constexpr auto choices(ContactSolver)
-  {
-    return std::array{std::pair{ContactSolver::psor, "psor"}, std::pair{ContactSolver::nsgs, "nsgs"}};
-  }
-
-  struct SolverOptions
-  {
-    ContactSolver solver           = ContactSolver::psor;
-    double        tolerance        = 2e-5;
-    int           max_sweeps       = 50000;
-    double        omega_sticking   = 1.8;
-    double        omega_slipping   = 1.0;
-    int           sweeps_per_check = 20;
-  };
-
-  template <class Visitor> void visit_parameters(SolverOptions &o, Visitor &&visitor)
-  {
-    visitor("solver", o.solver, "-",
-            "psor: over-relaxed Gauss-Seidel, omega by contact status; nsgs: plain Gauss-Seidel, the reference");
-    visitor("tolerance", o.tolerance, "-", {1e-14, 1.},
-            "stop of a step: natural map residual relative to |r|; keep tolerance x step / inertial number below 0.7");
-    visitor("max_sweeps", o.max_sweeps, "-", {1, 100000000},
-            "sweeps after which a step counts as not converged; it is then halved, up to three times, before the run stops with "
-            "exit code 3");
-    visitor("omega_sticking", o.omega_sticking, "-", {0.1, 1.99},
-            "psor: relaxation of sticking and open contacts; other values between 1 and this are tried in turn where the "
-            "residual stagnates");
-    visitor("omega_slipping", o.omega_slipping, "-", {0.1, 1.99},
-            "psor: relaxation of contacts at their Coulomb bound; above 1 limit cycles were measured");
-    visitor("sweeps_per_check", o.sweeps_per_check, "-", {1, 10000}, "sweeps between two evaluations of the residual");
-  }
-
-  enum class SolveStatus
-  {
-    converged,
-    max_sweeps_reached,
-    blown_up // explicit springs, where nothing is swept: a body ran away
-  };
-
-  constexpr auto choices(SolveStatus)
-  {
-    return std::array{std::pair{SolveStatus::converged, "converged"}, std::pair{SolveStatus::max_sweeps_reached, "max_sweeps_reached"},
-                      std::pair{SolveStatus::blown_up, "blown_up"}};
-  }
-
-  struct [[nodiscard]] SolveReport
-  {
-    SolveStatus status   = SolveStatus::converged;
-    long        sweeps   = 0;
-    double      residual = 0; // natural map, relative to |r|, measured outside the solver
-    int         relieved = 0; // psor: contacts that were swept by themselves at the end, because the sweeps had stalled on them
-    double      cpu_s    = 0; // of all threads, making of batches and residual checks included
-  };
-
   // A condition beside the residual, asked at checks where the residual is below the tolerance: sweeps and residual so far,
   // and the present impulses for the asking.
   using StopTest = std::function<bool(const SolveReport &, const std::function<std::vector<Impulse>()> &impulses)>;

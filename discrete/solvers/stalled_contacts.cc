@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "discrete/contacts/natural_map.h"
 #include "discrete/contacts/contact_law.h"
 
 namespace diptych::discrete

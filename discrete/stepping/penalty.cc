@@ -8,6 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "discrete/contacts/natural_map.h"
 #include "discrete/stepping/body_motion.h"
 #include "discrete/contacts/contact_law.h"
 #include "discrete/stepping/step_problem.h"

@@ -7,7 +7,7 @@
 #include "discrete/bodies/boundary.h"
 #include "discrete/contacts/contact_law.h"
 #include "discrete/contacts/contact_order.h"
-#include "discrete/stepping/time_stepping.h"
+#include "discrete/stepping/step_setting.h"
 
 namespace diptych::discrete
 {

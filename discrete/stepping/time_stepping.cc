@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discrete/contacts/natural_map.h"
 #include "discrete/stepping/body_motion.h"
 #include "discrete/stepping/position_projection.h"
 #include "discrete/stepping/step_problem.h"

@@ -5,83 +5,14 @@
 #include <memory>
 #include <optional>
 
-#include "discrete/bodies/boundary.h"
 #include "discrete/contacts/contact_detection.h"
 #include "discrete/stepping/grain_stress_error.h"
 #include "discrete/solvers/solver.h"
 #include "discrete/stepping/step_ledger.h"
+#include "discrete/stepping/step_setting.h"
 
 namespace diptych::discrete
 {
-  struct ContactLawOptions
-  {
-    double friction               = 0.4;
-    double platen_friction        = 0.9;
-    double normal_restitution     = 0;
-    double tangential_restitution = 0;
-    double wall_friction          = 0;
-  };
-
-  template <class Visitor> void visit_parameters(ContactLawOptions &o, Visitor &&visitor)
-  {
-    visitor("friction", o.friction, "-", {0., 100.}, "Coulomb coefficient between grains");
-    visitor("platen_friction", o.platen_friction, "-", {0., 100.},
-            "Coulomb coefficient at the platens; greater than `friction`, or the sample slides along them");
-    visitor("wall_friction", o.wall_friction, "-", {0., 100.}, "Coulomb coefficient at rigid side walls");
-    visitor("normal_restitution", o.normal_restitution, "-", {0., 1.},
-            "e_n = (1-w)/w of Moreau's weighted average velocity; 0: inelastic");
-    visitor("tangential_restitution", o.tangential_restitution, "-", {-1., 1.}, "e_t, likewise for the tangential velocity");
-  }
-
-  // What undoes interpenetration.
-  enum class PenetrationCorrection
-  {
-    projection,    // position sweeps after the step
-    velocity,      // gap/h in the normal term
-    soft_velocity, // 0.2 gap/h
-    none
-  };
-
-  constexpr auto choices(PenetrationCorrection)
-  {
-    return std::array{
-      std::pair{PenetrationCorrection::projection, "projection"}, std::pair{PenetrationCorrection::velocity, "velocity"},
-      std::pair{PenetrationCorrection::soft_velocity, "soft_velocity"}, std::pair{PenetrationCorrection::none, "none"}};
-  }
-
-  struct StepOptions
-  {
-    std::optional<double> step                   = 1.; // none: auto
-    PenetrationCorrection penetration_correction = PenetrationCorrection::projection;
-    double                gravity_x              = 0;
-    double                gravity_y              = 0;
-  };
-
-  template <class Visitor> void visit_parameters(StepOptions &o, Visitor &&visitor)
-  {
-    visitor("step", o.step, "time", {1e-12, 1e12},
-            "step h, at most d sqrt(rho/P) with free end grains, shortened so that every stage is a whole number of steps; auto: "
-            "chosen at the start of every stage from forces, motion and tolerance (discrete/README.md)");
-    visitor("penetration_correction", o.penetration_correction, "-",
-            "what undoes interpenetration: up to ten position sweeps after the step, or gap/h (soft_velocity: 0.2 gap/h) in the "
-            "normal term, whose work is a ledger column");
-    visitor("gravity_x", o.gravity_x, "length/time^2", {-1e12, 1e12}, "horizontal acceleration of gravity, on grains");
-    visitor("gravity_y", o.gravity_y, "length/time^2", {-1e12, 1e12}, "vertical acceleration of gravity, on grains");
-  }
-
-  // All that a step needs besides the state.
-  struct StepSetting
-  {
-    double            step = 1; // h [time]
-    StepOptions       time;     // its `step` is what the user asked for
-    ContactLawOptions law;
-    SolverOptions     solver;
-    LateralCondition  lateral;
-    double            pressure           = 1;     // of the containing action
-    double            mean_diameter      = 1;     // [length]
-    bool              accept_unconverged = false; // only while a sample is prepared
-  };
-
   // What one step hands to the next to save work; results do not depend on it.
   struct StepCache
   {

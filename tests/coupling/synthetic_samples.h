@@ -11,6 +11,7 @@
 
 #include "coupling/bands/band.h"
 #include "coupling/cells/mesh_cells.h"
+#include "coupling/fields/strain_increment.h"
 #include "discrete/snapshot.h"
 
 namespace diptych::coupling::synthetic

@@ -1,5 +1,6 @@
 // diptych: the arrows of the house, read from the #include lines
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -21,16 +22,47 @@ namespace
   const std::map<std::string, std::set<std::string>> forbidden_libraries = {
     {"discrete", {"deal.II", "gmsh", "Trilinos", "Epetra"}}};
 
+  // The rooms of each folder from the ground up: a room may include itself and those before it. Headers beside the rooms are the
+  // folder's public ones: any room may include them.
+  const std::map<std::string, std::vector<std::string>> rooms = {
+    {"discrete", {"files", "bodies", "contacts", "solvers", "stepping", "problem_files", "samples", "panel"}},
+    {"continuum", {"laws", "mesh", "elements", "equilibrium", "panel"}},
+    {"coupling",
+     {"cells", "statistics", "numbers", "processes", "files", "averaging", "fields", "bands", "probes", "scene", "folders", "results",
+      "comparison", "panels", "ensembles", "program"}}};
+
   std::vector<std::string> includes_of(const fs::path &file)
   {
     std::vector<std::string> includes;
     std::ifstream            in(file);
-    const std::regex         include("^\\s*#\\s*include\\s*[<\"]([^>\"]+)[>\"].*");
+    const std::regex         include("\\s*#\\s*include\\s*[<\"]([^>\"]+)[>\"].*");
     std::smatch              match;
     for (std::string line; std::getline(in, line);)
-      if (std::regex_match(line, match, include))
+      if (line.find("include") != std::string::npos && std::regex_match(line, match, include))
         includes.push_back(match[1]);
     return includes;
+  }
+
+  // Path below the root -> what it includes, of every source of a folder.
+  std::map<std::string, std::vector<std::string>> sources(const fs::path &root, const std::string &folder)
+  {
+    std::map<std::string, std::vector<std::string>> found;
+    for (const fs::directory_entry &entry : fs::recursive_directory_iterator(root / folder))
+      if (entry.path().extension() == ".h" || entry.path().extension() == ".cc")
+        found[fs::relative(entry.path(), root).string()] = includes_of(entry.path());
+    return found;
+  }
+
+  std::string folder_of(const std::string &path)
+  {
+    return path.substr(0, path.find('/'));
+  }
+
+  // "contacts" of discrete/contacts/law.h; "" of discrete/options.h.
+  std::string room_of(const std::string &path)
+  {
+    const std::size_t first = path.find('/'), second = path.find('/', first + 1);
+    return second == std::string::npos ? "" : path.substr(first + 1, second - first - 1);
   }
 
   // Text of every violation below `root`; empty when the house stands.
@@ -38,42 +70,153 @@ namespace
   {
     std::vector<std::string> found;
     for (const auto &[folder, may_include] : allowed)
-      for (const fs::directory_entry &entry : fs::recursive_directory_iterator(root / folder))
-        if (entry.path().extension() == ".h" || entry.path().extension() == ".cc")
-          for (const std::string &include : includes_of(entry.path()))
-            {
-              const std::string target = include.substr(0, include.find('/'));
-              const bool        ours   = allowed.count(target) > 0 && include.find('/') != std::string::npos;
-              if (ours && may_include.count(target) == 0)
-                found.push_back(entry.path().string() + " includes " + include);
-              if (forbidden_libraries.count(folder) > 0)
-                for (const std::string &library : forbidden_libraries.at(folder))
-                  if (include.rfind(library, 0) == 0)
-                    found.push_back(entry.path().string() + " includes " + include);
-            }
+      for (const auto &[file, includes] : sources(root, folder))
+        for (const std::string &include : includes)
+          {
+            const std::string target = folder_of(include);
+            if (allowed.count(target) > 0 && include.find('/') != std::string::npos && may_include.count(target) == 0)
+              found.push_back(file + " includes " + include);
+            if (forbidden_libraries.count(folder) > 0)
+              for (const std::string &library : forbidden_libraries.at(folder))
+                if (include.rfind(library, 0) == 0)
+                  found.push_back(file + " includes " + include);
+          }
+    return found;
+  }
+
+  // Arrows between rooms that run upward, and rooms that have no place in the order.
+  std::vector<std::string> upward_arrows(const fs::path &root)
+  {
+    std::vector<std::string> found;
+    for (const auto &[folder, order] : rooms)
+      {
+        const auto floor = [&order = order](const std::string &room) {
+          return std::find(order.begin(), order.end(), room) - order.begin();
+        };
+        for (const auto &[file, includes] : sources(root, folder))
+          {
+            const std::string room = room_of(file);
+            if (room.empty())
+              continue;
+            if (floor(room) == long(order.size()))
+              found.push_back(file + " is in a room that has no place in the order");
+            for (const std::string &include : includes)
+              if (folder_of(include) == folder && !room_of(include).empty() && floor(room_of(include)) > floor(room))
+                found.push_back(file + " includes " + include + " of a room above its own");
+          }
+      }
+    return found;
+  }
+
+  // A header and its source are one unit. The first circle of units, as text; empty where there is none.
+  std::string circle(const fs::path &root, const std::string &folder)
+  {
+    const auto unit = [](const std::string &path) { return path.substr(0, path.rfind('.')); };
+    std::map<std::string, std::set<std::string>> arrows;
+    for (const auto &[file, includes] : sources(root, folder))
+      for (const std::string &include : includes)
+        if (folder_of(include) == folder && unit(include) != unit(file))
+          arrows[unit(file)].insert(unit(include));
+    // Units without arrows to units that are left are taken away; what stays stands in or above a circle.
+    bool changed = true;
+    while (changed)
+      {
+        changed = false;
+        for (auto it = arrows.begin(); it != arrows.end();)
+          {
+            const bool free = std::none_of(it->second.begin(), it->second.end(), [&](const auto &to) { return arrows.count(to) > 0; });
+            changed         = changed || free;
+            it              = free ? arrows.erase(it) : std::next(it);
+          }
+      }
+    if (arrows.empty())
+      return "";
+    std::vector<std::string> path = {arrows.begin()->first};
+    while (std::count(path.begin(), path.end(), path.back()) < 2)
+      path.push_back(*std::find_if(arrows[path.back()].begin(), arrows[path.back()].end(),
+                                   [&](const auto &to) { return arrows.count(to) > 0; }));
+    std::string text;
+    for (auto it = std::find(path.begin(), path.end(), path.back()); it != path.end(); ++it)
+      text += (text.empty() ? "" : " -> ") + *it;
+    return text;
+  }
+
+  // Headers that the section "Public headers" of a panel's README lists.
+  std::set<std::string> public_headers(const fs::path &root, const std::string &panel)
+  {
+    std::ifstream         in(root / panel / "README.md");
+    std::set<std::string> found;
+    const std::regex      header("`([a-z0-9_/]+\\.h)`");
+    bool                  inside = false;
+    for (std::string line; std::getline(in, line);)
+      {
+        if (line.rfind("## ", 0) == 0)
+          inside = line == "## Public headers";
+        if (inside)
+          for (std::sregex_iterator match(line.begin(), line.end(), header), end; match != end; ++match)
+            found.insert(panel + "/" + (*match)[1].str());
+      }
     return found;
   }
 
   TEST(House, ArrowsRunFromCouplingToThePanelsAndNoOtherWay)
   {
-    int files = 0;
+    std::size_t files = 0;
     for (const auto &[folder, may_include] : allowed)
-      for (const fs::directory_entry &entry : fs::recursive_directory_iterator(fs::path(DIPTYCH_SOURCE_DIR) / folder))
-        files += entry.path().extension() == ".cc";
-    EXPECT_GT(files, 20) << "the test must have read the sources";
+      files += sources(DIPTYCH_SOURCE_DIR, folder).size();
+    EXPECT_GT(files, 200u) << "the test must have read the sources";
     for (const std::string &violation : violations(DIPTYCH_SOURCE_DIR))
       ADD_FAILURE() << violation;
   }
 
-  // The test itself must be able to fail: a house with one wrong arrow and one wrong library.
+  TEST(House, ArrowsBetweenRoomsRunDownward)
+  {
+    for (const std::string &arrow : upward_arrows(DIPTYCH_SOURCE_DIR))
+      ADD_FAILURE() << arrow;
+  }
+
+  TEST(House, NoUnitsIncludeEachOtherInACircle)
+  {
+    for (const auto &[folder, order] : rooms)
+      EXPECT_EQ(circle(DIPTYCH_SOURCE_DIR, folder), "");
+  }
+
+  // coupling/ includes of a panel what the panel's README calls public, and all of that is there.
+  TEST(House, OnlyPublicHeadersOfAPanelAreIncludedFromOutside)
+  {
+    for (const std::string panel : {"discrete", "continuum"})
+      {
+        const std::set<std::string> listed = public_headers(DIPTYCH_SOURCE_DIR, panel);
+        EXPECT_GT(listed.size(), 5u);
+        for (const std::string &header : listed)
+          EXPECT_TRUE(fs::exists(fs::path(DIPTYCH_SOURCE_DIR) / header)) << header;
+        for (const auto &[file, includes] : sources(DIPTYCH_SOURCE_DIR, "coupling"))
+          for (const std::string &include : includes)
+            if (folder_of(include) == panel)
+              EXPECT_EQ(listed.count(include), 1u) << file << " includes " << include;
+      }
+  }
+
+  // The tests themselves must be able to fail: a house with one wrong arrow of each kind and one wrong library.
   TEST(House, AWrongArrowIsSeen)
   {
     const fs::path root = fs::path(testing::TempDir()) / ("house" + std::to_string(::getpid()));
     for (const auto &[folder, may_include] : allowed)
       fs::create_directories(root / folder);
+    fs::create_directories(root / "discrete" / "files");
+    fs::create_directories(root / "discrete" / "panel");
     std::ofstream(root / "continuum" / "a.cc") << "#include \"discrete/state.h\"\n#include \"continuum/mesh.h\"\n";
     std::ofstream(root / "discrete" / "b.h") << "#include <deal.II/base/tensor.h>\n#include <vector>\n";
+    std::ofstream(root / "discrete" / "panel" / "c.h") << "#include \"discrete/files/d.h\"\n";
+    std::ofstream(root / "discrete" / "files" / "d.h") << "#include <vector>\n";
     EXPECT_EQ(violations(root).size(), 2u);
+    EXPECT_EQ(upward_arrows(root).size(), 0u);
+    EXPECT_EQ(circle(root, "discrete"), "");
+    std::ofstream(root / "discrete" / "files" / "d.cc") << "#include \"discrete/panel/c.h\"\n";
+    EXPECT_EQ(upward_arrows(root).size(), 1u);
+    EXPECT_EQ(circle(root, "discrete"), "discrete/files/d -> discrete/panel/c -> discrete/files/d");
+    std::ofstream(root / "discrete" / "README.md") << "`x.h`\n## Public headers\n`panel/c.h`, `files/d.h`\n## More\n`y.h`\n";
+    EXPECT_EQ(public_headers(root, "discrete"), (std::set<std::string>{"discrete/files/d.h", "discrete/panel/c.h"}));
     fs::remove_all(root);
   }
 } // namespace

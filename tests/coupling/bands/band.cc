@@ -1,6 +1,6 @@
 // diptych: bands of known truth are found again, and none where there is none
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupling/bands/band.h"
+#include "coupling/bands/band_detection.h"
 
 #include <stdexcept>
 

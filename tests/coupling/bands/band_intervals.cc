@@ -1,5 +1,6 @@
 // diptych: intervals of bands hold what they promise
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/bands/band_detection.h"
 #include "coupling/bands/band_intervals.h"
 
 #include <array>

@@ -1,6 +1,6 @@
 // diptych: how well bands are found again under noise, outliers and other bands, and where that ends
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupling/bands/band.h"
+#include "coupling/bands/band_detection.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "coupling/scene/scene.h"
+#include "coupling/scene/scene_file.h"
 
 namespace
 {

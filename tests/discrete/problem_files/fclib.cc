@@ -9,6 +9,7 @@
 #include <iostream>
 #include <iterator>
 
+#include "discrete/contacts/natural_map.h"
 #include "discrete/contacts/contact_law.h"
 #include "discrete/problem_files/fclib.h"
 #include "discrete/files/hdf5_file.h"

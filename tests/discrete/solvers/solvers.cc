@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
 
+#include "discrete/contacts/natural_map.h"
 #include "discrete/contacts/contact_law.h"
 #include "discrete/contacts/contact_order.h"
 #include "discrete/solvers/batched_sweep.h"

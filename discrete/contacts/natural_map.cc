@@ -1,6 +1,6 @@
-// diptych: the contact problem of one step as data, and its residual
+// diptych: velocities that impulses cause, and the residual of a contact problem
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "discrete/contacts/contact_problem.h"
+#include "discrete/contacts/natural_map.h"
 
 #include "discrete/contacts/contact_law.h"
 

@@ -1,0 +1,267 @@
+// diptych: shear bands in a displacement field, one operator for grains and nodes
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/bands/band_detection.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "coupling/bands/band_candidates.h"
+#include "coupling/bands/band_intervals.h"
+#include "coupling/bands/strips.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    using Shapes = std::vector<BandShape>;
+
+    constexpr double degree = M_PI / 180;
+
+    struct Candidate
+    {
+      BandShape shape;
+      double    gain; // decrease of the sum of squares
+    };
+
+    BandData scaled_data(const DisplacementField &field, const SampleFrame &frame)
+    {
+      if (field.increment.size() != field.position.size() || field.weight.size() != field.position.size())
+        throw std::invalid_argument("a displacement field needs one increment and one weight a point");
+      const double platen = frame.platen_increment.norm();
+      if (!(platen > 0) || !(frame.width > 0) || !(frame.height > 0) || !(frame.mean_diameter > 0))
+        throw std::invalid_argument("bands need a platen increment, an extent of the sample and a mean diameter above zero");
+
+      BandData data;
+      for (std::size_t i = 0; i < field.position.size(); ++i)
+        if (field.weight[i] > 0)
+          {
+            data.x.push_back((field.position[i] - frame.centre) / frame.mean_diameter);
+            data.u.push_back(field.increment[i] / platen);
+            data.w.push_back(field.weight[i]);
+          }
+      if (data.x.size() < 30)
+        throw std::invalid_argument("fewer than 30 points of positive weight: no band can be looked for");
+      return data;
+    }
+
+    // Empty when band b of a fit is one; else what is wrong.
+    std::string objection(const BandFit &fit, const std::size_t b, const BandFitOptions &sample, const double minimum_jump)
+    {
+      const BandShape &shape = fit.shape[b];
+      if (2 * fit.coefficient.row(3 + b).norm() < minimum_jump)
+        return "the jump is below minimum_jump";
+      if (shape.half_width >= 0.999 * largest_half_width(sample, shape.angle))
+        return "the transition is as wide as half the sample";
+      if (std::abs(shape.offset) > 2 * largest_half_width(sample, shape.angle))
+        return "the line lies outside the sample";
+      if (fit.shape.size() == 2 &&
+          !distinct(fit.shape[0], fit.shape[1], 20 * degree, 2 * (fit.shape[0].half_width + fit.shape[1].half_width)))
+        return "the two lines are parts of one band";
+      return "";
+    }
+
+    // Of the first band that is none.
+    std::string objection(const BandFit &fit, const BandFitOptions &sample, const double minimum_jump)
+    {
+      std::string text;
+      for (std::size_t b = 0; b < fit.shape.size() && text.empty(); ++b)
+        text = objection(fit, b, sample, minimum_jump);
+      return text;
+    }
+
+    // Starts are compared on block means, which cost a tenth; the best is then fitted to all points, unless there is an objection
+    // to every one. A fit without objection is preferred to one that explains more.
+    BandFit best_fit(const BandData            &data,
+                     const BandData            &blocks,
+                     const std::vector<Shapes> &starts,
+                     const BandFitOptions      &sample,
+                     const BandOptions         &options)
+    {
+      BandFit best;
+      bool    valid = false;
+      for (const auto &start : starts)
+        {
+          const BandFit fit      = fit_bands(blocks, start, sample);
+          const bool    is_valid = objection(fit, sample, options.minimum_jump).empty();
+          if (best.shape.empty() || (is_valid && !valid) || (is_valid == valid && fit.mean_misfit < best.mean_misfit))
+            {
+              best  = fit;
+              valid = is_valid;
+            }
+        }
+      return valid ? fit_bands(data, best.shape, sample) : best;
+    }
+
+    double r_squared(const std::vector<double> &value, const std::vector<double> &fitted, const std::vector<double> &weight)
+    {
+      double sum = 0, mean = 0, residual = 0, total = 0;
+      for (std::size_t i = 0; i < value.size(); ++i)
+        {
+          sum += weight[i];
+          mean += weight[i] * value[i];
+        }
+      mean /= sum;
+      for (std::size_t i = 0; i < value.size(); ++i)
+        {
+          residual += weight[i] * (value[i] - fitted[i]) * (value[i] - fitted[i]);
+          total += weight[i] * (value[i] - mean) * (value[i] - mean);
+        }
+      return total > 0 ? 1 - residual / total : 0;
+    }
+
+    void add_r_squared(const BandData &data, const BandFit &fit, const SampleFrame &frame, Band &band)
+    {
+      std::vector<double> value(data.x.size()), fitted(data.x.size());
+      const auto          edges = strip_edges(frame, band.angle_deg, band.offset);
+      const std::size_t   n     = edges.size() - 1;
+      std::vector<double> strip_value(n, 0.), strip_fitted(n, 0.), strip_weight(n, 0.);
+      for (std::size_t i = 0; i < data.x.size(); ++i)
+        {
+          value[i]  = data.u[i].dot(band.direction());
+          fitted[i] = fit.at(data.x[i]).dot(band.direction());
+
+          const double across = frame.mean_diameter * data.x[i].dot(band.normal());
+          const auto   strip  = std::upper_bound(edges.begin(), edges.end(), across) - edges.begin();
+          if (strip == 0 || strip > static_cast<std::ptrdiff_t>(n))
+            continue;
+          strip_value[strip - 1] += data.w[i] * value[i];
+          strip_fitted[strip - 1] += data.w[i] * fitted[i];
+          strip_weight[strip - 1] += data.w[i];
+        }
+      for (std::size_t k = 0; k < n; ++k)
+        if (strip_weight[k] > 0)
+          {
+            strip_value[k] /= strip_weight[k];
+            strip_fitted[k] /= strip_weight[k];
+          }
+      band.r_squared        = r_squared(value, fitted, data.w);
+      band.r_squared_strips = r_squared(strip_value, strip_fitted, strip_weight);
+    }
+
+    // The same field with angles in (-90, 90] degrees: half a turn reverses the normal, and with it offset and jump.
+    BandFit with_folded_angles(BandFit fit)
+    {
+      for (std::size_t b = 0; b < fit.shape.size(); ++b)
+        {
+          BandShape &shape = fit.shape[b];
+          double     turns = std::round(shape.angle / M_PI);
+          if (shape.angle - turns * M_PI <= -0.5 * M_PI)
+            turns -= 1;
+          shape.angle -= turns * M_PI;
+          if (std::fmod(std::abs(turns), 2.) == 1)
+            {
+              shape.offset = -shape.offset;
+              fit.coefficient.row(3 + b) *= -1;
+            }
+        }
+      return fit;
+    }
+
+    Interval times(const double factor, const Interval &interval)
+    {
+      return {factor * interval.value, factor * interval.low, factor * interval.high};
+    }
+
+    // Lengths of the intervals in mean diameters.
+    Band reported_band(const BandIntervals &numbers, const double mean_diameter)
+    {
+      Band band;
+      band.interval             = numbers;
+      band.interval.half_width  = times(mean_diameter, numbers.half_width);
+      band.interval.width_10_90 = times(mean_diameter, numbers.width_10_90);
+      band.interval.offset      = times(mean_diameter, numbers.offset);
+
+      band.angle_deg    = band.interval.angle_deg.value;
+      band.half_width   = band.interval.half_width.value;
+      band.width_10_90  = band.interval.width_10_90.value;
+      band.offset       = band.interval.offset.value;
+      band.jump         = band.interval.jump.value;
+      band.dilation_deg = band.interval.dilation_deg.value;
+      return band;
+    }
+
+    // A refit must still be a band, however weak: half a jump is one of its possible values.
+    std::vector<BandIntervals> intervals_of(const BandData       &data,
+                                            const BandFit        &fit,
+                                            const BandFitOptions &sample,
+                                            const BandOptions    &options,
+                                            const std::uint64_t   seed)
+    {
+      return band_intervals(data, fit, sample, {options.correlation_length, options.resamples, seed},
+                            [&](const BandFit &refit, const std::size_t b) { return objection(refit, b, sample, 0).empty(); });
+    }
+  } // namespace
+
+  BandReport find_bands(const DisplacementField &field,
+                        const SampleFrame       &frame,
+                        const BandOptions       &options,
+                        const std::uint64_t      seed)
+  {
+    const BandData data = scaled_data(field, frame);
+    BandFitOptions fit_options;
+    fit_options.width           = frame.width / frame.mean_diameter;
+    fit_options.height          = frame.height / frame.mean_diameter;
+    fit_options.huber_threshold = options.huber_threshold;
+    fit_options.scale_floor     = options.residual_floor;
+
+    BandReport report;
+    // two components in each block of one correlation length
+    report.n_effective = std::clamp(2 * fit_options.width * fit_options.height / std::pow(options.correlation_length, 2), 8.,
+                                    2. * data.x.size());
+
+    const BandData       blocks = block_means(data, std::min(4., std::min(fit_options.width, fit_options.height) / 10));
+    std::vector<BandFit> fits   = {fit_bands(data, {}, fit_options)};
+    if (options.max_bands >= 1)
+      {
+        const LineScan      scan(blocks, fit_options);
+        std::vector<Shapes> starts;
+        for (const auto &line : scan.best_lines({}, 3))
+          starts.push_back({line});
+        fits.push_back(best_fit(data, blocks, starts, fit_options, options));
+        if (options.max_bands >= 2)
+          {
+            starts.clear();
+            for (const auto &line : scan.best_lines(fits[1].shape, 2))
+              starts.push_back({fits[1].shape[0], line});
+            if (const Shapes pair = scan.best_pair(); !pair.empty())
+              starts.push_back(pair);
+            fits.push_back(best_fit(data, blocks, starts, fit_options, options));
+          }
+      }
+
+    // BIC = n log(variance) + p log(n); p = 6 affine coefficients and 5 for each band
+    std::size_t                best = 0;
+    std::array<std::string, 3> objections;
+    for (std::size_t k = 0; k < fits.size(); ++k)
+      {
+        objections[k] = objection(fits[k], fit_options, options.minimum_jump);
+        if (!objections[k].empty())
+          continue;
+        report.residual[k]    = std::sqrt(fits[k].robust_variance);
+        const double variance = fits[k].robust_variance + std::pow(options.residual_floor, 2);
+        report.bic[k]         = report.n_effective * std::log(variance) + (6 + 5. * k) * std::log(report.n_effective);
+        if (report.bic[k] < report.bic[best])
+          best = k;
+      }
+
+    const BandFit fit = with_folded_angles(fits[best]);
+    report.converged  = fit.converged;
+    for (const BandIntervals &numbers : intervals_of(data, fit, fit_options, options, seed))
+      {
+        Band band = reported_band(numbers, frame.mean_diameter);
+        add_r_squared(data, fit, frame, band);
+        report.bands.push_back(band);
+      }
+    std::stable_sort(report.bands.begin(), report.bands.end(),
+                     [](const Band &a, const Band &b) { return std::abs(a.jump) > std::abs(b.jump); });
+
+    const std::array<std::string, 3> names = {{"diffuse", "one band", "two bands"}};
+    report.verdict                         = names[best];
+    if (best + 1 < fits.size())
+      report.verdict += "; no further band: " +
+                        (objections[best + 1].empty() ? std::string("it lowers the misfit too little") : objections[best + 1]);
+    if (!fit.converged)
+      report.verdict += " (fit not converged)";
+    return report;
+  }
+} // namespace diptych::coupling

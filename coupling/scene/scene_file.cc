@@ -1,0 +1,170 @@
+// diptych: scenes read, echoed and explained
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/scene/scene_file.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "coupling/scene/keys.h"
+#include "coupling/scene/scene_check.h"
+#include "discrete/files/nearest_name.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    std::vector<KeyDescription> describe(const std::string &wanted_section)
+    {
+      std::vector<KeyDescription> keys;
+      Scene                       defaults;
+      for_each_section(defaults, [&](const char *section, auto &options) {
+        if (wanted_section.empty() || wanted_section == section)
+          visit_parameters(options, DescribeKeys{section, keys});
+      });
+      return keys;
+    }
+
+    std::vector<std::string> section_names()
+    {
+      std::vector<std::string> names;
+      Scene                    scene;
+      for_each_section(scene, [&](const char *section, auto &) { names.push_back(section); });
+      return names;
+    }
+
+    [[noreturn]] void refuse_section(const std::string &place, const std::string &section)
+    {
+      throw SceneError(place + "unknown section '" + section + "'; the nearest is '" +
+                       discrete::nearest_name(section, section_names()) + "'");
+    }
+
+    [[noreturn]] void refuse_key(const Entry &entry)
+    {
+      std::vector<std::string> names;
+      for (const KeyDescription &key : describe(entry.section))
+        names.push_back(key.name);
+      throw SceneError(entry.place + ": unknown key '" + entry.section + "/" + entry.key + "'; the nearest is '" + entry.section +
+                       "/" + discrete::nearest_name(entry.key, names) + "'");
+    }
+
+    [[noreturn]] void refuse_value(const Entry &entry)
+    {
+      for (const KeyDescription &key : describe(entry.section))
+        if (key.name == entry.key)
+          throw SceneError(entry.place + ": " + entry.section + "/" + entry.key + " = '" + entry.value + "' is not allowed: " +
+                           key.allowed + " [" + key.unit + "] is");
+      refuse_key(entry);
+    }
+
+    void set(Scene &scene, const Entry &entry)
+    {
+      bool is_section = false;
+      for_each_section(scene, [&](const std::string &section, auto &options) {
+        if (section != entry.section)
+          return;
+        is_section = true;
+        SetKey set{entry.key, entry.value, entry.folder};
+        visit_parameters(options, set);
+        if (!set.found)
+          refuse_key(entry);
+        if (!set.good)
+          refuse_value(entry);
+      });
+      if (!is_section)
+        refuse_section(entry.place + ": ", entry.section);
+    }
+
+    // results/moreau_1997 for .../moreau_1997/scene.prm, results/mine for mine.prm.
+    std::string scene_name(const std::string &file)
+    {
+      const std::filesystem::path path = std::filesystem::absolute(file);
+      return path.stem() == "scene" ? path.parent_path().filename().string() : path.stem().string();
+    }
+  } // namespace
+
+  Scene read_scene(const std::string &file, const std::vector<std::string> &overrides, const bool compares)
+  {
+    std::ifstream in(file);
+    if (!in || std::filesystem::is_directory(file))
+      throw SceneError(file + ": cannot be read");
+    const bool         json    = std::filesystem::path(file).extension() == ".json";
+    std::vector<Entry> entries = json ? entries_of_json(file, in) : entries_of_prm(file, in);
+    for (const std::string &text : overrides)
+      entries.push_back(entry_of_override(text));
+    Scene scene;
+    for (const Entry &entry : entries)
+      {
+        if (entry.value.find_first_of("#\n") != std::string::npos)
+          throw SceneError(entry.place + ": " + entry.section + "/" + entry.key + " holds a # or a line break; # begins a comment");
+        set(scene, entry);
+      }
+    scene.name = scene_name(file);
+    if (scene.output.directory.empty())
+      scene.output.directory = "results/" + scene.name;
+    check_scene(scene, file, entries, compares);
+    scene.warnings = warnings_of(scene, entries);
+    return scene;
+  }
+
+  bool is_echo(const std::string &file)
+  {
+    std::ifstream in(file);
+    std::string   title;
+    return std::getline(in, title) && title.find(echo_title) != std::string::npos;
+  }
+
+  std::optional<Scene> echoed_scene(const std::string &file)
+  {
+    if (!is_echo(file))
+      return std::nullopt;
+    std::ifstream in(file);
+    try
+      {
+        Scene scene;
+        for (const Entry &entry : entries_of_prm(file, in))
+          set(scene, entry);
+        return scene;
+      }
+    catch (const SceneError &) // of another version
+      {
+        return std::nullopt;
+      }
+  }
+
+  std::string echo(const Scene &scene)
+  {
+    std::ostringstream out;
+    out << "# " << scene.name << ": " << echo_title << '\n';
+    Scene copy = scene;
+    for_each_section(copy, [&](const char *section, auto &options) {
+      std::vector<KeyDescription> keys;
+      visit_parameters(options, DescribeKeys{section, keys});
+      out << "\nsubsection " << section << '\n';
+      for (const KeyDescription &key : keys)
+        out << "  # " << key.meaning << " [" << key.unit << "]; " << key.allowed << "\n  set " << key.name << " = " << key.value
+            << '\n';
+      out << "end\n";
+    });
+    return out.str();
+  }
+
+  std::string explain(const std::string &section)
+  {
+    const std::vector<std::string> sections = section_names();
+    if (!section.empty() && std::find(sections.begin(), sections.end(), section) == sections.end())
+      refuse_section("", section);
+    std::ostringstream out;
+    std::string        current;
+    for (const KeyDescription &key : describe(section))
+      {
+        if (key.section != current)
+          out << (current.empty() ? "" : "\n") << key.section << '\n';
+        current = key.section;
+        out << "  " << key.name << " = " << (key.value.empty() ? "(empty)" : key.value) << "  [" << key.unit << "]  "
+            << key.allowed << "\n      " << key.meaning << '\n';
+      }
+    return out.str();
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,34 @@
+// diptych: scenes read, echoed and explained
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coupling/scene/scene.h"
+#include "coupling/scene/scene_error.h"
+
+namespace diptych::coupling
+{
+  // Reads a .prm or .json file, then applies `overrides` of the form section/key=value. Files that the scene names are found
+  // relative to the scene's own folder, those of overrides relative to the working directory. Throws SceneError. `compares`:
+  // whether both panels will be compared, so that the windows must be stages.
+  Scene read_scene(const std::string &file, const std::vector<std::string> &overrides, bool compares = true);
+
+  // Stands in the first line of every echo, and so tells a result folder's scene.prm from one written by hand.
+  inline constexpr char echo_title[] = "every parameter, as it was used";
+
+  // The whole scene with every default, in .prm format, each key with its meaning; files by their absolute paths.
+  std::string echo(const Scene &scene);
+
+  // Whether a file is the echo of a scene, of any version.
+  bool is_echo(const std::string &file);
+
+  // The scene of an echo in a result folder (scene.prm, ensemble.prm), as it was used; files that it names may be gone. Nothing
+  // where there is no echo, or one of a version with other keys.
+  std::optional<Scene> echoed_scene(const std::string &file);
+
+  // Every key of a section (of all, if empty): default, unit, range, meaning. Throws SceneError on an unknown section.
+  std::string explain(const std::string &section);
+} // namespace diptych::coupling
