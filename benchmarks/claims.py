@@ -50,7 +50,7 @@ class Result:
     def columns(self, name):
         with open(os.path.join(self.folder, name)) as file:
             rows = list(csv.DictReader(file))
-        return {key: numpy.array([float(row[key]) for row in rows]) for key in rows[0]}
+        return {key: numpy.array([row[key] if key == "walk" else float(row[key]) for row in rows]) for key in rows[0]}
 
     @property
     def grains(self):

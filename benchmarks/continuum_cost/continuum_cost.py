@@ -87,7 +87,7 @@ def result(folder):
     with open(os.path.join(folder, "exit.json")) as file:
         ended = json.load(file)
     with open(os.path.join(folder, "continuum.csv")) as file:
-        rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        rows = [{key: float(value) for key, value in row.items() if key != "walk"} for row in csv.DictReader(file)]
     phase = next(p for p in provenance["phases"] if p["name"] == "continuum")
     facts = provenance["continuum"]
     return SimpleNamespace(folder=folder, rows=rows, last=rows[-1], seconds=phase["cpu_s"], wall=phase["wall_s"],

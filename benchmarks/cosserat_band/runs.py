@@ -48,7 +48,7 @@ def facts(folder):
 
 def history(folder):
     with open(os.path.join(folder, "continuum.csv")) as file:
-        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        return [{key: float(value) for key, value in row.items() if key != "walk"} for row in csv.DictReader(file)]
 
 
 def bands(folder, scene, strains=STRAINS):

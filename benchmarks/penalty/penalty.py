@@ -36,7 +36,7 @@ def run(program, scene, folder, settings):
     rows = []
     if os.path.exists(history):
         with open(history) as file:
-            rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+            rows = [{key: float(value) for key, value in row.items() if key != "walk"} for row in csv.DictReader(file)]
     with open(os.path.join(folder, "provenance.json")) as file:
         phases = json.load(file)["phases"]
     return done.returncode, sum(p["cpu_s"] for p in phases if p["name"] == "discrete"), rows

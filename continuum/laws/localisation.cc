@@ -49,7 +49,7 @@ namespace diptych::continuum
       return {(3 * (a[0] + a[4]) + a[2]) / 8, (a[0] - a[4]) / 2, (a[1] + a[3]) / 4, (a[0] - a[2] + a[4]) / 8, (a[1] - a[3]) / 8};
     }
 
-    struct Point
+    struct Direction
     {
       double phi, value;
     };
@@ -83,7 +83,7 @@ namespace diptych::continuum
     }
 
     // The minimum near `phi`: Newton's method on f' = 0, downhill by a fixed step where f is not convex.
-    Point refined(const Harmonics &f, double phi)
+    Direction refined(const Harmonics &f, double phi)
     {
       double value = 0;
       for (unsigned int iteration = 0; iteration < 20; ++iteration)
@@ -128,7 +128,7 @@ namespace diptych::continuum
         if (!(here < before && here <= after))
           continue;
         const double vertex  = (before - after) / (before - 2 * here + after) / 2;
-        const Point  minimum = refined(f, offset + (k + vertex) * spacing);
+        const Direction  minimum = refined(f, offset + (k + vertex) * spacing);
         const double angle   = line_angle(minimum.phi);
         if (minimum.value < least.determinant - same || (minimum.value < least.determinant + same && angle > least.angle_deg))
           least = {minimum.value, angle};

@@ -11,7 +11,7 @@ namespace diptych::continuum
 {
   namespace
   {
-    void require(const bool condition, const char *member, const double value, const std::string &allowed)
+    void require_size(const bool condition, const char *member, const double value, const std::string &allowed)
     {
       if (condition)
         return;
@@ -23,13 +23,13 @@ namespace diptych::continuum
     void validate(const Rectangle &r)
     {
       constexpr double most_cells = 1e7;
-      require(std::isfinite(r.width) && r.width > 0, "width", r.width, "positive");
-      require(std::isfinite(r.height) && r.height > 0, "height", r.height, "positive");
-      require(r.platen_width >= 0 && r.platen_width <= r.width, "platen_width", r.platen_width,
+      require_size(std::isfinite(r.width) && r.width > 0, "width", r.width, "positive");
+      require_size(std::isfinite(r.height) && r.height > 0, "height", r.height, "positive");
+      require_size(r.platen_width >= 0 && r.platen_width <= r.width, "platen_width", r.platen_width,
               "between 0 (whole edge) and the width");
-      require(r.element_size > 0 && r.element_size <= 1.0001 * std::min(r.width, r.height), "element_size", r.element_size,
+      require_size(r.element_size > 0 && r.element_size <= 1.0001 * std::min(r.width, r.height), "element_size", r.element_size,
               "positive and at most the width and the height");
-      require(r.width / r.element_size * r.height / r.element_size <= most_cells, "element_size", r.element_size,
+      require_size(r.width / r.element_size * r.height / r.element_size <= most_cells, "element_size", r.element_size,
               "so large that the mesh has at most 10 million cells");
     }
 

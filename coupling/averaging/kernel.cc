@@ -95,28 +95,17 @@ namespace diptych::coupling
         period(target.period),
         lower(target.lower),
         upper(target.upper),
-        bin_size(kernel.reach() / 6),
-        n_columns(1 + int((upper.x() - lower.x()) / bin_size)),
-        n_rows(1 + int((upper.y() - lower.y()) / bin_size)),
+        bins(target.lower, target.upper, kernel.reach() / 6),
         sum_of_cell(target.n_cells(), 0.)
   {
     const std::vector<Point> points = quadrature_points(target.mesh, edge_over_width * kernel.width());
-    bin_begin.assign(std::size_t(n_columns) * n_rows + 1, 0);
-    std::vector<std::size_t> bin(points.size());
-    for (std::size_t p = 0; p < points.size(); ++p)
-      {
-        bin[p] = std::size_t((points[p].y - lower.y()) / bin_size) * n_columns +
-                 std::size_t((points[p].x - lower.x()) / bin_size);
-        ++bin_begin[bin[p] + 1];
-      }
-    for (std::size_t b = 1; b < bin_begin.size(); ++b)
-      bin_begin[b] += bin_begin[b - 1];
+    bins.sort(points.size(), [&](const unsigned int p, const auto &into) { into(bins.bin_of({points[p].x, points[p].y})); });
     x_.resize(Eigen::Index(points.size())), y_ = area_ = x_, cell_.resize(points.size());
-    std::vector<unsigned int> next(bin_begin.begin(), bin_begin.end() - 1);
-    for (std::size_t p = 0; p < points.size(); ++p)
+    Eigen::Index k = 0;
+    for (const unsigned int p : bins.sorted())
       {
-        const unsigned int k = next[bin[p]]++;
         x_[k] = points[p].x, y_[k] = points[p].y, area_[k] = points[p].area, cell_[k] = points[p].cell;
+        ++k;
       }
   }
 
@@ -142,23 +131,20 @@ namespace diptych::coupling
 
   void KernelQuadrature::add_image(const Eigen::Vector2d &x, Weights &result)
   {
-    const double reach = kernel.reach();
-    const auto   index = [this](const double distance, const int n) {
-      return int(std::clamp(std::floor(distance / bin_size), -1., double(n)));
-    };
-    for (int row = std::max(0, index(x.y() - reach - lower.y(), n_rows));
-         row <= std::min(n_rows - 1, index(x.y() + reach - lower.y(), n_rows)); ++row)
+    const double          reach = kernel.reach();
+    const Eigen::Vector2d square = Eigen::Vector2d::Constant(reach);
+    const BinRange        all    = bins.range(x - square, x + square);
+    for (int row = all.row_begin; row < all.row_end; ++row)
       {
         // half chord of the kernel's circle at the edge of this row of bins nearest to x
-        const double low  = lower.y() + row * bin_size;
-        const double away = std::max({0., low - x.y(), x.y() - low - bin_size});
-        const double half = std::sqrt(std::max(0., reach * reach - away * away));
-        const int    from = std::max(0, index(x.x() - half - lower.x(), n_columns));
-        const int    to   = std::min(n_columns - 1, index(x.x() + half - lower.x(), n_columns));
-        if (from > to)
+        const double          low  = bins.row_low(row);
+        const double          away = std::max({0., low - x.y(), x.y() - low - bins.bin_size()});
+        const Eigen::Vector2d half(std::sqrt(std::max(0., reach * reach - away * away)), 0);
+        const BinRange        chord = bins.range(x - half, x + half);
+        if (chord.column_begin >= chord.column_end)
           continue;
-        const std::size_t  first = std::size_t(row) * n_columns;
-        const unsigned int begin = bin_begin[first + from], n = bin_begin[first + to + 1] - begin;
+        const unsigned int begin = bins.begins(bins.number(row, chord.column_begin)),
+                           n     = bins.begins(bins.number(row, chord.column_end)) - begin;
 
         const Eigen::ArrayXd value = kernel((x_.segment(begin, n) - x.x()).square() + (y_.segment(begin, n) - x.y()).square()) *
                                      area_.segment(begin, n);

@@ -8,6 +8,7 @@
 
 #include "coupling/averaging/averaging_options.h"
 #include "coupling/averaging/target_cells.h"
+#include "coupling/cells/bin_grid.h"
 
 namespace diptych::coupling
 {
@@ -56,11 +57,9 @@ namespace diptych::coupling
     Kernel                    kernel;
     double                    period;
     Eigen::Vector2d           lower, upper;
-    double                    bin_size;
-    int                       n_columns, n_rows;
-    std::vector<unsigned int> bin_begin;     // points of bin b: bin_begin[b] .. bin_begin[b + 1]
-    Eigen::ArrayXd            x_, y_, area_; // of the points
-    std::vector<unsigned int> cell_;         // of the points
+    BinGrid                   bins;          // of the points
+    Eigen::ArrayXd            x_, y_, area_; // of the points, in the order of the bins
+    std::vector<unsigned int> cell_;         // likewise
     std::vector<double>       sum_of_cell;   // scratch: zero between calls
   };
 

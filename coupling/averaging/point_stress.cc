@@ -7,7 +7,7 @@
 
 #include "coupling/averaging/averaging.h"
 #include "coupling/averaging/kernel.h"
-#include "coupling/averaging/point_bins.h"
+#include "coupling/cells/point_bins.h"
 
 namespace diptych::coupling
 {

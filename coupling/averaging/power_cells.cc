@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "coupling/cells/cross_product.h"
-#include "coupling/averaging/point_bins.h"
+#include "coupling/cells/point_bins.h"
 
 namespace diptych::coupling
 {
@@ -17,21 +17,16 @@ namespace diptych::coupling
     void clip(PowerCell &cell, const Eigen::Vector2d &normal, const double bound, const int neighbour, PowerCell &scratch)
     {
       scratch.corner.clear(), scratch.beyond.clear();
-      const std::size_t n = cell.corner.size();
-      for (std::size_t k = 0; k < n; ++k)
-        {
-          const Eigen::Vector2d &a = cell.corner[k], &b = cell.corner[(k + 1) % n];
-          const double           at_a = normal.dot(a) - bound, at_b = normal.dot(b) - bound;
-          if (at_a <= 0)
-            scratch.corner.push_back(a), scratch.beyond.push_back(cell.beyond[k]);
-          if ((at_a < 0 && at_b > 0) || (at_a > 0 && at_b < 0))
-            {
-              scratch.corner.push_back(a + at_a / (at_a - at_b) * (b - a));
-              scratch.beyond.push_back(at_a < 0 ? neighbour : cell.beyond[k]);
-            }
-          else if (at_a == 0 && at_b > 0)
-            scratch.beyond.back() = neighbour;
-        }
+      cut_polygon(
+        cell.corner, [&](const Eigen::Vector2d &x) { return bound - normal.dot(x); },
+        [&](const std::size_t k, const double here, const double there) {
+          scratch.corner.push_back(cell.corner[k]);
+          scratch.beyond.push_back(here == 0 && there < 0 ? neighbour : cell.beyond[k]);
+        },
+        [&](const std::size_t k, const Eigen::Vector2d &point, const bool leaves) {
+          scratch.corner.push_back(point);
+          scratch.beyond.push_back(leaves ? neighbour : cell.beyond[k]);
+        });
       std::swap(cell, scratch);
       if (cell.corner.size() < 3)
         cell = {};
@@ -126,17 +121,7 @@ namespace diptych::coupling
     corners = convex;
     for (unsigned int side = 0; side < 3 && !corners.empty(); ++side)
       {
-        const Eigen::Vector2d &from = triangle[side], edge = triangle[(side + 1) % 3] - from;
-        next.clear();
-        for (std::size_t k = 0; k < corners.size(); ++k)
-          {
-            const Eigen::Vector2d &a = corners[k], &b = corners[(k + 1) % corners.size()];
-            const double           at_a = cross(edge, a - from), at_b = cross(edge, b - from);
-            if (at_a >= 0)
-              next.push_back(a);
-            if ((at_a > 0 && at_b < 0) || (at_a < 0 && at_b > 0))
-              next.push_back(a + at_a / (at_a - at_b) * (b - a));
-          }
+        clip_to_left(corners, triangle[side], triangle[(side + 1) % 3] - triangle[side], next);
         std::swap(corners, next);
       }
     return polygon_area(corners);

@@ -10,11 +10,12 @@
 
 #include <Eigen/QR>
 
+#include "coupling/cells/principal_axes.h"
+
 namespace diptych::coupling
 {
   namespace
   {
-    constexpr double degree          = M_PI / 180;
     constexpr double pair_half_width = 5; // the one of the three that pairs are tried with
 
     // Lines of one angle that cross the sample.

@@ -8,14 +8,13 @@
 #include "coupling/bands/band_candidates.h"
 #include "coupling/bands/band_intervals.h"
 #include "coupling/bands/strips.h"
+#include "coupling/cells/principal_axes.h"
 
 namespace diptych::coupling
 {
   namespace
   {
     using Shapes = std::vector<BandShape>;
-
-    constexpr double degree = M_PI / 180;
 
     struct Candidate
     {
@@ -155,11 +154,6 @@ namespace diptych::coupling
             }
         }
       return fit;
-    }
-
-    Interval times(const double factor, const Interval &interval)
-    {
-      return {factor * interval.value, factor * interval.low, factor * interval.high};
     }
 
     // Lengths of the intervals in mean diameters.

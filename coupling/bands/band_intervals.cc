@@ -7,13 +7,12 @@
 
 #include "coupling/bands/band_calibration.h"
 #include "coupling/bands/band_candidates.h"
+#include "coupling/cells/principal_axes.h"
 
 namespace diptych::coupling
 {
   namespace
   {
-    constexpr double degree = M_PI / 180;
-
     // Fine enough to leave the narrowest profile alone: the mean over a cell of half the half width adds 2.5 % to the variance
     // of tanh's slope, pi^2/12 delta^2.
     double cell_size(const BandFit &fit)
@@ -89,11 +88,6 @@ namespace diptych::coupling
     {
       Interval interval = interval_from(0, deviations);
       return {value, value + factor * interval.low, value + factor * interval.high};
-    }
-
-    Interval times(const double factor, const Interval &interval)
-    {
-      return {factor * interval.value, factor * interval.low, factor * interval.high};
     }
 
     Interval exponential(const Interval &logarithm)

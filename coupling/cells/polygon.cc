@@ -43,22 +43,24 @@ namespace diptych::coupling
     return nearest;
   }
 
+  void clip_to_left(const std::vector<Eigen::Vector2d> &polygon,
+                    const Eigen::Vector2d              &from,
+                    const Eigen::Vector2d              &along,
+                    std::vector<Eigen::Vector2d>       &kept)
+  {
+    kept.clear();
+    cut_polygon(
+      polygon, [&](const Eigen::Vector2d &x) { return cross(along, x - from); },
+      [&](const std::size_t k, double, double) { kept.push_back(polygon[k]); },
+      [&](std::size_t, const Eigen::Vector2d &point, bool) { kept.push_back(point); });
+  }
+
   std::vector<Eigen::Vector2d> clipped(const std::vector<Eigen::Vector2d> &polygon, const std::vector<Eigen::Vector2d> &convex)
   {
     std::vector<Eigen::Vector2d> rest = polygon, kept;
     for (std::size_t edge = 0; edge < convex.size() && !rest.empty(); ++edge)
       {
-        const Eigen::Vector2d &a = convex[edge], along = convex[(edge + 1) % convex.size()] - a;
-        kept.clear();
-        for (std::size_t k = 0; k < rest.size(); ++k)
-          {
-            const Eigen::Vector2d &p = rest[k], &q = rest[(k + 1) % rest.size()];
-            const double           at_p = cross(along, p - a), at_q = cross(along, q - a);
-            if (at_p >= 0)
-              kept.push_back(p);
-            if ((at_p >= 0) != (at_q >= 0))
-              kept.push_back(p + at_p / (at_p - at_q) * (q - p));
-          }
+        clip_to_left(rest, convex[edge], convex[(edge + 1) % convex.size()] - convex[edge], kept);
         rest.swap(kept);
       }
     return rest;

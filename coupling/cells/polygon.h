@@ -16,7 +16,30 @@ namespace diptych::coupling
 
   double distance_to_edges(const Eigen::Vector2d &point, const std::vector<Eigen::Vector2d> &polygon); // [length]
 
-  // What of a polygon lies in a convex one, corners of both counter-clockwise (Sutherland and Hodgman 1974). Of a concave
+  // Walks along the corners of a polygon that a line cuts: keep(k, at(next corner)) for each with at(corner) >= 0, and
+  // cut(k, point, leaves) where the edge from corner k crosses the line (Sutherland and Hodgman 1974). at(x): distance to the
+  // line times any factor.
+  template <class At, class Keep, class Cut>
+  void cut_polygon(const std::vector<Eigen::Vector2d> &corner, const At &at, const Keep &keep, const Cut &cut)
+  {
+    for (std::size_t k = 0; k < corner.size(); ++k)
+      {
+        const Eigen::Vector2d &a = corner[k], &b = corner[(k + 1) % corner.size()];
+        const double           here = at(a), there = at(b);
+        if (here >= 0)
+          keep(k, here, there);
+        if ((here > 0 && there < 0) || (here < 0 && there > 0))
+          cut(k, Eigen::Vector2d(a + here / (here - there) * (b - a)), here > 0);
+      }
+  }
+
+  // What of a polygon lies to the left of the directed line from + t along; `kept` must not be `polygon`.
+  void clip_to_left(const std::vector<Eigen::Vector2d> &polygon,
+                    const Eigen::Vector2d              &from,
+                    const Eigen::Vector2d              &along,
+                    std::vector<Eigen::Vector2d>       &kept);
+
+  // What of a polygon lies in a convex one, corners of both counter-clockwise. Of a concave
   // polygon the parts may hang together by edges of no area: its area is exact all the same.
   std::vector<Eigen::Vector2d> clipped(const std::vector<Eigen::Vector2d> &polygon, const std::vector<Eigen::Vector2d> &convex);
 

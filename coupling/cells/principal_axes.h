@@ -8,6 +8,8 @@
 
 namespace diptych::coupling
 {
+  inline constexpr double degree = M_PI / 180; // [rad]
+
   // Of the symmetric part: angle of the major axis from the horizontal, in (-90, 90] [degrees].
   inline double major_direction(const Eigen::Matrix2d &t)
   {

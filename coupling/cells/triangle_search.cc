@@ -108,48 +108,24 @@ namespace diptych::coupling
       boundary_ends.push_back({{mesh.node[edge.from], mesh.node[edge.to]}});
 
     // bins of about half a cell: a branch of one diameter then meets few triangles
-    bin_size  = std::sqrt(total_area / mesh.triangle.size());
-    origin    = lower;
-    n_columns = 1 + static_cast<int>((upper.x() - lower.x()) / bin_size);
-    n_rows    = 1 + static_cast<int>((upper.y() - lower.y()) / bin_size);
-
-    bin_begin.assign(static_cast<std::size_t>(n_columns) * n_rows + 1, 0);
-    const auto for_each_bin = [&](const Triangle &triangle, const auto &action) {
-      const BinRange range = bins(triangle.lower, triangle.upper);
+    bins = BinGrid(lower, upper, std::sqrt(total_area / mesh.triangle.size()));
+    bins.sort(triangles.size(), [&](const unsigned int t, const auto &into) {
+      const BinRange range = bins.range(triangles[t].lower, triangles[t].upper);
       for (int row = range.row_begin; row < range.row_end; ++row)
         for (int column = range.column_begin; column < range.column_end; ++column)
-          action(row * n_columns + column);
-    };
-    for (const auto &triangle : triangles)
-      for_each_bin(triangle, [&](const int bin) { ++bin_begin[bin + 1]; });
-    for (std::size_t b = 1; b < bin_begin.size(); ++b)
-      bin_begin[b] += bin_begin[b - 1];
-    bin_triangle.resize(bin_begin.back());
-    std::vector<unsigned int> next(bin_begin.begin(), bin_begin.end() - 1);
-    for (unsigned int t = 0; t < triangles.size(); ++t)
-      for_each_bin(triangles[t], [&](const int bin) { bin_triangle[next[bin]++] = t; });
-  }
-
-  TriangleSearch::BinRange TriangleSearch::bins(const Eigen::Vector2d &lower, const Eigen::Vector2d &upper) const
-  {
-    // clamped before the conversion: far points and NaN must not overflow an int
-    const auto index = [this](const double distance, const int n) {
-      return static_cast<int>(std::min(std::max(std::floor(distance / bin_size), -1.), double(n)));
-    };
-    return {std::max(0, index(lower.x() - origin.x(), n_columns)),
-            std::min(n_columns, 1 + index(upper.x() - origin.x(), n_columns)), std::max(0, index(lower.y() - origin.y(), n_rows)),
-            std::min(n_rows, 1 + index(upper.y() - origin.y(), n_rows))};
+          into(bins.number(row, column));
+    });
   }
 
   TriangleSearch::Place TriangleSearch::locate(const Eigen::Vector2d &point) const
   {
-    const BinRange range = bins(point, point);
+    const BinRange range = bins.range(point, point);
     if (range.column_begin < range.column_end && range.row_begin < range.row_end)
       {
-        const std::size_t bin = static_cast<std::size_t>(range.row_begin) * n_columns + range.column_begin;
-        for (unsigned int k = bin_begin[bin]; k < bin_begin[bin + 1]; ++k) // ascending
-          if (contains(triangles[bin_triangle[k]].corner, point))
-            return {bin_triangle[k], true};
+        const std::size_t bin = bins.number(range.row_begin, range.column_begin);
+        for (unsigned int k = bins.begins(bin); k < bins.begins(bin + 1); ++k) // ascending
+          if (contains(triangles[bins.sorted()[k]].corner, point))
+            return {bins.sorted()[k], true};
       }
     return {nearest_boundary_triangle(point), false};
   }
@@ -177,20 +153,20 @@ namespace diptych::coupling
     cuts.clear();
 
     const Eigen::Vector2d lower = a.cwiseMin(b), upper = a.cwiseMax(b);
-    const BinRange        range = bins(lower, upper);
+    const BinRange        range = bins.range(lower, upper);
     for (int row = range.row_begin; row < range.row_end; ++row)
       for (int column = range.column_begin; column < range.column_end; ++column)
         {
-          const std::size_t bin = static_cast<std::size_t>(row) * n_columns + column;
-          for (unsigned int k = bin_begin[bin]; k < bin_begin[bin + 1]; ++k)
+          const std::size_t bin = bins.number(row, column);
+          for (unsigned int k = bins.begins(bin); k < bins.begins(bin + 1); ++k)
             {
-              const Triangle &triangle = triangles[bin_triangle[k]];
+              const Triangle &triangle = triangles[bins.sorted()[k]];
               if ((triangle.lower.array() > upper.array()).any() || (triangle.upper.array() < lower.array()).any())
                 continue;
               const auto [from, to] = clip(triangle.corner, a, b);
               if (from == 0 && to == 1 && strictly_contains(triangle.corner, a))
                 {
-                  pieces.push_back({bin_triangle[k], 0, 1, true});
+                  pieces.push_back({bins.sorted()[k], 0, 1, true});
                   return;
                 }
               if (from < to)
@@ -224,36 +200,22 @@ namespace diptych::coupling
                                         std::vector<unsigned int> &found) const
   {
     found.clear();
-    const BinRange range = bins(lower, upper);
-    for (int row = range.row_begin; row < range.row_end; ++row)
-      for (int column = range.column_begin; column < range.column_end; ++column)
-        {
-          const std::size_t bin = static_cast<std::size_t>(row) * n_columns + column;
-          for (unsigned int k = bin_begin[bin]; k < bin_begin[bin + 1]; ++k)
-            {
-              const Triangle &triangle = triangles[bin_triangle[k]];
-              if ((triangle.lower.array() <= upper.array()).all() && (triangle.upper.array() >= lower.array()).all())
-                found.push_back(bin_triangle[k]);
-            }
-        }
+    bins.for_each_in(bins.range(lower, upper), [&](const unsigned int t) {
+      const Triangle &triangle = triangles[t];
+      if ((triangle.lower.array() <= upper.array()).all() && (triangle.upper.array() >= lower.array()).all())
+        found.push_back(t);
+    });
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
   }
 
   std::vector<unsigned int> TriangleSearch::in_spatial_order(const std::vector<Eigen::Vector2d> &points) const
   {
-    std::vector<unsigned int> bin, begin(bin_begin.size(), 0), order(points.size());
-    for (const Eigen::Vector2d &x : points)
-      {
-        const BinRange range  = bins(x, x); // empty outside of the grid
-        const int      column = std::min(range.column_begin, n_columns - 1), row = std::min(range.row_begin, n_rows - 1);
-        bin.push_back(static_cast<unsigned int>(row) * n_columns + column);
-        ++begin[bin.back() + 1];
-      }
-    for (std::size_t b = 1; b < begin.size(); ++b)
-      begin[b] += begin[b - 1];
-    for (unsigned int k = 0; k < points.size(); ++k)
-      order[begin[bin[k]]++] = k;
-    return order;
+    BinGrid ordered = bins;
+    ordered.sort(points.size(), [&](const unsigned int k, const auto &into) {
+      const BinRange range = bins.range(points[k], points[k]); // empty outside of the grid
+      into(bins.number(std::min(range.row_begin, bins.n_rows() - 1), std::min(range.column_begin, bins.n_columns() - 1)));
+    });
+    return ordered.sorted();
   }
 } // namespace diptych::coupling

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "coupling/cells/bin_grid.h"
 #include "coupling/cells/mesh_cells.h"
 
 namespace diptych::coupling
@@ -54,21 +55,12 @@ namespace diptych::coupling
       Eigen::Vector2d                lower, upper;
     };
 
-    struct BinRange
-    {
-      int column_begin, column_end, row_begin, row_end;
-    };
-
-    BinRange     bins(const Eigen::Vector2d &lower, const Eigen::Vector2d &upper) const;
     unsigned int nearest_boundary_triangle(const Eigen::Vector2d &point) const;
 
     std::vector<Triangle>                       triangles;
     std::vector<BoundaryEdge>                   boundary;
     std::vector<std::array<Eigen::Vector2d, 2>> boundary_ends;
 
-    Eigen::Vector2d           origin;
-    double                    bin_size  = 1;
-    int                       n_columns = 1, n_rows = 1;
-    std::vector<unsigned int> bin_begin, bin_triangle; // triangles of bin b: bin_triangle[bin_begin[b] .. bin_begin[b+1])
+    BinGrid bins; // of the triangles
   };
 } // namespace diptych::coupling

@@ -6,7 +6,7 @@
 
 #include <Eigen/LU>
 
-#include "coupling/averaging/point_bins.h"
+#include "coupling/cells/point_bins.h"
 
 namespace diptych::coupling
 {

@@ -8,63 +8,13 @@
 
 #include <Eigen/LU>
 
+#include "coupling/cells/point_bins.h"
 #include "coupling/fields/node_transfer.h"
 
 namespace diptych::coupling
 {
   namespace
   {
-    // Points sorted into square bins of the search radius: all neighbours lie in the 3x3 bins around a point.
-    struct PointBins
-    {
-      PointBins(const std::vector<Eigen::Vector2d> &position, const std::vector<double> &weight, const double size)
-          : bin_size(size)
-      {
-        Eigen::Vector2d lower = Eigen::Vector2d::Constant(INFINITY), upper = -lower;
-        for (const auto &x : position)
-          {
-            lower = lower.cwiseMin(x);
-            upper = upper.cwiseMax(x);
-          }
-        origin    = lower;
-        n_columns = 1 + static_cast<int>((upper.x() - lower.x()) / bin_size);
-        n_rows    = 1 + static_cast<int>((upper.y() - lower.y()) / bin_size);
-        begin.assign(static_cast<std::size_t>(n_columns) * n_rows + 1, 0);
-        std::vector<int> bin(position.size());
-        for (std::size_t i = 0; i < position.size(); ++i)
-          {
-            bin[i] = static_cast<int>((position[i].y() - origin.y()) / bin_size) * n_columns +
-                     static_cast<int>((position[i].x() - origin.x()) / bin_size);
-            if (weight[i] > 0)
-              ++begin[bin[i] + 1];
-          }
-        for (std::size_t b = 1; b < begin.size(); ++b)
-          begin[b] += begin[b - 1];
-        point.resize(begin.back());
-        std::vector<unsigned int> next(begin.begin(), begin.end() - 1);
-        for (unsigned int i = 0; i < position.size(); ++i)
-          if (weight[i] > 0)
-            point[next[bin[i]]++] = i;
-      }
-
-      template <class Action> void for_each_near(const Eigen::Vector2d &x, const Action &action) const
-      {
-        const double column = std::floor((x.x() - origin.x()) / bin_size);
-        const double row    = std::floor((x.y() - origin.y()) / bin_size);
-        if (!(column >= -1 && row >= -1 && column <= n_columns && row <= n_rows))
-          return;
-        for (int r = std::max(0, int(row) - 1); r < std::min(n_rows, int(row) + 2); ++r)
-          for (int c = std::max(0, int(column) - 1); c < std::min(n_columns, int(column) + 2); ++c)
-            for (unsigned int k = begin[r * n_columns + c]; k < begin[r * n_columns + c + 1]; ++k)
-              action(point[k]);
-      }
-
-      Eigen::Vector2d           origin;
-      double                    bin_size;
-      int                       n_columns, n_rows;
-      std::vector<unsigned int> begin, point;
-    };
-
     // G minimises sum w |u - c - G (x - x_0)|^2: with means taken off, G = (sum w u' (x) x') (sum w x' (x) x')^-1.
     Eigen::Matrix2d gradient_around(const DisplacementField &field,
                                     const PointBins         &bins,
@@ -75,8 +25,9 @@ namespace diptych::coupling
       int             n     = 0;
       Eigen::Vector2d sum_x = Eigen::Vector2d::Zero(), sum_u = Eigen::Vector2d::Zero();
       const auto      for_each_inside = [&](const auto &action) {
-        bins.for_each_near(centre, [&](const unsigned int i) {
-          if ((field.position[i] - centre).squaredNorm() <= radius * radius)
+        // a little more than the radius, so that rounding loses no point on the circle
+        bins.for_each_near(centre, radius * (1 + 1e-9), [&](const unsigned int i) {
+          if (field.weight[i] > 0 && (field.position[i] - centre).squaredNorm() <= radius * radius)
             action(i);
         });
       };
@@ -149,7 +100,7 @@ namespace diptych::coupling
     if (field.position.empty())
       return std::vector<Eigen::Matrix2d>(sample_points.size(), Eigen::Matrix2d::Constant(NAN));
 
-    const PointBins              bins(field.position, field.weight, radius);
+    const PointBins              bins(field.position, radius);
     std::vector<Eigen::Matrix2d> gradient(sample_points.size());
     for (std::size_t k = 0; k < sample_points.size(); ++k)
       gradient[k] = gradient_around(field, bins, sample_points[k], radius);

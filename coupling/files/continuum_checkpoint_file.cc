@@ -17,7 +17,7 @@ namespace diptych::coupling
     const std::string format = "diptych continuum checkpoint 2";
 
     // Cells' names hold no blank.
-    std::string joined(const Lines &lines)
+    std::string text_of(const Lines &lines)
     {
       std::string text;
       for (const std::string &line : lines)
@@ -53,7 +53,7 @@ namespace diptych::coupling
         file.attribute("/", name, std::vector<double>{value.x(), value.y()});
       }
       void operator()(const std::string &name, const std::vector<double> &values) const { file.write(name, values); }
-      void operator()(const std::string &name, const Lines &lines) const { file.write_string(name, joined(lines)); }
+      void operator()(const std::string &name, const Lines &lines) const { file.write_string(name, text_of(lines)); }
       template <class T> void operator()(const std::string &name, const std::vector<std::vector<T>> &lists) const
       {
         (*this)(name + "_count", double(lists.size()));

@@ -22,15 +22,15 @@ namespace diptych::coupling
       std::vector<ProbeNumbers> deviation;
     };
 
-    using Member = double ProbeNumbers::*;
+    using NumberOf = double ProbeNumbers::*;
 
     // How a number's deviations are treated: angles turn, and the neighbours of the fabric are not those of the stress.
-    struct Kind
+    struct Treatment
     {
-      Member member;
+      NumberOf member;
       bool   is_angle, of_fabric;
     };
-    const Kind kinds[] = {{&ProbeNumbers::s1, false, false},
+    const Treatment treatments[] = {{&ProbeNumbers::s1, false, false},
                           {&ProbeNumbers::s2, false, false},
                           {&ProbeNumbers::t_over_s, false, false},
                           {&ProbeNumbers::direction_deg, true, false},
@@ -79,7 +79,7 @@ namespace diptych::coupling
       for (const std::vector<int> &times : resampled_blocks(n, options))
         {
           ProbeNumbers deviation = probe_numbers(blocks, times);
-          for (const Kind &kind : kinds)
+          for (const Treatment &kind : treatments)
             {
               double      &x       = deviation.*kind.member;
               const double value   = result.value.*kind.member;
@@ -91,7 +91,7 @@ namespace diptych::coupling
       return result;
     }
 
-    std::vector<double> column(const ProbeReplicas &replicas, const Member member)
+    std::vector<double> column(const ProbeReplicas &replicas, const NumberOf member)
     {
       std::vector<double> values;
       for (const ProbeNumbers &deviation : replicas.deviation)
@@ -106,7 +106,7 @@ namespace diptych::coupling
       return a;
     }
 
-    Interval difference(const ProbeReplicas &a, const ProbeReplicas &b, const Member member)
+    Interval difference(const ProbeReplicas &a, const ProbeReplicas &b, const NumberOf member)
     {
       const double value = a.value.*member - b.value.*member;
       if (a.deviation.size() != b.deviation.size()) // one of them has too few blocks
@@ -214,7 +214,7 @@ namespace diptych::coupling
   ProbeIntervals probe_intervals(const ProbeBlocks &blocks, const BootstrapOptions &options)
   {
     const ProbeReplicas all = replicas(blocks, options);
-    const auto          of  = [&](const Member member) { return interval_from(all.value.*member, column(all, member)); };
+    const auto          of  = [&](const NumberOf member) { return interval_from(all.value.*member, column(all, member)); };
     ProbeIntervals      result{of(&ProbeNumbers::s1),
                           of(&ProbeNumbers::s2),
                           of(&ProbeNumbers::t_over_s),

@@ -13,7 +13,6 @@ namespace diptych::coupling
 {
   namespace
   {
-    constexpr double degree = M_PI / 180;
   }
 
   ProbeStress probe_stress(const Eigen::Matrix2d &stress, const int count)

@@ -14,7 +14,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    enum class Kind
+    enum class Failure
     {
       none,
       input,
@@ -22,18 +22,18 @@ namespace diptych::coupling
       other
     };
 
-    Kind kind_of(const std::exception &error)
+    Failure kind_of(const std::exception &error)
     {
       if (dynamic_cast<const std::invalid_argument *>(&error) != nullptr)
-        return Kind::input;
-      return dynamic_cast<const std::logic_error *>(&error) != nullptr ? Kind::invariant : Kind::other;
+        return Failure::input;
+      return dynamic_cast<const std::logic_error *>(&error) != nullptr ? Failure::invariant : Failure::other;
     }
 
-    [[noreturn]] void throw_as(const Kind kind, const std::string &text)
+    [[noreturn]] void throw_as(const Failure kind, const std::string &text)
     {
-      if (kind == Kind::input)
+      if (kind == Failure::input)
         throw std::invalid_argument(text);
-      if (kind == Kind::invariant)
+      if (kind == Failure::invariant)
         throw std::logic_error(text);
       throw std::runtime_error(text);
     }
@@ -100,7 +100,7 @@ namespace diptych::coupling
       return work();
     std::exception_ptr thrown;
     std::string        text;
-    int                code_and_kind[2] = {0, int(Kind::none)};
+    int                code_and_kind[2] = {0, int(Failure::none)};
     if (is_first_process())
       try
         {
@@ -116,8 +116,8 @@ namespace diptych::coupling
     text = broadcast(text);
     if (thrown)
       std::rethrow_exception(thrown);
-    if (code_and_kind[1] != int(Kind::none))
-      throw_as(Kind(code_and_kind[1]), text);
+    if (code_and_kind[1] != int(Failure::none))
+      throw_as(Failure(code_and_kind[1]), text);
     return code_and_kind[0];
   }
 

@@ -13,13 +13,15 @@
 #include "coupling/program/completion.h"
 #include "coupling/scene/scene_file.h"
 #include "coupling/version.h"
+#include "discrete/files/nearest_name.h"
 
 namespace diptych::coupling
 {
   namespace
   {
-    constexpr char footer[] = "Exit codes: 0 done, 1 a stated invariant failed, 2 wrong input, 3 did not converge or was stopped (what was "
-                              "reached is kept),\n4 the system failed: disk, folder, library, script (what was kept is said)";
+    constexpr char footer[] =
+      "Exit codes: 0 done, 1 a stated invariant failed, 2 wrong input, 3 did not converge or was stopped (what was "
+      "reached is kept),\n4 the system failed: disk, folder, library, script (what was kept is said)";
 
     // The commands with the options that each of them uses, and no others.
     class Commands
@@ -77,13 +79,17 @@ namespace diptych::coupling
       {
         CLI::App *run = add(Command::run, "both panels, homogenisation, comparison, report");
         add_scene(run), add_output(run), add_set(run), add_threads(run), add_resume(run, "grains or continuum");
-        auto *seeds = run->add_option("--seeds", line.seeds,
-                                      "the scene on every sample of a list like 1-8 or 1,3,5-7, each in DIR/seed_K, then means, "
-                                      "intervals and verdicts over them (default folder: results/<scene name>_ensemble; also under "
-                                      "mpirun)");
-        seeds->type_name("LIST")->check([](const std::string &list) { return list.empty() ? "the list is empty; a list like 1-8" : ""; });
-        run->add_option("--jobs", line.jobs,
-                        "with --seeds: how many of them at once, on each process (default: cores it may use / threads; under mpirun 1)")
+        auto *seeds = run->add_option(
+          "--seeds", line.seeds,
+          "the scene on every sample of a list like 1-8 or 1,3,5-7, each in DIR/seed_K, then means, "
+          "intervals and verdicts over them (default folder: results/<scene name>_ensemble; also under "
+          "mpirun)");
+        seeds->type_name("LIST")->check(
+          [](const std::string &list) { return list.empty() ? "the list is empty; a list like 1-8" : ""; });
+        run
+          ->add_option(
+            "--jobs", line.jobs,
+            "with --seeds: how many of them at once, on each process (default: cores it may use / threads; under mpirun 1)")
           ->check(CLI::Range(1, 4096))
           ->needs(seeds);
         add_quiet(run);
@@ -93,9 +99,10 @@ namespace diptych::coupling
       {
         CLI::App *grains = add(Command::discrete, "the grains alone");
         add_scene(grains), add_output(grains), add_set(grains), add_threads(grains), add_resume(grains, "of the grains");
-        grains->add_option_function<std::string>(
-                "--study", [this](const std::string &) { line.study_of_step = true; },
-                "step: run with step h, h/2 and h/4 and compare energy and stress ratio")
+        grains
+          ->add_option_function<std::string>(
+            "--study", [this](const std::string &) { line.study_of_step = true; },
+            "step: run with step h, h/2 and h/4 and compare energy and stress ratio")
           ->check(CLI::IsMember({"step"}));
         add_quiet(grains);
 
@@ -104,7 +111,8 @@ namespace diptych::coupling
         add_scene(continuum), add_output(continuum), add_set(continuum), add_resume(continuum, "of the continuum");
         add_quiet(continuum);
 
-        CLI::App *point = add(Command::material_point, "the continuum's law on one point along the biaxial path: material_point.csv");
+        CLI::App *point = add(Command::material_point,
+                              "the continuum's law on one point along the biaxial path: material_point.csv");
         add_scene(point), add_output(point), add_set(point), add_quiet(point);
       }
 
@@ -116,19 +124,23 @@ namespace diptych::coupling
         std::vector<std::string> names;
         for (const auto &choice : choices(discrete::ContactSolver()))
           names.emplace_back(choice.second);
-        solve->add_option_function<std::string>(
-               "--solver", [this](const std::string &name) { line.solver = *discrete::value_of<discrete::ContactSolver>(name); },
-               "default: psor")
+        solve
+          ->add_option_function<std::string>(
+            "--solver", [this](const std::string &name) { line.solver = *discrete::value_of<discrete::ContactSolver>(name); },
+            "default: psor")
           ->check(CLI::IsMember(names));
-        solve->add_option("--tolerance", line.tolerance, "natural map relative to |r| (default: 1e-8)")->check(CLI::Range(1e-300, 0.999999));
+        solve->add_option("--tolerance", line.tolerance, "natural map relative to |r| (default: 1e-8)")
+          ->check(CLI::Range(1e-300, 0.999999));
         solve->add_option("--max-sweeps", line.max_sweeps, "(default: 1000000)")->check(CLI::Range(1, 2147483647));
-        solve->add_option("--form", line.form, "body or local (default: body where the file has one)")->check(CLI::IsMember({"body", "local"}));
+        solve->add_option("--form", line.form, "body or local (default: body where the file has one)")
+          ->check(CLI::IsMember({"body", "local"}));
         add_threads(solve);
       }
 
       void add_results()
       {
-        CLI::App *compare = add(Command::compare, "homogenise and compare again from a result folder, or evaluate an ensemble again");
+        CLI::App *compare = add(Command::compare,
+                                "homogenise and compare again from a result folder, or evaluate an ensemble again");
         compare->add_option("DIR", line.target, "result folder")->required();
         add_set(compare), add_quiet(compare);
         CLI::App *report = add(Command::report, "draw report.html of a result folder or an ensemble again");
@@ -146,27 +158,39 @@ namespace diptych::coupling
           ->check(CLI::IsMember({"bash", "zsh"}));
       }
 
-      CommandLine                   &line;
-      CLI::App                       app;
-      std::map<CLI::App *, Command>  by_parser;
+      CommandLine                  &line;
+      CLI::App                      app;
+      std::map<CLI::App *, Command> by_parser;
     };
 
-    // "diptych compare: ...; its options are --set, --quiet and --help"
-    std::string refusal(CLI::App &app, const CLI::ParseError &error)
+    std::vector<std::string> command_names(CLI::App &app)
+    {
+      std::vector<std::string> names;
+      for (const CLI::App *command : app.get_subcommands({}))
+        names.push_back(command->get_name());
+      return names;
+    }
+
+    // What is wrong with a line that names no command.
+    std::string refused_command(CLI::App &app, const std::vector<std::string> &words, const std::string &error)
+    {
+      const std::vector<std::string> names     = command_names(app);
+      const std::string             &first     = words.front();
+      const bool                     is_option = first.rfind('-', 0) == 0;
+      return "diptych: " +
+             (is_option ? error
+                        : "'" + first + "' is no command; the nearest is '" + discrete::nearest_name(first, names) + "'") +
+             "; the commands are " + joined(names) + "; see diptych --help";
+    }
+
+    // "diptych compare: ...; it has --help --set --quiet"
+    std::string refusal(CLI::App &app, const std::vector<std::string> &words, const CLI::ParseError &error)
     {
       const std::vector<CLI::App *> found = app.get_subcommands();
-      CLI::App                     &asked = found.empty() ? app : *found.front();
-      std::string                   text  = "diptych" + (found.empty() ? "" : " " + asked.get_name()) + ": " + error.what() + "; it has";
       if (found.empty())
-        {
-          text = std::string("diptych: ") + error.what() + "; the commands are";
-          for (const CLI::App *command : app.get_subcommands({}))
-            text += " " + command->get_name();
-          return text + "; see diptych --help";
-        }
-      for (const std::string &option : option_names(asked))
-        text += " " + option;
-      return text;
+        return refused_command(app, words, error.what());
+      CLI::App &asked = *found.front();
+      return "diptych " + asked.get_name() + ": " + error.what() + "; it has " + joined(option_names(asked));
     }
   } // namespace
 
@@ -200,7 +224,7 @@ namespace diptych::coupling
   {
     ParsedLine parsed;
     Commands   commands(parsed.line);
-    CLI::App  &app = commands.parser();
+    CLI::App  &app   = commands.parser();
     parsed.line.text = "diptych";
     for (const std::string &word : words)
       parsed.line.text += " " + word;
@@ -226,7 +250,7 @@ namespace diptych::coupling
       }
     catch (const CLI::ParseError &error)
       {
-        std::cerr << refusal(app, error) << std::endl;
+        std::cerr << refusal(app, words, error) << std::endl;
         parsed.exit_code = wrong_input;
       }
     return parsed;

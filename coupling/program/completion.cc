@@ -13,14 +13,6 @@ namespace diptych::coupling
 {
   namespace
   {
-    std::string joined(const std::vector<std::string> &words)
-    {
-      std::string text;
-      for (const std::string &word : words)
-        text += (text.empty() ? "" : " ") + word;
-      return text;
-    }
-
     std::string keys_of_scenes()
     {
       std::vector<KeyDescription> keys;
@@ -32,6 +24,14 @@ namespace diptych::coupling
       return joined(words);
     }
   } // namespace
+
+  std::string joined(const std::vector<std::string> &words)
+  {
+    std::string text;
+    for (const std::string &word : words)
+      text += (text.empty() ? "" : " ") + word;
+    return text;
+  }
 
   std::vector<std::string> option_names(CLI::App &command)
   {

@@ -12,6 +12,9 @@ namespace CLI
 
 namespace diptych::coupling
 {
+  // With blanks between them.
+  std::string joined(const std::vector<std::string> &words);
+
   // Options of a command as they are typed: --set, --help.
   std::vector<std::string> option_names(CLI::App &command);
 

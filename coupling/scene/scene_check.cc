@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_error.h"
@@ -17,7 +18,7 @@ namespace diptych::coupling
     using discrete::LoadingMode;
 
     // `last`: the end in the unit of the stages.
-    void check_windows(const std::string &file, const Scene &scene, const double last)
+    void check_windows(const Scene &scene, const double last)
     {
       const bool   time     = scene.loading.mode == LoadingMode::time;
       const double interval = time ? scene.loading.stage_time : scene.loading.stage_strain;
@@ -25,30 +26,30 @@ namespace diptych::coupling
         {
           const double k = edge / interval;
           if (std::abs(k - std::round(k)) > 1e-6 || edge > last * (1 + 1e-9))
-            throw SceneError(file + ": comparison/window_edges holds " + std::to_string(edge) +
+            throw std::invalid_argument("comparison/window_edges holds " + std::to_string(edge) +
                              ", which is no stage: stages are multiples of loading/" + (time ? "stage_time" : "stage_strain") +
                              " = " + std::to_string(interval) + " up to loading/" + (time ? "duration" : "axial_strain") + " = " +
                              std::to_string(last));
         }
     }
 
-    void check_stages(const std::string &file, const Scene &scene, const bool compares)
+    void check_stages(const Scene &scene, const bool compares)
     {
       const LoadingOptions &loading = scene.loading;
       const bool            time    = loading.mode == LoadingMode::time;
       const double          last    = time ? loading.duration : loading.axial_strain;
       const double          count   = last / (time ? loading.stage_time : loading.stage_strain);
       if (time && (std::abs(count - std::round(count)) > 1e-6 || count < 0.5))
-        throw SceneError(file + ": loading/duration = " + std::to_string(loading.duration) +
+        throw std::invalid_argument("loading/duration = " + std::to_string(loading.duration) +
                          " is not a whole number of loading/stage_time = " + std::to_string(loading.stage_time));
       if (!time && (std::abs(count - std::round(count)) > 1e-6 || count < 0.5))
-        throw SceneError(file + ": loading/axial_strain = " + std::to_string(loading.axial_strain) +
+        throw std::invalid_argument("loading/axial_strain = " + std::to_string(loading.axial_strain) +
                          " is not a whole number of loading/stage_strain = " + std::to_string(loading.stage_strain));
       const std::vector<double> &edges = scene.comparison.window_edges;
       if (edges.size() < 2 || std::adjacent_find(edges.begin(), edges.end(), std::greater_equal<double>()) != edges.end())
-        throw SceneError(file + ": comparison/window_edges must be at least two ascending values of what the loading walks along");
+        throw std::invalid_argument("comparison/window_edges must be at least two ascending values of what the loading walks along");
       if (compares)
-        check_windows(file, scene, last);
+        check_windows(scene, last);
     }
 
     bool is_word(const std::string &text, const std::size_t at, const std::size_t length)
@@ -65,17 +66,17 @@ namespace diptych::coupling
       return false;
     }
 
-    // "; FILE, line 12: continuum/cohesion = '3'" for every key of the section that a message speaks of, as it was set last.
+    // "; FILE, line 12: continuum/cohesion = '3'" for every key that a message speaks of, as it was set last: by section and
+    // name or, in a message about one section, by its name.
     std::string places_of(const std::string &message, const std::string &section, const std::vector<Entry> &entries)
     {
       std::map<std::string, Entry> last;
       for (const Entry &entry : entries)
-        if (entry.section == section)
-          last[entry.key] = entry;
+        last[entry.section + "/" + entry.key] = entry;
       std::string text;
       for (const auto &[key, entry] : last)
-        if (speaks_of(message, key))
-          text += "; " + entry.place + ": " + section + "/" + key + " = '" + entry.value + "'";
+        if (speaks_of(message, key) || (entry.section == section && speaks_of(message, entry.key)))
+          text += "; " + entry.place + ": " + key + " = '" + entry.value + "'";
       return text;
     }
 
@@ -161,9 +162,11 @@ namespace diptych::coupling
 
   void check_scene(const Scene &scene, const std::string &file, const std::vector<Entry> &entries, const bool compares)
   {
-    if (const double coarse = scene.comparison.coarse_element_size; coarse > 0 && coarse < 0.1)
-      throw SceneError(file + ": comparison/coarse_element_size = " + text_of(coarse) + ": 0 or a number from 0.1 on");
-    check_stages(file, scene, compares);
+    in_section(file, "", entries, [&] {
+      if (const double coarse = scene.comparison.coarse_element_size; coarse > 0 && coarse < 0.1)
+        throw std::invalid_argument("comparison/coarse_element_size = " + text_of(coarse) + ": 0 or a number from 0.1 on");
+      check_stages(scene, compares);
+    });
     in_section(file, "comparison", entries, [&] { check_probe_options(scene.comparison.probes); });
     in_section(file, "", entries, [&] {
       const discrete::Loading loading = discrete_loading(scene.loading);

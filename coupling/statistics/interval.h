@@ -14,4 +14,10 @@ namespace diptych::coupling
     double low   = std::numeric_limits<double>::quiet_NaN();
     double high  = std::numeric_limits<double>::quiet_NaN();
   };
+
+  // In another unit: factor > 0.
+  inline Interval times(const double factor, const Interval &interval)
+  {
+    return {factor * interval.value, factor * interval.low, factor * interval.high};
+  }
 } // namespace diptych::coupling

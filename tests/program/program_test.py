@@ -168,7 +168,7 @@ class QuickScene(unittest.TestCase):
         root = xml.etree.ElementTree.parse(os.path.join(self.folder, "fields.vtu")).getroot()
         arrays = {a.get("Name"): a for a in root.iter("DataArray")}
         cells = int(root.find(".//Piece").get("NumberOfCells"))
-        for name in ["stress_discrete", "stress_continuum", "stress_difference"]:
+        for name in ["discrete_stress", "continuum_stress", "stress_difference"]:
             self.assertEqual(arrays[name].get("NumberOfComponents"), "9")
             self.assertEqual(len(arrays[name].text.split()), 9 * cells)
 
@@ -241,8 +241,8 @@ class WrongInput(unittest.TestCase):
                 self.assertEqual(file.read(), "# mine\n")
 
     def test_words_of_the_command_line(self):
-        self.expect_wrong(["run"], "missing")
-        self.expect_wrong(["rnu", QUICK], "rnu")
+        self.expect_wrong(["run"], "SCENE is required")
+        self.expect_wrong(["rnu", QUICK], "'rnu' is no command", "'run'")
         self.expect_wrong(["run", QUICK, "--ouput", "x"], "--ouput")
         self.expect_wrong(["run", "no_such_scene.prm"], "no_such_scene.prm")
         self.expect_wrong(["run", QUICK, "--set", "sample/grains=-4"], "sample/grains", "-4")

@@ -10,25 +10,47 @@ import sys
 import h5py
 import numpy as np
 
-REPORT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "coupling", "report", "report.py")
+REPORT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "coupling", "report")
 STAGES, WINDOWS, PROBES = 2, 1, 3
-BAND = {"angle_deg": -45.0, "half_width_d": 1.0, "width_10_90_d": 2.197, "offset_d": 0.0, "jump": 0.9,
-        "dilation_deg": 3.0, "r_squared": 0.98}
+PLATEN = 0.5  # d per unit of progress: what displacements count in
+BAND = {"angle_deg": -45.0, "half_width_d": 1.0, "width_10_90_d": 2.197, "offset_d": 0.0, "jump": 0.9, "dilation_deg": 3.0,
+        "r_squared": 0.98, "to_minor_stress_deg": 45.0, "background": [0.5, 0.01]}
 STRIPS = {"angle_deg": -45.0, "edges_d": list(np.linspace(-4, 4, 17)), "mean": [None] + list(np.linspace(0, 1, 15)),
           "deviation": [None] + [0.1] * 15, "count": [0] + [2] * 15}
 ANGLES = list(range(0, 180, 30))
 CIRCLE = {"centre": [2.5, 4.0], "radius": 2.0, "angles_deg": ANGLES, "normal": [2.0] * 6, "tangential": [0.0] * 6,
           "predicted_normal": [1.9] * 6, "predicted_tangential": [None] + [0.1] * 5, "normal_error": [0.1] * 5 + [None],
           "independent_blocks": 0.1}
+# place below a panel of a stage or window -> unit
+PANEL_UNITS = {"bands/angle_deg": "degrees", "bands/half_width_d": "mean diameters", "bands/width_10_90_d": "mean diameters",
+               "bands/offset_d": "mean diameters", "bands/dilation_deg": "degrees", "bands/jump": "-", "probes/s1": "pressure",
+               "probes/s2": "pressure", "probes/direction_deg": "degrees", "probes/fabric_direction_deg": "degrees",
+               "probes/fabric_direction_error_deg": "degrees", "probes/fabric_to_stress_deg": "degrees",
+               "probes/polygon": "length", "probes/grain_pressure/mean": "pressure", "circular_probe/centre": "length",
+               "circular_probe/radius": "length", "circular_probe/normal": "pressure", "band_traction/normal": "pressure"}
 
 
 def within(value, low, high):
     return {"value": value, "low": low, "high": high}
 
 
+def numbers():
+    """What the program says of its numbers: enough of it for these tests."""
+    entries = {f"{kind}/{panel}/{key}": {"unit": unit, "meaning": key.split("/")[-1], "kind": "number"}
+               for kind in ("stages", "windows") for panel in ("discrete", "continuum") for key, unit in PANEL_UNITS.items()}
+    for place, unit, meaning in (("discrete_summary/grains", "-", "grains"), ("discrete_summary/solver_noise", "-", "noise"),
+                                 ("discrete_summary/initial_height", "length", "initial height"),
+                                 ("stages/discrete/bands/angle_deg", "degrees", "inclination"),
+                                 ("stages/discrete/probes/fabric_to_stress_deg", "degrees", "fabric to stress"),
+                                 ("continuum_summary/element_size_d", "mean diameters", "element size"),
+                                 ("continuum_summary/localisation_strain", "as walk says", "progress at the first loss")):
+        entries[place] = {"unit": unit, "meaning": meaning, "kind": "number", "shape": "number"}
+    return entries
+
+
 def probe(name, y):
     return {"name": name, "polygon": [[1, y], [4, y], [4, y + 1.5], [1, y + 1.5]], "stress": [[1, 0], [0, 2]],
-            "s1": 2.0, "s2": 1.0, "direction_deg": 90.0, "t_over_s": 1 / 3, "fabric_direction_deg": -88.0,
+            "s1": 2.0, "s2": 1.0, "direction_deg": 90.0, "t_over_s": 1 / 3, "count": 12, "fabric_direction_deg": -88.0,
             "fabric_direction_error_deg": 4.0, "anisotropy": 0.3, "anisotropy_error": 0.05, "normals_24": [3] * 24,
             "contacts": 36}
 
@@ -60,63 +82,80 @@ def continuum(bands):
 
 def _common(found):
     return {**found, "circular_probe": {**CIRCLE, "relative_l2": within(0.05, 0.02, 0.09)},
-            "dissipation": {"inside": 3.0, "outside": 1.0, "share_inside": 0.75, "area_share": 0.5},
+            "dissipation": {"inside": 3.0, "outside": 1.0, "share_inside": 0.75, "area_share": 0.5, "density_ratio": 3.0},
             "band_traction": {"edges_d": [-2, 0, 2], "normal": [1.0, 1.2], "shear": [0.4, 0.5], "variation_normal": 0.1,
                               "variation_shear": 0.2, "normal_error": [None, 0.1]}}
+
+
+def store(group, path, values, unit="-", title="", meaning=""):
+    group[path] = values
+    group[path].attrs.update(unit=np.bytes_(unit), title=np.bytes_(title), meaning=np.bytes_(meaning))
 
 
 def write_group(file, name, start, end, stress):
     """Continuum strains four times the grains'; the last grain is a rattler; one contact between two grains."""
     group = file.create_group(name)
-    group.attrs.update({"from": start, "axial_strain": end})
+    group.attrs.update({"from": start, "to": end, "displacement_unit": PLATEN * (end - start),
+                        "velocity_unit": PLATEN * (end - start) / 10, "centre": [2.5, 4.0]})
     x, y = (v.ravel() + 0.5 for v in np.meshgrid(np.arange(5.0), np.arange(8.0)))
-    group["discrete/position"] = np.column_stack([x, y])
-    group["discrete/radius"] = np.full(40, 0.5)
-    group["discrete/displacement_increment"] = np.column_stack([y, -y]) * (end - start)
-    group["discrete/shear_strain_increment"] = np.linspace(0, 0.02, 40)
-    corners = np.array([[[2.5 * (i + a), 8 / 3 * (j + b)] for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
-                        for j in range(3) for i in range(2)])
-    nodes = np.unique(corners.reshape(-1, 2), axis=0)
-    group["nodes/position"] = nodes
-    group["nodes/displacement_increment"] = np.column_stack([nodes[:, 1], -nodes[:, 1]]) * (end - start)
-    if stress:  # a window ends with a stage, whose mesh is its own
-        group["cells/corners"] = corners
-    group["cells/continuum_shear_strain_increment"] = np.linspace(0, 0.08, 6)
-    group["cells/discrete_shear_strain_increment"] = np.array([0.01, np.nan, 0.01, 0.02, 0.01, 0.0])
+    store(group, "discrete/position", np.column_stack([x, y]), "length")
+    store(group, "discrete/radius", np.full(40, 0.5), "length")
+    store(group, "discrete/displacement_increment", np.column_stack([y, -y]) * (end - start), "length")
+    store(group, "discrete/displacement_over_platen", np.linspace(0, 1, 40))
+    store(group, "discrete/shear_strain_increment", np.linspace(0, 0.02, 40), meaning="around each grain")
+    node = np.array([[2.5 * i, 8 / 3 * j] for j in range(4) for i in range(3)])
+    cell = np.array([[3 * j + i, 3 * j + i + 1, 3 * j + i + 4, 3 * j + i + 3] for j in range(3) for i in range(2)])
+    store(group, "nodes/position", node, "length")
+    store(group, "nodes/displacement_increment", np.column_stack([node[:, 1], -node[:, 1]]) * (end - start), "length")
+    for place in ("cells", "grid") if stress else ("cells",):
+        store(group, place + "/node", node, "length")
+        group[place + "/cell"] = cell
+        store(group, place + "/continuum_displacement_over_platen", np.linspace(0.1, 0.6, 6))
+        store(group, place + "/continuum_shear_strain_increment", np.linspace(0, 0.08, 6))
+        store(group, place + "/discrete_shear_strain_increment", np.array([0.01, np.nan, 0.01, 0.02, 0.01, 0.0]))
     if stress:
-        write_state(group, corners)
+        write_state(group)
 
 
-def write_state(group, corners):
-    """What stages alone hold: stress, velocities, single-grain moments, contact forces; the same cells again as the grid."""
+def write_state(group):
+    """What stages alone hold: stress, velocities, single-grain stresses, contact forces; the same cells again as the grid."""
     tensor = np.tile(np.diag([1.0, 2.0]), (6, 1, 1))
-    group["grid/corners"] = corners
+    grains_to_continuum = np.array([0.5, np.nan, 1.0, 2.0, 1.0, 0.8])
     for place in ("cells", "grid"):
-        group[place + "/continuum_stress"] = tensor
-        group[place + "/discrete_stress"] = tensor * np.array([0.5, np.nan, 1.0, 2.0, 1.0, 0.8])[:, None, None]
-        for panel_name, factor in (("discrete", 1.0), ("continuum", 0.5)):
-            group[f"{place}/{panel_name}_rotation_increment"] = factor * np.linspace(-0.01, 0.01, 6)
-            group[f"{place}/{panel_name}_spin_increment"] = factor * np.linspace(-0.008, 0.012, 6)
-            if place == "grid":  # on the mesh's cells the corners' own is taken
-                group[f"{place}/{panel_name}_displacement_increment"] = factor * np.full((6, 2), 0.01)
-            group[f"{place}/{panel_name}_couple_stress"] = factor * np.full((6, 2), 0.1)
-            group[f"{place}/{panel_name}_dissipation"] = factor * np.linspace(0, 0.001, 6)
-        group[place + "/discrete_velocity"] = np.full((6, 2), 0.001)
-        group[place + "/discrete_standard_error"] = np.linspace(0.1, 0.2, 6)
-        group[place + "/discrete_coordination_number"] = np.full(6, 3.2)
-    group["discrete/velocity"] = np.full((40, 2), 0.001)
-    group["discrete/rotation_increment"] = np.linspace(-0.1, 0.1, 40)
-    group["discrete/internal_moment"] = np.tile(np.diag([1.0, 2.0]) * np.pi / 4, (40, 1, 1))
-    group["discrete/rattler"] = np.arange(40) == 39
-    group["contacts/point"] = np.array([[1.0, 0.5], [2.0, 0.5]])
-    group["contacts/force"] = np.array([[3.0, 0.0], [0.0, 0.0]])
-    group["contacts/i"], group["contacts/j"] = np.array([0, 1]), np.array([1, 2])
+        for name, factor in (("discrete", grains_to_continuum), ("continuum", np.ones(6))):
+            store(group, f"{place}/{name}_stress", tensor * factor[:, None, None], "pressure", "stress")
+            store(group, f"{place}/{name}_mean_stress", 1.5 * factor, "pressure", "mean stress s")
+            store(group, f"{place}/{name}_stress_ratio", factor / factor / 3, "-", "stress ratio t/s")
+        for name, factor in (("discrete", 1.0), ("continuum", 0.5)):
+            for turn, ends in (("rotation_increment", 0.01), ("spin_increment", 0.008), ("relative_rotation", 0.002)):
+                store(group, f"{place}/{name}_{turn}", factor * np.linspace(-ends, ends, 6), "rad", turn.replace("_", " "))
+            store(group, f"{place}/{name}_couple_stress_size", factor * np.full(6, 0.1), "pressure length", "couple stress")
+            store(group, f"{place}/{name}_dissipation", factor * np.linspace(0, 0.001, 6), "pressure", "dissipation")
+        store(group, place + "/discrete_displacement_over_platen", np.full(6, 0.3))
+        store(group, place + "/discrete_speed_over_platen", np.full(6, 0.4))
+        store(group, place + "/discrete_standard_error", np.linspace(0.1, 0.2, 6), "pressure", "standard error")
+        store(group, place + "/discrete_coordination_number", np.full(6, 3.2))
+        store(group, place + "/solid_fraction", np.full(6, 0.8))
+    for key, value in (("major_stress", 2.0), ("minor_stress", 1.0), ("stress_direction", np.pi / 2)):
+        unit = "rad" if key == "stress_direction" else "pressure"
+        store(group, "discrete/" + key, np.full(40, value), unit)
+        store(group, "cells/continuum_" + key, np.full(6, value), unit)
+    store(group, "discrete/stress", np.tile(np.diag([1.0, 2.0]), (40, 1, 1)), "pressure", "stress")
+    store(group, "discrete/mean_stress", np.full(40, 1.5), "pressure", "mean stress s")
+    store(group, "discrete/stress_ratio", np.full(40, 1 / 3), "-", "stress ratio t/s")
+    store(group, "discrete/velocity", np.full((40, 2), 0.001), "length/time")
+    store(group, "discrete/speed_over_platen", np.full(40, 0.4))
+    store(group, "discrete/rotation_increment", np.linspace(-0.1, 0.1, 40), "rad", "rotation increment")
+    store(group, "contacts/point", np.array([[1.0, 0.5], [2.0, 0.5]]), "length")
+    store(group, "contacts/force", np.array([[3.0, 0.0], [0.0, 0.0]]), "pressure length")
 
 
 def comparison_of_two_stages():
-    record = {"format": 1, "scene": "tiny", "seed": 3}
+    record = {"format": 2, "scene": "tiny", "seed": 3, "walk": "axial_strain", "mean_diameter": 1.0, "pressure": 1.0,
+              "averaging_width": 0.005, "numbers": numbers()}
     record["stages"] = [
-        {"axial_strain": end, "discrete": grains(bands), "continuum": continuum(bands), "mapping": {"method": "segments"},
+        {"progress": end, "axial_strain": end, "discrete": grains(bands), "continuum": continuum(bands),
+         "mapping": {"method": "segments"},
          "difference": {"stress_ratio": 0.0, "angle_deg": None, "stress_verdict": "no more than sampling",
                         "stress": [{"resolution_d": 3.0, "label": "3 d", "relative_l2": 0.3, "sampling_alone": 0.2,
                                     "direction_deg": 9.0}]}}
@@ -125,8 +164,9 @@ def comparison_of_two_stages():
     record["windows"] = [{"from": 0.0, "to": 0.01, "discrete": panel([first]),
                           "continuum": panel([BAND, dict(BAND, angle_deg=44.0)])}]
     record["continuum_coarse"] = {"element_size_d": 4.0, "windows": [{"from": 0.0, "to": 0.01, "bands": [BAND]}]}
-    record["continuum_summary"] = {"element_size_d": 2.0, "law": {"friction_angle_peak": 20.5}}
-    record["discrete_summary"] = {"grains": 40, "residual_factor": None, "a_later_key": 1.5}
+    record["continuum_summary"] = {"element_size_d": 2.0, "platen_unbalance": 3e-4}
+    record["discrete_summary"] = {"grains": 40, "residual_factor": None, "a_later_key": 1.5, "solver_noise": 0.0123,
+                                  "initial_height": 8.0, "kinetic_energy_ratio_median": 1.2}
     record["cost"] = {"discrete_cpu_s": 1.0}
     record["theory"] = {"coulomb_deg": 55.0, "roscoe_deg": 49.0, "arthur_deg": 52.0}
     rows = [{"width_d": width, "points": [{"name": "zone", "s": 1.5, "t_over_s": 0.3}], "scatter_s": 0.4, "scatter_t": 0.5}
@@ -136,24 +176,35 @@ def comparison_of_two_stages():
     return record
 
 
+def write_arrays(folder):
+    with h5py.File(os.path.join(folder, "comparison.h5"), "w") as file:
+        file.attrs.update(mean_diameter=1.0, pressure=1.0, height0=8.0, width0=5.0)
+        write_group(file, "stage_0001", 0.0, 0.005, True)
+        write_group(file, "stage_0002", 0.005, 0.01, True)
+        write_group(file, "window_0", 0.0, 0.01, False)
+        for name in ("discrete", "continuum"):
+            history = file.create_group("histories/" + name)
+            store(history, "progress", 0.0005 * np.arange(1, 21), "as walk says")
+            for mean in ("stress_ratio_mean", "lower_fy_mean", "upper_fy_mean", "platen_difference"):
+                store(history, mean, np.append(np.full(9, np.nan), np.full(11, 0.3)))
+
+
 def write_folder(folder, complete=True):
     """Two stages (the first one diffuse in both panels) and one window; without optional keys if not complete."""
-    comparison = comparison_of_two_stages() if complete else {"format": 1, "scene": "tiny", "seed": 3}
-    with h5py.File(os.path.join(folder, "comparison.h5"), "w") as file:
-        if complete:
-            file.attrs.update(mean_diameter=1.0, pressure=1.0, height0=8.0, width0=5.0)
-            write_group(file, "stage_0001", 0.0, 0.005, True)
-            write_group(file, "stage_0002", 0.005, 0.01, True)
-            write_group(file, "window_0", 0.0, 0.01, False)
-    write_json(folder, "comparison.json", comparison)
+    if complete:
+        write_arrays(folder)
+    else:
+        h5py.File(os.path.join(folder, "comparison.h5"), "w").close()
+    write_json(folder, "comparison.json", comparison_of_two_stages() if complete else {"format": 2, "scene": "tiny", "seed": 3})
     write_json(folder, "provenance.json", {"phases": [{"name": "discrete", "cpu_s": 1.0}]} if complete else {})
-    columns = "axial_strain,stress_ratio,volumetric_strain,lower_fy,upper_fy" + (
-        ",time,sweeps,residual,kinetic_energy_ratio,external_work,dissipation" if complete else "")
+    columns = "progress,stress_ratio,volumetric_strain,lower_fy,upper_fy" + (
+        ",axial_strain,shear_strain,time,walk,sweeps,residual,kinetic_energy_ratio,external_work,dissipation" if complete else "")
     for name in ("discrete.csv", "continuum.csv"):
         with open(os.path.join(folder, name), "w", encoding="utf-8") as stream:
             stream.write(columns + "\n")
             for k in range(1, 21):
-                row = [0.0005 * k, 0.3, -0.001 * k, 10, -10.05] + ([k, 20, 1e-5, 1.2, 0.1 * k, 0.1 * k] if complete else [])
+                row = [0.0005 * k, 0.3, -0.001 * k, 10, -10.05] + (
+                    [0.0005 * k, 0.0, k, "axial_strain", 20, 1e-5, 1.2, 0.1 * k, 0.1 * k] if complete else [])
                 stream.write(",".join(map(str, row)) + "\n")
 
 
@@ -162,8 +213,9 @@ def write_json(folder, name, value):
         json.dump(value, stream)
 
 
-def run(folder):
-    return subprocess.run([sys.executable, REPORT, folder], capture_output=True, text=True, check=False)
+def run(folder, word="page"):
+    return subprocess.run([sys.executable, os.path.join(REPORT, "draw.py"), word, folder], capture_output=True, text=True,
+                          check=False)
 
 
 def read(folder):

@@ -12,13 +12,14 @@ import tempfile
 import unittest
 from html.parser import HTMLParser
 
+import h5py
 import numpy as np
 
 import report_folder
 from report_folder import REPORT, read, run, write_folder, write_json
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, os.path.dirname(REPORT))
+sys.path.insert(0, REPORT)
 
 
 class Page(HTMLParser):
@@ -63,6 +64,7 @@ class CompleteFolder(unittest.TestCase):
         write_folder(cls.folder.name)
         cls.outcome = run(cls.folder.name)
         cls.text = read(cls.folder.name) if cls.outcome.returncode == 0 else ""
+        cls.words = cls.text.replace("\u00a0", " ")  # where no line may be broken
         cls.page = Page(cls.text)
         cls.maps = json.loads(cls.page.maps)
 
@@ -106,23 +108,42 @@ class CompleteFolder(unittest.TestCase):
         self.assertEqual(window["continuum"], stage["continuum"])  # one array, stored once
         np.testing.assert_allclose(stored(self.maps, stage["continuum"]), 1.5)
 
-    def test_stress_of_a_single_grain_is_its_moment_over_its_share_of_the_area(self):
-        # moment = diag(1, 2) pi/4 on discs of area pi/4, no solid fraction stored (1): stresses 2 and 1, major vertical
+    def test_crosses_are_the_stored_principal_stresses(self):
+        # 2 P along the vertical and 1 P across
         crosses = self.increment("stage-0")["crosses"]["discrete"]
         for key, value in (("s1", 2.0), ("s2", 1.0)):
             np.testing.assert_allclose(stored(self.maps, crosses[key]), value, rtol=1e-12)
         np.testing.assert_allclose(np.abs(stored(self.maps, crosses["a"])), np.pi / 2, rtol=1e-12)
 
-    def test_velocities_count_in_the_platens_speed(self):
-        # platen: 8 d sqrt(2) * 0.005 in 10 steps of time 1; grains: 0.001 sqrt(2)
-        speed = stored(self.maps, self.increment("stage-1")["values"]["velocity"]["discs"]["discrete"])
-        np.testing.assert_allclose(speed, 0.001 / (8 * 0.005 / 10), rtol=1e-9)
+    def test_arrows_count_in_the_platens_motion(self):
+        # a grain at y moves by (y, -y) per unit of progress, the platen by 0.5: it counts 2 y; the velocity 0.001 over
+        # 0.5 * 0.005 / 10: 4
+        arrows = self.increment("stage-1")["arrows"]["discrete"]
+        y, u, v = (stored(self.maps, arrows["increment"][key]) for key in "yuv")
+        np.testing.assert_allclose(u, 2 * y, rtol=1e-4)
+        np.testing.assert_allclose(v, -2 * y, rtol=1e-4)
+        np.testing.assert_allclose(stored(self.maps, arrows["velocity"]["u"]), 4, rtol=1e-9)
 
-    def test_displacement_of_a_cell_is_the_mean_of_its_corners(self):
-        # nodes move by (y, -y) per strain and the platen at y = 8 by 8 sqrt(2): a cell counts the height of its centre over 8
-        for key in ("window-0", "stage-1"):
-            moved = stored(self.maps, self.increment(key)["values"]["displacement"]["discs"]["continuum"])
-            np.testing.assert_allclose(moved, np.repeat([1 / 6, 1 / 2, 5 / 6], 2), rtol=1e-4)
+    def test_speeds_and_displacements_over_the_platens_are_the_stored_ones(self):
+        # the continuum is quasi-static: over the platen's its velocity is its displacement
+        values = self.increment("stage-1")["values"]
+        for quantity, panel, expected in (("velocity", "discrete", np.full(40, 0.4)),
+                                          ("velocity", "continuum", np.linspace(0.1, 0.6, 6)),
+                                          ("displacement", "continuum", np.linspace(0.1, 0.6, 6))):
+            np.testing.assert_allclose(stored(self.maps, values[quantity]["discs"][panel]), expected, rtol=1e-4)
+
+    def test_cells_are_their_four_nodes_anticlockwise(self):
+        # the mesh's second cell: right of the first, 2.5 x 8/3 d
+        corners = stored(self.maps, self.increment("window-0")["cells"]).reshape(-1, 4, 2)[1]
+        np.testing.assert_allclose(corners, [[2.5, 0], [5, 0], [5, 8 / 3], [2.5, 8 / 3]], atol=1e-4)
+
+    def test_bars_carry_the_datasets_titles_and_units(self):
+        quantities = {quantity["key"]: quantity for quantity in self.maps["quantities"]}
+        self.assertEqual(quantities["s"]["label"], "mean stress s (P)")
+        self.assertEqual(quantities["rotation"]["label"], "rotation increment (degrees)")
+        self.assertEqual(quantities["couple"]["label"], "couple stress (P d)")
+        self.assertEqual(quantities["t_over_s"]["label"], "stress ratio t/s")
+        self.assertIn("around each grain", quantities["shear"]["meaning"]["discs"])
 
     def test_a_contact_without_force_is_not_drawn(self):
         forces = self.increment("stage-1")["forces"]
@@ -130,7 +151,7 @@ class CompleteFolder(unittest.TestCase):
 
     def test_every_quantity_asked_for_can_be_chosen(self):
         offered = {quantity["key"]: quantity["places"] for quantity in self.maps["quantities"]}
-        for key in ("shear", "displacement", "velocity", "rotation", "s", "t_over_s", "xx", "yy", "xy"):
+        for key in ("shear", "displacement", "velocity", "rotation", "s", "t_over_s", "xx", "yy", "xy", "yx"):
             self.assertIn("discs", offered[key])
         for key in ("spin", "turn", "couple", "dissipation"):
             self.assertEqual(offered[key], ["cells", "grid"])
@@ -138,28 +159,39 @@ class CompleteFolder(unittest.TestCase):
     def test_what_is_fitted_and_what_the_mesh_sets_is_said(self):
         self.assertIn("the scene does not say whether its parameters are fitted or predicted", self.text)
         self.assertIn("Thickness of the continuum&#39;s band: set by the mesh (local law); elements of 2 d. "
-                      "On the coarse mesh, elements of 4 d: 2.2 d at −45.0°.", self.text)
+                      "On the coarse mesh, elements of 4 d: 2.2 d at −45.0°.", self.words)
 
     def test_no_band_is_called_diffuse(self):
         self.assertIn("diffuse: no band", self.text)
 
     def test_an_interval_stands_beside_its_number(self):
-        self.assertIn("0.900 [0.800,\u00a01.000]", self.text)
-        self.assertIn("−45.0° [−46.5,\u00a0−43.5]", self.text)
+        self.assertIn("0.900 [0.800, 1.000]", self.words)
+        self.assertIn("−45.0° [−46.5, −43.5]", self.words)
 
     def test_the_angle_to_the_minor_stress_stands_beside_the_theory_lines(self):
-        # major stress at 90 degrees, so the minor one lies along the horizontal: a band at -45 degrees is 45 degrees from it
+        # as stored: major stress at 90 degrees, so the minor one lies along the horizontal, 45 degrees from a band at -45
         self.assertIn("To the minor principal stress of the zone: grains 45.0°", self.text)
         self.assertIn("Coulomb 45° + φ/2 = 55.0°", self.text)
 
-    def test_density_of_dissipation_in_the_band(self):
-        # three quarters of it on half of the area: (0.75/0.5)/(0.25/0.5) = 3
-        row = re.search(r"<th scope=\"row\">Grains</th><td>75.0 %</td><td>50.0 %</td><td>(.*?)</td>", self.text)
+    def test_shares_of_dissipation_are_told_in_per_cent_and_its_density_as_a_ratio(self):
+        # three quarters of it on half of the area: (0.75/0.5)/(0.25/0.5) = 3, which the comparison stores
+        row = re.search(r"<th scope=\"row\">Grains</th><td>75.0 %</td><td>50.0 %</td><td>(.*?)</td>", self.words)
         self.assertEqual(row.group(1), "3.00")
 
     def test_a_value_that_is_null_is_not_computed_and_an_unknown_one_is_shown(self):
         self.assertIn("not computed", self.text)
         self.assertIn("a later key", self.text)
+
+    def test_words_and_units_of_a_summary_are_the_programs(self):
+        # initial height: a length of 8, shown in d; noise and unbalance as stored, held against what is known to hold
+        self.assertRegex(self.words, r'initial height</th><td>8 d</td>')
+        self.assertRegex(self.words, r'grains: noise</th><td>0\.012</td><td>right below 0\.03</td>')
+        self.assertRegex(self.words, r'platen unbalance</th><td>3\.0 × 10⁻⁴</td><td>equilibrium: 0</td>')
+        self.assertNotIn("prototype", self.text)
+
+    def test_counts_are_whole_numbers(self):
+        self.assertIn("<td>12</td>", self.text)
+        self.assertNotIn("12.000", self.text)
 
     def test_nothing_outside_the_file_is_needed(self):
         outside = [link for link in self.page.links if not link.startswith("data:")]
@@ -186,11 +218,11 @@ class OtherFolders(unittest.TestCase):
         path = os.path.join(self.folder.name, "comparison.json")
         with open(path, encoding="utf-8") as stream:
             comparison = json.load(stream)
-        comparison["continuum_summary"] = {"law": "a law", "internal_length_d": length, "localisation_strain": None}
+        comparison["continuum_summary"] = {"law": "a_law", "internal_length_d": length, "localisation_strain": None}
         write_json(self.folder.name, "comparison.json", comparison)
         outcome = run(self.folder.name)
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
-        return read(self.folder.name)
+        return read(self.folder.name).replace("\u00a0", " ")
 
     def test_a_law_with_an_internal_length_is_not_said_to_be_set_by_the_mesh(self):
         text = self.write_with_law(1.5)
@@ -211,15 +243,50 @@ class OtherFolders(unittest.TestCase):
         self.assertEqual(run(self.folder.name).returncode, 0)
         self.assertNotIn("</script><b>", read(self.folder.name))
 
-    def test_stages_of_shear_are_drawn_against_the_travel(self):
-        """In the mode shear the grains' axial strain stays 0: their histories are drawn against shear_strain."""
+    def axes_of(self, walk):
+        """Labels that figures of the histories carry."""
         write_folder(self.folder.name)
-        with open(os.path.join(self.folder.name, "scene.prm"), "w", encoding="utf-8") as stream:
-            stream.write("subsection loading\n  set mode = shear\nend\n")
-        with open(os.path.join(self.folder.name, "discrete.csv"), "w", encoding="utf-8") as stream:
-            stream.write("axial_strain,shear_strain,stress_ratio\n0,0.005,0.3\n0,0.01,0.3\n")
-        from load import load
-        np.testing.assert_array_equal(load(self.folder.name).histories["discrete"]["axial_strain"], [0.005, 0.01])
+        record = dict(report_folder.comparison_of_two_stages(), walk=walk)
+        write_json(self.folder.name, "comparison.json", record)
+        outcome = run(self.folder.name)
+        self.assertEqual((outcome.returncode, outcome.stderr), (0, ""))
+        text = read(self.folder.name)
+        pictures = [base64.b64decode(data).decode() for data in re.findall(r"data:image/svg\+xml;base64,([^\"]+)", text)]
+        return text, [word for word in ("axial strain (%)", "shear strain (%)", ">time<") if any(word in p for p in pictures)]
+
+    def test_axes_say_what_is_walked(self):
+        text, labels = self.axes_of("shear_strain")
+        self.assertEqual(labels, ["shear strain (%)"])
+        self.assertIn("mean over the last 0.5 % of shear strain", text)
+        text, labels = self.axes_of("time")
+        self.assertEqual(labels, [">time<"])
+        self.assertIn("mean over the last 0.005 of time", text)
+
+    def test_lengths_and_stresses_are_shown_in_d_and_P(self):
+        """The same files with d = 2 and P = 10: a probe's corner at 1 is at 0.5 d, a major stress of 2 is 0.2 P."""
+        write_folder(self.folder.name)
+        write_json(self.folder.name, "comparison.json",
+                   dict(report_folder.comparison_of_two_stages(), mean_diameter=2.0, pressure=10.0))
+        self.assertEqual(run(self.folder.name).returncode, 0)
+        maps = json.loads(Page(read(self.folder.name)).maps)
+        stage = next(i for i in maps["increments"] if i["key"] == "stage-1")
+        self.assertEqual(stage["probes"]["continuum"]["rectangles"][0]["polygon"][0], [0.5, 2.75])
+        self.assertEqual(stage["probes"]["continuum"]["rectangles"][0]["s1"], 0.2)
+        np.testing.assert_allclose(stored(maps, stage["crosses"]["discrete"]["s1"]), 0.2)
+        np.testing.assert_allclose(stored(maps, stage["discs"]["r"]), 0.25)
+        np.testing.assert_allclose(stored(maps, stage["forces"]["f"]), 3 / 20)
+
+    def test_another_format_is_named_and_ends_with_code_2(self):
+        write_folder(self.folder.name, complete=False)
+        write_json(self.folder.name, "comparison.json", {"format": 1, "stages": []})
+        outcome = run(self.folder.name)
+        self.assertEqual(outcome.returncode, 2)
+        self.assertRegex(outcome.stderr, r"^report: .*comparison\.json: format 1, .*format 2")
+
+    def test_wrong_words_end_with_code_2(self):
+        outcome = run(self.folder.name, "figure")
+        self.assertEqual(outcome.returncode, 2)
+        self.assertIn("page|ensemble|step-study", outcome.stderr)
 
     def test_a_missing_file_is_named_and_ends_with_code_2(self):
         write_folder(self.folder.name, complete=False)
@@ -236,6 +303,47 @@ class OtherFolders(unittest.TestCase):
         outcome = run(self.folder.name)
         self.assertEqual(outcome.returncode, 2)
         self.assertIn("provenance.json", outcome.stderr)
+
+
+class StepStudy(unittest.TestCase):
+    def test_a_study_becomes_a_picture_and_says_where_its_files_are_missing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            outcome = run(folder, "step-study")
+            self.assertEqual(outcome.returncode, 2)
+            self.assertIn("study_step.csv", outcome.stderr)
+            write_json(folder, "study_step.json", {"verdict": "the step does not matter", "steps": [0.1, 0.05]})
+            with open(os.path.join(folder, "study_step.csv"), "w", encoding="utf-8") as stream:
+                stream.write("step,time,progress,stress_ratio,stress_ratio_mean,external_work\n")
+                stream.writelines(f"{step},{k},{0.001 * k},0.3,0.3,{k}\n" for step in (0.1, 0.05) for k in range(5))
+            outcome = run(folder, "step-study")
+            self.assertEqual((outcome.returncode, outcome.stderr), (0, ""))
+            with open(os.path.join(folder, "study_step.png"), "rb") as stream:
+                self.assertEqual(stream.read(8), b"\x89PNG\r\n\x1a\n")
+
+
+class Ensemble(unittest.TestCase):
+    def test_curves_are_the_stored_ones_and_a_folder_without_them_says_so(self):
+        interval = {"value": 0.1, "low": 0.0, "high": 0.2}
+        verdict = {"quantity": "peak_stress_ratio", "unit": "-", "margin": 0.1, "relative": False, "difference": interval,
+                   "difference_90": interval, "n": 2, "verdict": "cannot tell", "discrete": [0.3, 0.4], "continuum": [0.4, 0.5]}
+        record = {"format": 1, "scene": "tiny", "seeds": [1, 2], "done": [1, 2], "failed": [], "interrupted": [], "bands": [],
+                  "quantities": [], "verdicts": [verdict], "folded": False, "walk": "shear_strain"}
+        with tempfile.TemporaryDirectory() as folder:
+            write_json(folder, "ensemble.json", record)
+            self.assertEqual(run(folder, "ensemble").returncode, 0)
+            self.assertEqual(read(folder).count("not computed"), 2)
+            with h5py.File(os.path.join(folder, "ensemble.h5"), "w") as file:
+                file["progress"] = np.linspace(0, 0.01, 5)
+                file.attrs["averaging_width"] = 0.005
+                for name in ("discrete/stress_ratio", "continuum/stress_ratio"):
+                    file[name + "/members"] = np.full((2, 5), 0.3)
+                    for key in ("mean", "low", "high"):
+                        file[f"{name}/{key}"] = np.full(5, 0.3)
+            outcome = run(folder, "ensemble")
+            self.assertEqual((outcome.returncode, outcome.stderr), (0, ""))
+            text = read(folder).replace("\u00a0", " ")
+            self.assertEqual(text.count("not computed"), 1)  # the volumetric strain
+            self.assertIn("mean over the last 0.5 % of shear strain", text)
 
 
 if __name__ == "__main__":

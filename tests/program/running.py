@@ -60,10 +60,10 @@ def content(path):
 
 
 def history(folder):
-    """Columns of discrete.csv."""
+    """Columns of discrete.csv: numbers, and `walk` as text."""
     with open(os.path.join(folder, "discrete.csv")) as file:
         rows = list(csv.DictReader(file))
-    return {name: numpy.array([float(row[name]) for row in rows]) for name in rows[0]}
+    return {name: numpy.array([row[name] if name == "walk" else float(row[name]) for row in rows]) for name in rows[0]}
 
 
 def facts(folder):

@@ -199,7 +199,8 @@ namespace
                                        {"s1", 2},
                                        {"polygon", {{0, 0}, {1, 1}}}}});
     const json stage   = {
-        {"axial_strain", 0.04 * (1 + 1e-9 * seed)},
+        {"progress", 0.04 * (1 + 1e-9 * seed)},
+        {"axial_strain", 0.04},
         {"discrete", discrete},
         {"continuum", panel(continuum_bands)},
         {"difference",
@@ -327,7 +328,7 @@ namespace
 
   TEST(Ensemble, AFileThatIsNoComparisonIsNamed)
   {
-    EXPECT_THROW((void)member_of(json::object()), std::runtime_error);
-    EXPECT_THROW((void)member_of({{"seed", 1}, {"windows", json::array({{{"from", 0}}})}}), std::runtime_error);
+    EXPECT_THROW((void)member_of(json::object()), std::invalid_argument);
+    EXPECT_THROW((void)member_of({{"seed", 1}, {"windows", json::array({{{"from", 0}}})}}), std::invalid_argument);
   }
 } // namespace

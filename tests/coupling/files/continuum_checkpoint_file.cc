@@ -170,7 +170,7 @@ namespace
   {
     const Folder      folder;
     const std::string file = folder / "checkpoint.h5";
-    expect_refusal_naming(file, "does not exist");
+    expect_refusal_naming(file, "missing");
     put(file, "step,axial_strain\n");
     expect_refusal_naming(file, "no HDF5 file");
     write_continuum_checkpoint(file, example());

@@ -54,7 +54,7 @@ namespace
     EXPECT_DOUBLE_EQ(at(loading.platens[1][0], 0.02), -0.75); // -0.5 x 75 x 0.02
     EXPECT_DOUBLE_EQ(at(loading.platens[1][1], 0.02), -1.5);
     EXPECT_EQ(at(loading.platens[0][0], 0.02), 0);
-    EXPECT_EQ(loading.stages.front(), 0);
+    EXPECT_EQ(loading.stages.front(), scene.loading.stage_strain);
     EXPECT_EQ(loading.stages.back(), scene.loading.axial_strain);
     EXPECT_TRUE(std::holds_alternative<continuum::SidePressure>(loading.lateral));
   }

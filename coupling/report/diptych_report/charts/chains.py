@@ -4,8 +4,9 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from increments import plain
-from style import CONTINUUM, GRAINS, INK, PANEL_COLOURS, PANEL_LINES, PANEL_NAMES, ruled, svg
+from diptych_report.charts.style import GRAINS, INK, PANEL_COLOURS, PANEL_LINES, ruled, svg
+from diptych_report.data.numbers import plain
+from diptych_report.data.panels import PANEL_NAMES
 
 
 def distribution(increment):
@@ -15,7 +16,7 @@ def distribution(increment):
     figure = Figure(figsize=(4.5, 3.1))
     axes = ruled(figure.add_axes([0.15, 0.16, 0.825, 0.8]))
     drawn = []
-    for key, colour, dashes in (("inside", CONTINUUM, "-"), ("outside", GRAINS, (0, (5, 1.5)))):
+    for key, colour, dashes in (("inside", GRAINS, "-"), ("outside", INK, (0, (5, 1.5)))):
         part = chains.get(key) or {}
         values = np.array(part.get("values") or [], dtype=float)
         if not len(levels) or len(values) != len(levels):

@@ -5,9 +5,9 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from increments import interval, plain
-from pair import Pair
-from style import INK, PANEL_COLOURS, PANEL_NAMES, ruled, svg
+from diptych_report.charts.style import INK, PANEL_COLOURS, Pair, ruled, signed, svg
+from diptych_report.data.numbers import interval, plain
+from diptych_report.data.panels import PANEL_NAMES
 
 PARTS = (("normal", "normal (P)"), ("tangential", "tangential (P)"))
 
@@ -31,7 +31,7 @@ def _sampling(increment):
     """What the bars are: in equilibrium neighbouring blocks carry what one lacks, so the difference stays below them."""
     alone = plain((increment.panel("discrete").get("circular_probe") or {}).get("independent_blocks"))
     return "" if alone is None else ("Bars: standard errors, blocks along the diameter taken as independent; blocks that were so "
-                                     f"would differ from the mean stress by {100 * alone:.1f} %.")
+                                     f"would differ from the mean stress by {100 * alone:.1f}\u00a0%.")
 
 
 def _columns(circle):
@@ -76,4 +76,4 @@ def _difference(number):
         return ""
     ends = interval(number)
     text = f"difference {100 * plain(number):.1f} %" + (f" [{100 * ends[0]:.1f}, {100 * ends[1]:.1f}]" if ends else "")
-    return text.replace("-", "−")
+    return signed(text)

@@ -4,11 +4,11 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from ensemble_load import histories
-from style import FAINT, INK, PANEL_COLOURS, PANEL_LINES, PANEL_NAMES, chart, ruled, svg
+from diptych_report.charts.style import FAINT, INK, PANEL_COLOURS, PANEL_LINES, PANEL_MARKS, chart, ruled, svg
+from diptych_report.data.ensemble import MOST_CURVES
+from diptych_report.data.panels import PANEL_NAMES
 
 VERDICT_MARKS = {"equivalent": "o", "different": "s", "cannot tell": "D"}
-MARKS = {"discrete": "o", "continuum": "s"}
 BAND = 0.25  # opacity
 
 
@@ -48,7 +48,7 @@ def _limits(rows):
     return -reach, reach
 
 
-def dots(verdict, quantities, label):
+def dots(verdict, quantities, label, scale=1.0):
     """Every seed in both panels, a pair joined by a line, with mean and 95 % interval beside. None without any value."""
     panels = list(PANEL_NAMES)
     values = {panel: np.array([np.nan if x is None else x for x in verdict[panel]], dtype=float) for panel in panels}
@@ -56,13 +56,13 @@ def dots(verdict, quantities, label):
         return None
     figure = Figure(figsize=(3.4, 2.9))
     axes = figure.add_axes([0.2, 0.11, 0.78, 0.84])
-    scale = 100 if label.endswith("(%)") else 1
     pairs = np.column_stack([values[panel] for panel in panels]) * scale
     axes.plot([0, 1], pairs.T, color=FAINT, linewidth=0.6, alpha=0.7, zorder=1)
     for k, panel in enumerate(panels):
         colour, side = PANEL_COLOURS[panel], -0.2 if k == 0 else 0.2
         known = pairs[np.isfinite(pairs[:, k]), k]
-        axes.plot(np.full(len(known), k), known, MARKS[panel], color=colour, markersize=5, alpha=0.75, markeredgewidth=0, zorder=2)
+        axes.plot(np.full(len(known), k), known, PANEL_MARKS[panel], color=colour, markersize=5, alpha=0.75,
+                  markeredgewidth=0, zorder=2)
         mean = quantities[panel]
         if mean is None or mean["mean"] is None:
             continue
@@ -76,35 +76,24 @@ def dots(verdict, quantities, label):
 
 
 def curves(results, name, label, scale=1.0):
-    """Running mean of every seed, their mean and its 95 % interval, both panels. None without histories."""
-    found = histories(results, name)
-    if found is None:
-        return None
-    grid, values = found
-    across = results.progress.factor * grid
+    """Running mean of every seed, their mean and its 95 % interval, both panels. None where none is stored."""
     figure, axes = chart(results, label)
-    for panel, curve in values.items():
-        colour = PANEL_COLOURS[panel]
-        if not len(curve):
+    drawn = False
+    for panel, colour in PANEL_COLOURS.items():
+        curve = results.curves.get(f"{panel}/{name}")
+        if curve is None or not np.size(curve["members"]):
             continue
-        axes.plot(across, scale * curve.T, color=colour, linewidth=0.5, alpha=min(0.5, 8 / len(curve)))
-        whole = np.isfinite(curve).all(axis=0)
-        mean = np.where(whole, np.mean(curve, axis=0), np.nan)
-        half = _half_interval(results, curve)
-        if half is not None:
-            axes.fill_between(across, scale * (mean - half), scale * (mean + half), where=whole, color=colour,
-                              alpha=BAND, linewidth=0)
-        axes.plot(across, scale * mean, color=colour, linewidth=1.8, linestyle=PANEL_LINES[panel], label=PANEL_NAMES[panel])
+        across, members = results.walk.factor * results.progress, curve["members"][:MOST_CURVES]
+        axes.plot(across, scale * members.T, color=colour, linewidth=0.5, alpha=min(0.5, 8 / len(members)))
+        known = np.isfinite(curve["low"]) & np.isfinite(curve["high"])
+        axes.fill_between(across, scale * curve["low"], scale * curve["high"], where=known, color=colour, alpha=BAND, linewidth=0)
+        axes.plot(across, scale * curve["mean"], color=colour, linewidth=1.8, linestyle=PANEL_LINES[panel],
+                  label=PANEL_NAMES[panel])
+        drawn = True
+    if not drawn:
+        return None
     axes.set_xlim(left=0)
     if name == "stress_ratio":
         axes.set_ylim(bottom=0)
     axes.legend(loc="best")
     return svg(figure, f"{label} of every seed, their mean and its 95 % interval, both panels.")
-
-
-def _half_interval(results, curve):
-    """Student's, where the curves drawn are those the quantile belongs to."""
-    quantile = results.record.get("student_t_95")
-    if quantile is None or len(curve) < 2 or len(curve) != len(results.record["done"]):
-        return None
-    return quantile * np.std(curve, axis=0, ddof=1) / np.sqrt(len(curve))

@@ -1,15 +1,16 @@
 # diptych: energies of both panels, kinetic energy and contact solver of the grains, against the loading
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
-import numpy as np
 from matplotlib.figure import Figure
 
-from curves import decades, history, thin
-from style import CONTINUUM, FAINT, GRAINS, INK, PANEL_COLOURS, THIRD, chart, ruled, svg
+from diptych_report.charts.style import (CONTINUUM, FAINT, GRAINS, INK, PANEL_COLOURS, THIRD, chart, decades, ruled, svg,
+                                         thin)
+from diptych_report.data.numbers import plain
 
-GRAIN_ENERGIES = (("external_work", "work of platens and pressure, grains", GRAINS, "-"),
-                  ("friction_dissipation", "dissipated by friction, grains", THIRD, (0, (6, 1.5))),
-                  ("impact_dissipation", "dissipated by impacts, grains", INK, (0, (2, 1.2))))
+ENERGIES = {"discrete": (("external_work", "work of platens and pressure, grains", GRAINS, "-"),
+                         ("friction_dissipation", "dissipated by friction, grains", THIRD, (0, (6, 1.5))),
+                         ("impact_dissipation", "dissipated by impacts, grains", INK, (0, (2, 1.2)))),
+            "continuum": (("dissipation", "plastic work, continuum", CONTINUUM, (0, (5, 1.5))),)}
 
 
 def figures(result):
@@ -21,13 +22,12 @@ def _energies(result):
     caption = ("Energies since the start. Of the grains, work = friction + impacts + change of kinetic energy (their energy "
                "residual is in the accuracy table); of the continuum, the plastic work.")
     figure, axes = chart(result, "energy (P d²)")
-    unit, drawn = result.pressure * result.diameter ** 2, 0
-    for panel, lines in (("discrete", GRAIN_ENERGIES),
-                         ("continuum", (("dissipation", "plastic work, continuum", CONTINUUM, (0, (5, 1.5))),))):
+    unit, drawn = result.units.size("pressure length^2"), 0
+    for panel, lines in ENERGIES.items():
         for name, label, colour, dashes in lines:
-            found = history(result, panel, name)
+            found = result.history(panel, name)
             if found is not None:
-                axes.plot(*thin(result.across(found[0]), found[1] / unit), color=colour, linestyle=dashes, label=label)
+                axes.plot(*thin(result.walk.factor * found[0], found[1] / unit), color=colour, linestyle=dashes, label=label)
                 drawn += 1
     if not drawn:
         return None, caption
@@ -40,36 +40,38 @@ def _energies(result):
 def _kinetic_energy(result):
     caption = ("Kinetic energy of the grains over M|V|²/4 (half of the mass moving with the platen). A median above 2 "
                "warns of solver noise; single peaks are crises of the packing. The continuum is quasi-static: it has none.")
-    found = history(result, "discrete", "kinetic_energy_ratio")
+    found = result.history("discrete", "kinetic_energy_ratio")
     if found is None or not (found[1] > 0).any():
         return None, caption
     good = found[1] > 0
-    strain, ratio = found[0][good], found[1][good]
+    progress, ratio = result.walk.factor * found[0][good], found[1][good]
     figure, axes = chart(result, "kinetic energy / (M|V|²/4)", log=True)
     axes.set_ylim(decades(ratio))
-    axes.plot(*thin(result.across(strain), ratio), color=PANEL_COLOURS["discrete"], linewidth=0.6)
-    median = float(np.median(ratio))
-    axes.axhline(median, color=INK, linewidth=1, label=f"median {median:.3g}")
+    axes.plot(*thin(progress, ratio), color=PANEL_COLOURS["discrete"], linewidth=0.6)
+    median = plain(result.part("discrete_summary").get("kinetic_energy_ratio_median"))
+    if median is not None:
+        axes.axhline(median, color=INK, linewidth=1, label=f"median {median:.3g}")
     axes.axhline(2, color=FAINT, linewidth=1, linestyle="--", label="2: warning")
     axes.set_xlim(left=0)
     axes.legend(loc="upper right")
-    return svg(figure, f"Kinetic energy ratio against the loading, logarithmic; median {median:.3g}."), caption
+    words = "" if median is None else f"; median {median:.3g}"
+    return svg(figure, f"Kinetic energy ratio against the loading, logarithmic{words}."), caption
 
 
 def solver(result):
     """(Picture or None, caption): sweeps and residual of every step."""
     caption = ("Contact solver, every step: sweeps over the contacts, and the residual measured outside the solver "
                "(natural map, relative).")
-    sweeps, residual = (history(result, "discrete", name) for name in ("sweeps", "residual"))
+    sweeps, residual = (result.history("discrete", name) for name in ("sweeps", "residual"))
     if sweeps is None or residual is None:
         return None, caption
     figure = Figure(figsize=(4.5, 3.1))
-    for k, ((strain, values), label) in enumerate(((sweeps, "sweeps"), (residual, "residual"))):
+    for k, ((progress, values), label) in enumerate(((sweeps, "sweeps"), (residual, "residual"))):
         axes = ruled(figure.add_axes([0.15, 0.6 - 0.43 * k, 0.825, 0.36]))
         good = values > 0
-        axes.plot(*thin(result.across(strain[good]), values[good]), color=PANEL_COLOURS["discrete"], linewidth=0.6)
+        axes.plot(*thin(result.walk.factor * progress[good], values[good]), color=PANEL_COLOURS["discrete"], linewidth=0.6)
         axes.set(ylabel=label, yscale="log", ylim=decades(values[good]))
         axes.set_xlim(left=0)
         axes.tick_params(labelbottom=k == 1)
-    axes.set_xlabel(result.progress.label)
+    axes.set_xlabel(result.walk.label)
     return svg(figure, "Sweeps and residual of the contact solver against the loading, logarithmic."), caption

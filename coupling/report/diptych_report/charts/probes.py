@@ -7,17 +7,17 @@ from matplotlib.collections import PatchCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Wedge
 
-from increments import plain
-from style import GRAINS, INK, svg
+from diptych_report.charts.style import GRAINS, INK, svg
+from diptych_report.data.numbers import plain
 
 SECTORS = 24
 
 
 def roses(increment):
-    """[Picture]: share of contact normals in each sector over the isotropic share; a normal counts in both its senses."""
+    """[Picture]: share of contact normals in each sector over the isotropic share; counts hold both senses of a normal."""
     probes = increment.panel("discrete").get("probes") or []
     found = [(p, np.asarray(p["normals_24"], dtype=float)) for p in probes if len(p.get("normals_24") or []) == SECTORS]
-    found = [(probe, SECTORS * (c + np.roll(c, SECTORS // 2)) / (2 * c.sum())) for probe, c in found if c.sum() > 0]
+    found = [(probe, SECTORS * counts / counts.sum()) for probe, counts in found if counts.sum() > 0]
     reach = 1.1 * max((share.max() for _, share in found), default=1.0)
     return [_rose(increment, probe, share, reach) for probe, share in found]
 
@@ -29,7 +29,7 @@ def _rose(increment, probe, share, reach):
     axes.add_collection(PatchCollection([Wedge((0, 0), s, step * i, step * (i + 1)) for i, s in enumerate(share)],
                                         facecolor=GRAINS, edgecolor="white", linewidth=0.5, alpha=0.75))
     axes.add_patch(Circle((0, 0), 1, fill=False, color=INK, linewidth=0.8, linestyle=":"))
-    for name, line, label in (("direction_deg", "-", "stress σ₁"), ("fabric_direction_deg", "--", "fabric")):
+    for name, line, label in (("direction_deg", "-", "major stress"), ("fabric_direction_deg", "--", "fabric")):
         angle = plain(probe.get(name))
         if angle is not None:
             arm = reach * np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle))])

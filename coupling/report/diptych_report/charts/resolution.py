@@ -3,15 +3,15 @@
 
 from matplotlib.figure import Figure
 
-from increments import plain
-from style import CONTINUUM, FAINT, GRAINS, INK, THIRD, ruled, svg
+from diptych_report.charts.style import FAINT, GRAINS, INK, THIRD, ruled, svg
+from diptych_report.data.numbers import plain
 
-LOOKS = ((GRAINS, "o", "-"), (CONTINUUM, "s", (0, (5, 1.5))), (THIRD, "^", (0, (2, 1.2))))
+LOOKS = ((GRAINS, "o", "-"), (INK, "s", (0, (5, 1.5))), (THIRD, "^", (0, (2, 1.2))))
 
 
 def figures(result):
     """List of (Picture, caption): values at points and scatter over cells, against the kernel's width and the cells' size."""
-    study = result.comparison.get("resolution_study") or {}
+    study = result.part("resolution_study")
     shaded = " Shaded: the plateau." if study.get("plateau_d") else ""
     found = []
     for rows, key, words in ((study.get("kernel") or [], "width_d", "standard deviation of the kernel (d)"),
@@ -24,7 +24,7 @@ def figures(result):
 
 
 def verdict(result):
-    return (result.comparison.get("resolution_study") or {}).get("verdict") or ""
+    return result.part("resolution_study").get("verdict") or ""
 
 
 def _frame(figure, k, label, study, widths):

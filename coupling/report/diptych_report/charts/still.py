@@ -1,6 +1,7 @@
-# diptych: the pair of maps that a reader without scripts sees
+# diptych: a map as a still picture, for readers without scripts
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Shear strain increment of the opening instant, as draw.js draws it."""
+
+from dataclasses import dataclass
 
 import matplotlib
 import matplotlib.patheffects as effects
@@ -9,48 +10,47 @@ from matplotlib.collections import EllipseCollection, PolyCollection
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from increments import plain
-from pair import Pair
-from quantities import QUANTITIES, limits
-from style import NO_VALUE, PANEL_NAMES, png
-from viewer import box
+from diptych_report.charts.style import NO_VALUE, band_axes, png
+from diptych_report.data.numbers import plain
+from diptych_report.data.panels import PANEL_NAMES
 
 WIDTH = 3.6  # inches
 LEFT, RIGHT, TOP, BOTTOM, BAR = 0.5, 0.1, 0.28, 0.44, 0.52
 
 
-def pair(result, increment):
-    """Pictures of both panels; None where nothing is stored."""
-    quantity, frame = QUANTITIES[0], box([i for i in result.increments if i.arrays])
-    rule = limits(quantity, "discs", [i for i in result.increments if i.arrays], result)
-    if increment is None or frame is None or rule is None:
-        return Pair(None, None)
-    return Pair(*[_panel(quantity, increment, frame, rule(increment), panel, result) for panel in PANEL_NAMES])
+@dataclass
+class StillMap:
+    """One panel's map. numbers: one a grain or a cell, nan without a value. frame: (x0, x1, y0, y1) [d]. limits: (low, high)."""
+
+    panel: str
+    label: str
+    colour_map: str
+    numbers: np.ndarray
+    limits: tuple
+    frame: tuple
 
 
-def _panel(quantity, increment, frame, colour_limits, panel, result):
-    numbers = quantity.values(increment, result, "discs", panel)
-    if numbers is None:
-        return None
-    x0, x1, y0, y1 = frame
+def picture(shown, increment):
+    """Grains as discs, the continuum as cells, with the detected bands, as draw.js draws them."""
+    x0, x1, y0, y1 = shown.frame
     inner = WIDTH - LEFT - RIGHT
     tall = inner * (y1 - y0) / (x1 - x0)
     height = TOP + tall + BOTTOM + BAR
     figure = Figure(figsize=(WIDTH, height))
     axes = figure.add_axes([LEFT / WIDTH, (BOTTOM + BAR) / height, inner / WIDTH, tall / height])
     axes.set(xlim=(x0, x1), ylim=(y0, y1), xlabel="x / d", ylabel="y / d")
-    axes.set_title(PANEL_NAMES[panel], loc="left", fontweight="bold")
-    drawn = _discs(axes, increment) if panel == "discrete" else PolyCollection(
+    axes.set_title(PANEL_NAMES[shown.panel], loc="left", fontweight="bold")
+    drawn = _discs(axes, increment) if shown.panel == "discrete" else PolyCollection(
         increment.arrays["cells/corners"], edgecolors="face", linewidths=0.25)
-    drawn.set_array(np.ma.masked_invalid(numbers))
-    drawn.set_cmap(matplotlib.colormaps[quantity.colour_map].with_extremes(bad=NO_VALUE))
-    drawn.set_norm(Normalize(*colour_limits))
+    drawn.set_array(np.ma.masked_invalid(shown.numbers))
+    drawn.set_cmap(matplotlib.colormaps[shown.colour_map].with_extremes(bad=NO_VALUE))
+    drawn.set_norm(Normalize(*shown.limits))
     axes.add_collection(drawn, autolim=False)
-    _bands(axes, increment, panel)
+    _bands(axes, increment, shown.panel)
     bar = figure.colorbar(drawn, cax=figure.add_axes([LEFT / WIDTH, 0.40 / height, inner / WIDTH, 0.12 / height]),
                           orientation="horizontal")
-    bar.set_label(quantity.label, labelpad=2)
-    return png(figure, f"{PANEL_NAMES[panel]}: {quantity.title}, {increment.title}, {len(numbers)} values.")
+    bar.set_label(shown.label, labelpad=2)
+    return png(figure, f"{PANEL_NAMES[shown.panel]}: {shown.label}, {increment.title}, {len(shown.numbers)} values.")
 
 
 def _discs(axes, increment):
@@ -71,9 +71,3 @@ def _bands(axes, increment, panel):
             start = increment.centre + position * normal
             axes.axline(start, start + along, color="white", linestyle=line, linewidth=1.3,
                         path_effects=[effects.Stroke(linewidth=2.5, foreground="black"), effects.Normal()])
-
-
-def band_axes(angle_deg):
-    """Unit vectors along and normal to a band: angle from the horizontal, in (-90, 90]; normal = direction + 90."""
-    angle = np.radians(angle_deg)
-    return np.array([np.cos(angle), np.sin(angle)]), np.array([-np.sin(angle), np.cos(angle)])

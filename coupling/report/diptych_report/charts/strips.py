@@ -5,10 +5,9 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from increments import interval, plain
-from pair import Pair
-from style import DIFFUSE, INK, PANEL_COLOURS, PANEL_NAMES, svg
-from wording import rounded
+from diptych_report.charts.style import INK, PANEL_COLOURS, Pair, signed, svg
+from diptych_report.data.numbers import interval, plain
+from diptych_report.data.panels import DIFFUSE, PANEL_NAMES
 
 LARGEST_TURN = 10  # degrees between a band and the strips, beyond which its fit is not drawn over their means
 
@@ -20,30 +19,30 @@ def pair(increment):
     known = [profile for profile in profiles.values() if profile is not None]
     if not known:
         return Pair(None, None)
-    lowest = min(min(0.0, np.nanmin(mean)) for _, mean, _, _ in known)
-    highest = max(max(1.0, np.nanmax(mean)) for _, mean, _, _ in known)
-    reach = max(np.abs(edges).max() for edges, _, _, _ in known)
+    lowest = min(min(0.0, np.nanmin(mean)) for _, mean, _ in known)
+    highest = max(max(1.0, np.nanmax(mean)) for _, mean, _ in known)
+    reach = max(np.abs(edges).max() for edges, _, _ in known)
     box = (-reach, reach, lowest - 0.12, highest + 0.35)
-    pictures = [_panel(increment, panel, profiles[panel], box, plain(stored[panel].get("angle_deg")))
-                for panel in PANEL_NAMES]
-    angles = [f"{name.lower()} {rounded(stored[panel].get('angle_deg'), '°')}" for panel, name in PANEL_NAMES.items()]
-    return Pair(*pictures, caption=f"Inclination of the strips: {', '.join(angles)}; {increment.title}.")
+    angles = {panel: plain(strips.get("angle_deg")) for panel, strips in stored.items()}
+    pictures = [_panel(increment, panel, profiles[panel], box, angles[panel]) for panel in PANEL_NAMES]
+    words = [f"{PANEL_NAMES[panel].lower()} {signed(f'{angle:.1f}°')}" for panel, angle in angles.items() if angle is not None]
+    return Pair(*pictures, caption=f"Inclination of the strips: {', '.join(words)}; {increment.title}." if words else "")
 
 
 def _profile(strips):
-    """(edges [d] (n+1), mean (n), deviation (n), count (n)); nan for an empty strip."""
+    """(edges [d] (n+1), mean (n), deviation (n)); nan for an empty strip."""
     if not strips or not strips.get("edges_d"):
         return None
     edges = np.asarray(strips["edges_d"], dtype=float)
     columns = [np.array(strips.get(name) or [None] * (len(edges) - 1), dtype=float)  # null becomes nan
-               for name in ("mean", "deviation", "count")]
+               for name in ("mean", "deviation")]
     return (edges, *columns) if np.isfinite(columns[0]).any() else None
 
 
 def _panel(increment, panel, profile, box, angle):
     if profile is None:
         return None
-    edges, mean, deviation, count = profile
+    edges, mean, deviation = profile
     middle, colour = (edges[1:] + edges[:-1]) / 2, PANEL_COLOURS[panel]
     figure = Figure(figsize=(4.5, 3.3))
     axes = figure.add_axes([0.14, 0.15, 0.84, 0.76])
@@ -52,9 +51,9 @@ def _panel(increment, panel, profile, box, angle):
                   label="standard deviation in it")
     bands = increment.bands(panel)
     # A band that crosses the strips has no profile in them.
-    parallel = [band for band in bands if angle is None or abs(plain(band["angle_deg"]) - angle) < LARGEST_TURN]
+    parallel = [band for band in bands if angle is None or _turn(band, angle) < LARGEST_TURN]
     for band in parallel:
-        _draw_fit(axes, band, middle, mean, count, box)
+        _draw_fit(axes, band, box)
     if not parallel:
         axes.plot([], [], " ", label="no band along these strips" if bands else DIFFUSE)
     axes.set(xlim=box[:2], ylim=box[2:], xlabel="distance along the strips' normal / d",
@@ -67,27 +66,21 @@ def _panel(increment, panel, profile, box, angle):
     return svg(figure, alt)
 
 
-def _draw_fit(axes, band, middle, mean, count, box):
-    """u = a + b x + (jump/2) tanh((x - offset)/delta); 10-90 % width shaded.
+def _turn(band, angle):
+    """Between a band and the strips, in [0, 90]: lines have no sense."""
+    found = plain(band.get("angle_deg"))
+    return 90.0 if found is None else abs((found - angle + 90) % 180 - 90)
 
-    a and b from the record if they are there, otherwise the least squares of the strips with the other values held.
-    """
-    jump, offset, delta = (plain(band.get(name)) for name in ("jump", "offset_d", "half_width_d"))
-    if jump is None or offset is None or not delta:
-        return
-    background = band.get("background")
-    if background is None:
-        good = np.isfinite(mean)
-        weight = np.sqrt(np.where(np.isfinite(count[good]), count[good], 1.0))
-        rest = mean[good] - jump / 2 * np.tanh((middle[good] - offset) / delta)
-        matrix = np.column_stack([np.ones(good.sum()), middle[good]])
-        background = np.linalg.lstsq(matrix * weight[:, None], rest * weight, rcond=None)[0]
-    x = np.linspace(box[0], box[1], 400)
-    width = plain(band.get("width_10_90_d"))
-    ends = interval(band.get("width_10_90_d"))
-    label = "fit" if width is None else f"fit, 10–90 % over {width:.1f} d"
+
+def _draw_fit(axes, band, box):
+    """u = a + b x + (jump/2) tanh((x - offset)/delta), [a, b] the band's background; 10-90 % width shaded."""
+    jump, offset, delta, width = (plain(band.get(name)) for name in ("jump", "offset_d", "half_width_d", "width_10_90_d"))
+    background, ends = band.get("background") or [], interval(band.get("width_10_90_d"))
+    label = "" if width is None else f"10–90 % width {width:.1f} d"
     if ends:
-        label += f" [{ends[0]:.1f}, {ends[1]:.1f}]".replace("-", "−")
-    axes.plot(x, background[0] + background[1] * x + jump / 2 * np.tanh((x - offset) / delta), color=INK, label=label)
-    if width is not None:
-        axes.axvspan(offset - width / 2, offset + width / 2, color=INK, alpha=0.08, linewidth=0)
+        label += signed(f" [{ends[0]:.1f}, {ends[1]:.1f}]")
+    if len(background) == 2 and None not in (*background, jump, offset) and delta:
+        x = np.linspace(box[0], box[1], 400)
+        axes.plot(x, background[0] + background[1] * x + jump / 2 * np.tanh((x - offset) / delta), color=INK, label="fit")
+    if width is not None and offset is not None:
+        axes.axvspan(offset - width / 2, offset + width / 2, color=INK, alpha=0.08, linewidth=0, label=label)

@@ -1,6 +1,6 @@
-# diptych: look of the report's pictures and their encoding into the page
+# diptych: look of the report's figures and their encoding into the page
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Colours, type sizes, and the one way a figure becomes an embedded picture."""
+"""Colours, type sizes, frames that figures share, and the one way a figure becomes an embedded picture."""
 
 import base64
 import io
@@ -12,21 +12,21 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
-from increments import interval, plain
+from diptych_report.data.numbers import interval, plain
 
 # Okabe and Ito's palette: told apart by colour-blind readers; line styles differ as well, for prints in grey.
 GRAINS = "#0072B2"
 CONTINUUM = "#D55E00"
+THIRD = "#007A5E"   # for a third line beside the two panels
 INK = "#222222"
 FAINT = "#9a9a9a"
+GRID = "#e4e4e4"
 NO_VALUE = "#c4c4c4"
-DIFFUSE = "diffuse: no band"
-PANEL_NAMES = {"discrete": "Grains", "continuum": "Continuum"}
 PANEL_COLOURS = {"discrete": GRAINS, "continuum": CONTINUUM}
 PANEL_LINES = {"discrete": "-", "continuum": (0, (5, 1.5))}
+PANEL_MARKS = {"discrete": "o", "continuum": "s"}
 MAP_DPI = 110
-GRID = "#e4e4e4"
-THIRD = "#007A5E"   # for a third line beside the two panels
+POINTS = 1500       # of a curve on paper
 
 
 @dataclass(frozen=True)
@@ -39,6 +39,15 @@ class Picture:
     height: int
 
 
+@dataclass(frozen=True)
+class Pair:
+    """Two pictures of one instant, grains left and continuum right; one is None where its data are not stored."""
+
+    left: object
+    right: object
+    caption: str = ""
+
+
 def set_up():
     """Start from matplotlib's own defaults, so that a user's matplotlibrc cannot change a report."""
     matplotlib.rcdefaults()
@@ -48,20 +57,19 @@ def set_up():
         "axes.unicode_minus": True, "legend.frameon": False, "lines.linewidth": 1.6,
         # A stated title height spares matplotlib a search that costs a tenth of the page's time.
         "axes.titley": 1.0, "svg.hashsalt": "diptych", "path.simplify_threshold": 0.3,
-        # Text stays text and takes the page's fonts; matplotlib's own, the last, is the widest: nothing is cut off.
-        "svg.fonttype": "none",
-        "font.sans-serif": ["Arial", "Liberation Sans", "Helvetica", "DejaVu Sans", "sans-serif"],
+        # Text stays text. It is measured in the font that comes with matplotlib; a reader without it sees one as wide or
+        # narrower: nothing is cut off.
+        "svg.fonttype": "none", "font.sans-serif": ["DejaVu Sans", "Verdana", "Arial", "sans-serif"],
     })
 
 
 def chart(result, label, height=3.1, log=False):
-    """(figure, axes) of a curve against what the stages count: one size and one frame for all."""
+    """(figure, axes) of a curve against the progress of `result.walk`: one size and one frame for all."""
     figure = Figure(figsize=(4.5, height))
-    axes = figure.add_axes([0.15, 0.5 / height, 0.825, 1 - 0.6 / height])
-    axes.set(xlabel=result.progress.label, ylabel=label)
+    axes = ruled(figure.add_axes([0.15, 0.5 / height, 0.825, 1 - 0.6 / height]))
+    axes.set(xlabel=result.walk.label, ylabel=label)
     if log:
         axes.set_yscale("log")
-    ruled(axes)
     return figure, axes
 
 
@@ -72,7 +80,7 @@ def ruled(axes):
 
 
 def with_intervals(axes, x, numbers, **look):
-    """Points with their 95 % intervals, where they carry one; numbers as in increments.plain. True if any has a value."""
+    """Points with their 95 % intervals, where they carry one; numbers as in data.numbers. True if any has a value."""
     points = [(at, plain(n), interval(n)) for at, n in zip(x, numbers) if plain(n) is not None]
     if not points:
         return False
@@ -82,6 +90,37 @@ def with_intervals(axes, x, numbers, **look):
     bars = np.clip(np.stack([values - ends[:, 0], ends[:, 1] - values]), 0, None)
     axes.errorbar(at, values, bars, capsize=2.5, elinewidth=1, **look)
     return True
+
+
+def thin(x, y, points=POINTS):
+    """Lowest and highest point of each of points/2 bins: a long history keeps its spikes."""
+    if len(x) <= points:
+        return x, y
+    keep = set()
+    for part in np.array_split(np.flatnonzero(np.isfinite(y)), points // 2):
+        if len(part):
+            keep.update((part[np.argmin(y[part])], part[np.argmax(y[part])]))
+    keep = sorted(keep)
+    return x[keep], y[keep]
+
+
+def decades(values):
+    """Whole decades that hold the values, so that a logarithmic axis always has labels."""
+    if not len(values):
+        return 0.1, 1.0
+    low, high = np.floor(np.log10(values.min()) + 1e-9), np.ceil(np.log10(values.max()) - 1e-9)
+    return 10.0 ** low, 10.0 ** max(high, low + 1)
+
+
+def signed(text):
+    """Digits with a true minus sign."""
+    return text.replace("-", "−")
+
+
+def band_axes(angle_deg):
+    """Unit vectors along and normal to a band: angle from the horizontal, in (-90, 90]; normal = direction + 90."""
+    angle = np.radians(angle_deg)
+    return np.array([np.cos(angle), np.sin(angle)]), np.array([-np.sin(angle), np.cos(angle)])
 
 
 def png(figure, alt, dpi=MAP_DPI):

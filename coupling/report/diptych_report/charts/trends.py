@@ -2,51 +2,21 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Every figure against the loading, both panels, with the 95 % intervals that the comparison gives."""
 
-from increments import interval, plain, scaled
-from style import INK, FAINT, PANEL_COLOURS, PANEL_NAMES, THIRD, chart, svg, with_intervals
+from diptych_report.charts.style import FAINT, INK, PANEL_COLOURS, PANEL_MARKS, THIRD, chart, svg, with_intervals
+from diptych_report.data.numbers import plain, scaled
+from diptych_report.data.panels import PANEL_NAMES, THEORY
 
-THEORY = (("coulomb_deg", "Coulomb 45° + φ/2", (0, (5, 1.5))), ("arthur_deg", "Arthur 45° + (φ + ψ)/4", (0, (2, 1.2))),
-          ("roscoe_deg", "Roscoe 45° + ψ/2", "-."))
-MARKS = {"discrete": "o", "continuum": "s"}
+DASHES = {"coulomb_deg": (0, (5, 1.5)), "arthur_deg": (0, (2, 1.2)), "roscoe_deg": "-."}
 
 
 def figures(result):
     """List of (Picture or None, caption) in the order of the page."""
-    return [_inclination(result), _band_curve(result, "width_10_90_d", "10–90 % width of the band (d)",
-                                              "Width of the first band, in current coordinates."),
-            _dissipation(result), _stress_difference(result)]
+    return [_inclination(result), _width(result), _dissipation(result), _stress_difference(result)]
 
 
-def main_band(increment, panel):
-    """The band with the largest jump; {} where none is detected."""
-    bands = [band for band in increment.bands(panel) if plain(band.get("angle_deg")) is not None]
-    return max(bands, key=lambda band: abs(plain(band.get("jump")) or 0.0), default={})
-
-
-def minor_direction(increment, panel):
-    """Direction of the minor principal stress [degrees] in the zone probe (else the first) of the stage that ends here."""
-    stored = increment.end_panel(panel).get("probes") or []
-    probes = [p for p in stored if p.get("name") == "zone"] or stored
-    major = plain(probes[0].get("direction_deg")) if probes else None
-    return None if major is None else major + 90
-
-
-def to_minor_stress(increment, panel):
-    """Angle [degrees, 0 to 90] between the first band and the minor principal stress, the angle that theory lines give.
-
-    A number with an interval where the band's inclination has one (the stress direction is taken as known); None if unknown.
-    """
-    band, minor = main_band(increment, panel), minor_direction(increment, panel)
-    if not band or minor is None:
-        return None
-    turned = (plain(band["angle_deg"]) - minor + 90) % 180 - 90
-    angle = band["angle_deg"]
-    if not isinstance(angle, dict):
-        return abs(turned)
-    if interval(angle) is None:
-        return {"value": abs(turned), "low": None, "high": None}
-    ends = [abs(turned + end - plain(angle)) for end in interval(angle)]
-    return {"value": abs(turned), "low": min(ends), "high": max(ends)}
+def strongest_band(stage, panel):
+    """The comparison lists the strongest first; {} where none is detected."""
+    return next(iter(stage.bands(panel)), {})
 
 
 def _points(axes, result, numbers):
@@ -54,36 +24,37 @@ def _points(axes, result, numbers):
     drawn = False
     for k, panel in enumerate(PANEL_NAMES):
         # Half a line width apart, so that equal values do not hide each other.
-        x = [result.across(s.end) * (1 + 0.004 * (2 * k - 1)) for s in result.stages]
-        drawn |= with_intervals(axes, x, [numbers(s, panel) for s in result.stages], fmt=MARKS[panel], markersize=4.5,
+        x = [result.walk.factor * s.end * (1 + 0.004 * (2 * k - 1)) for s in result.stages]
+        drawn |= with_intervals(axes, x, [numbers(s, panel) for s in result.stages], fmt=PANEL_MARKS[panel], markersize=4.5,
                                 color=PANEL_COLOURS[panel], label=PANEL_NAMES[panel])
     axes.set_xlim(left=0)
     return drawn
 
 
 def _inclination(result):
-    caption = ("Angle between the first band and the direction of the minor principal stress in the zone, with 95 % intervals, "
-               "beside the theory lines of the continuum's parameters (φ friction, ψ dilatancy).")
+    caption = ("Angle between the first band and the direction of the minor principal stress in the zone, beside the theory "
+               "lines of the continuum's parameters (φ friction, ψ dilatancy). 95 % intervals where given.")
     figure, axes = chart(result, "band to minor stress (degrees)")
-    if not _points(axes, result, to_minor_stress):
+    if not _points(axes, result, lambda stage, panel: strongest_band(stage, panel).get("to_minor_stress_deg")):
         return None, caption
-    for key, label, dashes in THEORY:
-        angle = plain((result.comparison.get("theory") or {}).get(key))
+    for key, label in THEORY.items():
+        angle = plain(result.part("theory").get(key))
         if angle is not None:
-            axes.axhline(angle, color=INK, linewidth=1, linestyle=dashes, label=f"{label} = {angle:.1f}°")
+            axes.axhline(angle, color=INK, linewidth=1, linestyle=DASHES[key], label=f"{label} = {angle:.1f}°")
     low, high = axes.get_ylim()
     axes.set_ylim(low - 1, high + 0.45 * (high - low) + 2)
     axes.legend(loc="upper right", ncol=2, fontsize=8)
     return svg(figure, "Angle between band and minor principal stress against the loading, with theory lines."), caption
 
 
-def _band_curve(result, key, label, words):
-    figure, axes = chart(result, label)
-    if not _points(axes, result, lambda stage, panel: main_band(stage, panel).get(key)):
-        return None, words
+def _width(result):
+    caption = "Width of the first band, in current coordinates. 95 % intervals by block bootstrap where given."
+    figure, axes = chart(result, "10–90 % width of the band (d)")
+    if not _points(axes, result, lambda stage, panel: strongest_band(stage, panel).get("width_10_90_d")):
+        return None, caption
     axes.set_ylim(bottom=0)
     axes.legend(loc="best")
-    return svg(figure, f"{label} against the loading, both panels."), words + " 95 % intervals by block bootstrap where given."
+    return svg(figure, "10–90 % width of the first band against the loading, both panels."), caption
 
 
 def _dissipation(result):
@@ -94,7 +65,7 @@ def _dissipation(result):
     if not _points(axes, result, of):
         return None, caption
     shares = [(s.end, plain((s.panel("discrete").get("dissipation") or {}).get("area_share"))) for s in result.stages]
-    area = [(result.across(end), 100 * share) for end, share in shares if share is not None]
+    area = [(result.walk.factor * end, 100 * share) for end, share in shares if share is not None]
     if area:
         axes.plot(*zip(*area), color=FAINT, linestyle="--", linewidth=1.2, label="share of the area")
     axes.set_ylim(0, 100)
@@ -109,7 +80,7 @@ def _stress_difference(result):
     rows = {}
     for stage in result.stages:
         for row in (stage.record.get("difference") or {}).get("stress") or []:
-            rows.setdefault(row.get("label", ""), []).append((result.across(stage.end), row))
+            rows.setdefault(row.get("label", ""), []).append((result.walk.factor * stage.end, row))
     figure, axes = chart(result, "difference of the stress (%)")
     drawn = False
     for (label, found), colour in zip(rows.items(), (INK, PANEL_COLOURS["discrete"], THIRD)):

@@ -1,14 +1,14 @@
-# diptych: cost, provenance, and what of the continuum is fitted
+# diptych: cost, provenance, and the parameters of the continuum's law
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
-from load import scene_section
-from tables import LAW_KEYS, summary
-from wording import number
+from diptych_report.data.scene import scene_section
+from diptych_report.tables import summary
+from diptych_report.tables.wording import number
 
 
 def cost(result):
     """Totals of comparison.json, then every phase of provenance.json."""
-    totals = [row[:2] for row in summary(result.comparison.get("cost"))["rows"]]
+    totals = [row[:2] for row in summary.table(result, "cost")["rows"]]
     phases = [[str(phase.get("name", "")), number(phase.get("cpu_s"), " s", 3), number(phase.get("wall_s"), " s", 3),
                number(phase.get("peak_memory_mb"), " MB", 3)] for phase in result.provenance.get("phases") or []]
     return {"totals": {"head": ["CPU time and memory", ""], "rows": totals},
@@ -26,16 +26,6 @@ def provenance(result):
 
 
 def law_parameters(result):
-    """Name and value of every parameter of the law: from the summary, otherwise the scene's section continuum."""
-    values = result.comparison.get("continuum_summary") or {}
-    rows = []
-    for key in LAW_KEYS:
-        if isinstance(values.get(key), dict):
-            rows += [[name.replace("_", " "), number(value), ""] for name, value in values[key].items()]
-        elif values.get(key) is not None:
-            rows.append([key.replace("_", " "), number(values[key]), ""])
-    if len(rows) < 2:
-        rows = [[name.replace("_", " "), value, meaning] for name, value, meaning in
-                scene_section(result.scene_text, "continuum")] or rows
+    """Name, value and meaning of every key of the scene's section continuum."""
+    rows = [[name.replace("_", " "), value, meaning] for name, value, meaning in scene_section(result.scene_text, "continuum")]
     return {"head": ["parameter", "value", "meaning [unit]; range"], "rows": rows}
-

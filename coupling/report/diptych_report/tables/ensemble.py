@@ -1,26 +1,12 @@
-#!/usr/bin/env python3
-# diptych: report.html of an ensemble of seeds; usage: ensemble.py ENSEMBLE_DIR
+# diptych: what an ensemble of seeds tells, as rows of text
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Exit codes: 0 done, 2 wrong input (usage, missing or broken file). An old page stays until the new one is whole."""
 
 import os
-import sys
 
-sys.dont_write_bytecode = True  # the source tree may be read-only, and stays clean
+from diptych_report.data.ensemble import MOST_CURVES
+from diptych_report.data.panels import PANEL_NAMES
+from diptych_report.tables.wording import DECIMALS, number, rounded, shown_unit
 
-import jinja2  # noqa: E402
-
-import ensemble_figures as figures  # noqa: E402
-import style  # noqa: E402
-from ensemble_load import MOST_HISTORIES, load  # noqa: E402
-from load import InputError  # noqa: E402
-from wording import DECIMALS, number, origin, rounded  # noqa: E402
-
-HERE = os.path.dirname(os.path.abspath(__file__))
-PANELS = ("discrete", "continuum")
-# key -> (words, unit of wording.rounded, decimals of its difference)
-KEYS = {"peak_stress_ratio": ("peak stress ratio t/s", ""), "final_volumetric_strain": ("volumetric strain at the end", "%"),
-        "angle_deg": ("inclination of the band", "°"), "width_10_90_d": ("10–90 % width of the band", " d")}
 AXIS_UNITS = {"": "", "%": " (%)", "°": " (°)", " d": " (d)"}
 
 
@@ -30,18 +16,27 @@ def place_of(verdict):
     return (words[0], words[1]) if len(words) == 2 else ("", words[0])
 
 
+def described_at(verdict):
+    """Place of a verdict's quantity in a comparison's list of numbers."""
+    place, key = place_of(verdict)
+    return f"{place.split(' ')[0]}s/discrete/bands/{key}" if place else f"discrete_summary/{key}"
+
+
+def own_words(results, verdict):
+    """("inclination of the band", unit of wording.rounded)."""
+    at = described_at(verdict)
+    return results.numbers.meaning(at) + (" of the band" if place_of(verdict)[0] else ""), shown_unit(results.numbers, at)
+
+
 def words_of(results, verdict):
     """"inclination of the band, 0–1 %"."""
-    place, key = place_of(verdict)
-    text = KEYS.get(key, (key, ""))[0]
-    if not place:
-        return text
-    return f"{text}, {results.place(place)[1]}"
+    place, text = place_of(verdict)[0], own_words(results, verdict)[0]
+    return f"{text}, {results.place(place)[1]}" if place else text
 
 
 def panel_quantities(results, verdict):
     place, key = place_of(verdict)
-    names = {p: f"{place} {p} band {key}" if place else f"{p}_summary {key}" for p in PANELS}
+    names = {p: f"{place} {p} band {key}" if place else f"{p}_summary {key}" for p in PANEL_NAMES}
     return {p: results.quantity(name) for p, name in names.items()}
 
 
@@ -56,7 +51,7 @@ def with_interval(record, unit):
 
 
 def _plain(value, unit, decimals=None):
-    decimals = DECIMALS[unit] if decimals is None else decimals
+    decimals = DECIMALS.get(unit, 3) if decimals is None else decimals
     value = round(100 * value if unit == "%" else value, decimals) + 0.0  # no minus before a zero
     return f"{value:.{decimals}f}".replace("-", "−")
 
@@ -69,13 +64,13 @@ def verdict_rows(results):
     """One row of the first table a verdict: words, means, difference, intervals, margin, pairs, verdict."""
     rows = []
     for verdict in results.record["verdicts"]:
-        own_unit = KEYS.get(place_of(verdict)[1], ("", ""))[1]
-        unit, decimals = ("%", 1) if verdict["relative"] else (own_unit, DECIMALS[own_unit])
+        own_unit = own_words(results, verdict)[1]
+        unit, decimals = ("%", 1) if verdict["relative"] else (own_unit, DECIMALS.get(own_unit, 3))
         means = panel_quantities(results, verdict)
         margin = 100 * verdict["margin"] if unit == "%" else verdict["margin"]
         rows.append({
             "words": words_of(results, verdict), "relative": verdict["relative"],
-            "means": [with_interval(means[p], own_unit) for p in PANELS],
+            "means": [with_interval(means[p], own_unit) for p in PANEL_NAMES],
             "difference": _signed(verdict["difference"]["value"], unit, decimals, _suffix(unit)),
             "intervals": [_ends(verdict[key], unit, decimals) for key in ("difference_90", "difference")],
             "margin": "± " + number(margin) + _suffix(unit), "n": verdict["n"], "verdict": verdict["verdict"]})
@@ -95,35 +90,32 @@ def _ends(interval, unit, decimals):
     return f"{_signed(interval['low'], unit, decimals)} to {_signed(interval['high'], unit, decimals)}{_suffix(unit)}"
 
 
-def pictures(results):
-    """[(picture or None, caption)] of every verdict's seeds."""
+def captions(results):
+    """[(verdict, axis label, factor of the axis, caption)] of every verdict's seeds."""
     found = {band["name"]: band["text"] for band in results.record["bands"]}
-    drawn = []
+    rows = []
     for verdict in results.record["verdicts"]:
-        place, key = place_of(verdict)
-        words, unit = KEYS.get(key, (key, ""))
+        place = place_of(verdict)[0]
+        words, unit = own_words(results, verdict)
         caption = words_of(results, verdict)
         if place:
-            caption += ". Bands found, grains: " + "; continuum: ".join(found.get(f"{place} {p}", "–") for p in PANELS)
-        drawn.append((figures.dots(verdict, panel_quantities(results, verdict), words + AXIS_UNITS[unit]), caption + "."))
-    return drawn
+            caption += ". Bands found, grains: " + "; continuum: ".join(found.get(f"{place} {p}", "–") for p in PANEL_NAMES)
+        rows.append((verdict, words.split(",")[0] + AXIS_UNITS.get(unit, ""), 100 if unit == "%" else 1, caption + "."))
+    return rows
 
 
-def histories(results):
-    more = "" if len(results.record["done"]) <= MOST_HISTORIES else f" Curves of the first {MOST_HISTORIES} seeds."
-    last = f"{results.span(results.averaging)} of {results.progress.word}"
-    how = (f" Thin: every seed, mean over the last {last}; thick: mean of the seeds; shaded: 95 % interval of that mean "
-           "(Student)." + more)
-    return [(figures.curves(results, "stress_ratio", "stress ratio t/s"), "Stress ratio of the whole sample." + how),
-            (figures.curves(results, "volumetric_strain", "volumetric strain (%)", 100),
-             "Volumetric strain 1 − V/V₀; dilation is negative." + how)]
+def curve_caption(results):
+    """What the lines of a figure of histories are."""
+    more = "" if len(results.record["done"]) <= MOST_CURVES else f" Curves of the first {MOST_CURVES} seeds."
+    width = "" if results.averaging is None else f", mean over the last {results.span(results.averaging)} of {results.walk.word}"
+    return (f" Thin: every seed{width}; thick: mean of the seeds; shaded: 95 % interval of that mean (Student)." + more)
 
 
 def band_table(results):
     """Where how many bands were found."""
     texts = {band["name"]: band["text"] for band in results.record["bands"]}
     places = [name.removesuffix(" discrete") for name in texts if name.endswith(" discrete")]
-    rows = [[" ".join(results.place(place))] + [texts.get(f"{place} {p}", "–") for p in PANELS] for place in places]
+    rows = [[" ".join(results.place(place))] + [texts.get(f"{place} {p}", "–") for p in PANEL_NAMES] for place in places]
     return {"head": ["", "grains", "continuum"], "rows": rows}
 
 
@@ -132,7 +124,7 @@ def members(results):
     record = results.record
     failed = {member["seed"]: member for member in record["failed"]}
     place = {seed: k for k, seed in enumerate(record["done"])}
-    peaks = [results.quantity(f"{p}_summary peak_stress_ratio") for p in PANELS]
+    peaks = [results.quantity(f"{p}_summary peak_stress_ratio") for p in PANEL_NAMES]
     rows = []
     for seed in record["seeds"]:
         row = {"seed": seed, "log": f"seed_{seed}.log", "report": None, "values": ["–", "–"]}
@@ -163,36 +155,3 @@ def provenance(results):
     rows += [[f"time of the {phase['name']}", f"{number(phase.get('wall_s'), ' s', 3)}, CPU {number(phase.get('cpu_s'), ' s', 3)}"]
              for phase in source.get("phases") or []]
     return {"head": ["", ""], "rows": rows}
-
-
-def page(results):
-    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
-                                     lstrip_blocks=True)
-    rows = verdict_rows(results)
-    labelled = [(row["words"], verdict) for row, verdict in zip(rows, results.record["verdicts"])]
-    return environment.get_template("ensemble.html").render(
-        record=results.record, verdicts=rows, differences=figures.differences(labelled), dots=pictures(results),
-        curves=histories(results), bands=band_table(results), members=members(results), quantities=quantity_table(results),
-        provenance=provenance(results), fitted=origin(results.scene.get("comparison/parameters_from")))
-
-
-def main(arguments):
-    if len(arguments) != 1:
-        print("usage: ensemble.py ENSEMBLE_DIR", file=sys.stderr)
-        return 2
-    try:
-        results = load(arguments[0])
-    except InputError as error:
-        print(f"report: {error}", file=sys.stderr)
-        return 2
-    style.set_up()
-    text = page(results)
-    path = os.path.join(arguments[0], "report.html")
-    with open(path + ".part", "w", encoding="utf-8") as stream:
-        stream.write(text)
-    os.replace(path + ".part", path)
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))

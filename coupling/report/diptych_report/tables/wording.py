@@ -1,70 +1,88 @@
-# diptych: numbers as text, and the words for the keys of the summaries
+# diptych: numbers as text, and what they are held against
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A number may carry an interval: {"value", "low", "high"}. Unit "%" multiplies by 100, others are appended."""
+"""A number may carry an interval: {"value", "low", "high"}. Unit "%" multiplies by 100, others are appended.
+
+Words and units come from the comparison's own list of numbers; here stands what the program cannot say.
+"""
 
 import math
+import re
 
 ABSENT = "not computed"
 MESH_SET = "set by the mesh (local law)"
 MESH_SET_REASON = "It is no property of the material unless it stays the same on two meshes."
 LENGTH_SET_REASON = "It depends on that length, the size of the sample and the softening, all of them chosen or fitted."
 
-# key of a summary -> (words, unit, what to hold it against), in the order of the page
-WORDS = {
-    "grains": ("grains", "", ""),
-    "cells": ("cells", "", ""),
-    "unknowns": ("unknowns", "", ""),
-    "element_size_d": ("element size", " d", ""),
-    "preparation_solid_fraction": ("solid fraction as prepared", "", ""),
-    "preparation_residual": ("residual at the end of the preparation", "", ""),
-    "preparation_unbalanced_force": ("unbalanced force after the preparation", "", ""),
-    "preparation_steps": ("steps of the preparation", "", ""),
-    "initial_height": ("initial height", "", ""),
-    "platen_speed": ("platen speed", "", ""),
-    "mean_inertial_number": ("mean inertial number", "", "quasi-static: well below 10⁻³"),
-    "reached_axial_strain": ("axial strain reached", "%", ""),
-    "peak_stress_ratio": ("peak stress ratio t/s, of the running mean", "", ""),
-    "strain_at_peak": ("axial strain at the peak", "%", ""),
-    "final_volumetric_strain": ("volumetric strain at the end", "%", ""),
-    "max_equivalent_plastic_strain": ("largest equivalent plastic strain", "", ""),
-    "internal_length_d": ("internal length of the law", " d", "a local law has none: its band is set by the mesh"),
-    "localisation_strain": ("axial strain at the first loss of ellipticity", "%", ""),
-    "localisation_angle_deg": ("angle of the line that could form there", "°", ""),
-    "viscous_share": ("largest share of the strength that viscosity carries", "%", "rate independent: 0"),
-    "processes": ("processes", "", ""),
-    "share_zz_not_intermediate": ("points where σ_zz is not intermediate", "%", "below 5 %: the in-plane yield surface is exact only where it is"),
-    "steps": ("steps", "", ""),
-    "step_length": ("step length", "", ""),
-    "cut_backs": ("load steps cut back", "", ""),
-    "newton_iterations": ("Newton iterations", "", ""),
-    "sweeps": ("solver sweeps in all", "", ""),
-    "ns_per_update": ("time of one contact update", " ns", ""),
-    "solver_share_of_cpu": ("contact solver's share of the CPU time", "%", ""),
-    "residual": ("largest residual (natural map, relative)", "", ""),
-    "residual_factor": ("grain-stress error over residual", "", ""),
-    "max_penetration_d": ("largest penetration", " d", "rigid grains: 0"),
-    "energy_residual": ("energy residual, relative", "", "closed balance: 0"),
-    "momentum_residual": ("momentum residual", "", "closed balance: 0"),
-    "spin_term_share": ("largest spin term over mean stress", "", "paper: dynamic terms below 10⁻³"),
-    "kinetic_energy_ratio_median": ("kinetic energy over M|V|²/4, median", "", "slow: below 2"),
-    "kinetic_energy_ratio_largest": ("kinetic energy over M|V|²/4, largest", "", ""),
-    "platen_difference_share_below_1_percent": ("share of steps with platen forces equal within 1 %", "%",
-                                                "expected: 98 % or more"),
-    "platen_difference_mean": ("mean difference of the platen forces", "%", "paper: below 1 %"),
-    "contacts": ("contacts at the end", "", ""),
-    "coordination_number": ("coordination number", "", ""),
-    "rattlers": ("grains without contact force", "", ""),
-    "message": ("message", "", ""),
-    "preparation_cpu_s": ("preparation of the grains", " s", ""),
-    "discrete_cpu_s": ("grains, loading", " s", ""),
-    "continuum_cpu_s": ("continuum", " s", ""),
-    "comparison_cpu_s": ("homogenisation and comparison", " s", ""),
-    "peak_memory_mb": ("peak memory", " MB", ""),
-}
+# Pure numbers that are shown in per cent, by their key.
+PER_CENT = {"volumetric_strain", "final_volumetric_strain", "reached_axial_strain", "reached_shear_strain", "share_inside",
+            "area_share", "share_above_mean", "lost_share", "relative_l2", "stress_l2_relative", "sampling_alone",
+            "lowest_scatter", "outside_share", "viscous_share", "share_zz_not_intermediate", "solver_share_of_cpu",
+            "platen_difference_share_below_1_percent", "platen_difference_mean", "platen_difference_largest",
+            "grain_stress_error", "residual_factor_error", "residual_factor_estimate"}
 
+# Order of a summary; keys that are not here follow by their alphabet.
+ORDER = ("grains", "cells", "unknowns", "element_size_d", "preparation_solid_fraction", "preparation_friction",
+         "preparation_steps", "preparation_residual", "preparation_unbalanced_force", "initial_height", "platen_speed",
+         "mean_inertial_number", "finished", "reached_progress", "reached_axial_strain", "reached_shear_strain",
+         "peak_stress_ratio", "strain_at_peak", "final_volumetric_strain", "max_equivalent_plastic_strain", "internal_length_d",
+         "localisation_strain", "localisation_angle_deg", "viscous_share", "platen_unbalance", "share_zz_not_intermediate",
+         "processes", "steps", "step_length", "step", "step_bound", "halved_steps", "cut_backs", "newton_iterations", "sweeps",
+         "residual", "solver_noise", "grain_stress_error", "max_penetration_d", "energy_residual", "momentum_residual",
+         "spin_term_share", "kinetic_energy_ratio_median", "kinetic_energy_ratio_largest", "kinetic_energy_bursts",
+         "platen_difference_share_below_1_percent", "platen_difference_mean", "platen_difference_largest", "contacts",
+         "coordination_number", "rattlers", "preparation_cpu_s", "discrete_cpu_s", "continuum_cpu_s", "comparison_cpu_s",
+         "peak_memory_mb")
+
+# key -> what to hold the number against
+EXPECTED = {
+    "mean_inertial_number": "quasi-static: well below 10⁻³",
+    "solver_noise": "right below 0.03",
+    "internal_length_d": "a local law has none: its band is set by the mesh",
+    "viscous_share": "rate independent: 0",
+    "platen_unbalance": "equilibrium: 0",
+    "share_zz_not_intermediate": "below 5 %: the in-plane yield surface is exact only where it is",
+    "max_penetration_d": "rigid grains: 0",
+    "energy_residual": "closed balance: 0",
+    "momentum_residual": "closed balance: 0",
+    "spin_term_share": "paper: below 10⁻³",
+    "kinetic_energy_ratio_median": "slow: below 2",
+    "platen_difference_share_below_1_percent": "expected: 98 % or more",
+    "platen_difference_mean": "paper: below 1 %",
+}
 
 # key -> what null says, where it does say something
 NULLS = {"internal_length_d": "none", "localisation_strain": "never", "localisation_angle_deg": "–"}
+
+UNBROKEN = "\u00a0"  # between a number and its unit: no line is broken there
+SUFFIXES = {"": "", "-": "", "time": "", "as walk says": "", "degrees": "°", "rad": " rad", "mean diameters": " d"}
+DECIMALS = {"°": 1, " d": 1, " P": 2, "%": 2, "": 3}
+
+
+def suffix(unit):
+    """What follows a number of one of the files' units, lengths in d and stresses in P: " P d²" for "pressure length^2"."""
+    if unit in SUFFIXES:
+        return SUFFIXES[unit]
+    return " " + unit.replace("pressure", "P").replace("length", "d").replace("^2", "²")
+
+
+def shown_unit(numbers, place):
+    """Unit for number() and rounded() of a place in the list of numbers."""
+    return "%" if place.rsplit("/", 1)[-1] in PER_CENT else suffix(numbers.unit(place))
+
+
+def told(numbers, place, value, decimals=None):
+    """Text of the value of a place, with as many decimals as its unit is read with."""
+    return rounded(value, shown_unit(numbers, place), decimals)
+
+
+LETTERS = (("eps_1", "ε₁"), ("eps_2", "ε₂"), ("s_1", "σ₁"), ("s_2", "σ₂"), (" - ", " − "), (" (x) ", " ⊗ "))
+
+
+def typeset(text):
+    """A sentence of the program with the signs and letters of the page: "eps_1 - eps_2" becomes "ε₁ − ε₂"."""
+    for plain, letter in LETTERS:
+        text = text.replace(plain, letter)
+    return re.sub(r"(?<![\w.])-(?=\d)", "−", text)
 
 
 def origin(text):
@@ -89,7 +107,7 @@ def number(value, unit="", digits=4):
         return ABSENT
     if unit == "%":
         value, unit = 100 * value, " %"
-    size = abs(value)
+    unit, size = unit.replace(" ", UNBROKEN, 1), abs(value)
     if isinstance(value, int) or 1e3 <= size < 1e12:
         return f"{value:,.0f}".replace(",", "\u202f").replace("-", "−") + unit
     if size and (size < 1e-3 or size >= 1e12):
@@ -101,11 +119,8 @@ def number(value, unit="", digits=4):
 
 def _brackets(ends, unit):
     """Interval without its unit, in one piece when a line is broken."""
-    suffix = " %" if unit == "%" else unit
+    suffix = (" %" if unit == "%" else unit).replace(" ", UNBROKEN, 1)
     return "[" + ",\u00a0".join(end.removesuffix(suffix) if suffix else end for end in ends) + "]"
-
-
-DECIMALS = {"°": 1, " d": 1, " P": 2, "%": 2, "": 3}
 
 
 def rounded(value, unit, decimals=None):
@@ -115,8 +130,9 @@ def rounded(value, unit, decimals=None):
         if value.get("low") is None or value.get("high") is None:
             return text
         return f"{text} {_brackets([rounded(value[end], unit, decimals) for end in ('low', 'high')], unit)}"
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-        return number(value)
-    decimals = DECIMALS[unit] if decimals is None else decimals
+    if isinstance(value, int) or not isinstance(value, float) or not math.isfinite(value):
+        return number(value, unit)
+    decimals = DECIMALS.get(unit, 3) if decimals is None else decimals
     scale, unit = (100, " %") if unit == "%" else (1, unit)
-    return f"{scale * value:.{decimals}f}".replace("-", "−") + unit
+    value = round(scale * value, decimals) + 0.0  # no minus before a zero
+    return f"{value:.{decimals}f}".replace("-", "−") + unit.replace(" ", UNBROKEN, 1)

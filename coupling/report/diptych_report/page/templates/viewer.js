@@ -138,6 +138,11 @@ function refresh(part) {
   if (hover.part === part) hideReadout();
 }
 
+// What the files say of the chosen numbers.
+function tellMeaning() {
+  document.getElementById("meaning").textContent = (chosen.quantity.meaning || {})[chosen.place] || "";
+}
+
 function refreshAll() {
   fit();
   all("section.part").forEach(refresh);
@@ -168,12 +173,13 @@ function offerPlaces() {
   const names = { discs: "grains as discs", cells: "both on the mesh’s cells", grid: "both on a regular grid" };
   const place = document.getElementById("place");
   place.replaceChildren(...chosen.quantity.places.map((key) => new Option(names[key], key, false, key === chosen.place)));
+  tellMeaning();
 }
 
 document.addEventListener("change", (event) => {
   const target = event.target;
   if (target.id === "quantity") chooseQuantity(target.value);
-  else if (target.id === "place") chosen.place = target.value, all("section.part").forEach(refresh);
+  else if (target.id === "place") chosen.place = target.value, tellMeaning(), all("section.part").forEach(refresh);
   else if (target.id === "arrows-kind") chosen.arrows = target.value, all("section.part").forEach(refresh);
   else if (target.dataset.key && target.type === "radio") choose(target);
 });

@@ -1,0 +1,99 @@
+// diptych: a plane cut into square bins, and things sorted into them
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace diptych::coupling
+{
+  // Columns and rows of bins that a box meets: [column_begin, column_end) x [row_begin, row_end).
+  struct BinRange
+  {
+    int column_begin = 0, column_end = 0, row_begin = 0, row_end = 0;
+  };
+
+  // Bins row by row from below, ascending items in each: the order is that of the items and of nothing else.
+  class BinGrid
+  {
+  public:
+    BinGrid() = default;
+
+    // Bins of side `size` > 0 that cover the box [length].
+    BinGrid(const Eigen::Vector2d &lower, const Eigen::Vector2d &upper, const double size)
+        : origin(lower),
+          size(size),
+          columns(1 + int((upper.x() - lower.x()) / size)),
+          rows(1 + int((upper.y() - lower.y()) / size))
+    {}
+
+    double      bin_size() const { return size; }
+    int         n_columns() const { return columns; }
+    int         n_rows() const { return rows; }
+    double      row_low(const int row) const { return origin.y() + row * size; }
+    std::size_t number(const int row, const int column) const { return std::size_t(row) * columns + column; }
+
+    // Of a point in the box.
+    std::size_t bin_of(const Eigen::Vector2d &x) const
+    {
+      return number(int((x.y() - origin.y()) / size), int((x.x() - origin.x()) / size));
+    }
+
+    // Clamped to the grid: empty for a box outside of it.
+    BinRange range(const Eigen::Vector2d &lower, const Eigen::Vector2d &upper) const
+    {
+      return {std::max(0, index(lower.x() - origin.x(), columns)), std::min(columns, 1 + index(upper.x() - origin.x(), columns)),
+              std::max(0, index(lower.y() - origin.y(), rows)), std::min(rows, 1 + index(upper.y() - origin.y(), rows))};
+    }
+
+    // Row and column of any point, beyond the grid, too.
+    int row_of(const Eigen::Vector2d &x) const { return int(std::floor((x.y() - origin.y()) / size)); }
+    int column_of(const Eigen::Vector2d &x) const { return int(std::floor((x.x() - origin.x()) / size)); }
+
+    // Sorts items 0 .. n - 1: bins_of(item, action) calls action(bin) for every bin of an item.
+    template <class BinsOf> void sort(const std::size_t n, BinsOf &&bins_of)
+    {
+      begin.assign(std::size_t(columns) * rows + 1, 0);
+      for (unsigned int i = 0; i < n; ++i)
+        bins_of(i, [this](const std::size_t bin) { ++begin[bin + 1]; });
+      for (std::size_t b = 1; b < begin.size(); ++b)
+        begin[b] += begin[b - 1];
+      items.resize(begin.back());
+      std::vector<unsigned int> next(begin.begin(), begin.end() - 1);
+      for (unsigned int i = 0; i < n; ++i)
+        bins_of(i, [&](const std::size_t bin) { items[next[bin]++] = i; });
+    }
+
+    // Items of a bin: sorted()[begins(bin)] .. sorted()[begins(bin + 1) - 1].
+    unsigned int                     begins(const std::size_t bin) const { return begin[bin]; }
+    const std::vector<unsigned int> &sorted() const { return items; }
+
+    template <class Action> void for_each_in(const std::size_t bin, Action &&action) const
+    {
+      for (unsigned int k = begin[bin]; k < begin[bin + 1]; ++k)
+        action(items[k]);
+    }
+
+    template <class Action> void for_each_in(const BinRange &range, Action &&action) const
+    {
+      for (int row = range.row_begin; row < range.row_end; ++row)
+        for (int column = range.column_begin; column < range.column_end; ++column)
+          for_each_in(number(row, column), action);
+    }
+
+  private:
+    // Clamped before the conversion: far points and NaN must not overflow an int.
+    int index(const double distance, const int n) const
+    {
+      return int(std::min(std::max(std::floor(distance / size), -1.), double(n)));
+    }
+
+    Eigen::Vector2d           origin  = Eigen::Vector2d::Zero();
+    double                    size    = 1;
+    int                       columns = 0, rows = 0;
+    std::vector<unsigned int> begin = {0}, items;
+  };
+} // namespace diptych::coupling

@@ -1,0 +1,60 @@
+// diptych: points sorted into square bins
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "coupling/cells/bin_grid.h"
+
+namespace diptych::coupling
+{
+  // Deterministic order: bins row by row from below, points ascending in each.
+  class PointBins
+  {
+  public:
+    // bin_size > 0; no bins at all for no points.
+    PointBins(const std::vector<Eigen::Vector2d> &position, const double bin_size)
+    {
+      if (position.empty())
+        return;
+      Eigen::Vector2d lower = position.front(), upper = lower;
+      for (const Eigen::Vector2d &x : position)
+        lower = lower.cwiseMin(x), upper = upper.cwiseMax(x);
+      grid = BinGrid(lower, upper, bin_size);
+      grid.sort(position.size(), [&](const unsigned int i, const auto &into) { into(grid.bin_of(position[i])); });
+    }
+
+    double bin_size() const { return grid.bin_size(); }
+
+    // Points in the bins at a Chebyshev distance of `ring` bins from the bin of x. Returns false where the ring lies beyond all
+    // bins. All points closer to x than (ring + 1) bin sizes are in the rings 0 .. ring + 1.
+    template <class Action> bool for_each_in_ring(const Eigen::Vector2d &x, const int ring, Action &&action) const
+    {
+      const int row = grid.row_of(x), column = grid.column_of(x);
+      bool      any = false;
+      for (int r = std::max(0, row - ring); r <= std::min(grid.n_rows() - 1, row + ring); ++r)
+        {
+          const int step = r == row - ring || r == row + ring ? 1 : 2 * ring; // whole rows at the ends, two bins between
+          for (int c = column - ring; c <= column + ring; c += std::max(1, step))
+            if (c >= 0 && c < grid.n_columns())
+              {
+                any = true;
+                grid.for_each_in(grid.number(r, c), action);
+              }
+        }
+      return any;
+    }
+
+    // Points in all bins that meet the square of half side `reach` around x.
+    template <class Action> void for_each_near(const Eigen::Vector2d &x, const double reach, Action &&action) const
+    {
+      const Eigen::Vector2d half = Eigen::Vector2d::Constant(reach);
+      grid.for_each_in(grid.range(x - half, x + half), action);
+    }
+
+  private:
+    BinGrid grid;
+  };
+} // namespace diptych::coupling

@@ -1,0 +1,3 @@
+# diptych: the report of a result folder
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""page -> charts, tables -> data; data knows none of the others."""

@@ -1,0 +1,2 @@
+# diptych: figures
+# SPDX-License-Identifier: LGPL-2.1-or-later

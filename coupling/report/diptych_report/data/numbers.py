@@ -1,0 +1,88 @@
+# diptych: numbers of a result, their units and what they mean
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A number is plain, or {"value", "low", "high"} with its 95 % interval; None where it is not known.
+
+A unit is what the files say, as "pressure length^2", "length/time", "mean diameters" or "-".
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+def plain(number):
+    """The value of a number that may carry an interval; None where there is no number."""
+    if isinstance(number, dict):
+        number = number.get("value")
+    if isinstance(number, bool) or not isinstance(number, (int, float)) or not np.isfinite(number):
+        return None
+    return float(number)
+
+
+def interval(number):
+    """(low, high) of a number with an interval; None where it has none or an end is not known."""
+    if not isinstance(number, dict):
+        return None
+    ends = plain(number.get("low")), plain(number.get("high"))
+    return None if None in ends else ends
+
+
+def scaled(number, factor):
+    """The number, plain or with an interval, or each of a list, times factor; what is no number stays."""
+    if isinstance(number, dict):
+        return {key: scaled(value, factor) for key, value in number.items()}
+    if isinstance(number, (list, tuple)):
+        return [scaled(value, factor) for value in number]
+    return number * factor if isinstance(number, (int, float)) and not isinstance(number, bool) else number
+
+
+@dataclass(frozen=True)
+class Units:
+    """What lengths and stresses are shown in: mean diameter d [length] and pressure P [pressure] of the scene."""
+
+    diameter: float = 1.0
+    pressure: float = 1.0
+
+    def size(self, unit):
+        """How large 1 is in the files' own units: what a stored number of this unit is divided by. Times stay as they are."""
+        above, _, below = (unit or "").partition("/")
+        return self._product(above) / self._product(below)
+
+    def _product(self, words):
+        result = 1.0
+        for word in words.split():
+            name, _, power = word.partition("^")
+            result *= {"length": self.diameter, "pressure": self.pressure}.get(name, 1.0) ** (int(power) if power else 1)
+        return result
+
+
+@dataclass(frozen=True)
+class Description:
+    unit: str = "-"
+    meaning: str = ""
+    title: str = ""
+
+
+class Descriptions:
+    """Of every number of a comparison by its place, as "stages/discrete/bands/angle_deg"."""
+
+    def __init__(self, numbers):
+        self._numbers = {place: Description(entry.get("unit", "-"), entry.get("meaning", ""))
+                         for place, entry in (numbers or {}).items()}
+
+    def unit(self, place):
+        return self._numbers.get(place, Description()).unit
+
+    def meaning(self, place):
+        """What the program says of it; its key where the program says nothing."""
+        found = self._numbers.get(place, Description()).meaning
+        return found or place.rsplit("/", 1)[-1].replace("_", " ")
+
+    def shown_in(self, tree, units, place=""):
+        """A part of the comparison with lengths in d and stresses in P."""
+        if isinstance(tree, dict) and not (place in self._numbers and "value" in tree):
+            return {key: self.shown_in(value, units, f"{place}/{key}" if place else key) for key, value in tree.items()}
+        if isinstance(tree, list) and any(isinstance(entry, dict) for entry in tree):
+            return [self.shown_in(entry, units, place) for entry in tree]
+        size = units.size(self.unit(place))
+        return tree if size == 1.0 else scaled(tree, 1 / size)

@@ -1,0 +1,32 @@
+# diptych: what a loading walks along
+# SPDX-License-Identifier: LGPL-2.1-or-later
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Walk:
+    """How a progress is written: factor times the stored number, then the unit."""
+
+    word: str
+    unit: str = " %"
+    factor: float = 100.0
+
+    @property
+    def label(self):
+        """Of an axis."""
+        return self.word + (" (%)" if self.unit else "")
+
+    def number(self, progress):
+        return f"{self.factor * progress:.4g}"
+
+    def text(self, progress):
+        return self.number(progress) + self.unit
+
+
+WALKS = {"axial_strain": Walk("axial strain"), "shear_strain": Walk("shear strain"), "time": Walk("time", "", 1.0)}
+
+
+def walk_of(name):
+    """Of the entry `walk` of a file; one without name or unit where a file does not say."""
+    return WALKS.get(name, Walk("progress", "", 1.0))

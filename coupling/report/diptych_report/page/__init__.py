@@ -1,0 +1,2 @@
+# diptych: pages put together
+# SPDX-License-Identifier: LGPL-2.1-or-later

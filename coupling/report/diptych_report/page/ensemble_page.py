@@ -1,0 +1,31 @@
+# diptych: report.html of an ensemble of seeds
+# SPDX-License-Identifier: LGPL-2.1-or-later
+
+from diptych_report.charts import ensemble as figures
+from diptych_report.charts import style
+from diptych_report.data.ensemble import load
+from diptych_report.page.writing import template, write
+from diptych_report.tables import ensemble as tables
+from diptych_report.tables.wording import origin
+
+
+def draw(folder):
+    """Raises InputError where ensemble.json is missing, broken or of another format."""
+    results = load(folder)
+    style.set_up()
+    write(folder, page(results))
+
+
+def page(results):
+    rows = tables.verdict_rows(results)
+    labelled = [(row["words"], verdict) for row, verdict in zip(rows, results.record["verdicts"])]
+    dots = [(figures.dots(verdict, tables.panel_quantities(results, verdict), label, scale), caption)
+            for verdict, label, scale, caption in tables.captions(results)]
+    lines = tables.curve_caption(results)
+    curves = [(figures.curves(results, "stress_ratio", "stress ratio t/s"), "Stress ratio of the whole sample." + lines),
+              (figures.curves(results, "volumetric_strain", "volumetric strain (%)", 100),
+               "Volumetric strain 1 − V/V₀; dilation is negative." + lines)]
+    return template("ensemble.html").render(
+        record=results.record, verdicts=rows, differences=figures.differences(labelled), dots=dots, curves=curves,
+        bands=tables.band_table(results), members=tables.members(results), quantities=tables.quantity_table(results),
+        provenance=tables.provenance(results), fitted=origin(results.parameters_from))

@@ -1,0 +1,73 @@
+# diptych: axes and colour limits that all maps of a page share
+# SPDX-License-Identifier: LGPL-2.1-or-later
+
+import numpy as np
+
+from diptych_report.data.panels import PANEL_NAMES
+from diptych_report.page.quantities import PLACES
+
+MARGIN = 2.0      # d, round the sample
+
+
+def box(increments):
+    """(x0, x1, y0, y1) [d] holding every grain and cell of every increment: stepping does not move the axes. None without any."""
+    low, high = [], []
+    for increment in increments:
+        position, radius = increment.arrays.get("discrete/position"), increment.arrays.get("discrete/radius")
+        if position is not None and radius is not None and len(position):
+            low.append((position[:, :2] - radius[:, None]).min(axis=0))
+            high.append((position[:, :2] + radius[:, None]).max(axis=0))
+        corners = increment.arrays.get("cells/corners")
+        if corners is not None and len(corners):
+            low.append(corners.min(axis=(0, 1)))
+            high.append(corners.max(axis=(0, 1)))
+    if not low:
+        return None
+    (x0, y0), (x1, y1) = np.min(low, axis=0) - MARGIN, np.max(high, axis=0) + MARGIN
+    return x0, x1, y0, y1
+
+
+def limits(quantity, place, increments, result):
+    """Function increment -> (low, high): one rule for both panels and for every instant; None where nothing is stored.
+
+    Limits are medians over the increments of 2nd and 98th percentiles, so that one instant does not set the scale of
+    all, and means over the panels. A strain increment is scaled by the progress it spans, and of the two panels'
+    percentiles the lower counts: a band one element thick saturates, which the bar's arrow says, instead of hiding the
+    wider band of the grains.
+    """
+    if not _offered(quantity, place, increments, result):
+        return None
+    lows, highs = [], []
+    for increment in increments:
+        sets = [quantity.values(increment, result, place, panel) for panel in PANEL_NAMES]
+        sets = [values[np.isfinite(values)] / _scale(quantity, increment) for values in sets if values is not None]
+        sets = [np.abs(values) if quantity.signed else values for values in sets if len(values)]
+        if sets:
+            # One percentile a panel, so that each weighs the same whatever its number of grains or cells.
+            join = np.min if quantity.per_progress and quantity.from_zero else np.mean
+            lows.append(join([np.percentile(values, 2) for values in sets]))
+            highs.append(join([np.percentile(values, 98) for values in sets]))
+    if not highs:
+        return None
+    high = float(np.median(highs))
+    low = -high if quantity.signed else 0.0 if quantity.from_zero else float(np.median(lows))
+    if not high > low:
+        high, low = low + 1.0, low - (1.0 if quantity.signed else 0.0)
+    return lambda increment: tuple(_round(end * _scale(quantity, increment)) for end in (low, high))
+
+
+def _offered(quantity, place, increments, result):
+    """The grains decide where a quantity can be shown; one that only the continuum has is shown on its cells."""
+    def has(panel, at):
+        return any(quantity.values(i, result, at, panel) is not None for i in increments)
+    if has("discrete", place):
+        return True
+    return place == "cells" and has("continuum", place) and not any(has("discrete", at) for at in PLACES)
+
+
+def _scale(quantity, increment):
+    return max(increment.end - increment.start, 1e-12) if quantity.per_progress else 1.0
+
+
+def _round(value):
+    return float(f"{value:.2g}")

@@ -1,0 +1,22 @@
+# diptych: templates of the pages, and how a page reaches the disk
+# SPDX-License-Identifier: LGPL-2.1-or-later
+
+import os
+
+import jinja2
+
+TEMPLATES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "templates")
+
+
+def template(name):
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True,
+                                     lstrip_blocks=True)
+    return environment.get_template(name)
+
+
+def write(folder, text):
+    """report.html; an old one stays until the new one is whole."""
+    path = os.path.join(folder, "report.html")
+    with open(path + ".part", "w", encoding="utf-8") as stream:
+        stream.write(text)
+    os.replace(path + ".part", path)

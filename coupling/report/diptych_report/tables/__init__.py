@@ -1,0 +1,2 @@
+# diptych: rows of text
+# SPDX-License-Identifier: LGPL-2.1-or-later

@@ -1,0 +1,27 @@
+# diptych: the numbers of a panel's whole run as rows of text
+# SPDX-License-Identifier: LGPL-2.1-or-later
+
+from diptych_report.tables.wording import EXPECTED, NULLS, ORDER, number, shown_unit
+
+LEFT_OUT = ("law", "parameters_from")  # told elsewhere on the page
+
+
+def table(result, part):
+    """Words, number, what to hold it against, of a group of the comparison; texts that are empty are left out."""
+    rows = []
+    values = result.part(part)
+    for key in sorted(values, key=lambda name: (ORDER.index(name) if name in ORDER else len(ORDER), name)):
+        value = values[key]
+        if key in LEFT_OUT or value == "" or isinstance(value, list) or (isinstance(value, dict) and "value" not in value):
+            continue
+        place = f"{part}/{key}"
+        rows.append([result.numbers.meaning(place), _text(result, place, key, value), EXPECTED.get(key, "")])
+    return {"head": ["", "value", "hold against"], "rows": rows}
+
+
+def _text(result, place, key, value):
+    if value is None and key in NULLS:
+        return NULLS[key]
+    if result.numbers.unit(place) == "as walk says" and isinstance(value, (int, float)):
+        return result.walk.text(value)
+    return number(value, shown_unit(result.numbers, place))

@@ -1,0 +1,47 @@
+#!/usr/bin/env python3
+# diptych: pages and pictures of results; usage: draw.py page|ensemble|step-study DIR
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Exit codes: 0 done, 2 wrong input (usage, missing or broken file, another format). What is drawn replaces an older one when
+it is whole."""
+
+import gc
+import os
+import sys
+
+sys.dont_write_bytecode = True  # the source tree may be read-only, and stays clean
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+from diptych_report.data.files import InputError  # noqa: E402
+
+WORDS = ("page", "ensemble", "step-study")
+
+
+def draw(what, folder):
+    """Each branch loads only what it draws with."""
+    if what == "page":
+        from diptych_report.page import result_page
+        result_page.draw(folder)
+    elif what == "ensemble":
+        from diptych_report.page import ensemble_page
+        ensemble_page.draw(folder)
+    else:
+        from diptych_report.charts import step_study
+        from diptych_report.data.step_study import load
+        step_study.draw(load(folder), folder)
+
+
+def main(arguments):
+    if len(arguments) != 2 or arguments[0] not in WORDS:
+        print(f"report: usage: draw.py {'|'.join(WORDS)} DIR", file=sys.stderr)
+        return 2
+    gc.set_threshold(50_000)  # a figure is thousands of small objects: a tenth of the time goes into looking for dead ones
+    try:
+        draw(*arguments)
+    except InputError as error:
+        print(f"report: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
