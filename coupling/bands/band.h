@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <string>
 
 #include <Eigen/Core>
 
@@ -42,7 +43,11 @@ namespace diptych::coupling
     double r_squared        = 0; // weighted 1 - SS_res/SS_tot of the longitudinal component u.s at the raw points
     double r_squared_strips = 0; // the same for the means over 16 strips parallel to the band
 
-    double to_minor_stress_deg = NAN; // angle to the minor principal stress beside it, in [0, 90]; NaN: not known here
+    bool        between_packs = false; // a zone between the two packs that the platens carry (packs.h)
+    std::string no_packs_because;      // what speaks against it; empty where nothing does
+
+    Interval to_minor_stress_deg; // angle to the minor principal stress beside it, in [0, 90], with the interval of the
+                                  // inclination alone; NaN: not known here
 
     BandIntervals interval; // of the numbers above
 

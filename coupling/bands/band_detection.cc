@@ -7,6 +7,7 @@
 
 #include "coupling/bands/band_candidates.h"
 #include "coupling/bands/band_intervals.h"
+#include "coupling/bands/packs.h"
 #include "coupling/bands/strips.h"
 #include "coupling/cells/principal_axes.h"
 
@@ -49,6 +50,8 @@ namespace diptych::coupling
       const BandShape &shape = fit.shape[b];
       if (2 * fit.coefficient.row(3 + b).norm() < minimum_jump)
         return "the jump is below minimum_jump";
+      if (2 * fit.coefficient.row(3 + b).norm() / (2 * shape.half_width) < 1 / sample.height)
+        return "it shears less than the sample does on average";
       if (shape.half_width >= 0.999 * largest_half_width(sample, shape.angle))
         return "the transition is as wide as half the sample";
       if (std::abs(shape.offset) > 2 * largest_half_width(sample, shape.angle))
@@ -244,6 +247,8 @@ namespace diptych::coupling
       {
         Band band = reported_band(numbers, frame.mean_diameter);
         add_r_squared(data, fit, frame, band);
+        band.no_packs_because = objection_to_packs(band, frame, fit.converged);
+        band.between_packs    = band.no_packs_because.empty();
         report.bands.push_back(band);
       }
     std::stable_sort(report.bands.begin(), report.bands.end(),
@@ -251,10 +256,13 @@ namespace diptych::coupling
 
     const std::array<std::string, 3> names = {{"diffuse", "one band", "two bands"}};
     report.verdict                         = names[best];
+    if (best == 1)
+      report.verdict += report.bands[0].between_packs ? " between two packs"
+                                                      : ", no zone between two packs: " + report.bands[0].no_packs_because;
     if (best + 1 < fits.size())
       report.verdict += "; no further band: " +
                         (objections[best + 1].empty() ? std::string("it lowers the misfit too little") : objections[best + 1]);
-    if (!fit.converged)
+    if (!fit.converged && best != 1)
       report.verdict += " (fit not converged)";
     return report;
   }

@@ -28,6 +28,22 @@ namespace diptych::coupling
     return edges;
   }
 
+  std::array<double, 2> background(const Strips &strips, const Band &band)
+  {
+    double w = 0, wx = 0, wy = 0, wxx = 0, wxy = 0;
+    for (std::size_t k = 0; k < strips.mean.size(); ++k)
+      if (strips.count[k] > 0)
+        {
+          const double n = strips.count[k], x = 0.5 * (strips.edges[k] + strips.edges[k + 1]),
+                       y = strips.mean[k] - 0.5 * band.jump * std::tanh((x - band.offset) / band.half_width);
+          w += n, wx += n * x, wy += n * y, wxx += n * x * x, wxy += n * x * y;
+        }
+    const double determinant = w * wxx - wx * wx;
+    if (!(determinant > 0))
+      return {NAN, NAN};
+    return {(wxx * wy - wx * wxy) / determinant, (w * wxy - wx * wy) / determinant};
+  }
+
   Strips strip_means(const DisplacementField   &field,
                      const SampleFrame         &frame,
                      const double               angle_deg,

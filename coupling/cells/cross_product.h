@@ -11,4 +11,10 @@ namespace diptych::coupling
   {
     return a.x() * b.y() - a.y() * b.x();
   }
+
+  // Of the triangle a-b-c, positive where its corners are anticlockwise.
+  inline double signed_area(const Eigen::Vector2d &a, const Eigen::Vector2d &b, const Eigen::Vector2d &c)
+  {
+    return 0.5 * cross(b - a, c - a);
+  }
 } // namespace diptych::coupling

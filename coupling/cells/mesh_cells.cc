@@ -8,17 +8,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "coupling/cells/cross_product.h"
+
 namespace diptych::coupling
 {
-  namespace
-  {
-    double area(const Eigen::Vector2d &a, const Eigen::Vector2d &b, const Eigen::Vector2d &c)
-    {
-      const Eigen::Vector2d u = b - a, v = c - a;
-      return 0.5 * (u.x() * v.y() - u.y() * v.x());
-    }
-  } // namespace
-
   QuadMesh quad_mesh(const continuum::Snapshot &snapshot)
   {
     constexpr unsigned int       unseen = std::numeric_limits<unsigned int>::max();
@@ -76,7 +69,7 @@ namespace diptych::coupling
   double triangle_area(const QuadMesh &mesh, const unsigned int triangle)
   {
     const auto &n = mesh.triangle[triangle].node;
-    return area(mesh.node[n[0]], mesh.node[n[1]], mesh.node[n[2]]);
+    return signed_area(mesh.node[n[0]], mesh.node[n[1]], mesh.node[n[2]]);
   }
 
   Eigen::Vector2d cell_centre(const QuadMesh &mesh, const unsigned int cell)

@@ -8,18 +8,13 @@
 #include <tuple>
 #include <utility>
 
+#include "coupling/cells/cross_product.h"
 #include "coupling/cells/mesh_cells.h"
 
 namespace diptych::coupling
 {
   namespace
   {
-    double area(const Eigen::Vector2d &a, const Eigen::Vector2d &b, const Eigen::Vector2d &c)
-    {
-      const Eigen::Vector2d u = b - a, v = c - a;
-      return 0.5 * (u.x() * v.y() - u.y() * v.x());
-    }
-
     [[noreturn]] void refuse(const std::size_t cell)
     {
       throw std::runtime_error("cell " + std::to_string(cell) + " of the deformed mesh is turned inside out");
@@ -33,7 +28,7 @@ namespace diptych::coupling
       for (const unsigned int shift : {0u, 1u})
         {
           const std::array<unsigned int, 4> turned = {{c[shift], c[shift + 1], c[(shift + 2) % 4], c[(shift + 3) % 4]}};
-          if (area(x[turned[0]], x[turned[1]], x[turned[2]]) > 0 && area(x[turned[0]], x[turned[2]], x[turned[3]]) > 0)
+          if (signed_area(x[turned[0]], x[turned[1]], x[turned[2]]) > 0 && signed_area(x[turned[0]], x[turned[2]], x[turned[3]]) > 0)
             return turned;
         }
       refuse(number);
@@ -113,7 +108,7 @@ namespace diptych::coupling
     // 0 without area, sqrt(3)/4 where it is equilateral.
     double roundness(const Eigen::Vector2d &a, const Eigen::Vector2d &b, const Eigen::Vector2d &c)
     {
-      return area(a, b, c) / std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+      return signed_area(a, b, c) / std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
     }
 
     // Divides a polygon of n nodes into n - 2 triangles of positive area: none then overlap and all lie inside it, because

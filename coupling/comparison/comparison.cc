@@ -80,7 +80,12 @@ namespace diptych::coupling
     void take_angles_to_stress(std::vector<Band> &bands, const PanelRecord &at_the_end)
     {
       for (Band &band : bands)
-        band.to_minor_stress_deg = std::abs(line_turn(band.angle_deg, minor_direction(at_the_end)));
+        {
+          const double    turn  = line_turn(band.angle_deg, minor_direction(at_the_end));
+          const Interval &angle = band.interval.angle_deg;
+          const double    low = std::abs(turn + angle.low - angle.value), high = std::abs(turn + angle.high - angle.value);
+          band.to_minor_stress_deg = {std::abs(turn), std::min(low, high), std::max(low, high)};
+        }
     }
 
     void take_angles_to_stress(Increment &increment, const StageRecord &at_the_end)

@@ -72,6 +72,8 @@ namespace diptych::coupling
     visit(ArrayEntry{"discrete_couple_stress", "couple stress", "pressure length",
                      "grains: power-conjugate of the gradient of rotation"},
           g.couple_stress);
+    visit(ArrayEntry{"discrete_couple_stress_size", "size of the couple stress", "pressure length", "grains"},
+          arrays::sizes_over(g.couple_stress, 1));
     visit(ArrayEntry{"discrete_dissipation", "dissipation", "pressure", "grains: by friction, over the stage, per area"}, g.dissipation);
     visit(ArrayEntry{"discrete_coordination_number", "coordination number", "-", "contacts a grain, at the end of the stage"},
           g.coordination_number);
@@ -110,6 +112,8 @@ namespace diptych::coupling
           arrays::difference(c.rotation_increment, f.continuum_spin));
     visit(ArrayEntry{"continuum_couple_stress", "couple stress", "pressure length", "continuum: with the sign of the grains'"},
           c.couple_stress);
+    visit(ArrayEntry{"continuum_couple_stress_size", "size of the couple stress", "pressure length", "continuum"},
+          arrays::sizes_over(c.couple_stress, 1));
     visit(ArrayEntry{"continuum_dissipation", "dissipation", "pressure", "continuum: plastic work over the stage, per area"},
           c.dissipation);
     visit(ArrayEntry{"stress_difference", "difference of the stresses", "pressure", "continuum minus grains"},

@@ -22,6 +22,8 @@ namespace diptych::coupling
     v({"offset_d", "mean diameters", "offset from the sample's centre along the normal", Kind::number, true}, i.offset);
     v({"jump", "-", "jump of the displacement over the platen's, with the sign of the slip"}, i.jump);
     v({"dilation_deg", "degrees", "dilation angle"}, i.dilation_deg);
+    v({"between_packs", "-", "a zone between the two packs that the platens carry", Kind::setting}, b.between_packs);
+    v({"no_packs_because", "-", "what speaks against it", Kind::setting}, b.no_packs_because);
     v({"to_minor_stress_deg", "degrees", "angle to the minor principal stress of the zone"}, b.to_minor_stress_deg);
     v({"resamples", "-", "resamples behind the intervals", Kind::setting}, i.resamples);
     v({"lost_share", "-", "share of the resamples in which the band was lost"}, i.lost_share);
@@ -36,6 +38,8 @@ namespace diptych::coupling
     v({"mean", "platen increments", "mean displacement along the strips"}, s.mean);
     v({"deviation", "platen increments", "its standard deviation"}, s.deviation);
     v({"count", "-", "points in a strip"}, s.count);
+    v({"background", "platen increments", "of the straight line under the band's tanh, at the sample's centre"}, s.background);
+    v({"background_slope", "platen increments/mean diameter", "its slope along the normal"}, s.background_slope);
   }
 
   // What both kinds of increments tell of a panel.

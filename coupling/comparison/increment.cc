@@ -75,7 +75,14 @@ namespace diptych::coupling
         panel->cell_shear = shear_strain_increment(panel->field, centres, radius);
       }
     for (PanelIncrement *panel : {&result.discrete, &result.continuum})
-      panel->strips = cut_strips(panel->field, result);
+      {
+        panel->strips = cut_strips(panel->field, result);
+        if (panel->band.bands.empty())
+          continue;
+        const auto [level, slope]       = background(panel->strips, panel->band.bands[0]);
+        panel->strips.background        = level;
+        panel->strips.background_slope = slope * result.frame.mean_diameter;
+      }
     for (std::size_t k = 0; k < centres.size(); ++k)
       if (!result.cover.covered[k])
         result.discrete.cell_shear[k] = NAN;

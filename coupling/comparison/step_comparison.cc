@@ -64,6 +64,7 @@ namespace diptych::coupling
     std::vector<std::string>  names{"stress_ratio"};
     names.insert(names.end(), cumulated.begin(), cumulated.end());
     StepComparison comparison;
+    comparison.window = window;
     for (const std::string &name : names)
       {
         StepComparison::Quantity q{name, {}, 0};
@@ -106,18 +107,23 @@ namespace diptych::coupling
                                               "impact_dissipation", "kinetic_energy", "max_penetration"};
     std::ostringstream             csv;
     csv.precision(10);
-    csv << "step,time,progress";
+    csv << "step,time,progress,stress_ratio_mean";
     for (const std::string &name : columns)
       csv << ',' << name;
     csv << '\n';
     for (const StepRun &run : runs)
-      for (std::size_t k = 0; k < column(run.history, "time").size(); ++k)
-        {
-          csv << run.step << ',' << column(run.history, "time")[k] << ',' << column(run.history, "progress")[k];
-          for (const std::string &name : columns)
-            csv << ',' << column(run.history, name)[k];
-          csv << '\n';
-        }
+      {
+        HistoryTable in_time                 = run.history;
+        in_time["progress"]                  = column(run.history, "time");
+        const std::vector<double> mean       = running_mean(in_time, "stress_ratio", comparison.window);
+        for (std::size_t k = 0; k < column(run.history, "time").size(); ++k)
+          {
+            csv << run.step << ',' << column(run.history, "time")[k] << ',' << column(run.history, "progress")[k] << ',' << mean[k];
+            for (const std::string &name : columns)
+              csv << ',' << column(run.history, name)[k];
+            csv << '\n';
+          }
+      }
     discrete::write_text(directory + "/study_step.csv", csv.str());
 
     nlohmann::json root = {{"verdict", comparison.verdict}, {"largest_difference", comparison.largest}, {"margin", margin}};

@@ -32,13 +32,14 @@ namespace diptych::coupling
     std::vector<Quantity> quantities;
     double                largest = 0; // of the coarsest run, over all quantities
     std::string           verdict;
+    double                window = 0; // of the running means [time]
   };
 
   // Runs from the coarsest to the finest, all loaded along `walk`; `width`: of the running means, in its unit. Throws
   // std::invalid_argument for fewer than two.
   StepComparison compare_steps(const std::vector<StepRun> &runs, double width, discrete::Walk walk);
 
-  // study_step.csv (progress, time, and for every run stress ratio, external work, dissipations, kinetic energy) and
+  // study_step.csv (progress, time, and for every run stress ratio and its running mean, external work, dissipations, kinetic energy) and
   // study_step.json.
   void write_step_comparison(const std::string &directory, const std::vector<StepRun> &runs, const StepComparison &comparison);
 } // namespace diptych::coupling

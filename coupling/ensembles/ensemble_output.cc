@@ -100,6 +100,7 @@ namespace diptych::coupling
                                 {"failed", json::array()},
                                 {"interrupted", record.interrupted},
                                 {"margins", margins_json(scene.comparison.margins)},
+                                {"walk", discrete::name_of(discrete::walk_of(scene.loading.mode))},
                                 {"folded", is_mirror_symmetric(scene)},
                                 {"student_t_95", n > 1 ? json(student_quantile(0.975, n - 1)) : json(nullptr)},
                                 {"quantities", json::array()},

@@ -23,7 +23,7 @@ namespace diptych::coupling
   [[nodiscard]] std::optional<int> exit_code_of(pid_t program);
 
   // Asks a program to stop, by the signal of SIGINT and SIGTERM that did not stop this process: a signal that the user sent to
-  // all processes alike must not count twice, because the second one kills.
+  // all processes alike must not count twice, because a second SIGINT kills.
   void ask_to_stop(pid_t program);
 
   // This program's own file.

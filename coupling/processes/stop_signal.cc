@@ -13,7 +13,10 @@ namespace diptych::coupling
     void request_stop(const int signal)
     {
       stop = 1;
-      std::signal(signal, SIG_DFL);
+      // A second Ctrl-C kills. SIGTERM may come several times for one reason: from a parent with several threads that is killed,
+      // once for each that ends after the one before, and the checkpoint must be written all the same.
+      if (signal == SIGINT)
+        std::signal(signal, SIG_DFL);
     }
   } // namespace
 

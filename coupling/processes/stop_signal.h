@@ -4,6 +4,6 @@
 
 namespace diptych::coupling
 {
-  void install_stop_signals(); // the second signal kills as usual
+  void install_stop_signals(); // a second Ctrl-C kills as usual
   bool stop_requested();
 } // namespace diptych::coupling

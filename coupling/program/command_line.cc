@@ -183,14 +183,28 @@ namespace diptych::coupling
              "; the commands are " + joined(names) + "; see diptych --help";
     }
 
+    // "; it is one of diptych run" for an option that only other commands have.
+    std::string owners_of(CLI::App &app, const std::string &option)
+    {
+      std::vector<std::string> owners;
+      for (CLI::App *command : app.get_subcommands({}))
+        for (const std::string &name : option_names(*command))
+          if (name == option)
+            owners.push_back("diptych " + command->get_name());
+      return owners.empty() ? "" : "; it is one of " + joined(owners, ", ");
+    }
+
     // "diptych compare: ...; it has --help --set --quiet"
     std::string refusal(CLI::App &app, const std::vector<std::string> &words, const CLI::ParseError &error)
     {
       const std::vector<CLI::App *> found = app.get_subcommands();
       if (found.empty())
         return refused_command(app, words, error.what());
-      CLI::App &asked = *found.front();
-      return "diptych " + asked.get_name() + ": " + error.what() + "; it has " + joined(option_names(asked));
+      CLI::App   &asked = *found.front();
+      std::string text  = error.what();
+      if (const std::vector<std::string> extra = asked.remaining(true); !extra.empty())
+        text = "'" + joined(extra) + "' is not used" + owners_of(app, extra.front());
+      return "diptych " + asked.get_name() + ": " + text + "; it has " + joined(option_names(asked));
     }
   } // namespace
 

@@ -25,11 +25,11 @@ namespace diptych::coupling
     }
   } // namespace
 
-  std::string joined(const std::vector<std::string> &words)
+  std::string joined(const std::vector<std::string> &words, const std::string &between)
   {
     std::string text;
     for (const std::string &word : words)
-      text += (text.empty() ? "" : " ") + word;
+      text += (text.empty() ? "" : between) + word;
     return text;
   }
 

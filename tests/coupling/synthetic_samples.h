@@ -112,6 +112,8 @@ namespace diptych::coupling::synthetic
     return frame;
   }
 
+  inline const std::vector<Eigen::Vector2d> box_52_75 = {{0, 0}, {52, 0}, {52, 75}, {0, 75}};
+
   // Lower left corner at the origin.
   inline SampleFrame frame_of(const double width, const double height, const Eigen::Vector2d &platen_increment)
   {

@@ -214,7 +214,7 @@ class MaterialPoint(Folder):
         result = self.continuum(*setting(continuum_youngs_modulus=1e10), code=3, command="material-point")
         self.assertIn("no lateral strain", result.stderr)
         with open(os.path.join(self.folder, "material_point.csv")) as file:
-            self.assertEqual(len(file.readlines()), 2)  # names and the start
+            self.assertEqual(len(file.readlines()), 3)  # names, the start and the step that still held
 
     def test_a_path_that_cannot_be_is_wrong_input(self):
         result = diptych("material-point", QUICK, *setting(loading_axial_strain=1.5), "--output", self.folder)

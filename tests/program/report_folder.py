@@ -14,9 +14,9 @@ REPORT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "c
 STAGES, WINDOWS, PROBES = 2, 1, 3
 PLATEN = 0.5  # d per unit of progress: what displacements count in
 BAND = {"angle_deg": -45.0, "half_width_d": 1.0, "width_10_90_d": 2.197, "offset_d": 0.0, "jump": 0.9, "dilation_deg": 3.0,
-        "r_squared": 0.98, "to_minor_stress_deg": 45.0, "background": [0.5, 0.01]}
+        "r_squared": 0.98, "to_minor_stress_deg": 45.0}
 STRIPS = {"angle_deg": -45.0, "edges_d": list(np.linspace(-4, 4, 17)), "mean": [None] + list(np.linspace(0, 1, 15)),
-          "deviation": [None] + [0.1] * 15, "count": [0] + [2] * 15}
+          "deviation": [None] + [0.1] * 15, "count": [0] + [2] * 15, "background": 0.5, "background_slope": 0.01}
 ANGLES = list(range(0, 180, 30))
 CIRCLE = {"centre": [2.5, 4.0], "radius": 2.0, "angles_deg": ANGLES, "normal": [2.0] * 6, "tangential": [0.0] * 6,
           "predicted_normal": [1.9] * 6, "predicted_tangential": [None] + [0.1] * 5, "normal_error": [0.1] * 5 + [None],

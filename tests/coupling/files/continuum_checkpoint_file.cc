@@ -38,7 +38,7 @@ namespace
     }
   };
 
-  ContinuumCheckpoint example()
+  ContinuumCheckpoint example_checkpoint()
   {
     ContinuumCheckpoint c;
     continuum::visit_entries(c.panel, Fill());
@@ -73,7 +73,7 @@ namespace
     return a == b;
   }
 
-  void expect_same(const ContinuumCheckpoint &a, const ContinuumCheckpoint &b)
+  void expect_same_checkpoint(const ContinuumCheckpoint &a, const ContinuumCheckpoint &b)
   {
     EXPECT_EQ(a.scene, b.scene);
     EXPECT_EQ(a.sample, b.sample);
@@ -108,14 +108,14 @@ namespace
   TEST(ContinuumCheckpointFile, ComesBackBitByBit)
   {
     const Folder              folder;
-    const ContinuumCheckpoint c = example();
+    const ContinuumCheckpoint c = example_checkpoint();
     write_continuum_checkpoint(folder / "checkpoint.h5", c);
-    expect_same(read_continuum_checkpoint(folder / "checkpoint.h5"), c);
+    expect_same_checkpoint(read_continuum_checkpoint(folder / "checkpoint.h5"), c);
     EXPECT_FALSE(fs::exists(folder / "checkpoint.h5.part"));
     ContinuumCheckpoint none = c;
     none.panel.localisation_progress.reset();
     write_continuum_checkpoint(folder / "checkpoint.h5", none);
-    expect_same(read_continuum_checkpoint(folder / "checkpoint.h5"), none);
+    expect_same_checkpoint(read_continuum_checkpoint(folder / "checkpoint.h5"), none);
   }
 
   TEST(ContinuumCheckpointFile, AnEmptyOneAndManyCellsComeBack)
@@ -123,9 +123,9 @@ namespace
     const Folder      folder;
     const std::string file = folder / "checkpoint.h5";
     write_continuum_checkpoint(file, {});
-    expect_same(read_continuum_checkpoint(file), {});
+    expect_same_checkpoint(read_continuum_checkpoint(file), {});
 
-    ContinuumCheckpoint many = example(); // more rows than one checksummed piece of 4096
+    ContinuumCheckpoint many = example_checkpoint(); // more rows than one checksummed piece of 4096
     many.panel.cells.clear();
     many.panel.values.clear();
     for (int k = 0; k < 10000; ++k)
@@ -135,14 +135,14 @@ namespace
           many.panel.values.push_back(std::sin(k + 0.1 * i));
       }
     write_continuum_checkpoint(file, many);
-    expect_same(read_continuum_checkpoint(file), many);
+    expect_same_checkpoint(read_continuum_checkpoint(file), many);
   }
 
   TEST(ContinuumCheckpointFile, CutShortAnywhereIsRefusedByName)
   {
     const Folder      folder;
     const std::string file = folder / "checkpoint.h5";
-    write_continuum_checkpoint(file, example());
+    write_continuum_checkpoint(file, example_checkpoint());
     const std::string whole = contents_of(file);
     for (const double share : {0., 0.01, 0.3, 0.9, 0.999})
       {
@@ -156,7 +156,7 @@ namespace
   {
     const Folder              folder;
     const std::string         file = folder / "checkpoint.h5";
-    const ContinuumCheckpoint c    = example();
+    const ContinuumCheckpoint c    = example_checkpoint();
     write_continuum_checkpoint(file, c);
     std::string       contents = contents_of(file);
     const std::size_t place    = contents.find(std::string(reinterpret_cast<const char *>(&c.panel.values[0]), sizeof(double)));
@@ -173,7 +173,7 @@ namespace
     expect_refusal_naming(file, "missing");
     put(file, "step,axial_strain\n");
     expect_refusal_naming(file, "no HDF5 file");
-    write_continuum_checkpoint(file, example());
+    write_continuum_checkpoint(file, example_checkpoint());
     relink(file, "format", "other");
     expect_refusal_naming(file, "diptych continuum checkpoint");
     relink(file, "scene", "format"); // another text there
@@ -186,7 +186,7 @@ namespace
     const std::string file = folder / "checkpoint.h5";
     for (const std::string name : {"scene", "values", "cells", "divisions", "factorised_matrix"})
       {
-        write_continuum_checkpoint(file, example());
+        write_continuum_checkpoint(file, example_checkpoint());
         relink(file, name, "elsewhere");
         expect_refusal_naming(file, name);
       }
@@ -195,7 +195,7 @@ namespace
   TEST(ContinuumCheckpointFile, ContentsThatContradictEachOtherAreNotWritten)
   {
     const Folder        folder;
-    ContinuumCheckpoint short_of_a_value = example();
+    ContinuumCheckpoint short_of_a_value = example_checkpoint();
     short_of_a_value.panel.values.pop_back();
     EXPECT_THROW(write_continuum_checkpoint(folder / "checkpoint.h5", short_of_a_value), std::invalid_argument);
     EXPECT_FALSE(fs::exists(folder / "checkpoint.h5"));
@@ -206,8 +206,8 @@ namespace
   {
     const Folder      folder;
     const std::string file = folder / "checkpoint.h5";
-    write_continuum_checkpoint(file, example());
-    ContinuumCheckpoint large   = example();
+    write_continuum_checkpoint(file, example_checkpoint());
+    ContinuumCheckpoint large   = example_checkpoint();
     large.panel.values_per_cell = 100000;
     large.panel.values.assign(300000, 1.5);
 
@@ -220,9 +220,9 @@ namespace
     ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
     std::signal(SIGXFSZ, handler);
 
-    expect_same(read_continuum_checkpoint(file), example());
+    expect_same_checkpoint(read_continuum_checkpoint(file), example_checkpoint());
     EXPECT_FALSE(fs::exists(file + ".part"));
     write_continuum_checkpoint(file, large);
-    expect_same(read_continuum_checkpoint(file), large);
+    expect_same_checkpoint(read_continuum_checkpoint(file), large);
   }
 } // namespace

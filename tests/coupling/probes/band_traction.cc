@@ -14,7 +14,6 @@ namespace
 {
   using namespace diptych::coupling;
 
-  const std::vector<Eigen::Vector2d> box = {{0, 0}, {52, 0}, {52, 75}, {0, 75}};
 
   Eigen::Matrix2d known_stress()
   {
@@ -30,7 +29,7 @@ namespace
     const GrainNetwork    network = synthetic::hexagonal_network(53, 88, known_stress());
     const SampleFrame     frame   = synthetic::frame_52_75();
     const double          angle   = -40;
-    const TractionStrips  strips  = traction_strips(box, frame, angle, strip_edges(frame, angle, 2));
+    const TractionStrips  strips  = traction_strips(synthetic::box_52_75, frame, angle, strip_edges(frame, angle, 2));
     const BandTraction    result  = grain_band_traction(strips, network, 5);
     const auto            forces  = synthetic::lattice_forces(known_stress());
     const Eigen::Vector2d s(std::cos(angle * M_PI / 180), std::sin(angle * M_PI / 180)), n(-s.y(), s.x());
@@ -84,7 +83,7 @@ namespace
     for (unsigned int c = 0; c < mesh.cell.size(); ++c)
       stress.push_back(synthetic::uniform(random, 0.5, 2) * s * s.transpose() + 1.5 * n * n.transpose() -
                        0.4 * (s * n.transpose() + n * s.transpose()));
-    const TractionStrips strips = traction_strips(box, frame, -46, strip_edges(frame, -46, 2));
+    const TractionStrips strips = traction_strips(synthetic::box_52_75, frame, -46, strip_edges(frame, -46, 2));
     const BandTraction   result = cell_band_traction(strips, mesh, TriangleSearch(mesh), stress);
     for (int k = 4; k < 12; ++k)
       {
@@ -144,13 +143,13 @@ namespace
   TEST(BandTraction, StripsBesideTheSampleOrTooShortCarryNothing)
   {
     const SampleFrame    frame  = synthetic::frame_52_75();
-    const TractionStrips strips = traction_strips(box, frame, 45, {-60, -50, -40, 0, 10});
+    const TractionStrips strips = traction_strips(synthetic::box_52_75, frame, 45, {-60, -50, -40, 0, 10});
     EXPECT_TRUE(std::isnan(strips.from[0])); // the sample ends at 44.9
     EXPECT_TRUE(std::isnan(strips.from[1]));
     EXPECT_FALSE(std::isnan(strips.from[3]));
     const BandTraction result = grain_band_traction(strips, synthetic::hexagonal_network(53, 88, known_stress()), 5);
     EXPECT_TRUE(std::isnan(result.normal[0]));
     EXPECT_GT(result.normal[3], 0);
-    EXPECT_THROW(traction_strips(box, frame, 45, {1, 0}), std::invalid_argument);
+    EXPECT_THROW(traction_strips(synthetic::box_52_75, frame, 45, {1, 0}), std::invalid_argument);
   }
 } // namespace

@@ -14,9 +14,8 @@ namespace
 {
   using namespace diptych::coupling;
 
-  const std::vector<Eigen::Vector2d> box = {{0, 0}, {52, 0}, {52, 75}, {0, 75}};
 
-  Eigen::Matrix2d known_stress()
+  Eigen::Matrix2d circle_stress()
   {
     Eigen::Matrix2d stress;
     stress << 1, 0.3, 0.3, 2;
@@ -28,10 +27,10 @@ namespace
   // one force of each direction.
   TEST(CircularProbe, LatticeTransmitsItsStressToOneBranchPerDiameter)
   {
-    const GrainNetwork  network = synthetic::hexagonal_network(52, 60, known_stress());
+    const GrainNetwork  network = synthetic::hexagonal_network(52, 60, circle_stress());
     const Circle        circle{{26.1, 25.7}, 15};
     const CircularProbe probe  = grain_circular_probe(circle, network, {});
-    const auto          forces = synthetic::lattice_forces(known_stress());
+    const auto          forces = synthetic::lattice_forces(circle_stress());
     const double        bound  = (std::abs(forces[0]) + std::abs(forces[1]) + std::abs(forces[2])) / 30;
     ASSERT_EQ(probe.normal.size(), 36u);
     for (int k = 0; k < 36; ++k)
@@ -39,13 +38,13 @@ namespace
         EXPECT_DOUBLE_EQ(probe.angles_deg[k], 5. * k);
         const double          angle = 5 * k * M_PI / 180;
         const Eigen::Vector2d s(std::cos(angle), std::sin(angle)), n(-s.y(), s.x());
-        EXPECT_LT(std::abs(probe.normal[k] - n.dot(known_stress() * n)), bound);
-        EXPECT_LT(std::abs(probe.tangential[k] - s.dot(known_stress() * n)), bound);
+        EXPECT_LT(std::abs(probe.normal[k] - n.dot(circle_stress() * n)), bound);
+        EXPECT_LT(std::abs(probe.tangential[k] - s.dot(circle_stress() * n)), bound);
       }
     // Length of the lines in the circle, h = sqrt(3)/2 apart: a rectangle rule for 2 sqrt(R^2 - y^2), whose ends miss at most
     // 0.21 * 2 sqrt(2 R) h^1.5 each (0.21 = -zeta(-1/2)), 0.0053 of the area. Each direction's share of the stress is
     // 2/sqrt(3) f_k.
-    EXPECT_LT((probe.stress - known_stress()).norm(), 0.0053 * 2 / std::sqrt(3.) * 30 * bound);
+    EXPECT_LT((probe.stress - circle_stress()).norm(), 0.0053 * 2 / std::sqrt(3.) * 30 * bound);
     EXPECT_LT(probe.relative_l2.value, 0.05);
   }
 
@@ -110,7 +109,7 @@ namespace
     std::vector<CircularProbe> probes;
     for (int sample = 0; sample < 100; ++sample)
       {
-        GrainNetwork network = synthetic::hexagonal_network(52, 60, known_stress());
+        GrainNetwork network = synthetic::hexagonal_network(52, 60, circle_stress());
         for (auto &contact : network.forces)
           contact.force *= 1 + 0.8 * synthetic::normal(random);
         probes.push_back(grain_circular_probe({{26.1, 25.7}, 15}, network, {5, 200, 3}));
@@ -127,7 +126,7 @@ namespace
 
   TEST(CircularProbe, SameSeedSameInterval)
   {
-    const GrainNetwork network = synthetic::hexagonal_network(52, 60, known_stress());
+    const GrainNetwork network = synthetic::hexagonal_network(52, 60, circle_stress());
     const auto         a       = grain_circular_probe({{26, 25}, 12}, network, {5, 200, 9}).relative_l2;
     const auto         b       = grain_circular_probe({{26, 25}, 12}, network, {5, 200, 9}).relative_l2;
     EXPECT_EQ(a.low, b.low);
@@ -140,7 +139,7 @@ namespace
   {
     const QuadMesh       mesh = synthetic::box_mesh({0, 0}, {52, 75}, 26, 37, 0.2);
     const TriangleSearch search(mesh);
-    Eigen::Matrix2d      stress = known_stress();
+    Eigen::Matrix2d      stress = circle_stress();
     stress(0, 1) += 0.1; // a Cosserat stress is not symmetric
     const CircularProbe probe = cell_circular_probe({{25, 30}, 13}, mesh, search, {mesh.cell.size(), stress});
     EXPECT_LT((probe.stress - stress).norm(), 1e-12);
@@ -177,22 +176,22 @@ namespace
     Band              band;
     band.angle_deg = 0;
     band.offset    = 4;
-    Circle circle  = place_circle(box, frame, {band}, {});
+    Circle circle  = place_circle(synthetic::box_52_75, frame, {band}, {});
     EXPECT_LT((circle.centre - Eigen::Vector2d(26, 41.5)).norm(), 1e-12);
     EXPECT_NEAR(circle.radius, 26 - 1.5, 1e-12);
 
     ProbeOptions options;
     options.probe_circle = {10, -5, 40};
-    circle               = place_circle(box, frame, {band}, options);
+    circle               = place_circle(synthetic::box_52_75, frame, {band}, options);
     EXPECT_LT((circle.centre - Eigen::Vector2d(36, 32.5)).norm(), 1e-12);
     EXPECT_NEAR(circle.radius, 16, 1e-12); // up to the right side
     options.probe_circle = {100, 0, 5};
-    EXPECT_EQ(place_circle(box, frame, {band}, options).radius, 0);
-    EXPECT_TRUE(grain_circular_probe(place_circle(box, frame, {band}, options), {}, {}).normal.empty());
+    EXPECT_EQ(place_circle(synthetic::box_52_75, frame, {band}, options).radius, 0);
+    EXPECT_TRUE(grain_circular_probe(place_circle(synthetic::box_52_75, frame, {band}, options), {}, {}).normal.empty());
     options.probe_circle = {1, 2};
     try
       {
-        place_circle(box, frame, {band}, options);
+        place_circle(synthetic::box_52_75, frame, {band}, options);
         FAIL() << "two numbers were taken for a circle";
       }
     catch (const std::invalid_argument &error)

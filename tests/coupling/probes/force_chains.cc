@@ -10,7 +10,7 @@ namespace
 {
   using namespace diptych::coupling;
 
-  const std::vector<Eigen::Vector2d> box = {{0, 0}, {60, 0}, {60, 60}, {0, 60}};
+  const std::vector<Eigen::Vector2d> box_60 = {{0, 0}, {60, 0}, {60, 60}, {0, 60}};
 
   // A horizontal zone y = 20 .. 40.
   BandZone zone()
@@ -48,7 +48,7 @@ namespace
     std::mt19937_64    random(1);
     const GrainNetwork network = grains(
       [&](const Eigen::Vector2d &x) { return (zone().holds(x) ? 1.5 : 1) * exponential(random); });
-    const ForceChains chains = grain_force_chains(zone(), box, network, 0, {5, 400, 1});
+    const ForceChains chains = grain_force_chains(zone(), box_60, network, 0, {5, 400, 1});
     EXPECT_EQ(chains.inside.count, 1200);
     EXPECT_EQ(chains.outside.count, 2400);
     EXPECT_EQ(chains.blocks, 48);
@@ -75,7 +75,7 @@ namespace
         for (double &value : patch)
           value = exponential(random);
         const ForceChains chains = grain_force_chains(
-          zone(), box, grains([&](const Eigen::Vector2d &x) { return patch[int(x.y() / 5) * 12 + int(x.x() / 5)]; }), 0,
+          zone(), box_60, grains([&](const Eigen::Vector2d &x) { return patch[int(x.y() / 5) * 12 + int(x.x() / 5)]; }), 0,
           {5, 100, 1});
         differs += chains.verdict.rfind("differs", 0) == 0;
         naive += chains.largest_distance.value > 0.048;
@@ -86,7 +86,7 @@ namespace
 
   TEST(ForceChains, EqualGrainsIgnoreTheZone)
   {
-    const ForceChains chains = grain_force_chains(zone(), box, grains([](const auto &) { return 2; }), 0, {5, 100, 1});
+    const ForceChains chains = grain_force_chains(zone(), box_60, grains([](const auto &) { return 2; }), 0, {5, 100, 1});
     EXPECT_EQ(chains.largest_distance.value, 0);
     EXPECT_EQ(chains.largest_distance.high, 0);
     EXPECT_EQ(chains.verdict.rfind("ignores the zone", 0), 0u) << chains.verdict;
@@ -97,7 +97,7 @@ namespace
   // A rim of 2.9 mean diameters is left out: 54 x 54 grains remain, the rows 20 .. 39 of them inside.
   TEST(ForceChains, RimOfTheSampleIsLeftOut)
   {
-    const ForceChains chains = grain_force_chains(zone(), box, grains([](const auto &) { return 2; }), 2.9, {5, 100, 1});
+    const ForceChains chains = grain_force_chains(zone(), box_60, grains([](const auto &) { return 2; }), 2.9, {5, 100, 1});
     EXPECT_EQ(chains.inside.count, 20 * 54);
     EXPECT_EQ(chains.inside.count + chains.outside.count, 54 * 54);
   }
@@ -114,7 +114,7 @@ namespace
         network.forces.push_back({0, 1, point, {1, 0}, {0.6 * size, -0.8 * size}});
       }
     network.forces.push_back({0, 1, {30, 30}, {1, 0}, {0, 0}}); // bears nothing
-    const ForceChains chains = contact_force_chains(zone(), box, network, 0, {5, 100, 1});
+    const ForceChains chains = contact_force_chains(zone(), box_60, network, 0, {5, 100, 1});
     EXPECT_EQ(chains.inside.count, 1200);
     EXPECT_NEAR(chains.inside.mean, 1, 1e-12);
     EXPECT_NEAR(chains.inside.share_above_mean, 0.5, 1e-12);
@@ -126,7 +126,7 @@ namespace
   TEST(ForceChains, ZoneBesideTheSampleTellsNothing)
   {
     const BandZone    beside{{30, 90}, 0, 10};
-    const ForceChains chains = grain_force_chains(beside, box, grains([](const auto &) { return 2; }), 0, {5, 100, 1});
+    const ForceChains chains = grain_force_chains(beside, box_60, grains([](const auto &) { return 2; }), 0, {5, 100, 1});
     EXPECT_EQ(chains.inside.count, 0);
     EXPECT_TRUE(std::isnan(chains.largest_distance.value));
     EXPECT_EQ(chains.verdict, "too few blocks to tell");

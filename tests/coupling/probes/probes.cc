@@ -13,7 +13,6 @@ namespace
 {
   using namespace diptych::coupling;
 
-  const std::vector<Eigen::Vector2d> box = {{0, 0}, {52, 0}, {52, 75}, {0, 75}};
 
   Band oblique_band()
   {
@@ -29,7 +28,7 @@ namespace
   {
     const SampleFrame frame  = synthetic::frame_52_75();
     const Band        band   = oblique_band();
-    const auto        probes = place_probes(box, frame, {band});
+    const auto        probes = place_probes(synthetic::box_52_75, frame, {band});
     ASSERT_EQ(probes.size(), 3u);
     const char *names[] = {"upper", "zone", "lower"};
     for (int p = 0; p < 3; ++p)
@@ -39,7 +38,7 @@ namespace
         Eigen::Vector2d centre = Eigen::Vector2d::Zero();
         for (const auto &x : probes[p].polygon)
           {
-            EXPECT_TRUE(inside_polygon(x, box));
+            EXPECT_TRUE(inside_polygon(x, synthetic::box_52_75));
             centre += 0.25 * x;
           }
         const double across = (centre - frame.centre).dot(band.normal()) - band.offset;
@@ -53,7 +52,7 @@ namespace
 
   TEST(Probes, AreStackedWhereThereIsNoBand)
   {
-    const auto probes = place_probes(box, synthetic::frame_52_75(), {});
+    const auto probes = place_probes(synthetic::box_52_75, synthetic::frame_52_75(), {});
     ASSERT_EQ(probes.size(), 3u);
     for (int p = 0; p < 2; ++p)
       EXPECT_GT(probes[p].polygon[0].y(), probes[p + 1].polygon[2].y());
@@ -104,7 +103,7 @@ namespace
         }
     const QuadMesh                     mesh = synthetic::box_mesh({0, 0}, {52, 75}, 26, 37, 0.2);
     const std::vector<Eigen::Matrix2d> in_cells(mesh.cell.size(), stress);
-    for (const auto &probe : place_probes(box, synthetic::frame_52_75(), {oblique_band()}))
+    for (const auto &probe : place_probes(synthetic::box_52_75, synthetic::frame_52_75(), {oblique_band()}))
       {
         const auto of_grains = grain_probe_stress(probe, position, radius, moment);
         EXPECT_LT((of_grains.stress - stress).norm(), 0.01 * stress.norm());
@@ -129,7 +128,7 @@ namespace
       }
     contacts.push_back({0, 1, {26, 37.5}, {1, 0}, {0, 0}});  // carries nothing
     contacts.push_back({0, 1, {-26, 37.5}, {1, 0}, {1, 0}}); // elsewhere
-    const auto fabric = probe_fabric({"zone", box, 0}, contacts);
+    const auto fabric = probe_fabric({"zone", synthetic::box_52_75, 0}, contacts);
     EXPECT_EQ(fabric.contacts, 20000);
     EXPECT_NEAR(fabric.fabric.trace(), 1, 1e-12);
     EXPECT_NEAR(fabric.anisotropy_error, 0.01, 1e-12);
@@ -148,7 +147,7 @@ namespace
   {
     ProbeOptions options;
     options.probe_rectangles = {10, -10, 20, 10, 90, 24, 0, 10, 20, 0};
-    const auto probes        = place_probes(box, synthetic::frame_52_75(), {oblique_band()}, options);
+    const auto probes        = place_probes(synthetic::box_52_75, synthetic::frame_52_75(), {oblique_band()}, options);
     ASSERT_EQ(probes.size(), 2u);
     EXPECT_EQ(probes[0].name, "probe 1");
     EXPECT_EQ(probes[0].angle_deg, 90);
@@ -159,7 +158,7 @@ namespace
     EXPECT_LT((high - Eigen::Vector2d(41, 37.5)).norm(), 1e-12);
     EXPECT_NEAR(polygon_area(probes[1].polygon), 7 * 20, 1e-12); // x = 45 .. 55, the sample ends at 52
     options.probe_rectangles = {100, 0, 10, 20, 0};
-    EXPECT_TRUE(place_probes(box, synthetic::frame_52_75(), {}, options)[0].polygon.empty());
+    EXPECT_TRUE(place_probes(synthetic::box_52_75, synthetic::frame_52_75(), {}, options)[0].polygon.empty());
   }
 
   TEST(Probes, WrongNumbersOfTheSceneNameTheirKey)
@@ -167,7 +166,7 @@ namespace
     const auto message = [](const ProbeOptions &options) -> std::string {
       try
         {
-          place_probes(box, synthetic::frame_52_75(), {}, options);
+          place_probes(synthetic::box_52_75, synthetic::frame_52_75(), {}, options);
         }
       catch (const std::invalid_argument &error)
         {

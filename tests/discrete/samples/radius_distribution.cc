@@ -52,7 +52,7 @@ namespace
   const std::string path =
     (std::filesystem::path(testing::TempDir()) / ("grading" + std::to_string(::getpid()) + ".csv")).string();
 
-  RadiusTable read(const std::string &text)
+  RadiusTable read_table(const std::string &text)
   {
     write_text(path, text);
     const RadiusTable table = read_radius_table(path);
@@ -64,7 +64,7 @@ namespace
   {
     try
       {
-        read(text);
+        read_table(text);
       }
     catch (const std::invalid_argument &error)
       {
@@ -202,8 +202,8 @@ namespace
 
   TEST(RadiusTable, FractionsAndPerCentAreTheSameCurve)
   {
-    const RadiusTable fractions = read("passing,radius\n0,0.2\n0.25,0.4\n1,1\n"),
-                      per_cent  = read("radius,passing\n0.2,0\n0.4,25\n1,100\n");
+    const RadiusTable fractions = read_table("passing,radius\n0,0.2\n0.25,0.4\n1,1\n"),
+                      per_cent  = read_table("radius,passing\n0.2,0\n0.4,25\n1,100\n");
     EXPECT_EQ(fractions.radius, (std::vector<double>{0.2, 0.4, 1.}));
     EXPECT_EQ(fractions.passing, (std::vector<double>{0., 0.25, 1.}));
     EXPECT_EQ(per_cent.radius, fractions.radius);

@@ -52,8 +52,10 @@ def _panel(increment, panel, profile, box, angle):
     bands = increment.bands(panel)
     # A band that crosses the strips has no profile in them.
     parallel = [band for band in bands if angle is None or _turn(band, angle) < LARGEST_TURN]
+    # The straight line under the profile belongs to the first band of the panel.
+    straight = [plain(increment.panel(panel)["strips"].get(name)) for name in ("background", "background_slope")]
     for band in parallel:
-        _draw_fit(axes, band, box)
+        _draw_fit(axes, band, box, straight if band is bands[0] else (None, None))
     if not parallel:
         axes.plot([], [], " ", label="no band along these strips" if bands else DIFFUSE)
     axes.set(xlim=box[:2], ylim=box[2:], xlabel="distance along the strips' normal / d",
@@ -72,14 +74,14 @@ def _turn(band, angle):
     return 90.0 if found is None else abs((found - angle + 90) % 180 - 90)
 
 
-def _draw_fit(axes, band, box):
-    """u = a + b x + (jump/2) tanh((x - offset)/delta), [a, b] the band's background; 10-90 % width shaded."""
+def _draw_fit(axes, band, box, background):
+    """u = a + b x + (jump/2) tanh((x - offset)/delta); background: a and b of the strips, or None; 10-90 % width shaded."""
     jump, offset, delta, width = (plain(band.get(name)) for name in ("jump", "offset_d", "half_width_d", "width_10_90_d"))
-    background, ends = band.get("background") or [], interval(band.get("width_10_90_d"))
+    ends = interval(band.get("width_10_90_d"))
     label = "" if width is None else f"10–90 % width {width:.1f} d"
     if ends:
         label += signed(f" [{ends[0]:.1f}, {ends[1]:.1f}]")
-    if len(background) == 2 and None not in (*background, jump, offset) and delta:
+    if None not in (*background, jump, offset) and delta:
         x = np.linspace(box[0], box[1], 400)
         axes.plot(x, background[0] + background[1] * x + jump / 2 * np.tanh((x - offset) / delta), color=INK, label="fit")
     if width is not None and offset is not None:
