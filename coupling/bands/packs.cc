@@ -45,8 +45,10 @@ namespace diptych::coupling
     const double          dilation = band.dilation_deg * degree;
     const Eigen::Vector2d apart    = std::copysign(std::cos(dilation), band.jump) * band.direction() +
                                   std::sin(dilation) * band.normal();
-    if (!(apart.dot(frame.platen_increment) > 0))
-      object("its upper side moves against the upper platen");
+    const double turn = std::acos(std::clamp(apart.dot(frame.platen_increment.normalized()), -1., 1.)) / degree;
+    if (!(turn <= largest_turn_from_travel))
+      object("its sides part at " + rounded(turn) + " degrees to the platen's travel, more than " +
+             rounded(largest_turn_from_travel));
     if (std::abs(band.jump) > largest_pack_jump)
       object("its jump is " + rounded(std::abs(band.jump)) + " of the platen's travel, more than " + rounded(largest_pack_jump));
     if (!converged)

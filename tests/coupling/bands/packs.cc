@@ -63,7 +63,9 @@ namespace
   {
     EXPECT_EQ(objection_to_packs(band_at(-45, 0, 1.2), frame_52_75(), true), "");
     expect_reason(objection_to_packs(band_at(-45, 0, 1.21), frame_52_75(), true), "more than 1.2");
-    expect_reason(objection_to_packs(band_at(-45, 0, -1), frame_52_75(), true), "moves against the upper platen");
+    expect_reason(objection_to_packs(band_at(-45, 0, -1), frame_52_75(), true), "part at 180 degrees to the platen's travel");
+    EXPECT_EQ(objection_to_packs(band_at(-26, 0, 1), frame_52_75(), true), "");
+    expect_reason(objection_to_packs(band_at(-24, 0, 1), frame_52_75(), true), "its sides part at 21 degrees");
     expect_reason(objection_to_packs(band_at(-45, 0, 1), frame_52_75(), false), "not converged");
   }
 
@@ -83,8 +85,8 @@ namespace
     expect_reason(diagonal.verdict, "more than 1.2");
   }
 
-  // What a Cosserat continuum shows beside its band: a smooth turn of the packs that a tanh of a third of the sample's width fits.
-  // In its middle it shears 0.27/(2 x 14) = 0.0096 of the travel per d; the sample on average 1/75 = 0.0133.
+  // What a Cosserat continuum shows beside its band: a smooth turn of the packs that a tanh of a third of the sample's width
+  // fits. In its middle it shears 0.27/(2 x 14) = 0.0096 of the travel per d; the sample on average 1/75 = 0.0133.
   TEST(Packs, WhatShearsLessThanTheSampleOnAverageIsNoBand)
   {
     const SampleFrame frame  = frame_52_75();
