@@ -78,30 +78,83 @@ namespace diptych::coupling
       return ground ? *std::move(ground) : without_collar(target.mesh, target.period);
     }
 
+    // Both sides of the nodal identity, filled while the halves are cut.
+    struct NodalIdentity
+    {
+      const CollaredMesh   &ground;
+      const TriangleSearch &search;
+      std::vector<Eigen::Matrix2d> triangle_moment = std::vector<Eigen::Matrix2d>(ground.mesh.triangle.size(), Eigen::Matrix2d::Zero());
+      std::vector<Eigen::Vector2d> difference = std::vector<Eigen::Vector2d>(ground.mesh.node.size(), Eigen::Vector2d::Zero());
+      double                       largest_force = 0;
+      bool                         left          = false; // a half lay beyond the ground
+
+      void add_force(const Eigen::Vector2d &force, const Eigen::Vector2d &at)
+      {
+        const unsigned int triangle = search.locate(at).triangle;
+        const auto         node     = triangle_nodes(ground.mesh, triangle);
+        const auto         value    = shape_values(ground.mesh, triangle, at);
+        for (unsigned int k = 0; k < 3; ++k)
+          difference[ground.same_as[node[k]]] -= value[k] * force;
+      }
+
+      double residual()
+      {
+        if (left || ground.n_inner == ground.mesh.triangle.size() || largest_force == 0)
+          return NAN;
+        for (unsigned int t = 0; t < triangle_moment.size(); ++t)
+          {
+            const auto node     = triangle_nodes(ground.mesh, t);
+            const auto gradient = shape_gradients(ground.mesh, t);
+            for (unsigned int k = 0; k < 3; ++k)
+              difference[ground.same_as[node[k]]] += triangle_moment[t] * gradient.col(k);
+          }
+        double largest = 0;
+        for (const Eigen::Vector2d &d : difference)
+          largest = std::max(largest, d.norm());
+        return largest / largest_force;
+      }
+    };
+
     // Adds the halves to the sums.
     void cut_halves(const TargetCells &target, const Carriers &carriers, CellSums &sums)
     {
-      const bool                         uniform = carriers.uniform.cols() > 0, tapered = carriers.tapered.cols() > 0;
-      double                             outside = 0;
-      const CollaredMesh                 ground  = ground_of(target, carriers);
+      const bool uniform = carriers.uniform.cols() > 0, tapered = carriers.tapered.cols() > 0, judged = !carriers.half_force.empty();
+      double     outside = 0;
+      const CollaredMesh                 ground = ground_of(target, carriers);
       const TriangleSearch               search(ground.mesh);
+      NodalIdentity                      identity{ground, search};
       std::vector<TriangleSearch::Piece> pieces;
       for (std::size_t h = 0; h < carriers.half.size(); ++h)
         {
           const Eigen::Index     row  = Eigen::Index(h);
-          const Eigen::Vector2d &from = carriers.position[carriers.half[h].grain];
-          search.cut(from, from + carriers.half[h].vector, pieces);
+          const Eigen::Vector2d &from = carriers.position[carriers.half[h].grain], to = from + carriers.half[h].vector;
+          search.cut(from, to, pieces);
           for (const TriangleSearch::Piece &piece : pieces)
             {
-              const unsigned int cell = target.mesh.triangle[ground.receiver[piece.triangle]].cell;
+              const unsigned int cell  = target.mesh.triangle[ground.receiver[piece.triangle]].cell;
+              const double       share = piece.to - piece.from;
               if (uniform)
-                sums.uniform.row(cell) += (piece.to - piece.from) * carriers.uniform.row(row);
+                sums.uniform.row(cell) += share * carriers.uniform.row(row);
               if (tapered)
                 sums.tapered.row(cell) += tapered_share(piece.from, piece.to) * carriers.tapered.row(row);
               if (!piece.inside || piece.triangle >= ground.n_inner)
-                outside += (piece.to - piece.from) * carriers.half_size[h];
+                outside += share * carriers.half_size[h];
+              if (judged)
+                {
+                  const auto moment = carriers.uniform.row(row);
+                  identity.triangle_moment[piece.triangle] += share * (Eigen::Matrix2d() << moment[0], moment[1], moment[2], moment[3]).finished();
+                  identity.left = identity.left || (!piece.inside && !carriers.half_force[h].isZero(0));
+                }
+            }
+          if (judged && !carriers.half_force[h].isZero(0))
+            {
+              identity.largest_force = std::max(identity.largest_force, carriers.half_force[h].norm());
+              identity.add_force(carriers.half_force[h], from);
+              identity.add_force(-carriers.half_force[h], to);
             }
         }
+      if (judged)
+        sums.nodal_residual = identity.residual();
       const double size  = std::accumulate(carriers.half_size.begin(), carriers.half_size.end(), 0.);
       sums.outside_share = size > 0 ? outside / size : 0;
     }

@@ -4,7 +4,6 @@
 
 #include <stdexcept>
 
-#include "coupling/averaging/periodic.h"
 #include "coupling/cells/principal_axes.h"
 
 namespace diptych::coupling
@@ -23,9 +22,7 @@ namespace diptych::coupling
     {
       record.fields  = mesh_fields(record.increment.mesh, stage, options.averaging);
       record.mapping = {discrete::name_of(options.averaging.method), record.fields.grains.total_relative_error, record.fields.grains.outside_share,
-                        stage.grains_to.window_time, NAN};
-      if (options.averaging.method == AveragingMethod::segments)
-        record.mapping.nodal_residual = map_grains(record.fields.mesh, stage.grains_to).nodal_residual;
+                        stage.grains_to.window_time, record.fields.grains.nodal_residual};
       record.grid = grid_fields(record.fields, stage, options.averaging, options.grid_size * stage.grains_to.mean_diameter);
       record.stress_differences = stress_differences(record.fields, stage, options.averaging);
       record.stress_verdict     = stress_verdict(record.stress_differences.back());

@@ -105,6 +105,7 @@ namespace diptych::coupling
             tapered.push_back(-0.5 * (l.x() * f.y() - l.y() * f.x()) * l.transpose());
             c.half.push_back({i, l});
             c.half_size.push_back(f.norm() * l.norm());
+            c.half_force.push_back(f);
           });
         }
       for (const discrete::ContactForce &contact : s.contacts)
@@ -118,6 +119,7 @@ namespace diptych::coupling
             tapered.push_back(Eigen::RowVector2d::Zero());
             c.half.push_back({i, l});
             c.half_size.push_back(0);
+            c.half_force.emplace_back(0, 0);
             ++n_contacts[i];
           });
       c.uniform.resize(Eigen::Index(uniform.size()), half::n_columns);
@@ -251,6 +253,7 @@ namespace diptych::coupling
     take_means(sums, target.area, f);
     take_gradients(target, from, to, f);
     f.outside_share        = sums.outside_share;
+    f.nodal_residual       = sums.nodal_residual;
     f.total_relative_error = relative_error(to, target.area, f);
     if (to.window_dissipation.size() != to.window_forces.size())
       f.dissipation.assign(f.dissipation.size(), NAN);

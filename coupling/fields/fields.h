@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cmath>
 #include <vector>
 
 #include <Eigen/Core>
@@ -56,6 +57,7 @@ namespace diptych::coupling
     std::vector<std::uint8_t> covered;                  // CellCover
     double                    total_relative_error = 0; // of the sum of |K| stress from the sum of the grains' mean moments
     double                    outside_share        = 0; // CellSums, of |f| x length
+    double                    nodal_residual       = NAN; // CellSums, of the window's forces
   };
 
   // Grains at two stages onto the cells of a mesh in its shape at `to`; the period is that of `to`. Throws std::invalid_argument
