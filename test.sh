@@ -16,7 +16,7 @@ for word in "$@"; do
     *) echo "usage: ./test.sh [--all] [release|debug|sanitize]" >&2; exit 2 ;;
   esac
 done
-packages+=(chromium python3-meshio) # the tests alone: they open report.html and read the ParaView files back
+packages+=(chromium python3-meshio dpkg-dev clang-format) # the tests alone: they open report.html, read the ParaView files back, make a package
 install_missing
 build "$preset" all
 ctest --test-dir build/"$preset" --output-on-failure -j "$(nproc)" "${select[@]}"

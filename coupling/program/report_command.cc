@@ -18,14 +18,16 @@ namespace diptych::coupling
   {
     namespace fs = std::filesystem;
 
-    // Beside the program where it is installed (PREFIX/bin and PREFIX/share), else where it was built.
-    std::string package_folder()
+    // share/diptych/report beside the program's own folder where it was built, beside PREFIX/bin or PREFIX/libexec/diptych where
+    // it is installed.
+    std::string drawing_script()
     {
-      const fs::path prefix = fs::path(own_path()).parent_path().parent_path();
-      for (const fs::path &folder : {prefix / "share/diptych/report", prefix.parent_path() / "share/diptych/report"})
-        if (fs::exists(folder / "draw.py"))
-          return folder.string();
-      return report_folder;
+      fs::path folder = fs::path(own_path()).parent_path();
+      for (int level = 0; level < 3; ++level, folder = folder.parent_path())
+        if (const fs::path script = folder / "share/diptych/report/draw.py"; fs::exists(script))
+          return script.string();
+      throw std::runtime_error("the report cannot be drawn: share/diptych/report/draw.py is not beside " + own_path() +
+                               "; the installation is broken");
     }
 
     const char *word_of(const Drawing drawing)
@@ -36,9 +38,7 @@ namespace diptych::coupling
 
   void draw(const Drawing drawing, const std::string &directory)
   {
-    const std::string script = package_folder() + "/draw.py";
-    if (!fs::exists(script))
-      throw std::runtime_error("the report cannot be drawn: " + script + " is missing; the installation is broken");
+    const std::string script = drawing_script();
     if (const int code = run_program({python, script, word_of(drawing), directory}); code != 0)
       throw std::runtime_error("the report could not be drawn: " + std::string(python) + " " + script + " " + word_of(drawing) + " " +
                                directory + " ended with exit code " + std::to_string(code));

@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+# diptych: the Debian package runs without the tree that it was built from
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: install_test.py PROGRAM SOURCE_DIR [unittest arguments]; PROGRAM in its build folder."""
+
+import os
+import subprocess
+import tempfile
+import unittest
+
+from running import ENVIRONMENT, PROGRAM, SMALL, SOURCE, content, main, setting
+
+BUILD = os.path.dirname(PROGRAM)
+
+
+class Package(unittest.TestCase):
+    """The .deb is unpacked into a folder of its own, and the program started from there in an empty environment."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.keep = tempfile.TemporaryDirectory()
+        cls.work, cls.root = cls.keep.name, os.path.join(cls.keep.name, "root")
+        subprocess.run(["cpack", "--config", os.path.join(BUILD, "CPackConfig.cmake"), "-G", "DEB", "-B", cls.work], check=True,
+                       capture_output=True, cwd=cls.work)
+        cls.package = next(os.path.join(cls.work, name) for name in os.listdir(cls.work) if name.endswith(".deb"))
+        subprocess.run(["dpkg-deb", "-x", cls.package, cls.root], check=True)
+        cls.program = os.path.join(cls.root, "usr", "bin", "diptych")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.keep.cleanup()
+
+    def run_program(self, *words):
+        environment = {name: ENVIRONMENT[name] for name in ENVIRONMENT if name.startswith("OMPI_")}
+        return subprocess.run([self.program, *words], capture_output=True, text=True, check=False, cwd=self.work,
+                              env={"PATH": "/usr/bin:/bin", "HOME": self.work, **environment})
+
+    def test_it_names_what_it_needs(self):
+        fields = subprocess.run(["dpkg-deb", "-f", self.package, "Depends"], check=True, capture_output=True, text=True).stdout
+        for package in ("python3-h5py", "python3-matplotlib", "python3-jinja2", "libdeal.ii", "libhdf5-openmpi", "libc6"):
+            self.assertIn(package, fields)
+
+    def test_no_file_of_it_knows_where_it_was_built(self):
+        """So that it cannot lean on the source tree or the build folder, moved away or not."""
+        names = [os.path.join(folder, name) for folder, _, files in os.walk(self.root) for name in files]
+        self.assertGreater(len(names), 30)
+        for name in names:
+            for tree in (SOURCE, BUILD):
+                self.assertNotIn(tree.encode(), content(name), name)
+
+    def test_a_comparison_with_its_report(self):
+        scene = os.path.join(self.root, "usr", "share", "diptych", "benchmarks", "moreau_quick", "scene.prm")
+        folder = os.path.join(self.work, "out")
+        done = self.run_program("run", scene, *SMALL, *setting(sample_grains=150), "--output", folder, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertGreater(os.path.getsize(os.path.join(folder, "report.html")), 100000)
+
+    def test_an_ensemble(self):
+        scene = os.path.join(self.root, "usr", "share", "diptych", "benchmarks", "moreau_quick", "scene.prm")
+        folder = os.path.join(self.work, "two")
+        done = self.run_program("run", scene, *SMALL, *setting(sample_grains=150, output_report="false"), "--seeds", "1-2",
+                                "--output", folder, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(os.path.exists(os.path.join(folder, "ensemble.json")))
+
+    def test_a_broken_installation_is_named_with_exit_code_4(self):
+        away = os.path.join(self.root, "usr", "share", "diptych", "away")
+        report = os.path.join(self.root, "usr", "share", "diptych", "report")
+        os.rename(report, away)
+        try:
+            folder = os.path.join(self.work, "out")
+            os.makedirs(folder, exist_ok=True)
+            done = self.run_program("report", folder, "--quiet")
+        finally:
+            os.rename(away, report)
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertIn("installation is broken", done.stderr)
+
+
+if __name__ == "__main__":
+    main()
