@@ -7,13 +7,17 @@
 namespace diptych::continuum
 {
   MeshOption::MeshOption(const std::string &text)
-      : kind(text == "outline" ? Kind::outline : text == "rectangle" ? Kind::rectangle : Kind::file),
+      : kind(text == "outline"     ? Kind::outline
+             : text == "rectangle" ? Kind::rectangle
+                                   : Kind::file),
         file(kind == Kind::file ? text : "")
   {}
 
   std::string text_of(const MeshOption &option)
   {
-    return option.kind == MeshOption::Kind::outline ? "outline" : option.kind == MeshOption::Kind::rectangle ? "rectangle" : option.file;
+    return option.kind == MeshOption::Kind::outline     ? "outline"
+           : option.kind == MeshOption::Kind::rectangle ? "rectangle"
+                                                        : option.file;
   }
 
   void validate(const Options &options)

@@ -28,7 +28,8 @@ namespace diptych::discrete
       const Unused      unused{"sample", keys};
       const bool        generated = o.file.empty(), prepared = generated || o.prepare_file;
       const std::string file = generated ? "sample/file is empty" : "sample/file = " + o.file;
-      unused.unless(!generated, file, {"lower_platen", "upper_platen", "left_wall", "right_wall", "allowed_overlap", "prepare_file"});
+      unused.unless(!generated, file,
+                    {"lower_platen", "upper_platen", "left_wall", "right_wall", "allowed_overlap", "prepare_file"});
       unused.unless(generated, file,
                     {"grains", "radius_distribution", "radius_min", "radius_max", "radius_table", "width_over_height", "height",
                      "solid_fraction", "box_solid_fraction", "target_solid_fraction"});
@@ -38,24 +39,25 @@ namespace diptych::discrete
                     {"grains", "width_over_height"});
       unused.unless(!generated || o.radius_distribution != RadiusKind::table, "sample/radius_distribution = table",
                     {"radius_min", "radius_max"});
-      unused.unless(!generated || !(o.target_solid_fraction > 0), "sample/target_solid_fraction = " + std::to_string(o.target_solid_fraction),
-                    {"preparation_friction"});
+      unused.unless(!generated || !(o.target_solid_fraction > 0),
+                    "sample/target_solid_fraction = " + std::to_string(o.target_solid_fraction), {"preparation_friction"});
     }
 
     void add_unused(const Options &o, std::vector<UnusedKey> &keys)
     {
       const Unused      unused{"discrete", keys};
       const bool        penalty = o.method.method == Method::penalty;
-      const std::string method = "discrete/method = " + name_of(o.method.method), lateral = "discrete/lateral = " + name_of(o.lateral.lateral);
-      const bool        moves = o.lateral.lateral == Lateral::rigid_walls || o.lateral.lateral == Lateral::periodic;
+      const std::string method  = "discrete/method = " + name_of(o.method.method),
+                        lateral = "discrete/lateral = " + name_of(o.lateral.lateral);
+      const bool moves          = o.lateral.lateral == Lateral::rigid_walls || o.lateral.lateral == Lateral::periodic;
       unused.unless(penalty, method, {"penalty_stiffness", "penalty_step_fraction", "penalty_damping"});
       unused.unless(!penalty, method,
                     {"step", "tolerance", "max_sweeps", "snapshot_accuracy", "snapshot_max_sweeps", "reference_sweeps"});
       unused.unless(o.lateral.lateral == Lateral::end_grains, lateral, {"band_height", "end_grains"});
       unused.unless(o.lateral.lateral == Lateral::rigid_walls, lateral, {"wall_friction"});
       unused.unless(moves, lateral, {"side_motion", "side_velocity"});
-      unused.unless(!moves || o.lateral.side_motion == SideMotion::velocity, "discrete/side_motion = " + name_of(o.lateral.side_motion),
-                    {"side_velocity"});
+      unused.unless(!moves || o.lateral.side_motion == SideMotion::velocity,
+                    "discrete/side_motion = " + name_of(o.lateral.side_motion), {"side_velocity"});
       unused.unless(penalty || o.sampling.snapshot_max_sweeps > 0, "discrete/snapshot_max_sweeps = 0",
                     {"snapshot_accuracy", "reference_sweeps"});
     }

@@ -8,6 +8,8 @@
 #include <type_traits>
 
 #include "continuum/elements/element_kernels.h"
+#include "continuum/equilibrium/point_operations.h"
+#include "continuum/equilibrium/stopwatch.h"
 #include "continuum/laws/plastic_flow.h"
 #include "continuum/equilibrium/loads.h"
 
@@ -17,14 +19,6 @@ namespace diptych::continuum
 
   namespace
   {
-    // Adds the CPU time of its life to a counter.
-    struct Stopwatch
-    {
-      double      &seconds;
-      std::clock_t start = std::clock();
-      ~Stopwatch() { seconds += double(std::clock() - start) / CLOCKS_PER_SEC; }
-    };
-
     ElementKind element_kind(const Options &options)
     {
       if (traits(options.law).is_cosserat)
@@ -41,49 +35,11 @@ namespace diptych::continuum
       return std::holds_alternative<SidePressure>(lateral);
     }
 
-    template <class Element> ElementVector<Element> gather(const Cell &cell, const std::vector<double> &values)
-    {
-      ElementVector<Element> u;
-      for (unsigned int i = 0; i < Element::n_dofs; ++i)
-        u[i] = values[cell.local[i]];
-      return u;
-    }
-
-    template <class Element> void scatter(const Cell &cell, const ElementVector<Element> &force, std::vector<double> &values)
-    {
-      for (unsigned int i = 0; i < Element::n_dofs; ++i)
-        values[cell.local[i]] += force[i];
-    }
-
-    // Stress and couple stress turned by the angle that the material turned by; the skew part does not depend on the frame.
-    void turn(MaterialState &point, const double angle)
-    {
-      const double c = std::cos(angle), s = std::sin(angle);
-      Stress      &t    = point.stress;
-      const double mean = (t[xx] + t[yy]) / 2, a = (t[xx] - t[yy]) / 2, b = t[xy];
-      const double cos2 = c * c - s * s, sin2 = 2 * c * s;
-      t[xx]           = mean + a * cos2 - b * sin2;
-      t[yy]           = mean - a * cos2 + b * sin2;
-      t[xy]           = a * sin2 + b * cos2;
-      const double mx = t[curvature_x], my = t[curvature_y];
-      t[curvature_x] = c * mx - s * my;
-      t[curvature_y] = s * mx + c * my;
-    }
-
     bool same_nodes(const SideContact &a, const SideContact &b)
     {
       const auto same = [](const Node &m, const Node &n) { return m.dofs == n.dofs; };
       return std::equal(a[0].begin(), a[0].end(), b[0].begin(), b[0].end(), same) &&
              std::equal(a[1].begin(), a[1].end(), b[1].begin(), b[1].end(), same);
-    }
-
-    // Half the curl of the increment: anticlockwise.
-    template <class Element> double spin_at(const PointGeometry &point, const ElementVector<Element> &u)
-    {
-      double spin = 0;
-      for (unsigned int node = 0; node < Element::n_nodes; ++node)
-        spin += 0.5 * (point.gradient[node][0] * u[2 * node + 1] - point.gradient[node][1] * u[2 * node]);
-      return spin;
     }
   } // namespace
 
@@ -222,7 +178,7 @@ namespace diptych::continuum
       {
         const bool mine = mesh.owned.is_element(node.dofs[c]);
         travel[c]       = Utilities::MPI::sum(mine ? state.displacement[mesh.relevant.index_within_set(node.dofs[c])] : 0.,
-                                              mesh.communicator());
+                                        mesh.communicator());
       }
     return travel;
   }
@@ -411,8 +367,8 @@ namespace diptych::continuum
     });
     for (std::size_t i = 0; i < state.displacement.size(); ++i)
       state.displacement[i] += trial_increment[i];
-    state.progress         = step_end;
-    state.platen_force       = {trial_platen_force(false), trial_platen_force(true)};
+    state.progress     = step_end;
+    state.platen_force = {trial_platen_force(false), trial_platen_force(true)};
     move_nodes();
   }
 

@@ -36,10 +36,10 @@ namespace diptych::continuum
   // locally relevant dof, those of points one for each point of each cell of this process.
   struct CommittedState
   {
-    double                     progress = 0;
-    std::vector<double>        displacement; // and rotation
-    std::vector<MaterialState> points;
-    std::vector<Localisation>  localisation;
+    double                         progress = 0;
+    std::vector<double>            displacement; // and rotation
+    std::vector<MaterialState>     points;
+    std::vector<Localisation>      localisation;
     std::array<Eigen::Vector2d, 2> platen_force{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}; // lower, upper; on the sample
   };
 
@@ -107,7 +107,7 @@ namespace diptych::continuum
     const std::vector<double>         &last_flow() const { return flow; } // growth of the hardening variable in the accepted step
     double                             progress() const { return state.progress; }
     const Eigen::Vector2d             &platen_force(bool upper) const { return state.platen_force[upper]; } // on the sample
-    Eigen::Vector2d                    platen_travel(bool upper) const; // since the start [length]; collective
+    Eigen::Vector2d                    platen_travel(bool upper) const;               // since the start [length]; collective
     double                             initial_area() const { return area_at_start; } // of the whole sample [length^2]
     const PhaseSeconds                &seconds() const { return phase; }
     void                               go_on_counting(const PhaseSeconds &before) { phase = before; }
@@ -147,7 +147,7 @@ namespace diptych::continuum
     std::vector<double>         trial_increment, external, balanced_force, weight; // relevant dofs; forces: this process's part
     DistributedVector           applied;          // forces on free platens and walls, in the present step
     DistributedVector           nodal_force, rhs; // internal - external, uncondensed; negative residual
-    std::vector<double>            flow;                                                                     // per point
-    PhaseSeconds                   phase;
+    std::vector<double>         flow;             // per point
+    PhaseSeconds                phase;
   };
 } // namespace diptych::continuum

@@ -64,7 +64,8 @@ namespace diptych::continuum
   {
     if (version == problem.version())
       return;
-    solver.restart(linear_method(options.linear_solver, n_unknowns(problem), problem.discretisation().communicator()), rigid_modes(problem));
+    solver.restart(linear_method(options.linear_solver, n_unknowns(problem), problem.discretisation().communicator()),
+                   rigid_modes(problem));
     version = problem.version();
   }
 

@@ -19,8 +19,8 @@ namespace diptych::continuum
     double threshold = 0.2; // share of the largest increment above which an element is divided
   };
 
-  // The elements of this process that one refinement divided, as deal.II's CellId in text. deal.II numbers elements by the history
-  // of their divisions: the same history, the same bits.
+  // The elements of this process that one refinement divided, as deal.II's CellId in text. deal.II numbers elements by the
+  // history of their divisions: the same history, the same bits.
   using DividedCells = std::vector<std::string>;
   using Divisions    = std::vector<DividedCells>;
 

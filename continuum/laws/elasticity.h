@@ -18,7 +18,8 @@ namespace diptych::continuum
     double skew       = 0; // Gc: a = Gc * relative rotation [pressure]; zero for a classical law
   };
 
-  // `options` as stresses and lengths (in_units). de Borst, Eng. Comput. 8 (1991) for the Cosserat part. The energy of the relative rotation chi is Gc chi^2 / 2.
+  // `options` as stresses and lengths (in_units). de Borst, Eng. Comput. 8 (1991) for the Cosserat part. The energy of the
+  // relative rotation chi is Gc chi^2 / 2.
   ElasticModuli elastic_moduli(const LawOptions &options, bool is_cosserat);
   Tangent       elastic_tangent(const ElasticModuli &moduli);
 } // namespace diptych::continuum

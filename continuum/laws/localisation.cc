@@ -127,9 +127,9 @@ namespace diptych::continuum
                      after = values[(k + 1) % n_directions];
         if (!(here < before && here <= after))
           continue;
-        const double vertex  = (before - after) / (before - 2 * here + after) / 2;
-        const Direction  minimum = refined(f, offset + (k + vertex) * spacing);
-        const double angle   = line_angle(minimum.phi);
+        const double    vertex  = (before - after) / (before - 2 * here + after) / 2;
+        const Direction minimum = refined(f, offset + (k + vertex) * spacing);
+        const double    angle   = line_angle(minimum.phi);
         if (minimum.value < least.determinant - same || (minimum.value < least.determinant + same && angle > least.angle_deg))
           least = {minimum.value, angle};
       }

@@ -97,11 +97,11 @@ namespace diptych::continuum
         if (!used)
           unused.push_back({key, because});
     };
-    const std::string          of_law = "law = " + name_of(law), of_hardening = "hardening = " + name_of(o.hardening);
+    const std::string               of_law = "law = " + name_of(law), of_hardening = "hardening = " + name_of(o.hardening);
     const std::vector<const char *> peak     = {"friction_angle_peak", "dilatancy_angle_peak", "cohesion"};
     const std::vector<const char *> residual = {"friction_angle_residual", "dilatancy_angle_residual", "cohesion_residual",
                                                 "softening_strain"};
-    const std::vector<const char *> table    = {"table_strain", "table_friction_angle", "table_dilatancy_angle", "table_cohesion"};
+    const std::vector<const char *> table = {"table_strain", "table_friction_angle", "table_dilatancy_angle", "table_cohesion"};
     unless(is.is_cosserat, of_law, {"internal_length", "couple_shear_ratio"});
     unless(is.is_plastic, of_law, {"hardening", "viscosity"});
     unless(is.is_plastic, of_law, peak), unless(is.is_plastic, of_law, residual), unless(is.is_plastic, of_law, table);

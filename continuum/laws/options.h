@@ -30,9 +30,9 @@ namespace diptych::continuum
   // What the rest of the program must know of a law.
   struct LawTraits
   {
-    bool is_cosserat;       // has rotations and couple stress, thus an internal length
-    bool is_plastic;        // has strength, hardening and viscosity
-    bool stays_in_plane;    // never looks at sigma_zz: exact only where that is the intermediate principal stress
+    bool is_cosserat;    // has rotations and couple stress, thus an internal length
+    bool is_plastic;     // has strength, hardening and viscosity
+    bool stays_in_plane; // never looks at sigma_zz: exact only where that is the intermediate principal stress
   };
   constexpr LawTraits traits(const LawKind law)
   {
@@ -123,7 +123,8 @@ namespace diptych::continuum
     visitor("dilatancy_angle_residual", o.dilatancy_angle_residual, "degrees", {0., 60.},
             "dilatancy angle after long shear; above zero the band dilates for ever");
     visitor("cohesion", o.cohesion, "loading/pressure", {0., 1e12}, "cohesion before any plastic strain");
-    visitor("cohesion_residual", o.cohesion_residual, "loading/pressure", {0., 1e12}, "cohesion after long shear; auto: stays as it is");
+    visitor("cohesion_residual", o.cohesion_residual, "loading/pressure", {0., 1e12},
+            "cohesion after long shear; auto: stays as it is");
     visitor("softening_strain", o.softening_strain, "-", {1e-6, 1e6},
             "equivalent plastic strain over which angles and cohesion decay by 1/e");
     visitor("table_strain", o.table_strain, "-", {0., 1e6}, "hardening = table: equivalent plastic strains, ascending from 0");
@@ -131,8 +132,9 @@ namespace diptych::continuum
     visitor("table_dilatancy_angle", o.table_dilatancy_angle, "degrees", {0., 60.},
             "hardening = table: dilatancy angles there, nowhere above friction");
     visitor("table_cohesion", o.table_cohesion, "loading/pressure", {0., 1e12}, "hardening = table: cohesion there");
-    visitor("viscosity", o.viscosity, "loading/pressure x strain (mode time: time)", {0., 1e12},
-            "stress above the yield surface per plastic shear strain over the step's length along the loading; 0: rate independent");
+    visitor(
+      "viscosity", o.viscosity, "loading/pressure x strain (mode time: time)", {0., 1e12},
+      "stress above the yield surface per plastic shear strain over the step's length along the loading; 0: rate independent");
     visitor("internal_length", o.internal_length, "mean diameters", {1e-6, 1e6},
             "Cosserat laws: couple modulus = 2 G length^2; sets the thickness of the band");
     visitor("couple_shear_ratio", o.couple_shear_ratio, "-", {1e-6, 1e6}, "Cosserat laws: skew modulus over shear modulus");

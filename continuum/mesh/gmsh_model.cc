@@ -31,7 +31,7 @@ namespace diptych::continuum
           std::vector<double> coordinates;
           gmsh::model::mesh::getElementProperties(type, name, dimension, order, n_vertices, coordinates, n_primary);
           throw std::invalid_argument("the mesh holds elements of the kind \"" + name +
-                                   "\"; the panel needs four-node quadrilaterals and two-node lines only");
+                                      "\"; the panel needs four-node quadrilaterals and two-node lines only");
         }
       if (!any_quadrilateral)
         throw std::invalid_argument("the mesh holds no quadrilateral");
@@ -102,7 +102,7 @@ namespace diptych::continuum
             throw std::invalid_argument("a coordinate of vertex " + std::to_string(tags[i]) + " is not finite");
           if (std::abs(p.z()) > 1e-9 * p.head<2>().norm())
             throw std::invalid_argument("vertex " + std::to_string(tags[i]) + " has z = " + std::to_string(p.z()) +
-                                     "; the mesh must lie in the plane z = 0");
+                                        "; the mesh must lie in the plane z = 0");
           index[tags[i]] = mesh.vertices.size();
           mesh.vertices.push_back(p.head<2>());
         }

@@ -94,7 +94,7 @@ namespace diptych::continuum
         }
       if (const auto lost = std::find(reached.begin(), reached.end(), 0); lost != reached.end())
         throw std::invalid_argument("the mesh has more than one piece; cells of different pieces share no edge, one lies" +
-                                 at(mesh.vertices[mesh.cells[lost - reached.begin()][0]]));
+                                    at(mesh.vertices[mesh.cells[lost - reached.begin()][0]]));
     }
 
     void check_vertices(const QuadMesh &mesh)
@@ -126,21 +126,21 @@ namespace diptych::continuum
           const VertexPair edge = std::minmax(vertices[0], vertices[1]);
           if (outer.count(edge) == 0)
             throw std::invalid_argument(std::string("the physical line ") + name_of(id) + " leaves the boundary of the mesh" +
-                                     at_middle(mesh, edge));
+                                        at_middle(mesh, edge));
           if (const auto [other, is_new] = line_of.emplace(edge, id); !is_new)
             throw std::invalid_argument(std::string("an edge lies on two physical lines, ") + name_of(other->second) + " and " +
-                                     name_of(id) + at_middle(mesh, edge) +
-                                     " (in MSH 2.2 no two physical lines may share an elementary entity)");
+                                        name_of(id) + at_middle(mesh, edge) +
+                                        " (in MSH 2.2 no two physical lines may share an elementary entity)");
           present.insert(id);
         }
       for (const BoundaryId id : all_boundary_ids)
         if (id != free_edge && present.count(id) == 0)
           throw std::invalid_argument(std::string("no boundary edge lies on the physical line ") + name_of(id) + " (number " +
-                                   std::to_string(id) + " where lines have no names)");
+                                      std::to_string(id) + " where lines have no names)");
       for (const VertexPair &edge : outer)
         if (line_of.count(edge) == 0)
           throw std::invalid_argument(std::to_string(outer.size() - line_of.size()) +
-                                   " boundary edges lie on no physical line, one of them" + at_middle(mesh, edge));
+                                      " boundary edges lie on no physical line, one of them" + at_middle(mesh, edge));
     }
 
     // Heights of the vertices of one line, ascending.

@@ -26,11 +26,11 @@ namespace diptych::continuum
       require_size(std::isfinite(r.width) && r.width > 0, "width", r.width, "positive");
       require_size(std::isfinite(r.height) && r.height > 0, "height", r.height, "positive");
       require_size(r.platen_width >= 0 && r.platen_width <= r.width, "platen_width", r.platen_width,
-              "between 0 (whole edge) and the width");
+                   "between 0 (whole edge) and the width");
       require_size(r.element_size > 0 && r.element_size <= 1.0001 * std::min(r.width, r.height), "element_size", r.element_size,
-              "positive and at most the width and the height");
+                   "positive and at most the width and the height");
       require_size(r.width / r.element_size * r.height / r.element_size <= most_cells, "element_size", r.element_size,
-              "so large that the mesh has at most 10 million cells");
+                   "so large that the mesh has at most 10 million cells");
     }
 
     // Append the points that cut [points.back(), end] into about `size` long pieces; the last one is `end` itself.

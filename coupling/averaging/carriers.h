@@ -28,13 +28,13 @@ namespace diptych::coupling
     double                       mean_diameter = 1; // unit of AveragingOptions::width [length]
     std::vector<HalfBranch>      half;
 
-    Columns             of_grains; // n_grains x any
-    Columns             uniform;   // n_halves x any, spread evenly along the half branch
-    Columns             tapered;   // n_halves x any, densest at the centre, falling linearly to zero at the contact point
+    Columns of_grains; // n_grains x any
+    Columns uniform;   // n_halves x any, spread evenly along the half branch
+    Columns tapered;   // n_halves x any, densest at the centre, falling linearly to zero at the contact point
     // n_halves: force on the grain, where the first four columns of `uniform` are the moments -force (x) vector. Given, segments
     // tell the residual of the nodal identity from the same cuts; empty: no residual. [pressure * length]
     std::vector<Eigen::Vector2d> half_force;
-    std::vector<double> half_size; // n_halves: what outside_share is counted in, >= 0; of a force |f| x length
+    std::vector<double>          half_size; // n_halves: what outside_share is counted in, >= 0; of a force |f| x length
 
     bool count_joined = false; // CellSums::joined is wanted
   };

@@ -131,7 +131,7 @@ namespace diptych::coupling
 
   void KernelQuadrature::add_image(const Eigen::Vector2d &x, Weights &result)
   {
-    const double          reach = kernel.reach();
+    const double          reach  = kernel.reach();
     const Eigen::Vector2d square = Eigen::Vector2d::Constant(reach);
     const BinRange        all    = bins.range(x - square, x + square);
     for (int row = all.row_begin; row < all.row_end; ++row)

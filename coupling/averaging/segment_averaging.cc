@@ -81,10 +81,11 @@ namespace diptych::coupling
     // Both sides of the nodal identity, filled while the halves are cut.
     struct NodalIdentity
     {
-      const CollaredMesh   &ground;
-      const TriangleSearch &search;
-      std::vector<Eigen::Matrix2d> triangle_moment = std::vector<Eigen::Matrix2d>(ground.mesh.triangle.size(), Eigen::Matrix2d::Zero());
-      std::vector<Eigen::Vector2d> difference = std::vector<Eigen::Vector2d>(ground.mesh.node.size(), Eigen::Vector2d::Zero());
+      const CollaredMesh          &ground;
+      const TriangleSearch        &search;
+      std::vector<Eigen::Matrix2d> triangle_moment = std::vector<Eigen::Matrix2d>(ground.mesh.triangle.size(),
+                                                                                  Eigen::Matrix2d::Zero());
+      std::vector<Eigen::Vector2d> difference    = std::vector<Eigen::Vector2d>(ground.mesh.node.size(), Eigen::Vector2d::Zero());
       double                       largest_force = 0;
       bool                         left          = false; // a half lay beyond the ground
 
@@ -118,9 +119,10 @@ namespace diptych::coupling
     // Adds the halves to the sums.
     void cut_halves(const TargetCells &target, const Carriers &carriers, CellSums &sums)
     {
-      const bool uniform = carriers.uniform.cols() > 0, tapered = carriers.tapered.cols() > 0, judged = !carriers.half_force.empty();
-      double     outside = 0;
-      const CollaredMesh                 ground = ground_of(target, carriers);
+      const bool uniform = carriers.uniform.cols() > 0, tapered = carriers.tapered.cols() > 0,
+                 judged                          = !carriers.half_force.empty();
+      double                             outside = 0;
+      const CollaredMesh                 ground  = ground_of(target, carriers);
       const TriangleSearch               search(ground.mesh);
       NodalIdentity                      identity{ground, search};
       std::vector<TriangleSearch::Piece> pieces;
@@ -142,7 +144,8 @@ namespace diptych::coupling
               if (judged)
                 {
                   const auto moment = carriers.uniform.row(row);
-                  identity.triangle_moment[piece.triangle] += share * (Eigen::Matrix2d() << moment[0], moment[1], moment[2], moment[3]).finished();
+                  identity.triangle_moment[piece.triangle] +=
+                    share * (Eigen::Matrix2d() << moment[0], moment[1], moment[2], moment[3]).finished();
                   identity.left = identity.left || (!piece.inside && !carriers.half_force[h].isZero(0));
                 }
             }

@@ -28,7 +28,8 @@ namespace diptych::coupling
       for (const unsigned int shift : {0u, 1u})
         {
           const std::array<unsigned int, 4> turned = {{c[shift], c[shift + 1], c[(shift + 2) % 4], c[(shift + 3) % 4]}};
-          if (signed_area(x[turned[0]], x[turned[1]], x[turned[2]]) > 0 && signed_area(x[turned[0]], x[turned[2]], x[turned[3]]) > 0)
+          if (signed_area(x[turned[0]], x[turned[1]], x[turned[2]]) > 0 &&
+              signed_area(x[turned[0]], x[turned[2]], x[turned[3]]) > 0)
             return turned;
         }
       refuse(number);

@@ -148,7 +148,11 @@ namespace diptych::coupling
       file.attribute(group, "centre", std::vector<double>{increment.frame.centre.x(), increment.frame.centre.y()});
     }
 
-    void write_stage(discrete::Hdf5Writer &file, const std::string &group, const StageRecord &stage, const Results &results, std::size_t k)
+    void write_stage(discrete::Hdf5Writer &file,
+                     const std::string    &group,
+                     const StageRecord    &stage,
+                     const Results        &results,
+                     std::size_t           k)
     {
       const auto &snapshots = results.discrete.snapshots;
       list_increment_arrays(stage.increment, snapshots[k], IntoGroup{file, group});

@@ -51,9 +51,12 @@ namespace diptych::coupling
     const GrainFields     &g = f.grains;
     const ContinuumFields &c = f.continuum;
     visit(ArrayEntry{"discrete_stress", "stress", "pressure", "grains: mean over the stage"}, g.stress);
-    visit(ArrayEntry{"discrete_contact_stress", "contact stress", "pressure", "the same without the dynamic part"}, g.contact_stress);
-    visit(ArrayEntry{"discrete_mean_stress", "mean stress s", "pressure", "grains: (s_1 + s_2)/2"}, arrays::mean_stress(g.stress));
-    visit(ArrayEntry{"discrete_stress_ratio", "stress ratio t/s", "-", "grains: (s_1 - s_2)/(s_1 + s_2)"}, arrays::stress_ratio(g.stress));
+    visit(ArrayEntry{"discrete_contact_stress", "contact stress", "pressure", "the same without the dynamic part"},
+          g.contact_stress);
+    visit(ArrayEntry{"discrete_mean_stress", "mean stress s", "pressure", "grains: (s_1 + s_2)/2"},
+          arrays::mean_stress(g.stress));
+    visit(ArrayEntry{"discrete_stress_ratio", "stress ratio t/s", "-", "grains: (s_1 - s_2)/(s_1 + s_2)"},
+          arrays::stress_ratio(g.stress));
     visit(ArrayEntry{"discrete_strain_increment", "strain increment", "-", "grains: affine fit over 2.5 d"},
           strain_increments(g.displacement_gradient));
     visit(ArrayEntry{"discrete_shear_strain_increment", "shear strain increment", "-", "grains: eps_1 - eps_2"},
@@ -62,19 +65,24 @@ namespace diptych::coupling
           g.displacement_increment);
     visit(ArrayEntry{"discrete_displacement_over_platen", "displacement over the platen's", "-", "grains: size of the increment"},
           arrays::sizes_over(g.displacement_increment, unit.displacement));
-    visit(ArrayEntry{"discrete_velocity", "velocity", "length/time", "grains: at the end of the stage, mean by mass"}, g.velocity);
+    visit(ArrayEntry{"discrete_velocity", "velocity", "length/time", "grains: at the end of the stage, mean by mass"},
+          g.velocity);
     visit(ArrayEntry{"discrete_speed_over_platen", "speed over the platen's", "-", "grains: at the end of the stage"},
           arrays::sizes_over(g.velocity, unit.velocity));
-    visit(ArrayEntry{"discrete_rotation_increment", "rotation increment", "rad", "grains: mean by disc area"}, g.rotation_increment);
-    visit(ArrayEntry{"discrete_spin_increment", "spin increment of the medium", "rad", "grains: half the curl of the displacement"},
-          g.spin_increment);
-    visit(ArrayEntry{"discrete_relative_rotation", "rotation minus spin", "rad", "grains: of the same grains"}, g.relative_rotation);
+    visit(ArrayEntry{"discrete_rotation_increment", "rotation increment", "rad", "grains: mean by disc area"},
+          g.rotation_increment);
+    visit(
+      ArrayEntry{"discrete_spin_increment", "spin increment of the medium", "rad", "grains: half the curl of the displacement"},
+      g.spin_increment);
+    visit(ArrayEntry{"discrete_relative_rotation", "rotation minus spin", "rad", "grains: of the same grains"},
+          g.relative_rotation);
     visit(ArrayEntry{"discrete_couple_stress", "couple stress", "pressure length",
                      "grains: power-conjugate of the gradient of rotation"},
           g.couple_stress);
     visit(ArrayEntry{"discrete_couple_stress_size", "size of the couple stress", "pressure length", "grains"},
           arrays::sizes_over(g.couple_stress, 1));
-    visit(ArrayEntry{"discrete_dissipation", "dissipation", "pressure", "grains: by friction, over the stage, per area"}, g.dissipation);
+    visit(ArrayEntry{"discrete_dissipation", "dissipation", "pressure", "grains: by friction, over the stage, per area"},
+          g.dissipation);
     visit(ArrayEntry{"discrete_coordination_number", "coordination number", "-", "contacts a grain, at the end of the stage"},
           g.coordination_number);
     visit(ArrayEntry{"discrete_fabric", "fabric", "-", "mean of n (x) n, at the end of the stage"}, g.fabric);
@@ -86,7 +94,8 @@ namespace diptych::coupling
     visit(ArrayEntry{"grain_count", "grains", "-", "sum of the shares of grains in the cell"}, g.grain_count);
     visit(ArrayEntry{"solid_fraction", "solid fraction", "-", "area of discs / area of the cell"}, g.solid_fraction);
     visit(ArrayEntry{"continuum_stress", "stress", "pressure", "continuum: mean over the stage"}, c.stress);
-    visit(ArrayEntry{"continuum_mean_stress", "mean stress s", "pressure", "continuum: (s_1 + s_2)/2"}, arrays::mean_stress(c.stress));
+    visit(ArrayEntry{"continuum_mean_stress", "mean stress s", "pressure", "continuum: (s_1 + s_2)/2"},
+          arrays::mean_stress(c.stress));
     visit(ArrayEntry{"continuum_stress_ratio", "stress ratio t/s", "-", "continuum: (s_1 - s_2)/(s_1 + s_2)"},
           arrays::stress_ratio(c.stress));
     visit(ArrayEntry{"continuum_major_stress", "major principal stress", "pressure", "continuum: s_1"},
@@ -101,8 +110,9 @@ namespace diptych::coupling
           f.continuum_shear);
     visit(ArrayEntry{"continuum_displacement_increment", "displacement increment", "length", "continuum: mean of the corners"},
           c.displacement_increment);
-    visit(ArrayEntry{"continuum_displacement_over_platen", "displacement over the platen's", "-", "continuum: size of the increment"},
-          arrays::sizes_over(c.displacement_increment, unit.displacement));
+    visit(
+      ArrayEntry{"continuum_displacement_over_platen", "displacement over the platen's", "-", "continuum: size of the increment"},
+      arrays::sizes_over(c.displacement_increment, unit.displacement));
     visit(ArrayEntry{"continuum_rotation_increment", "rotation increment", "rad", "continuum: Cosserat rotation"},
           c.rotation_increment);
     visit(ArrayEntry{"continuum_spin_increment", "spin increment of the medium", "rad",
@@ -138,13 +148,16 @@ namespace diptych::coupling
   }
 
   // Of a window, on the cells of the continuum's mesh at its end.
-  template <class Visit> void list_window_cell_arrays(const Increment &i, const std::vector<Eigen::Vector2d> &moved, Visit &&visit)
+  template <class Visit>
+  void list_window_cell_arrays(const Increment &i, const std::vector<Eigen::Vector2d> &moved, Visit &&visit)
   {
-    visit(ArrayEntry{"discrete_shear_strain_increment", "shear strain increment", "-", "grains: eps_1 - eps_2"}, i.discrete.cell_shear);
+    visit(ArrayEntry{"discrete_shear_strain_increment", "shear strain increment", "-", "grains: eps_1 - eps_2"},
+          i.discrete.cell_shear);
     visit(ArrayEntry{"continuum_shear_strain_increment", "shear strain increment", "-", "continuum: eps_1 - eps_2"},
           i.continuum.cell_shear);
-    visit(ArrayEntry{"continuum_displacement_over_platen", "displacement over the platen's", "-", "continuum: size of the increment"},
-          arrays::sizes_over(moved, motion_units(i).displacement));
+    visit(
+      ArrayEntry{"continuum_displacement_over_platen", "displacement over the platen's", "-", "continuum: size of the increment"},
+      arrays::sizes_over(moved, motion_units(i).displacement));
   }
 
   // Of a stage: what the grains are at its end, and the forces that they carried in it.
@@ -168,7 +181,8 @@ namespace diptych::coupling
     visit(ArrayEntry{"discrete/rotation_increment", "rotation increment", "rad", "of the grains"}, rotation);
     visit(ArrayEntry{"discrete/internal_moment", "internal moment", "pressure length^2", "mean over the stage"},
           to.mean_internal_moment);
-    visit(ArrayEntry{"discrete/stress", "stress", "pressure", "internal moment over the grain's share of the sample's area"}, stress);
+    visit(ArrayEntry{"discrete/stress", "stress", "pressure", "internal moment over the grain's share of the sample's area"},
+          stress);
     visit(ArrayEntry{"discrete/mean_stress", "mean stress s", "pressure", "(s_1 + s_2)/2"}, arrays::mean_stress(stress));
     visit(ArrayEntry{"discrete/stress_ratio", "stress ratio t/s", "-", "(s_1 - s_2)/(s_1 + s_2)"}, arrays::stress_ratio(stress));
     visit(ArrayEntry{"discrete/major_stress", "major principal stress", "pressure", "s_1"}, arrays::major_stress(stress));

@@ -22,8 +22,8 @@ namespace diptych::coupling
     {
       json result = json::object();
       for (const NumberDescription &number : comparison_schema())
-        result[number.place] = {{"shape", number.shape}, {"unit", number.unit}, {"meaning", number.meaning},
-                                {"kind", discrete::name_of(number.kind)}};
+        result[number.place] = {
+          {"shape", number.shape}, {"unit", number.unit}, {"meaning", number.meaning}, {"kind", discrete::name_of(number.kind)}};
       return result;
     }
 

@@ -58,14 +58,14 @@ namespace diptych::coupling
   {
     const double radius = strain_radius(pair.grains_to.mean_diameter);
     Increment    result;
-    result.from            = pair.grains_from.progress;
-    result.to              = pair.grains_to.progress;
-    result.duration        = pair.grains_to.time - pair.grains_from.time;
-    result.frame           = make_frame(pair.grains_from, pair.grains_to);
-    result.mesh            = quad_mesh(pair.nodes_to);
-    result.discrete.field  = displacement_field(pair.grains_from, pair.grains_to);
-    result.continuum.field = displacement_field(pair.nodes_from, pair.nodes_to);
-    result.cover           = grain_cover(result.mesh, pair.grains_to);
+    result.from              = pair.grains_from.progress;
+    result.to                = pair.grains_to.progress;
+    result.duration          = pair.grains_to.time - pair.grains_from.time;
+    result.frame             = make_frame(pair.grains_from, pair.grains_to);
+    result.mesh              = quad_mesh(pair.nodes_to);
+    result.discrete.field    = displacement_field(pair.grains_from, pair.grains_to);
+    result.continuum.field   = displacement_field(pair.nodes_from, pair.nodes_to);
+    result.cover             = grain_cover(result.mesh, pair.grains_to);
     result.displacement_unit = displacement_unit(result.frame, result.discrete.field);
 
     const std::vector<Eigen::Vector2d> centres = cell_centres(result.mesh);
@@ -79,8 +79,8 @@ namespace diptych::coupling
         panel->strips = cut_strips(panel->field, result);
         if (panel->band.bands.empty())
           continue;
-        const auto [level, slope]       = background(panel->strips, panel->band.bands[0]);
-        panel->strips.background        = level;
+        const auto [level, slope]      = background(panel->strips, panel->band.bands[0]);
+        panel->strips.background       = level;
         panel->strips.background_slope = slope * result.frame.mean_diameter;
       }
     for (std::size_t k = 0; k < centres.size(); ++k)

@@ -26,8 +26,8 @@ namespace diptych::coupling
 
   struct Increment
   {
-    double              from = 0, to = 0; // progress
-    double              duration = 0;     // of the grains' loading in between [time]
+    double from = 0, to = 0; // progress
+    double duration = 0;     // of the grains' loading in between [time]
     // What displacements count in: the upper platen's increment, or, where it rests, the 98th percentile of the grains' [length].
     double              displacement_unit = 0;
     SampleFrame         frame;

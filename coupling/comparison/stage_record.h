@@ -48,15 +48,15 @@ namespace diptych::coupling
   struct MappingRecord
   {
     std::string method; // of the averaging
-    double total_relative_error = 0, outside_share = 0;
-    double window_time    = 0;   // over which the grains' forces are averaged: impulses / this time
-    double nodal_residual = NAN; // of `segments` on the mesh; NaN for other methods, or where periodic.h says so
+    double      total_relative_error = 0, outside_share = 0;
+    double      window_time    = 0;   // over which the grains' forces are averaged: impulses / this time
+    double      nodal_residual = NAN; // of `segments` on the mesh; NaN for other methods, or where periodic.h says so
   };
 
   struct StageRecord
   {
     double      progress = 0, axial_strain = 0, shear_strain = 0, time = 0; // of the grains' loading
-    Increment   increment; // since the preceding stage
+    Increment   increment;                                                  // since the preceding stage
     PanelRecord discrete, continuum;
 
     std::vector<ProbeDifference> probe_differences; // of the grains

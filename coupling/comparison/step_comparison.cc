@@ -95,8 +95,8 @@ namespace diptych::coupling
     text.precision(3);
     text << "step " << runs.front().step << " against " << runs.back().step << ": "
          << (comparison.largest <= margin ? "the step does not matter" : "the step matters") << ", largest difference "
-         << 100 * comparison.largest << " % (" << worst->name << ", at " << text_of(walk, worst->at_progress)
-         << "; margin " << 100 * margin << " %)";
+         << 100 * comparison.largest << " % (" << worst->name << ", at " << text_of(walk, worst->at_progress) << "; margin "
+         << 100 * margin << " %)";
     comparison.verdict = text.str();
     return comparison;
   }
@@ -113,12 +113,13 @@ namespace diptych::coupling
     csv << '\n';
     for (const StepRun &run : runs)
       {
-        HistoryTable in_time                 = run.history;
-        in_time["progress"]                  = column(run.history, "time");
-        const std::vector<double> mean       = running_mean(in_time, "stress_ratio", comparison.window);
+        HistoryTable in_time           = run.history;
+        in_time["progress"]            = column(run.history, "time");
+        const std::vector<double> mean = running_mean(in_time, "stress_ratio", comparison.window);
         for (std::size_t k = 0; k < column(run.history, "time").size(); ++k)
           {
-            csv << run.step << ',' << column(run.history, "time")[k] << ',' << column(run.history, "progress")[k] << ',' << mean[k];
+            csv << run.step << ',' << column(run.history, "time")[k] << ',' << column(run.history, "progress")[k] << ','
+                << mean[k];
             for (const std::string &name : columns)
               csv << ',' << column(run.history, name)[k];
             csv << '\n';

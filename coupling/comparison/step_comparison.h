@@ -39,7 +39,7 @@ namespace diptych::coupling
   // std::invalid_argument for fewer than two.
   StepComparison compare_steps(const std::vector<StepRun> &runs, double width, discrete::Walk walk);
 
-  // study_step.csv (progress, time, and for every run stress ratio and its running mean, external work, dissipations, kinetic energy) and
-  // study_step.json.
+  // study_step.csv (progress, time, and for every run stress ratio and its running mean, external work, dissipations, kinetic
+  // energy) and study_step.json.
   void write_step_comparison(const std::string &directory, const std::vector<StepRun> &runs, const StepComparison &comparison);
 } // namespace diptych::coupling

@@ -35,7 +35,7 @@ namespace diptych::coupling
     double platen_unbalance(const HistoryTable &history)
     {
       const double lower = column(history, "lower_fy").back(), upper = column(history, "upper_fy").back();
-      const double size  = (std::abs(lower) + std::abs(upper)) / 2;
+      const double size = (std::abs(lower) + std::abs(upper)) / 2;
       return size > 0 ? std::abs(lower + upper) / size : NAN;
     }
   } // namespace
@@ -98,8 +98,10 @@ namespace diptych::coupling
     CostSummary cost;
     for (const PhaseCost &phase : phases)
       {
-        for (auto &[name, seconds] : {std::pair{"preparation", &cost.preparation_cpu_s}, {"discrete", &cost.discrete_cpu_s},
-                                      {"continuum", &cost.continuum_cpu_s}, {"comparison", &cost.comparison_cpu_s}})
+        for (auto &[name, seconds] : {std::pair{"preparation", &cost.preparation_cpu_s},
+                                      {"discrete", &cost.discrete_cpu_s},
+                                      {"continuum", &cost.continuum_cpu_s},
+                                      {"comparison", &cost.comparison_cpu_s}})
           if (phase.name == name)
             *seconds = phase.cpu_s;
         cost.peak_memory_mb = std::max(cost.peak_memory_mb, phase.peak_memory_mb);

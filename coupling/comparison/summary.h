@@ -17,10 +17,10 @@ namespace diptych::coupling
   {
     int           grains = 0, steps = 0;
     double        sweeps = 0, step_length = NAN; // [-], [time]
-    double        max_penetration = NAN;         // [mean diameters]
+    double        max_penetration      = NAN;    // [mean diameters]
     double        mean_inertial_number = NAN;
     double        energy_residual = NAN, momentum_residual = NAN, residual = NAN;
-    double        solver_noise = NAN;       // residual x step [d sqrt(rho/P)] / mean inertial number
+    double        solver_noise       = NAN; // residual x step [d sqrt(rho/P)] / mean inertial number
     double        grain_stress_error = NAN; // error over residual x residual; NaN where it was not measured
     Peak          peak;                     // of the running mean of t/s
     double        final_volumetric_strain = NAN, spin_term_share = NAN;
@@ -32,12 +32,12 @@ namespace diptych::coupling
 
   struct ContinuumSummary
   {
-    double                element_size = NAN; // [mean diameters]
+    double                element_size      = NAN; // [mean diameters]
     double                newton_iterations = NAN, cut_backs = NAN;
     Peak                  peak;
     double                final_volumetric_strain = NAN, share_zz_not_intermediate = NAN, viscous_share = NAN;
     double                max_equivalent_plastic_strain = NAN;
-    double                platen_unbalance = NAN; // of the vertical forces, at the end, relative to their mean size
+    double                platen_unbalance              = NAN; // of the vertical forces, at the end, relative to their mean size
     std::string           law;
     std::optional<double> internal_length; // [mean diameters]; none: the law has none, the mesh sets its band
     std::string           parameters_from;
@@ -52,7 +52,10 @@ namespace diptych::coupling
   };
 
   // `history`: of the rows; `last`: the last instant that is compared.
-  DiscreteSummary  summary_of(const Scene &scene, const DiscreteResults &results, const discrete::Snapshot &last, const HistoryTable &history);
+  DiscreteSummary  summary_of(const Scene              &scene,
+                              const DiscreteResults    &results,
+                              const discrete::Snapshot &last,
+                              const HistoryTable       &history);
   ContinuumSummary summary_of(const Scene &scene, const ContinuumResults &results, const HistoryTable &history);
   CostSummary      summary_of(const std::vector<PhaseCost> &phases);
 } // namespace diptych::coupling

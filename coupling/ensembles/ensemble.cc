@@ -27,7 +27,7 @@ namespace diptych::coupling
     // What a place of comparison.json holds; nothing for a place that is not listed.
     const NumberDescription *description_of(const std::string &place)
     {
-      static const NumberSchema                                   schema = comparison_schema();
+      static const NumberSchema                                     schema   = comparison_schema();
       static const std::map<std::string, const NumberDescription *> by_place = [] {
         std::map<std::string, const NumberDescription *> result;
         for (const NumberDescription &number : schema)
@@ -117,7 +117,8 @@ namespace diptych::coupling
     void collect_windows(const json &windows, const Place &of_list, Member &member)
     {
       for (const json &window : windows)
-        collect(window, {of_list.keys, of_list.name + "window " + short_text(window.at("from")) + "-" + short_text(window.at("to"))},
+        collect(window,
+                {of_list.keys, of_list.name + "window " + short_text(window.at("from")) + "-" + short_text(window.at("to"))},
                 member);
     }
 
@@ -143,7 +144,10 @@ namespace diptych::coupling
           {
             const auto [found, is_new] = place.emplace(entry.name, quantities.size());
             if (is_new)
-              quantities.push_back({entry.name, entry.number->unit, entry.number->kind == Kind::line, {},
+              quantities.push_back({entry.name,
+                                    entry.number->unit,
+                                    entry.number->kind == Kind::line,
+                                    {},
                                     std::vector<double>(members.size(), no_value)});
             quantities[found->second].values[k] = entry.value;
           }
@@ -220,11 +224,15 @@ namespace diptych::coupling
 
     PanelVerdict answer(const Question &question, const std::vector<Quantity> &quantities, const std::size_t n_members)
     {
-      const bool      relative = question.measure == Measure::relative;
-      const Quantity *discrete = quantity_of(quantities, question.discrete), *continuum = quantity_of(quantities, question.continuum);
-      PanelVerdict    result;
+      const bool      relative  = question.measure == Measure::relative;
+      const Quantity *discrete  = quantity_of(quantities, question.discrete),
+                     *continuum = quantity_of(quantities, question.continuum);
+      PanelVerdict result;
       result.quantity  = question.quantity;
-      result.unit      = relative ? "-" : discrete != nullptr ? discrete->unit : continuum != nullptr ? continuum->unit : question.unit;
+      result.unit      = relative               ? "-"
+                         : discrete != nullptr  ? discrete->unit
+                         : continuum != nullptr ? continuum->unit
+                                                : question.unit;
       result.margin    = question.margin;
       result.relative  = relative;
       result.discrete  = values_of(discrete, n_members);

@@ -32,8 +32,8 @@ namespace diptych::coupling
 
   // Names are made of the place and the key: "stage 0.04 discrete stress_ratio", "stage 0.04 discrete probe zone t_over_s",
   // "window 0.02-0.04 continuum band angle_deg" (of the strongest band; absent where none was found), "discrete_summary
-  // peak_stress_ratio". Of {"value", "low", "high"} the value is taken; lists, texts, nulls, and what comparison_numbers.h lists as
-  // a setting or as measured by a clock are left out. Throws std::invalid_argument naming what is missing.
+  // peak_stress_ratio". Of {"value", "low", "high"} the value is taken; lists, texts, nulls, and what comparison_numbers.h lists
+  // as a setting or as measured by a clock are left out. Throws std::invalid_argument naming what is missing.
   Member member_of(const nlohmann::json &comparison);
 
   // Whether nothing but chance tells left from right: vertical descent, no horizontal gravity, no wall driven by a key of its
@@ -49,7 +49,7 @@ namespace diptych::coupling
     std::string         name, unit;
     bool                is_line = false; // an angle that repeats after 180 degrees
     SampleStatistics    statistics;
-    std::vector<double> values;     // one a member; NaN where it has none
+    std::vector<double> values; // one a member; NaN where it has none
   };
 
   struct BandCount

@@ -19,7 +19,7 @@ namespace diptych::coupling
   // At every point where all members have a value.
   EnsembleCurves with_means(std::vector<std::vector<double>> members);
 
-  // ensemble.h5: progress (401 points), and for each panel and each of stress_ratio and volumetric_strain the running means of the
-  // members' histories, their mean and its interval. `seeds`: those that finished.
+  // ensemble.h5: progress (401 points), and for each panel and each of stress_ratio and volumetric_strain the running means of
+  // the members' histories, their mean and its interval. `seeds`: those that finished.
   void write_ensemble_curves(const std::string &directory, const Scene &scene, const std::vector<int> &seeds);
 } // namespace diptych::coupling

@@ -35,8 +35,8 @@ namespace diptych::coupling
     {
       const std::string          file       = scene.output.directory + "/ensemble.prm";
       const std::optional<Scene> earlier    = echoed_scene(file);
-      const std::string          difference = earlier ? first_difference(member_identity(scene), member_identity(*earlier)) :
-                                                        "it was written by another version";
+      const std::string          difference = earlier ? first_difference(member_identity(scene), member_identity(*earlier))
+                                                      : "it was written by another version";
       if (!difference.empty())
         throw SceneError("--resume: the scene is not that of " + file + ": " + difference +
                          "; resume with the same scene or start without --resume");
@@ -90,7 +90,7 @@ namespace diptych::coupling
 
   bool is_finished_member(const Scene &scene, const int seed)
   {
-    const std::string folder = member_folder(scene.output.directory, seed);
+    const std::string          folder  = member_folder(scene.output.directory, seed);
     const std::optional<Scene> earlier = echoed_scene(folder + "/scene.prm");
     if (!earlier || member_identity(*earlier) != member_identity(scene))
       return false;

@@ -54,9 +54,9 @@ namespace diptych::coupling
     std::vector<double> standard_error;        // of the mean pressure [pressure]
     std::vector<double> stress_standard_error; // of the mean stress, Frobenius norm [pressure]
 
-    std::vector<std::uint8_t> covered;                  // CellCover
-    double                    total_relative_error = 0; // of the sum of |K| stress from the sum of the grains' mean moments
-    double                    outside_share        = 0; // CellSums, of |f| x length
+    std::vector<std::uint8_t> covered;                    // CellCover
+    double                    total_relative_error = 0;   // of the sum of |K| stress from the sum of the grains' mean moments
+    double                    outside_share        = 0;   // CellSums, of |f| x length
     double                    nodal_residual       = NAN; // CellSums, of the window's forces
   };
 

@@ -81,8 +81,8 @@ namespace diptych::coupling
         const std::vector<double> pair = numbers(name, 2);
         value                          = {pair[0], pair[1]};
       }
-      void operator()(const std::string &name, std::vector<double> &values) const { values = file.read(name); }
-      void operator()(const std::string &name, Lines &lines) const { lines = split(file.read_string(name)); }
+      void                    operator()(const std::string &name, std::vector<double> &values) const { values = file.read(name); }
+      void                    operator()(const std::string &name, Lines &lines) const { lines = split(file.read_string(name)); }
       template <class T> void operator()(const std::string &name, std::vector<std::vector<T>> &lists) const
       {
         lists.resize(std::size_t(file.attribute("/", name + "_count")));
@@ -106,8 +106,8 @@ namespace diptych::coupling
   {
     const continuum::Checkpoint &p = c.panel;
     if (p.values.size() != p.cells.size() * std::size_t(p.values_per_cell))
-      throw std::invalid_argument("checkpoint: " + std::to_string(p.values.size()) + " values for " + std::to_string(p.cells.size()) +
-                                  " cells of " + std::to_string(p.values_per_cell));
+      throw std::invalid_argument("checkpoint: " + std::to_string(p.values.size()) + " values for " +
+                                  std::to_string(p.cells.size()) + " cells of " + std::to_string(p.values_per_cell));
     Hdf5Writer file(path);
     file.write_string("format", format);
     file.write_string("scene", c.scene);

@@ -127,7 +127,7 @@ namespace diptych::coupling
       s.cell_state.resize(s.cells.size());
       discrete::set_columns(s.cell_state, cell_fields, [&](const std::string &name, auto &values) {
         using Value = typename std::decay_t<decltype(values)>::value_type;
-        values = discrete::read_field<Value>(file, group + "/" + name);
+        values      = discrete::read_field<Value>(file, group + "/" + name);
         check.size(name, values.size(), s.cells.size());
         check.finite(name, values);
       });
@@ -140,8 +140,8 @@ namespace diptych::coupling
       for_each_array(s, [&](const std::string &name, const auto &values, const char *, const char *, const bool of_cells) {
         using Value = typename std::decay_t<decltype(values)>::value_type;
         if (name != "nodes/position")
-          grid.fields.push_back({name.substr(name.find('/') + 1), unsigned(discrete::n_components<Value>), discrete::flat(values),
-                                 !of_cells});
+          grid.fields.push_back(
+            {name.substr(name.find('/') + 1), unsigned(discrete::n_components<Value>), discrete::flat(values), !of_cells});
       });
       return grid;
     }
@@ -186,8 +186,11 @@ namespace diptych::coupling
   void ContinuumSnapshotFile::list(const Snapshot &s)
   {
     const std::string  stage = discrete::stage_name(collection.grids.size()), folder = std::filesystem::path(path).filename();
-    discrete::XdmfGrid grid{
-      stage, s.progress, {stage + "/nodes/position", {s.position.size(), 3}}, {stage + "/" + continuum::cells_name, {s.cells.size(), 9}, discrete::XdmfNumber::integer}, {}};
+    discrete::XdmfGrid grid{stage,
+                            s.progress,
+                            {stage + "/nodes/position", {s.position.size(), 3}},
+                            {stage + "/" + continuum::cells_name, {s.cells.size(), 9}, discrete::XdmfNumber::integer},
+                            {}};
     for_each_array(s, [&](const std::string &name, const auto &values, const char *, const char *, const bool of_cells) {
       if (name != "nodes/position")
         grid.attributes.push_back(discrete::xdmf_field(stage + "/" + name, values, of_cells));

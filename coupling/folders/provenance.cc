@@ -169,8 +169,10 @@ namespace diptych::coupling
   RunFacts read_run_facts(const std::string &directory)
   {
     const json record = read_record(directory);
-    RunFacts   facts{get_facts<DiscreteFacts>(record, "discrete"), get_facts<ContinuumFacts>(record, "continuum"),
-                     get_facts<ContinuumFacts>(record, "continuum_coarse"), {}};
+    RunFacts   facts{get_facts<DiscreteFacts>(record, "discrete"),
+                   get_facts<ContinuumFacts>(record, "continuum"),
+                   get_facts<ContinuumFacts>(record, "continuum_coarse"),
+                   {}};
     for (const json &row : record.value("phases", json::array()))
       {
         NumbersFromJson reader{row};

@@ -29,7 +29,10 @@ namespace diptych::coupling
   // provenance.json of the result folder, merged: phases of the same name are replaced, other members kept, so that each
   // command adds its own. Throws std::runtime_error where it cannot be written, std::invalid_argument where what stands there is
   // broken.
-  void record_phases(const std::string &directory, const Scene &scene, const std::string &command, const std::vector<PhaseCost> &);
+  void record_phases(const std::string &directory,
+                     const Scene       &scene,
+                     const std::string &command,
+                     const std::vector<PhaseCost> &);
 
   // The facts of one part: "discrete", "continuum" or "continuum_coarse".
   void record_facts(const std::string &directory, const DiscreteFacts &facts);

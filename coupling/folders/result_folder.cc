@@ -19,27 +19,11 @@ namespace diptych::coupling
   {
     namespace fs = std::filesystem;
 
-    const std::vector<std::string> panel_files = {"discrete.h5",
-                                                  "discrete.xdmf",
-                                                  "discrete.csv",
-                                                  "discrete",
-                                                  "continuum.h5",
-                                                  "continuum.xdmf",
-                                                  "continuum.csv",
-                                                  "continuum.pvd",
-                                                  "continuum",
-                                                  "provenance.json",
-                                                  "coarse",
-                                                  "checkpoint.h5",
-                                                  "study_step.csv",
-                                                  "study_step.json",
-                                                  "study_step.png",
-                                                  "step_1",
-                                                  "step_2",
-                                                  "step_4",
-                                                  "sample.msh",
-                                                  "continuum_checkpoint.h5",
-                                                  "material_point.csv"};
+    const std::vector<std::string> panel_files = {
+      "discrete.h5",    "discrete.xdmf",           "discrete.csv",      "discrete",        "continuum.h5", "continuum.xdmf",
+      "continuum.csv",  "continuum.pvd",           "continuum",         "provenance.json", "coarse",       "checkpoint.h5",
+      "study_step.csv", "study_step.json",         "study_step.png",    "step_1",          "step_2",       "step_4",
+      "sample.msh",     "continuum_checkpoint.h5", "material_point.csv"};
   } // namespace
 
   const std::vector<std::string> comparison_files = {"comparison.json", "comparison.csv", "comparison.h5",
@@ -75,7 +59,8 @@ namespace diptych::coupling
     if (is_result_folder)
       {
         const std::optional<Scene> earlier = echoed_scene(echo_file);
-        difference = earlier ? first_difference(sample_identity(scene), sample_identity(*earlier)) : "it was written by another version";
+        difference                         = earlier ? first_difference(sample_identity(scene), sample_identity(*earlier))
+                                                     : "it was written by another version";
       }
     if (resume && !difference.empty())
       throw SceneError("--resume: the scene is not that of " + echo_file + ", which was interrupted: " + difference +

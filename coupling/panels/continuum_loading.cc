@@ -41,9 +41,10 @@ namespace diptych::coupling
     std::array<std::array<DriveKey, 2>, 4> drives_of(const Scene &scene)
     {
       std::array<std::array<DriveKey, 2>, 4> drives;
-      for_each_drive(scene.discrete.drives, [&](const int wall, const int axis, const std::string &key, const discrete::DriveOption &option) {
-        drives[std::size_t(wall)][std::size_t(axis)] = {"discrete/" + key, option};
-      });
+      for_each_drive(scene.discrete.drives,
+                     [&](const int wall, const int axis, const std::string &key, const discrete::DriveOption &option) {
+                       drives[std::size_t(wall)][std::size_t(axis)] = {"discrete/" + key, option};
+                     });
       return drives;
     }
 

@@ -26,7 +26,7 @@ namespace diptych::coupling
   // Height of a mesh and width of its upper platen.
   ContinuumSample measured(const continuum::QuadMesh &mesh, double solid_fraction);
 
-  // The grains' loading on the continuum's sample, along the same progress: axial strain, shear strain or time; walls that move as
-  // times say are at time = progress / strain rate.
+  // The grains' loading on the continuum's sample, along the same progress: axial strain, shear strain or time; walls that move
+  // as times say are at time = progress / strain rate.
   continuum::Loading continuum_loading(const Scene &scene, const ContinuumSample &sample);
 } // namespace diptych::coupling

@@ -16,7 +16,9 @@ namespace diptych::coupling
 {
   double first_edge(const Scene &scene, const double element_size)
   {
-    const double larger = scene.continuum.refinement == continuum::Refinement::adaptive ? std::exp2(scene.continuum.refinement_levels) : 1;
+    const double larger = scene.continuum.refinement == continuum::Refinement::adaptive
+                            ? std::exp2(scene.continuum.refinement_levels)
+                            : 1;
     return larger * element_size * scene.sample.mean_diameter;
   }
 

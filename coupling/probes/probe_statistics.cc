@@ -28,15 +28,15 @@ namespace diptych::coupling
     struct Treatment
     {
       NumberOf member;
-      bool   is_angle, of_fabric;
+      bool     is_angle, of_fabric;
     };
     const Treatment treatments[] = {{&ProbeNumbers::s1, false, false},
-                          {&ProbeNumbers::s2, false, false},
-                          {&ProbeNumbers::t_over_s, false, false},
-                          {&ProbeNumbers::direction_deg, true, false},
-                          {&ProbeNumbers::anisotropy, false, true},
-                          {&ProbeNumbers::fabric_direction_deg, true, true},
-                          {&ProbeNumbers::fabric_to_stress_deg, true, false}};
+                                    {&ProbeNumbers::s2, false, false},
+                                    {&ProbeNumbers::t_over_s, false, false},
+                                    {&ProbeNumbers::direction_deg, true, false},
+                                    {&ProbeNumbers::anisotropy, false, true},
+                                    {&ProbeNumbers::fabric_direction_deg, true, true},
+                                    {&ProbeNumbers::fabric_to_stress_deg, true, false}};
 
     Eigen::Vector3d components(const Eigen::Matrix2d &t)
     {

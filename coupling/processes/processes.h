@@ -17,11 +17,11 @@ namespace diptych::coupling
   // what it threw, so that none waits for another.
   int on_first_process(const std::function<int()> &work);
 
-  double sum_over_processes(double value);
-  double from_first_process(double value); // everyone gets the first one's
+  double              sum_over_processes(double value);
+  double              from_first_process(double value); // everyone gets the first one's
   std::vector<double> from_first_process(std::vector<double> values);
 
-  bool any_process(bool value);            // whether it is true on one of them
+  bool any_process(bool value); // whether it is true on one of them
 
   // Runs `work` and returns its exit code. An exception is told on standard error and becomes what `code_of` makes of it: once
   // where all processes meet the same one. One that some processes do not share ends all of them (MPI_Abort): they would wait for

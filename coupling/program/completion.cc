@@ -17,7 +17,9 @@ namespace diptych::coupling
     {
       std::vector<KeyDescription> keys;
       Scene                       defaults;
-      for_each_section(defaults, [&](const char *section, auto &options) { visit_parameters(options, DescribeKeys{section, keys}); });
+      for_each_section(defaults, [&](const char *section, auto &options) {
+        visit_parameters(options, DescribeKeys{section, keys});
+      });
       std::vector<std::string> words;
       for (const KeyDescription &key : keys)
         words.push_back(key.section + "/" + key.name + "=");
@@ -58,8 +60,8 @@ namespace diptych::coupling
       }
     out << "  esac\n  if [ \"$COMP_CWORD\" -eq 1 ]; then\n    COMPREPLY=($(compgen -W \"" << joined(commands)
         << " --help --version\" -- \"$word\"))\n"
-        << "  elif [ \"$before\" = --set ]; then\n    compopt -o nospace 2>/dev/null\n    COMPREPLY=($(compgen -W \"" << keys_of_scenes()
-        << "\" -- \"$word\"))\n"
+        << "  elif [ \"$before\" = --set ]; then\n    compopt -o nospace 2>/dev/null\n    COMPREPLY=($(compgen -W \""
+        << keys_of_scenes() << "\" -- \"$word\"))\n"
         << "  elif [ \"${word#-}\" != \"$word\" ]; then\n    COMPREPLY=($(compgen -W \"$options\" -- \"$word\"))\n"
         << "  else\n    compopt -o filenames 2>/dev/null\n    COMPREPLY=($(compgen -f -- \"$word\"))\n  fi\n}\n"
         << "complete -F _diptych diptych\n";

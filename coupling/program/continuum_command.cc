@@ -38,7 +38,8 @@ namespace diptych::coupling
     // Its provenance says so, and no stage is missing: either alone may be left of another run.
     bool is_finished(const Scene &scene, const ContinuumPart &part)
     {
-      return facts_of_part(read_run_facts(scene.output.directory), part).finished && !std::filesystem::exists(part.checkpoint()) &&
+      return facts_of_part(read_run_facts(scene.output.directory), part).finished &&
+             !std::filesystem::exists(part.checkpoint()) &&
              count_continuum_snapshots(part.directory + "/continuum.h5") == stages(scene.loading).size() + 1;
     }
 
@@ -131,7 +132,7 @@ namespace diptych::coupling
                                      const Grains        &grains,
                                      const bool           wants_resume)
     {
-      const bool       resume = on_first_process([&] {
+      const bool              resume = on_first_process([&] {
         const bool found = wants_resume && std::filesystem::exists(part.checkpoint());
         if (wants_resume && !found)
           say(line, part.title + ": no checkpoint in " + part.directory + ": from the beginning");
@@ -157,9 +158,9 @@ namespace diptych::coupling
 
   bool may_resume_continuum(const Scene &scene)
   {
-    const std::string          &directory = scene.output.directory;
-    const std::optional<Scene> earlier    = echoed_scene(directory + "/scene.prm");
-    const std::string          difference = earlier ? first_difference(continuum_identity(scene), continuum_identity(*earlier)) : "";
+    const std::string         &directory = scene.output.directory;
+    const std::optional<Scene> earlier   = echoed_scene(directory + "/scene.prm");
+    const std::string difference = earlier ? first_difference(continuum_identity(scene), continuum_identity(*earlier)) : "";
     if (earlier && difference.empty())
       return true;
     for (const std::string &folder : {directory, directory + "/coarse"})

@@ -203,8 +203,8 @@ namespace diptych::coupling
         hooks.on_progress    = [this](const std::string &phase, const double fraction) { progress.update(phase, fraction); };
         hooks.before_step    = [this] { save_if_due(); };
         hooks.on_row         = [this](const discrete::HistoryRow &row) { add_row(row); };
-        hooks.on_problem     = [this](const int stage, const discrete::ContactProblem &problem, const discrete::StoredGeometry &geometry,
-                                  const std::vector<discrete::Impulse> &impulses) {
+        hooks.on_problem     = [this](const int stage, const discrete::ContactProblem &problem,
+                                  const discrete::StoredGeometry &geometry, const std::vector<discrete::Impulse> &impulses) {
           discrete::write_fclib(scene.output.directory + problem_name(stage), problem,
                                     {scene.name + ", stage " + std::to_string(stage), line.text}, geometry, impulses);
         };
@@ -271,7 +271,12 @@ namespace diptych::coupling
         std::filesystem::remove(directory + problem_name(int(stage)));
     }
 
-    void record(const CommandLine &line, const Scene &scene, const discrete::Report &report, const Rows &rows, const PhaseTimer &timer, const bool resumed)
+    void record(const CommandLine      &line,
+                const Scene            &scene,
+                const discrete::Report &report,
+                const Rows             &rows,
+                const PhaseTimer       &timer,
+                const bool              resumed)
     {
       PhaseCost loading = timer.stop(), preparation = loading;
       preparation.name  = "preparation";
@@ -290,8 +295,8 @@ namespace diptych::coupling
                 << (report.status == discrete::Status::stopped_by_user ? "stopped on request" : report.message) << "; reached "
                 << text_of(discrete::walk_of(scene.loading.mode), report.progress) << ", kept in " << scene.output.directory;
       if (report.status == discrete::Status::stopped_by_user && std::filesystem::exists(checkpoint_file(scene)))
-        std::cerr << "; to go on: diptych " << name_of(line.command) << ' ' << line.target << " --output " << scene.output.directory
-                  << " --resume (with the same --set)";
+        std::cerr << "; to go on: diptych " << name_of(line.command) << ' ' << line.target << " --output "
+                  << scene.output.directory << " --resume (with the same --set)";
       std::cerr << std::endl;
       return not_converged;
     }

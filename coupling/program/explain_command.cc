@@ -54,8 +54,8 @@ namespace diptych::coupling
           if (entry.file != file)
             std::cout << (file.empty() ? "" : "\n") << entry.file << '\n';
           file = entry.file;
-          std::cout << "  " << entry.name << "  [" << (entry.unit.empty() ? "-" : entry.unit) << "]  " << entry.shape << "\n      "
-                    << entry.meaning << '\n';
+          std::cout << "  " << entry.name << "  [" << (entry.unit.empty() ? "-" : entry.unit) << "]  " << entry.shape
+                    << "\n      " << entry.meaning << '\n';
         }
     return done;
   }

@@ -36,7 +36,8 @@ namespace diptych::coupling
 
       template <class T> void operator()(const ArrayEntry &entry, const std::vector<T> &) const
       {
-        result.push_back({file, place + entry.key, array_shape<T>(), entry.unit, std::string(entry.title) + "; " + entry.meaning});
+        result.push_back(
+          {file, place + entry.key, array_shape<T>(), entry.unit, std::string(entry.title) + "; " + entry.meaning});
       }
     };
 

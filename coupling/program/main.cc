@@ -18,7 +18,7 @@
 #include "coupling/program/solve_command.h"
 #include "coupling/scene/scene_error.h"
 #ifdef DIPTYCH_CONTINUUM
-#  include "coupling/program/compare_command.h"
+#include "coupling/program/compare_command.h"
 #endif
 
 namespace

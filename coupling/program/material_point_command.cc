@@ -20,8 +20,8 @@ namespace diptych::coupling
                                                  [](const auto &a, const auto &b) { return a.stress_ratio < b.stress_ratio; });
       std::ostringstream text;
       text.precision(6);
-      text << "peak stress ratio " << peak->stress_ratio << " at " << text_of(continuum::Walk::axial_strain, peak->axial_strain) << ", "
-           << report.rows.back().stress_ratio << " at " << text_of(continuum::Walk::axial_strain, report.axial_strain);
+      text << "peak stress ratio " << peak->stress_ratio << " at " << text_of(continuum::Walk::axial_strain, peak->axial_strain)
+           << ", " << report.rows.back().stress_ratio << " at " << text_of(continuum::Walk::axial_strain, report.axial_strain);
       return text.str();
     }
 
@@ -36,8 +36,8 @@ namespace diptych::coupling
 
   int run_material_point(const CommandLine &line)
   {
-    const Scene                        scene = scene_of(line);
-    const continuum::Law               law   = continuum::make_law(scene.continuum.law, scene.continuum.material, continuum_units(scene));
+    const Scene          scene = scene_of(line);
+    const continuum::Law law   = continuum::make_law(scene.continuum.law, scene.continuum.material, continuum_units(scene));
     const continuum::MaterialPointPath path{scene.loading.pressure, scene.loading.axial_strain, scene.continuum.initial_step};
     try
       {

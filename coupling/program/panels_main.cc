@@ -43,7 +43,7 @@ int main(int argc, char **argv)
     return *parsed.exit_code;
   // One thread: deal.II's pool would change nothing but the clock.
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  parsed.line.quiet       = parsed.line.quiet || !is_first_process();
+  parsed.line.quiet          = parsed.line.quiet || !is_first_process();
   parsed.line.tells_warnings = is_first_process();
   install_stop_signals();
   return answer_for([&] { return execute(parsed.line); }, code_of);

@@ -25,12 +25,12 @@ namespace diptych::coupling
   public:
     // `grains`: the first process's, for the mesh and a mapped stress. `resume`: from part.checkpoint(). Throws SceneError where
     // that belongs to another scene or mesh.
-    RecordedContinuum(const CommandLine              &line,
-                      const Scene                    &scene,
-                      const ContinuumPart            &part,
-                      const discrete::Snapshot       *grains,
-                      double                          solid_fraction,
-                      bool                            resume);
+    RecordedContinuum(const CommandLine        &line,
+                      const Scene              &scene,
+                      const ContinuumPart      &part,
+                      const discrete::Snapshot *grains,
+                      double                    solid_fraction,
+                      bool                      resume);
 
     const continuum::Report &run();
 
@@ -46,18 +46,18 @@ namespace diptych::coupling
     void             flush_rows();
     void             save();
 
-    const CommandLine                      &line;
-    const Scene                            &scene;
-    const ContinuumPart                    &part;
-    const discrete::Snapshot               *grains;
-    continuum::QuadMesh                     mesh;
-    continuum::Loading                      loading;
-    std::string                             scene_identity, sample_identity;
-    Progress                                progress;
-    std::optional<discrete::TableFile>      table;
-    std::optional<ContinuumSnapshotFile>    snapshots;
-    Clock::time_point                       saved = Clock::now(), flushed = saved;
-    std::unique_ptr<continuum::Panel>       panel;
-    bool                                    is_under_way = false;
+    const CommandLine                   &line;
+    const Scene                         &scene;
+    const ContinuumPart                 &part;
+    const discrete::Snapshot            *grains;
+    continuum::QuadMesh                  mesh;
+    continuum::Loading                   loading;
+    std::string                          scene_identity, sample_identity;
+    Progress                             progress;
+    std::optional<discrete::TableFile>   table;
+    std::optional<ContinuumSnapshotFile> snapshots;
+    Clock::time_point                    saved = Clock::now(), flushed = saved;
+    std::unique_ptr<continuum::Panel>    panel;
+    bool                                 is_under_way = false;
   };
 } // namespace diptych::coupling

@@ -40,8 +40,8 @@ namespace diptych::coupling
   {
     const std::string script = drawing_script();
     if (const int code = run_program({python, script, word_of(drawing), directory}); code != 0)
-      throw std::runtime_error("the report could not be drawn: " + std::string(python) + " " + script + " " + word_of(drawing) + " " +
-                               directory + " ended with exit code " + std::to_string(code));
+      throw std::runtime_error("the report could not be drawn: " + std::string(python) + " " + script + " " + word_of(drawing) +
+                               " " + directory + " ended with exit code " + std::to_string(code));
   }
 
   void draw_page(const CommandLine &line, const Drawing drawing, const std::string &directory)

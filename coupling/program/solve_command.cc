@@ -57,10 +57,11 @@ namespace diptych::coupling
                       const std::vector<discrete::Impulse> &r)
     {
       const double sweeps = double(std::max(1l, report.sweeps)), updates = sweeps * double(std::max<std::size_t>(1, r.size()));
-      std::cout << "solver: " << discrete::name_of(line.solver) << "\ntolerance: " << line.tolerance << "\nsweeps: " << report.sweeps
-                << "\nresidual: " << report.residual << "\nsiconos_residual: " << siconos_residual(local, r)
-                << "\ncpu_s: " << report.cpu_s << "\nus_per_sweep: " << 1e6 * report.cpu_s / sweeps
-                << "\nns_per_update: " << 1e9 * report.cpu_s / updates << "\nstatus: " << status_of(report) << std::endl;
+      std::cout << "solver: " << discrete::name_of(line.solver) << "\ntolerance: " << line.tolerance
+                << "\nsweeps: " << report.sweeps << "\nresidual: " << report.residual
+                << "\nsiconos_residual: " << siconos_residual(local, r) << "\ncpu_s: " << report.cpu_s
+                << "\nus_per_sweep: " << 1e6 * report.cpu_s / sweeps << "\nns_per_update: " << 1e9 * report.cpu_s / updates
+                << "\nstatus: " << status_of(report) << std::endl;
     }
   } // namespace
 
@@ -80,9 +81,9 @@ namespace diptych::coupling
     print_problem(line, problem, form);
     print_result(line, report, problem.local, r);
     if (!line.output.empty())
-      discrete::write_solution(
-        line.target, line.output,
-        {r, relative_velocities(problem.local, r), discrete::name_of(line.solver) + ", " + form + " form", status_of(report), report.residual});
+      discrete::write_solution(line.target, line.output,
+                               {r, relative_velocities(problem.local, r), discrete::name_of(line.solver) + ", " + form + " form",
+                                status_of(report), report.residual});
     return report.status == discrete::SolveStatus::converged ? done : not_converged;
   }
 } // namespace diptych::coupling

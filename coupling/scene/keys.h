@@ -21,9 +21,9 @@ namespace diptych::coupling
   };
 
   // Numbers as they are written everywhere: the shortest text that reads back as the same number.
-  std::string text_of(double value);
-  std::string text_of(const std::optional<double> &value); // or auto
-  std::string text_of(const std::vector<double> &values);  // separated by ", "
+  std::string        text_of(double value);
+  std::string        text_of(const std::optional<double> &value); // or auto
+  std::string        text_of(const std::vector<double> &values);  // separated by ", "
   inline std::string text_of(const bool value)
   {
     return value ? "true" : "false";
@@ -103,8 +103,8 @@ namespace diptych::coupling
   // Absolute path of a file that a key names; empty stays empty.
   std::string resolved(const std::string &path, const std::string &folder);
 
-  // Sets the one key of that name. Files are looked for in `folder`. After a visit: whether the key is there, and whether the text
-  // is a value of it.
+  // Sets the one key of that name. Files are looked for in `folder`. After a visit: whether the key is there, and whether the
+  // text is a value of it.
   struct SetKey
   {
     std::string name, text, folder;

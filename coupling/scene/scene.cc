@@ -20,8 +20,8 @@ namespace diptych::coupling
 
   discrete::Loading discrete_loading(const LoadingOptions &o)
   {
-    return {o.pressure,     o.inertial_number, o.horizontal_over_vertical, stages(o),
-            o.affine_start, o.mode,            o.strain_rate,              o.normal_pressure};
+    return {o.pressure, o.inertial_number, o.horizontal_over_vertical, stages(o), o.affine_start,
+            o.mode,     o.strain_rate,     o.normal_pressure};
   }
 
   continuum::Units continuum_units(const Scene &scene)

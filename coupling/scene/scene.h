@@ -38,11 +38,11 @@ namespace diptych::coupling
             "I = strain rate d sqrt(rho/P): fixes the speed of the upper platen in the discrete panel");
     visitor("horizontal_over_vertical", o.horizontal_over_vertical, "-", {-10., 10.},
             "travel of the upper platen to the right per descent: 1 is 45 degrees, 0 vertical");
-    visitor("axial_strain", o.axial_strain, "-", {1e-6, 5.},
-            "at the end: axial strain, descent of the upper platen / initial height (modes shear and plane_shear: shear strain, its "
-            "travel / initial height)");
-    visitor("stage_strain", o.stage_strain, "-", {1e-6, 5.},
-            "strain between two stages, at which both panels are compared");
+    visitor(
+      "axial_strain", o.axial_strain, "-", {1e-6, 5.},
+      "at the end: axial strain, descent of the upper platen / initial height (modes shear and plane_shear: shear strain, its "
+      "travel / initial height)");
+    visitor("stage_strain", o.stage_strain, "-", {1e-6, 5.}, "strain between two stages, at which both panels are compared");
     visitor("affine_start", o.affine_start, "-",
             "grains start with the affine velocity field between the platens, not at rest (an impulsive start)");
     visitor(

@@ -10,6 +10,7 @@
 
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_error.h"
+#include "discrete/samples/placed_grains.h"
 
 namespace diptych::coupling
 {
@@ -27,9 +28,9 @@ namespace diptych::coupling
           const double k = edge / interval;
           if (std::abs(k - std::round(k)) > 1e-6 || edge > last * (1 + 1e-9))
             throw std::invalid_argument("comparison/window_edges holds " + std::to_string(edge) +
-                             ", which is no stage: stages are multiples of loading/" + (time ? "stage_time" : "stage_strain") +
-                             " = " + std::to_string(interval) + " up to loading/" + (time ? "duration" : "axial_strain") + " = " +
-                             std::to_string(last));
+                                        ", which is no stage: stages are multiples of loading/" +
+                                        (time ? "stage_time" : "stage_strain") + " = " + std::to_string(interval) +
+                                        " up to loading/" + (time ? "duration" : "axial_strain") + " = " + std::to_string(last));
         }
     }
 
@@ -41,13 +42,14 @@ namespace diptych::coupling
       const double          count   = last / (time ? loading.stage_time : loading.stage_strain);
       if (time && (std::abs(count - std::round(count)) > 1e-6 || count < 0.5))
         throw std::invalid_argument("loading/duration = " + std::to_string(loading.duration) +
-                         " is not a whole number of loading/stage_time = " + std::to_string(loading.stage_time));
+                                    " is not a whole number of loading/stage_time = " + std::to_string(loading.stage_time));
       if (!time && (std::abs(count - std::round(count)) > 1e-6 || count < 0.5))
         throw std::invalid_argument("loading/axial_strain = " + std::to_string(loading.axial_strain) +
-                         " is not a whole number of loading/stage_strain = " + std::to_string(loading.stage_strain));
+                                    " is not a whole number of loading/stage_strain = " + std::to_string(loading.stage_strain));
       const std::vector<double> &edges = scene.comparison.window_edges;
       if (edges.size() < 2 || std::adjacent_find(edges.begin(), edges.end(), std::greater_equal<double>()) != edges.end())
-        throw std::invalid_argument("comparison/window_edges must be at least two ascending values of what the loading walks along");
+        throw std::invalid_argument(
+          "comparison/window_edges must be at least two ascending values of what the loading walks along");
       if (compares)
         check_windows(scene, last);
     }
@@ -121,7 +123,7 @@ namespace diptych::coupling
     std::vector<Unused> unused_keys(const ComparisonOptions &o)
     {
       std::vector<Unused>   keys;
-      const AveragingMethod method = o.averaging.method;
+      const AveragingMethod method  = o.averaging.method;
       const std::string     because = "comparison/averaging = " + text_of(method);
       if (method != AveragingMethod::kernel)
         keys.push_back({"comparison/averaging_kernel", because});

@@ -53,8 +53,8 @@ namespace diptych::coupling
     {
       for (const KeyDescription &key : describe(entry.section))
         if (key.name == entry.key)
-          throw SceneError(entry.place + ": " + entry.section + "/" + entry.key + " = '" + entry.value + "' is not allowed: " +
-                           key.allowed + " [" + key.unit + "] is");
+          throw SceneError(entry.place + ": " + entry.section + "/" + entry.key + " = '" + entry.value +
+                           "' is not allowed: " + key.allowed + " [" + key.unit + "] is");
       refuse_key(entry);
     }
 
@@ -97,7 +97,8 @@ namespace diptych::coupling
     for (const Entry &entry : entries)
       {
         if (entry.value.find_first_of("#\n") != std::string::npos)
-          throw SceneError(entry.place + ": " + entry.section + "/" + entry.key + " holds a # or a line break; # begins a comment");
+          throw SceneError(entry.place + ": " + entry.section + "/" + entry.key +
+                           " holds a # or a line break; # begins a comment");
         set(scene, entry);
       }
     scene.name = scene_name(file);

@@ -55,8 +55,8 @@ namespace diptych::coupling
             const bool long_form = value.is_object() && value.contains("value");
             if (value.is_object() && !long_form)
               throw SceneError(line_of(key, at).second + ": '" + section + "/" + key + "' must be a value, not a section");
-            entries.push_back(
-              {section, key, value_text(long_form ? value["value"] : value), line_of(key, at).second, std::filesystem::path(file).parent_path().string()});
+            entries.push_back({section, key, value_text(long_form ? value["value"] : value), line_of(key, at).second,
+                               std::filesystem::path(file).parent_path().string()});
           }
       }
     return entries;

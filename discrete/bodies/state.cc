@@ -15,4 +15,12 @@ namespace diptych::discrete
     const std::size_t k = std::size_t(std::upper_bound(time.begin(), time.end(), t) - time.begin());
     return value[k - 1] + (value[k] - value[k - 1]) * (t - time[k - 1]) / (time[k] - time[k - 1]);
   }
+
+  void scale_impulses(State &state, const double factor)
+  {
+    if (factor == 1)
+      return;
+    for (PairImpulse &r : state.impulses)
+      r.normal *= factor, r.tangential *= factor;
+  }
 } // namespace diptych::discrete

@@ -132,4 +132,7 @@ namespace diptych::discrete
   {
     return cell ? int(std::lround((xi - xj) / cell->width)) : 0;
   }
+
+  // Of the last step, all of them times `factor`.
+  void scale_impulses(State &state, double factor);
 } // namespace diptych::discrete

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "discrete/samples/placed_grains.h"
 #include "discrete/samples/sample_file.h"
 #include "discrete/samples/sample_preparation.h"
 

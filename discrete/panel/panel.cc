@@ -19,14 +19,6 @@ namespace diptych::discrete
     {
       return double(std::clock()) / CLOCKS_PER_SEC;
     }
-
-    void scale_impulses(State &state, const double factor)
-    {
-      if (factor == 1)
-        return;
-      for (PairImpulse &r : state.impulses)
-        r.normal *= factor, r.tangential *= factor;
-    }
   } // namespace
 
   // A sample under way: what changes is in `now`, the rest stays.

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "discrete/bodies/outline.h"
+#include "discrete/samples/placed_grains.h"
 #include "discrete/samples/sample_file.h"
 #include "discrete/samples/soft_relaxation.h"
 
@@ -74,13 +75,6 @@ namespace diptych::discrete
       return {whole / height, height};
     }
 
-    std::vector<Wall> box_walls(const double width, const double height)
-    {
-      std::vector<Wall> walls = {{{0, 0}, {0, 1}}, {{0, height}, {0, -1}}, {{0, 0}, {1, 0}}, {{width, 0}, {-1, 0}}};
-      walls[2].kind = walls[3].kind = WallKind::side;
-      return walls;
-    }
-
     // Random centres in a box of the sample's height that is as wide as box_solid_fraction asks (a cell of fixed width: as
     // high); periodic sides: a cell instead of side walls.
     State random_box(const SampleOptions &o, const LateralCondition &lateral)
@@ -124,30 +118,6 @@ namespace diptych::discrete
       return sorted;
     }
 
-    // Sides as the lateral condition wants them during the preparation: what is free is free under the pressure.
-    void set_sides(State &state, const PreparationSetting &setting)
-    {
-      const double mass = default_wall_mass(state.grains);
-      if (const auto *sides = std::get_if<RigidSides>(&setting.lateral))
-        {
-          state.walls[3].drive_x = AppliedPressure{setting.pressure};
-          state.walls[3].mass    = sides->mass > 0 ? sides->mass : mass;
-        }
-      else if (const auto *periodic = std::get_if<PeriodicSides>(&setting.lateral))
-        {
-          state.cell->mass = periodic->mass > 0 ? periodic->mass : mass;
-          if (periodic->free_width)
-            state.cell->pressure = setting.pressure;
-          else
-            {
-              state.walls[1].drive_y = AppliedPressure{setting.pressure};
-              state.walls[1].mass    = state.cell->mass;
-            }
-        }
-      else
-        state.walls.resize(2);
-    }
-
     // Everything stands still, nothing is free under a force any more.
     void bring_to_rest(State &state)
     {
@@ -161,10 +131,15 @@ namespace diptych::discrete
       state.time = 0;
     }
 
+    double step_of_preparation(const SampleOptions &o, const double pressure)
+    {
+      return o.preparation_step.value_or(0.2 * o.mean_diameter * std::sqrt(o.density / pressure));
+    }
+
     StepSetting compaction_setting(const SampleOptions &options, const PreparationSetting &preparation, const double friction)
     {
       StepSetting setting;
-      setting.step               = options.preparation_step;
+      setting.step               = step_of_preparation(options, preparation.pressure);
       setting.time.gravity_x     = preparation.gravity.x();
       setting.time.gravity_y     = preparation.gravity.y();
       setting.law                = {friction, friction, 0., 0., friction};
@@ -271,87 +246,6 @@ namespace diptych::discrete
                                   " gives it within " + three_digits(tolerance));
     }
 
-    // Whatever is wrong with the file of a key is told together with the key.
-    template <class Read> auto read_for(const std::string &key, const std::string &file, Read &&read)
-    {
-      try
-        {
-          return read(file);
-        }
-      catch (const std::exception &error)
-        {
-          throw std::invalid_argument("sample/" + key + " = '" + file + "': " + error.what());
-        }
-    }
-
-    // The grains of a file between platens and sides where they touch them, checked.
-    struct FileSample
-    {
-      State                      state;
-      std::optional<StoredStage> stage;
-    };
-
-    // Platens and sides of a sample whose grains are given: where the keys say, where a snapshot had them, or at the outermost
-    // edge of any grain (platens: of any grain that moves, for fixed ones may be a rough bottom).
-    SampleBox box_around(const SampleOptions &o, const GrainFile &file)
-    {
-      const Grains   &g   = file.grains;
-      constexpr auto  far = std::numeric_limits<double>::infinity();
-      Eigen::Vector2d low = Eigen::Vector2d::Constant(far), high = -low;
-      for (std::size_t i = 0; i < g.size(); ++i)
-        {
-          const Eigen::Vector2d r(g.radius[i], g.fixed[i] ? 0. : g.radius[i]);
-          low = low.cwiseMin(g.position[i] - r), high = high.cwiseMax(g.position[i] + r);
-        }
-      const auto stored = [&](const std::optional<double> &value) {
-        return value && std::isfinite(*value) ? value : std::nullopt;
-      };
-      const auto place = [&](const std::optional<double> &key, const std::optional<double> &of_file, const double edge) {
-        return key ? *key : stored(of_file).value_or(edge);
-      };
-      std::optional<double> lower, upper, left, right;
-      if (file.stage)
-        lower = file.stage->lower_y, upper = file.stage->upper_y, left = file.stage->left_x, right = file.stage->right_x;
-      return {place(o.lower_platen, lower, low.y()),
-              place(o.upper_platen, upper, high.y()),
-              place(o.left_wall, left, low.x()),
-              place(o.right_wall, right, high.x()),
-              {}};
-    }
-
-    FileSample place_grains(const SampleOptions &o, const PreparationSetting &preparation, GrainFile file)
-    {
-      SampleBox  box = box_around(o, file);
-      FileSample sample{{}, file.stage};
-      State     &state     = sample.state;
-      state.walls          = box_walls(0, 0);
-      state.walls[0].point = state.walls[2].point = {*box.left_x, *box.lower_y};
-      state.walls[1].point = state.walls[3].point = {*box.right_x, *box.upper_y};
-      if (!std::holds_alternative<RigidSides>(preparation.lateral))
-        box.left_x.reset(), box.right_x.reset();
-      if (std::holds_alternative<PeriodicSides>(preparation.lateral))
-        {
-          if (o.width <= 0)
-            throw std::invalid_argument("sample/width = 0: a periodic sample from a file needs its period there");
-          state.cell     = PeriodicCell{o.width};
-          box.cell_width = o.width;
-          state.walls.resize(2);
-        }
-      check_grains(file, box, o.allowed_overlap);
-      state.grains = std::move(file.grains);
-      set_sides(state, preparation);
-      validate_walls(state);
-      return sample;
-    }
-
-    FileSample file_sample(const SampleOptions &o, const PreparationSetting &preparation)
-    {
-      return read_for("file", o.file, [&](const std::string &path) {
-        const bool snapshots = path.size() > 3 && path.compare(path.size() - 3, 3, ".h5") == 0;
-        return place_grains(o, preparation, snapshots ? read_grains_hdf5(path) : read_grains_csv(path, o.density));
-      });
-    }
-
     PreparedSample ready_sample(const SampleOptions                 &o,
                                 const PreparationSetting            &preparation,
                                 const std::function<bool(int, int)> &progress,
@@ -380,12 +274,6 @@ namespace diptych::discrete
     }
   } // namespace
 
-  void check_sample_file(const SampleOptions &o, const PreparationSetting &preparation)
-  {
-    if (!o.file.empty())
-      (void)file_sample(o, preparation);
-  }
-
   void validate(const SampleOptions &o)
   {
     if (o.radius_distribution == RadiusKind::uniform_by_number && std::abs(o.radius_min + o.radius_max - 1) > 1e-9)
@@ -408,11 +296,6 @@ namespace diptych::discrete
     if (o.left_wall && o.right_wall && *o.left_wall >= *o.right_wall)
       throw std::invalid_argument("sample/left_wall " + std::to_string(*o.left_wall) + " is not left of sample/right_wall " +
                                   std::to_string(*o.right_wall));
-  }
-
-  double default_wall_mass(const Grains &grains)
-  {
-    return std::accumulate(grains.mass.begin(), grains.mass.end(), 0.) / std::sqrt(double(grains.size()));
   }
 
   PreparedSample prepare_sample(const SampleOptions                 &options,

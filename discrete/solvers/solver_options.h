@@ -53,7 +53,8 @@ namespace diptych::discrete
 
   constexpr auto choices(SolveStatus)
   {
-    return std::array{std::pair{SolveStatus::converged, "converged"}, std::pair{SolveStatus::max_sweeps_reached, "max_sweeps_reached"},
+    return std::array{std::pair{SolveStatus::converged, "converged"},
+                      std::pair{SolveStatus::max_sweeps_reached, "max_sweeps_reached"},
                       std::pair{SolveStatus::blown_up, "blown_up"}};
   }
 

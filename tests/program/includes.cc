@@ -28,8 +28,8 @@ namespace
     {"discrete", {"files", "bodies", "contacts", "solvers", "stepping", "problem_files", "samples", "panel"}},
     {"continuum", {"laws", "mesh", "elements", "equilibrium", "panel"}},
     {"coupling",
-     {"cells", "statistics", "numbers", "processes", "files", "averaging", "fields", "bands", "probes", "scene", "folders", "results",
-      "comparison", "panels", "ensembles", "program"}}};
+     {"cells", "statistics", "numbers", "processes", "files", "averaging", "fields", "bands", "probes", "scene", "folders",
+      "results", "comparison", "panels", "ensembles", "program"}}};
 
   std::vector<std::string> includes_of(const fs::path &file)
   {
@@ -111,7 +111,7 @@ namespace
   // A header and its source are one unit. The first circle of units, as text; empty where there is none.
   std::string circle(const fs::path &root, const std::string &folder)
   {
-    const auto unit = [](const std::string &path) { return path.substr(0, path.rfind('.')); };
+    const auto                                   unit = [](const std::string &path) { return path.substr(0, path.rfind('.')); };
     std::map<std::string, std::set<std::string>> arrows;
     for (const auto &[file, includes] : sources(root, folder))
       for (const std::string &include : includes)
@@ -124,7 +124,8 @@ namespace
         changed = false;
         for (auto it = arrows.begin(); it != arrows.end();)
           {
-            const bool free = std::none_of(it->second.begin(), it->second.end(), [&](const auto &to) { return arrows.count(to) > 0; });
+            const bool free = std::none_of(it->second.begin(), it->second.end(),
+                                           [&](const auto &to) { return arrows.count(to) > 0; });
             changed         = changed || free;
             it              = free ? arrows.erase(it) : std::next(it);
           }

@@ -59,9 +59,9 @@ def content(path):
         return file.read()
 
 
-def history(folder):
-    """Columns of discrete.csv: numbers, and `walk` as text."""
-    with open(os.path.join(folder, "discrete.csv")) as file:
+def history(folder, name="discrete.csv"):
+    """Columns of a panel's table: numbers, and `walk` as text."""
+    with open(os.path.join(folder, name)) as file:
         rows = list(csv.DictReader(file))
     return {name: numpy.array([row[name] if name == "walk" else float(row[name]) for row in rows]) for name in rows[0]}
 

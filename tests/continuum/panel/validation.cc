@@ -157,7 +157,8 @@ namespace
           options.platen_rotation = rotation;
           options.geometry        = geometry;
           const Course c          = finished(mesh, loading, with_steps(options, 1e-3));
-          EXPECT_NEAR(c.end().upper_platen_force.x() / (0.5 * G * 1e-3), expected, 1e-4) << name_of(rotation) << ", " << name_of(geometry);
+          EXPECT_NEAR(c.end().upper_platen_force.x() / (0.5 * G * 1e-3), expected, 1e-4)
+            << name_of(rotation) << ", " << name_of(geometry);
         }
   }
 

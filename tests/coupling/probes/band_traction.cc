@@ -14,7 +14,6 @@ namespace
 {
   using namespace diptych::coupling;
 
-
   Eigen::Matrix2d known_stress()
   {
     Eigen::Matrix2d stress;

@@ -14,7 +14,6 @@ namespace
 {
   using namespace diptych::coupling;
 
-
   Eigen::Matrix2d circle_stress()
   {
     Eigen::Matrix2d stress;

@@ -13,7 +13,6 @@ namespace
 {
   using namespace diptych::coupling;
 
-
   Band oblique_band()
   {
     Band band;

@@ -332,7 +332,7 @@ namespace
     Options       options = quick_options();
     const Course  a       = loaded(sample, one_percent(), options);
     sample.density        = 4;
-    *options.time.step *= 2, sample.preparation_step *= 2;
+    *options.time.step *= 2, sample.preparation_step = 0.4;
     const Course b = loaded(sample, one_percent(), options);
     ASSERT_EQ(a.rows.size(), b.rows.size());
     EXPECT_NEAR(b.rows.back().time, 2 * a.rows.back().time, 1e-9);

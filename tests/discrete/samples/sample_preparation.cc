@@ -30,8 +30,7 @@ namespace
     for (std::size_t k = 0; k < sample.last_step.contacts.size(); ++k)
       {
         const Contact &c = sample.last_step.contacts[k];
-        forces.push_back(
-          {c.i, c.j, c.point, c.normal, sample.last_step.impulses[k].normal / options.preparation_step * c.normal});
+        forces.push_back({c.i, c.j, c.point, c.normal, sample.last_step.impulses[k].normal / sample.step * c.normal});
       }
     double moment = 0;
     for (const Eigen::Matrix2d &m : internal_moments(sample.state.grains.position, forces, spin_terms(sample.state.grains)))

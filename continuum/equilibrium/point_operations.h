@@ -1,0 +1,50 @@
+// diptych: what is done at elements and their points: gathering, scattering, turning
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "continuum/elements/discretisation.h"
+#include "continuum/elements/element_kernels.h"
+
+namespace diptych::continuum
+{
+  template <class Element> ElementVector<Element> gather(const Cell &cell, const std::vector<double> &values)
+  {
+    ElementVector<Element> u;
+    for (unsigned int i = 0; i < Element::n_dofs; ++i)
+      u[i] = values[cell.local[i]];
+    return u;
+  }
+
+  template <class Element> void scatter(const Cell &cell, const ElementVector<Element> &force, std::vector<double> &values)
+  {
+    for (unsigned int i = 0; i < Element::n_dofs; ++i)
+      values[cell.local[i]] += force[i];
+  }
+
+  // Stress and couple stress turned by the angle that the material turned by; the skew part does not depend on the frame.
+  inline void turn(MaterialState &point, const double angle)
+  {
+    const double c = std::cos(angle), s = std::sin(angle);
+    Stress      &t    = point.stress;
+    const double mean = (t[xx] + t[yy]) / 2, a = (t[xx] - t[yy]) / 2, b = t[xy];
+    const double cos2 = c * c - s * s, sin2 = 2 * c * s;
+    t[xx]           = mean + a * cos2 - b * sin2;
+    t[yy]           = mean - a * cos2 + b * sin2;
+    t[xy]           = a * sin2 + b * cos2;
+    const double mx = t[curvature_x], my = t[curvature_y];
+    t[curvature_x] = c * mx - s * my;
+    t[curvature_y] = s * mx + c * my;
+  }
+
+  // Half the curl of the increment: anticlockwise.
+  template <class Element> double spin_at(const PointGeometry &point, const ElementVector<Element> &u)
+  {
+    double spin = 0;
+    for (unsigned int node = 0; node < Element::n_nodes; ++node)
+      spin += 0.5 * (point.gradient[node][0] * u[2 * node + 1] - point.gradient[node][1] * u[2 * node]);
+    return spin;
+  }
+} // namespace diptych::continuum

@@ -1,0 +1,16 @@
+// diptych: CPU time of a part of the program
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <ctime>
+
+namespace diptych::continuum
+{
+  // Adds the CPU time of its life to a counter.
+  struct Stopwatch
+  {
+    double      &seconds;
+    std::clock_t start = std::clock();
+    ~Stopwatch() { seconds += double(std::clock() - start) / CLOCKS_PER_SEC; }
+  };
+} // namespace diptych::continuum

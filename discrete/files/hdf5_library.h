@@ -1,0 +1,61 @@
+// diptych: the HDF5 library as the files here use it: ids that are closed, errors that are thrown
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <hdf5.h>
+
+namespace diptych::discrete
+{
+  namespace hdf5_library
+  {
+    [[noreturn]] inline void fail(const std::string &what, const std::string &path, const std::string &name)
+    {
+      throw std::runtime_error("HDF5: cannot " + what + " '" + name + "' in " + path);
+    }
+
+    [[noreturn]] inline void refuse(const std::string &path, const std::string &name, const std::string &what)
+    {
+      throw std::invalid_argument(path + ": '" + name + "' " + what);
+    }
+
+    // An id that is closed when it goes out of scope; opening reports failure by a negative one.
+    class Id
+    {
+    public:
+      Id(const hid_t id, herr_t (*close)(hid_t))
+          : id(id),
+            close(close)
+      {}
+      ~Id()
+      {
+        if (id >= 0)
+          close(id);
+      }
+      Id(const Id &)            = delete;
+      Id &operator=(const Id &) = delete;
+          operator hid_t() const { return id; }
+
+    private:
+      hid_t id;
+      herr_t (*close)(hid_t);
+    };
+
+    // Errors are reported as exceptions; the library's own print-out would only double them.
+    inline void silence()
+    {
+      H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    }
+
+    inline std::size_t product(const std::vector<std::size_t> &extents)
+    {
+      return std::accumulate(extents.begin(), extents.end(), std::size_t(1), std::multiplies<>());
+    }
+  } // namespace hdf5_library
+} // namespace diptych::discrete

@@ -1,0 +1,53 @@
+// diptych: given grains between platens and sides
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "discrete/samples/sample_file.h"
+#include "discrete/samples/sample_options.h"
+
+namespace diptych::discrete
+{
+  // Lower and upper platen, left and right side of a box at the origin [length].
+  std::vector<Wall> box_walls(double width, double height);
+
+  // Default inertia of a wall or cell width that moves under a force: sqrt(number of grains) x mean grain mass.
+  double default_wall_mass(const Grains &grains);
+
+  // What `lateral` makes of the walls and the cell.
+  void set_sides(State &state, const PreparationSetting &setting);
+
+  // Whatever is wrong with the file of a key is told together with the key.
+  template <class Read> auto read_for(const std::string &key, const std::string &file, Read &&read)
+  {
+    try
+      {
+        return read(file);
+      }
+    catch (const std::exception &error)
+      {
+        throw std::invalid_argument("sample/" + key + " = '" + file + "': " + error.what());
+      }
+  }
+
+  // The grains of a file between platens and sides where they touch them, checked.
+  struct FileSample
+  {
+    State                      state;
+    std::optional<StoredStage> stage;
+  };
+
+  // Platens and sides as the options say, or as a snapshot stored them, or where the grains touch them. Throws
+  // std::invalid_argument naming grains, places and keys.
+  FileSample place_grains(const SampleOptions &options, const PreparationSetting &preparation, GrainFile file);
+
+  // The same with the file of `sample/file`.
+  FileSample file_sample(const SampleOptions &options, const PreparationSetting &preparation);
+
+  // Throws std::invalid_argument naming key, file, place and range where the file of the sample is wrong. Reads it whole.
+  void check_sample_file(const SampleOptions &options, const PreparationSetting &setting);
+} // namespace diptych::discrete

@@ -1,0 +1,110 @@
+// diptych: counts, extremes and costs of a whole run; differences of bands
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gtest/gtest.h>
+
+#include "tests/coupling/comparison/example_results.h"
+
+namespace
+{
+  using namespace diptych::coupling;
+  using namespace diptych::coupling::synthetic;
+
+  DiscreteSummary grains_summary(const Scene &scene)
+  {
+    const Results results = example_results();
+    return summary_of(scene, results.discrete, results.discrete.snapshots.back(), history_table(results.discrete.rows));
+  }
+
+  TEST(Summary, OfTheGrainsHistory)
+  {
+    const DiscreteSummary s = grains_summary(example_scene());
+    EXPECT_EQ(s.grains, 40 * 56);
+    EXPECT_EQ(s.steps, 40);
+    EXPECT_EQ(s.sweeps, 4000);
+    EXPECT_EQ(s.max_penetration, 0.006);
+    EXPECT_EQ(s.energy_residual, 1e-12); // the largest size
+    EXPECT_EQ(s.residual, 4e-4);
+    EXPECT_NEAR(s.mean_inertial_number, 1e-3, 1e-16);
+    EXPECT_EQ(s.kinetic_energy_ratio_median, 21); // of 1 to 40, the upper of the two in the middle
+    EXPECT_EQ(s.kinetic_energy_ratio_largest, 40);
+    EXPECT_EQ(s.contacts, 4040);
+    EXPECT_EQ(s.coordination_number, 2 * 4040. / (40 * 56));
+    EXPECT_EQ(s.rattlers, 3);
+    EXPECT_NEAR(s.peak.value, 1. / 3, 1e-14);
+    EXPECT_EQ(s.final_volumetric_strain, -0.01);
+    EXPECT_EQ(s.balance.mean.value, 0); // 80 up, 80 down
+  }
+
+  // residual 4e-4 x step 0.1 / inertial number 1e-3, the step in d sqrt(rho/P): twice that under four times the pressure.
+  TEST(Summary, SolverNoiseCountsTheStepInTheScenesTime)
+  {
+    Scene scene = example_scene();
+    EXPECT_NEAR(grains_summary(scene).solver_noise, 0.04, 1e-15);
+    scene.loading.pressure = 4;
+    EXPECT_NEAR(grains_summary(scene).solver_noise, 0.08, 1e-15);
+    scene.sample.density = 4;
+    EXPECT_NEAR(grains_summary(scene).solver_noise, 0.04, 1e-15);
+  }
+
+  TEST(Summary, OfTheContinuumsHistory)
+  {
+    Scene                  scene   = example_scene();
+    const Results          results = example_results();
+    const auto             of      = [&] { return summary_of(scene, results.continuum, history_table(results.continuum.rows)); };
+    const ContinuumSummary s       = of();
+    EXPECT_EQ(s.newton_iterations, 120);
+    EXPECT_EQ(s.cut_backs, 1);
+    EXPECT_EQ(s.share_zz_not_intermediate, 0.25);
+    EXPECT_EQ(s.viscous_share, 0.04);
+    EXPECT_EQ(s.max_equivalent_plastic_strain, 0.4);
+    EXPECT_NEAR(s.platen_unbalance, 1 / 99.5, 1e-14); // 100 against 99
+    EXPECT_EQ(s.law, "cosserat_mohr_coulomb");
+    ASSERT_TRUE(s.internal_length.has_value());
+    scene.continuum.law = diptych::continuum::LawKind::mohr_coulomb;
+    EXPECT_FALSE(of().internal_length.has_value());
+  }
+
+  TEST(Summary, CostsAreThoseOfTheirPhases)
+  {
+    const CostSummary cost = summary_of(example_results().phases);
+    EXPECT_EQ(*cost.preparation_cpu_s, 1.5);
+    EXPECT_EQ(*cost.discrete_cpu_s, 18);
+    EXPECT_EQ(*cost.continuum_cpu_s, 2.5);
+    EXPECT_FALSE(cost.comparison_cpu_s.has_value());
+    EXPECT_EQ(cost.peak_memory_mb, 300);
+  }
+
+  Increment with_bands(const Interval &grains_angle, const Interval &nodes_angle)
+  {
+    Increment increment;
+    Band      a, b;
+    a.interval.angle_deg = grains_angle, b.interval.angle_deg = nodes_angle;
+    a.interval.half_width = {4, 3, 6}, b.interval.half_width = {5, 4.5, 6};
+    increment.discrete.band.bands = {a}, increment.continuum.band.bands = {b};
+    return increment;
+  }
+
+  // The ends' distances add up in squares: 5 - 4 down by hypot(0.5, 2), up by hypot(1, 1).
+  TEST(Summary, DifferencesOfBandsAddTheirDistancesInSquares)
+  {
+    const BandDifference d = band_difference(with_bands({-45, -46, -44}, {-46, -46, -46}));
+    EXPECT_EQ(d.angle_deg.value, -1);
+    EXPECT_NEAR(d.half_width.low, 1 - std::hypot(0.5, 2.), 1e-15);
+    EXPECT_NEAR(d.half_width.high, 1 + std::hypot(1., 1.), 1e-15);
+  }
+
+  TEST(Summary, ATurnAcrossTheVerticalIsSmall)
+  {
+    const BandDifference d = band_difference(with_bands({89, 88, 90}, {-89, -90, -88}));
+    EXPECT_NEAR(d.angle_deg.value, 2, 1e-12);
+    EXPECT_NEAR(d.angle_deg.low, 2 - std::sqrt(2.), 1e-12);
+    EXPECT_NEAR(d.angle_deg.high, 2 + std::sqrt(2.), 1e-12);
+  }
+
+  TEST(Summary, WithoutABandThereIsNoDifference)
+  {
+    Increment increment = with_bands({1, 1, 1}, {2, 2, 2});
+    increment.continuum.band.bands.clear();
+    EXPECT_TRUE(std::isnan(band_difference(increment).angle_deg.value));
+  }
+} // namespace

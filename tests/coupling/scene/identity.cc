@@ -1,0 +1,142 @@
+// diptych: what makes two scenes the same, what a scene's keys are warned about, where its files are
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include "coupling/scene/identity.h"
+#include "coupling/scene/scene_file.h"
+
+namespace
+{
+  using namespace diptych::coupling;
+  namespace fs = std::filesystem;
+
+  struct SceneFolder
+  {
+    fs::path path = fs::path(testing::TempDir()) / ("identity" + std::to_string(::getpid()));
+
+    SceneFolder() { fs::create_directories(path / "data"); }
+    ~SceneFolder() { fs::remove_all(path); }
+
+    std::string put(const std::string &name, const std::string &text) const
+    {
+      std::ofstream(path / name) << text;
+      return (path / name).string();
+    }
+  };
+
+  std::vector<std::string> warnings(const std::string &text, const std::vector<std::string> &overrides = {})
+  {
+    const SceneFolder folder;
+    return read_scene(folder.put("warned.prm", text), overrides).warnings;
+  }
+
+  void expect_one(const std::vector<std::string> &found, const std::vector<std::string> &words)
+  {
+    ASSERT_EQ(found.size(), 1u);
+    for (const std::string &word : words)
+      EXPECT_NE(found[0].find(word), std::string::npos) << "'" << word << "' is missing in: " << found[0];
+  }
+
+  // Help texts, comments, order and formatting of an echo are not part of it; values are.
+  TEST(Identity, ARewordedEchoIsTheSameScene)
+  {
+    const SceneFolder folder;
+    const Scene       scene = read_scene(folder.put("mine.prm", "subsection discrete\n  set friction = 0.5\nend\n"), {});
+    std::string       text  = echo(scene), reworded;
+    for (std::size_t at = 0, end; at < text.size(); at = end + 1)
+      {
+        end                    = text.find('\n', at);
+        const std::string line = text.substr(at, end - at);
+        const bool        help = line.find("  # ") == 0;
+        reworded += (help ? "  # other words [other unit]; other range" : line) + "\n";
+      }
+    ASSERT_NE(reworded, text);
+    const Scene again = *echoed_scene(folder.put("scene.prm", reworded));
+    EXPECT_EQ(first_difference(sample_identity(scene), sample_identity(again)), "");
+    EXPECT_EQ(first_difference(continuum_identity(scene), continuum_identity(again)), "");
+    EXPECT_EQ(first_difference(member_identity(scene), member_identity(again)), "");
+    EXPECT_EQ(text_of(sample_identity(scene)), text_of(sample_identity(again)));
+  }
+
+  TEST(Identity, EveryValueThatChangesAResultIsPartOfIt)
+  {
+    const Scene plain;
+    Scene       other           = plain;
+    other.discrete.law.friction = 0.3;
+    const std::string told      = first_difference(sample_identity(other), sample_identity(plain));
+    EXPECT_NE(told.find("discrete/friction = '0.3' here, '0.4' there"), std::string::npos) << told;
+
+    other                                    = plain;
+    other.continuum.material.internal_length = 2;
+    EXPECT_EQ(first_difference(sample_identity(other), sample_identity(plain)), "");
+    EXPECT_NE(first_difference(continuum_identity(other), continuum_identity(plain)), "");
+
+    other                  = plain;
+    other.sample.seed      = 7;
+    other.output.directory = "elsewhere";
+    EXPECT_NE(first_difference(sample_identity(other), sample_identity(plain)), "");
+    EXPECT_EQ(first_difference(member_identity(other), member_identity(plain)), "") << "seed and folder are a member's own";
+  }
+
+  // The same grains from another place are the same; other grains in the same place are not.
+  TEST(Identity, AFileCountsByWhatIsInIt)
+  {
+    const SceneFolder folder;
+    const std::string grains = "x,y,r\n0,0.5,0.5\n1,0.5,0.5\n2,0.5,0.5\n3,0.5,0.5\n4,0.5,0.5\n5,0.5,0.5\n6,0.5,0.5\n7,0.5,0.5\n"
+                               "8,0.5,0.5\n9,0.5,0.5\n";
+    Scene             here, there;
+    here.sample.file = folder.put("data/a.csv", grains), there.sample.file = folder.put("b.csv", grains);
+    EXPECT_EQ(first_difference(sample_identity(here), sample_identity(there)), "");
+    folder.put("b.csv", grains + "10,0.5,0.5\n");
+    EXPECT_NE(first_difference(sample_identity(here), sample_identity(there)), "");
+  }
+
+  TEST(Warnings, AKeyThatNothingReadsIsNamedWithItsPlaceAndReason)
+  {
+    expect_one(warnings("subsection continuum\n  set refinement_levels = 3\nend\n"),
+               {"warned.prm, line 2", "continuum/refinement_levels = '3' is not used", "refinement = uniform"});
+    expect_one(warnings("subsection continuum\n  set law = mohr_coulomb\n  set internal_length = 2\nend\n"),
+               {"line 3", "internal_length", "law = mohr_coulomb"});
+    expect_one(warnings("", {"comparison/averaging_width=2"}), {"--set", "averaging_width", "averaging = segments"});
+    expect_one(warnings("", {"loading/normal_pressure=2"}), {"normal_pressure", "loading/mode = descent"});
+    EXPECT_TRUE(warnings("subsection continuum\n  set refinement_levels = 1\nend\n").empty()) << "the default value, spelled out";
+    EXPECT_TRUE(warnings("subsection continuum\n  set refinement = adaptive\n  set refinement_levels = 3\nend\n").empty());
+  }
+
+  // Default E = 500 P. Between 50 and 1e6, and cohesions up to 1, nothing is said.
+  TEST(Warnings, ModuliAndCohesionsThatLookAbsoluteArePointedOut)
+  {
+    expect_one(warnings("subsection continuum\n  set youngs_modulus = 49\nend\n"), {"line 2", "youngs_modulus = 49", "below 50"});
+    expect_one(warnings("subsection continuum\n  set youngs_modulus = 5e8\nend\n"), {"above 1e6"});
+    expect_one(warnings("subsection continuum\n  set cohesion = 2\n  set cohesion_residual = 2\nend\n"),
+               {"cohesion = 2", "above 1"});
+    EXPECT_TRUE(warnings("subsection continuum\n  set youngs_modulus = 50\nend\n").empty());
+    EXPECT_TRUE(warnings("subsection continuum\n  set youngs_modulus = 1e6\nend\n").empty());
+    EXPECT_TRUE(warnings("subsection loading\n  set pressure = 1e4\nend\n").empty()) << "they count in the pressure";
+  }
+
+  TEST(SceneFiles, AreFoundFromTheScenesFolderAndThoseOfOverridesFromTheWorkingOne)
+  {
+    const SceneFolder folder;
+    std::string       rows = "x,y,r\n";
+    for (int x = 0; x < 12; ++x)
+      rows += std::to_string(x) + ",0.5,0.5\n";
+    folder.put("data/grains.csv", rows);
+    const std::string scene = folder.put("mine.prm", "subsection sample\n  set file = data/grains.csv\nend\n");
+    EXPECT_EQ(read_scene(scene, {}).sample.file, (folder.path / "data/grains.csv").string());
+    try
+      {
+        read_scene(scene, {"sample/file=data/grains.csv"});
+        FAIL() << "there is no data/ in the working directory";
+      }
+    catch (const SceneError &error)
+      {
+        EXPECT_NE(std::string(error.what()).find((fs::current_path() / "data/grains.csv").string()), std::string::npos);
+      }
+  }
+} // namespace

@@ -1,0 +1,206 @@
+// diptych: loadings and checkpoints compared bit by bit
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "discrete/panel/checkpoint.h"
+#include "tests/discrete/small_scenes.h"
+
+namespace
+{
+  using namespace diptych::tests;
+
+  // Every number of an object in turn, so that two of them can be compared bit by bit, NaN included.
+  struct Bits
+  {
+    std::vector<std::uint64_t> words = {};
+
+    void operator()(const double value)
+    {
+      std::uint64_t word = 0;
+      std::memcpy(&word, &value, sizeof word);
+      words.push_back(word);
+    }
+    void operator()(const Eigen::Vector2d &v) { (*this)(v.x()), (*this)(v.y()); }
+    void operator()(const Eigen::Matrix2d &m) { (*this)(Eigen::Vector2d(m.row(0))), (*this)(Eigen::Vector2d(m.row(1))); }
+    void operator()(const ContactForce &c)
+    {
+      (*this)(c.i), (*this)(c.j), (*this)(c.point), (*this)(c.normal), (*this)(c.force), (*this)(c.shift);
+    }
+    void operator()(const ContactStatus &status) { (*this)(double(status)); }
+    void operator()(const PairImpulse &r) { (*this)(r.i), (*this)(r.j), (*this)(r.normal), (*this)(r.tangential); }
+    void operator()(const WindowForces::PairSum &s)
+    {
+      (*this)(s.i), (*this)(s.j), (*this)(s.dissipation), (*this)(s.impact), (*this)(s.impulse);
+    }
+    void operator()(const Wall &w)
+    {
+      (*this)(w.point), (*this)(w.normal), (*this)(w.velocity), (*this)(w.mass), (*this)(double(w.kind));
+    }
+    void operator()(const HistoryRow &row)
+    {
+      visit_columns(row, [&](const char *, const auto &value, const char *, const char *) { (*this)(double(value)); });
+    }
+    template <class T> void operator()(const std::vector<T> &values)
+    {
+      (*this)(double(values.size()));
+      for (const T &value : values)
+        (*this)(value);
+    }
+    template <class First, class Second, class... Rest>
+    void operator()(const First &first, const Second &second, const Rest &...rest)
+    {
+      (*this)(first);
+      (*this)(second, rest...);
+    }
+  };
+
+  std::vector<std::uint64_t> bits(const Snapshot &s)
+  {
+    Bits b;
+    b(double(s.walk), s.progress, s.axial_strain, s.time, s.step, s.residual, s.mean_diameter, s.shear_strain, s.stress_error,
+      s.stress_change, s.error_over_residual);
+    b(s.position, s.displacement, s.velocity, s.rotation, s.spin, s.radius, s.mass, s.internal_moment, s.mean_internal_moment);
+    b(s.mean_spin_term, s.rattler, s.fixed, s.contacts, s.gap, s.status, s.applied_force, s.window_forces, s.window_time,
+      s.window_dissipation, s.window_impact_dissipation);
+    b(s.lower_y, s.upper_y, s.upper_platen_displacement, s.lower_platen_force, s.upper_platen_force, s.left_x, s.right_x);
+    b(s.cell_width, s.outline.left, s.outline.right, s.area);
+    return b.words;
+  }
+
+  std::vector<std::uint64_t> bits(const std::vector<HistoryRow> &rows)
+  {
+    Bits b;
+    b(rows);
+    return b.words;
+  }
+
+  // All that a checkpoint promises to keep; drives follow from the scene.
+  std::vector<std::uint64_t> bits(const Checkpoint &p)
+  {
+    Bits          b;
+    const Grains &g = p.state.grains;
+    b(g.position, g.velocity, g.rotation, g.spin, g.radius, g.mass, g.fixed);
+    b(p.state.walls, p.state.impulses, p.state.time, double(p.state.cell.has_value()));
+    if (p.state.cell)
+      b(p.state.cell->width, p.state.cell->velocity, p.state.cell->mass);
+    const Reference &r = p.reference;
+    b(r.position, r.platen, r.height, r.area, r.grain_area, r.kinetic_energy, r.platen_kinetic_energy, r.strain_rate,
+      r.mean_density);
+    b(p.row, p.window.sums, p.window.spin, p.window.time, p.stage, double(p.steps_left), p.step, double(p.interval));
+    const Report &q = p.report;
+    b(q.progress, q.axial_strain, q.shear_strain, double(q.preparation.quiet), q.preparation.steps, q.preparation.residual,
+      q.preparation.unbalanced_force, q.preparation.solid_fraction, q.preparation.soft_overlap, q.preparation.friction);
+    b(double(q.steps), double(q.sweeps), double(q.updates), q.preparation_cpu_s, q.loading_cpu_s, q.solver_cpu_s,
+      q.initial_height, q.platen_speed, q.error_over_residual, q.reference_residual, q.reference_error, q.estimated_error);
+    b(q.snapshots_sampled, q.snapshots_accurate);
+    return b.words;
+  }
+
+  // Values over many decades of both signs.
+  struct Dice
+  {
+    std::mt19937_64 random{7};
+
+    double operator()()
+    {
+      const double mantissa = double(std::int64_t(random())) * 0x1.0p-63;
+      return std::ldexp(mantissa, int(random() % 200) - 100);
+    }
+    int             whole() { return int(random() % 1000000); }
+    Eigen::Vector2d vector() { return {(*this)(), (*this)()}; }
+  };
+
+  HistoryRow random_row(Dice &dice)
+  {
+    HistoryRow row;
+    visit_columns(row, [&](const char *, auto &value, const char *, const char *) {
+      using Value = std::decay_t<decltype(value)>;
+      if constexpr (std::is_same_v<Value, double>)
+        value = dice();
+      else if constexpr (std::is_enum_v<Value>)
+        value = Value(dice.whole() % 3);
+      else
+        value = dice.whole();
+    });
+    return row;
+  }
+
+  void fill_state(Dice &dice, State &state)
+  {
+    for (int k = 0; k < 9; ++k)
+      {
+        add_grain(state.grains, dice.vector(), dice(), 1.);
+        state.grains.velocity.back() = dice.vector();
+        state.grains.rotation.back() = dice(), state.grains.spin.back() = dice(), state.grains.mass.back() = dice();
+        state.grains.fixed.back() = k % 3 == 0;
+      }
+    for (int w = 0; w < 4; ++w)
+      {
+        Wall wall{dice.vector(), dice.vector(), dice.vector(), {}, {}, dice()};
+        wall.kind = w < 2 ? WallKind::platen : WallKind::side;
+        state.walls.push_back(wall);
+      }
+    state.cell = PeriodicCell{dice(), dice(), {}, dice()};
+    for (int k = 0; k < 5; ++k)
+      state.impulses.push_back({k, k + 3, dice(), dice()});
+    state.time = dice();
+  }
+
+  void fill_report(Dice &dice, Report &q)
+  {
+    q.progress = dice(), q.axial_strain = dice(), q.shear_strain = dice(), q.steps = dice.whole(), q.sweeps = 123456789012345,
+    q.updates           = 9007199254740991; // 2^53 - 1
+    q.preparation       = {true, dice.whole(), dice(), dice(), dice(), dice(), dice()};
+    q.preparation_cpu_s = dice(), q.loading_cpu_s = dice(), q.solver_cpu_s = dice(), q.initial_height = dice();
+    q.platen_speed = dice(), q.reference_error = dice(), q.snapshots_sampled = 12, q.snapshots_accurate = 7;
+    q.estimated_error = std::numeric_limits<double>::infinity(); // error_over_residual and reference_residual stay NaN
+    q.step_bound      = "forces";
+  }
+
+  StoredCheckpoint random_checkpoint()
+  {
+    Dice             dice;
+    StoredCheckpoint checkpoint;
+    Checkpoint      &p = checkpoint.panel;
+    fill_state(dice, p.state);
+    fill_report(dice, p.report);
+    for (std::size_t i = 0; i < p.state.grains.size(); ++i)
+      p.reference.position.push_back(dice.vector()), p.window.spin.push_back(dice());
+    p.reference.platen = dice.vector(), p.reference.height = dice(), p.reference.area = dice();
+    p.reference.grain_area = dice(), p.reference.kinetic_energy = dice(), p.reference.platen_kinetic_energy = dice();
+    p.reference.strain_rate = dice(), p.reference.mean_density = dice();
+    for (int k = 0; k < 6; ++k)
+      p.window.sums.push_back({k, k + 1, dice(), dice(), dice.vector()});
+    p.window.time = dice(), p.stage = 3, p.steps_left = 77, p.step = dice(), p.interval = 5;
+    p.row                 = random_row(dice);
+    p.row.energy_residual = std::numeric_limits<double>::quiet_NaN();
+    checkpoint.n_rows     = 123456789;
+    checkpoint.scene      = "sample/seed=1\nsample/file=two lines\n";
+    return checkpoint;
+  }
+
+  // A file name that lives as long as the test.
+  struct CheckpointFile
+  {
+    std::string path = (std::filesystem::path(testing::TempDir()) / ("checkpoint" + std::to_string(::getpid()) + ".h5")).string();
+
+    ~CheckpointFile() { std::filesystem::remove(path); }
+  };
+
+  StoredCheckpoint written_and_read(const StoredCheckpoint &checkpoint)
+  {
+    const CheckpointFile file;
+    write_checkpoint(file.path, checkpoint);
+    EXPECT_FALSE(std::filesystem::exists(file.path + ".part"));
+    return read_checkpoint(file.path);
+  }
+} // namespace

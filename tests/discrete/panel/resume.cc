@@ -1,0 +1,189 @@
+// diptych: a loading taken up from a checkpoint goes on with the same bits
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "tests/discrete/panel/checkpoint_examples.h"
+
+namespace
+{
+  // A loading, and what it was before each of its steps.
+  struct Course
+  {
+    Report                  report;
+    std::vector<Snapshot>   snapshots;
+    std::vector<HistoryRow> rows;
+    std::vector<Checkpoint> before;
+  };
+
+  Course loaded(const SampleOptions &sample, const Loading &loading, const Options &options, const Checkpoint *resume = nullptr)
+  {
+    Course course;
+    Panel *under_way = nullptr;
+    Hooks  hooks;
+    hooks.on_row      = [&](const HistoryRow &row) { course.rows.push_back(row); };
+    hooks.before_step = [&] { course.before.push_back(under_way->checkpoint()); };
+    Panel panel(sample, loading, options, hooks);
+    under_way = &panel;
+    if (resume)
+      panel.resume(*resume);
+    course.report = walked(panel, int(loading.stages.size()), course.snapshots, resume != nullptr);
+    return course;
+  }
+
+  // Taken up before step k (counted from 0) by way of a file, the loading ends with the same rows and snapshots.
+  void expect_same_from(const SampleOptions       &sample,
+                        const Loading             &loading,
+                        const Options             &options,
+                        const std::vector<size_t> &ks)
+  {
+    const Course whole = loaded(sample, loading, options);
+    ASSERT_EQ(whole.report.status, Status::finished) << whole.report.message;
+    ASSERT_EQ(whole.snapshots.size(), loading.stages.size() + 1);
+    ASSERT_EQ(whole.rows.size(), whole.before.size());
+    for (const std::size_t k : ks)
+      {
+        SCOPED_TRACE("taken up before step " + std::to_string(k) + " of " + std::to_string(whole.rows.size()));
+        ASSERT_LT(k, whole.rows.size());
+        const std::vector<HistoryRow> rest(whole.rows.begin() + k, whole.rows.end());
+        const StoredCheckpoint        kept  = written_and_read({whole.before[k], long(k), ""});
+        const Course                  again = loaded(sample, loading, options, &kept.panel);
+        ASSERT_EQ(again.report.status, Status::finished) << again.report.message;
+        EXPECT_TRUE(bits(again.rows) == bits(rest));
+        const std::size_t done = kept.panel.stage + 1; // snapshots written before
+        ASSERT_EQ(again.snapshots.size() + done, whole.snapshots.size());
+        for (std::size_t s = 0; s < again.snapshots.size(); ++s)
+          EXPECT_TRUE(bits(again.snapshots[s]) == bits(whole.snapshots[done + s])) << "stage " << done + s;
+        EXPECT_EQ(again.report.step, whole.report.step);
+        EXPECT_EQ(again.report.steps, whole.report.steps);
+        EXPECT_EQ(again.report.sweeps, whole.report.sweeps);
+        EXPECT_EQ(again.report.snapshots_sampled, whole.report.snapshots_sampled);
+      }
+  }
+
+  // Two stages of ten steps; the second differs from the first by rounding.
+  Loading two_stages()
+  {
+    Loading loading;
+    loading.inertial_number = 1e-3;
+    loading.stages          = {0.001, 0.002};
+    return loading;
+  }
+
+  Options sampled_options()
+  {
+    Options options                      = quick_options();
+    options.sampling.snapshot_max_sweeps = 200;
+    options.sampling.reference_sweeps    = 400;
+    return options;
+  }
+
+  // Before the first step, within a stage, before its last step, before the first of the next.
+  const std::vector<std::size_t> everywhere = {0, 1, 5, 9, 10, 11, 19};
+
+  TEST(Resume, FreeSidesWithWindowsAndSampledSnapshots)
+  {
+    expect_same_from(small_sample(150), two_stages(), sampled_options(), everywhere);
+  }
+
+  TEST(Resume, RigidWalls)
+  {
+    Options options         = sampled_options();
+    options.lateral.lateral = Lateral::rigid_walls;
+    expect_same_from(small_sample(150), two_stages(), options, everywhere);
+    options.lateral.side_motion   = SideMotion::velocity;
+    options.lateral.side_velocity = 0.01;
+    expect_same_from(small_sample(150), two_stages(), options, {10, 14});
+  }
+
+  TEST(Resume, PeriodicWidthFreeAndMoving)
+  {
+    Options options         = sampled_options();
+    options.lateral.lateral = Lateral::periodic;
+    expect_same_from(small_sample(150), two_stages(), options, everywhere);
+    options.lateral.side_motion   = SideMotion::velocity;
+    options.lateral.side_velocity = 0.01;
+    expect_same_from(small_sample(150), two_stages(), options, {10, 14});
+  }
+
+  TEST(Resume, PlaneShearWithAFreePlaten)
+  {
+    Options options         = sampled_options();
+    options.lateral.lateral = Lateral::periodic;
+    Loading loading         = two_stages();
+    loading.mode            = LoadingMode::plane_shear;
+    expect_same_from(small_sample(150), loading, options, {0, 7, 10, 13});
+  }
+
+  // The step of the second stage is chosen from the row before it, which the checkpoint must hold although no row is due.
+  TEST(Resume, AutomaticStepAndRowsFarApart)
+  {
+    Options options = quick_options();
+    options.time.step.reset();
+    expect_same_from(small_sample(150), {1, 1e-3, 1, {0.004, 0.01}}, options, {0, 3, 5, 8});
+  }
+
+  TEST(Resume, WallsThatFollowATable)
+  {
+    Options options         = sampled_options();
+    options.lateral.lateral = Lateral::rigid_walls;
+    options.drives.right_x  = "force -20";
+    options.drives.lower_x  = "velocity 0.01";
+    options.time.gravity_y  = -0.01;
+    Loading loading         = two_stages();
+    loading.mode            = LoadingMode::time;
+    loading.stages          = {1, 2};
+    expect_same_from(small_sample(150), loading, options, {0, 4, 10, 15});
+  }
+
+  // Springs carry the history of sliding in the impulses: step lengths that differ by rounding must not tear them.
+  TEST(Resume, SpringsInTheMiddleOfAStage)
+  {
+    Options options                 = quick_options();
+    options.method.method           = Method::penalty;
+    options.method.history_interval = 1;
+    Loading loading                 = two_stages();
+    loading.inertial_number         = 0.05;
+    loading.stages                  = {0.001, 0.002, 0.003};
+    const std::size_t n             = loaded(small_sample(80), loading, options).rows.size();
+    expect_same_from(small_sample(80), loading, options, {0, 2, n / 2, n - 1});
+  }
+
+  // Stages of 0.005, 0.01 - 0.005, ...: equal but for rounding, and so are their steps.
+  TEST(Resume, SpringsAtTheBeginningOfAStage)
+  {
+    Options options                 = quick_options();
+    options.method.method           = Method::penalty;
+    options.method.history_interval = 1;
+    Loading loading                 = two_stages();
+    loading.inertial_number         = 0.05;
+    loading.stages.clear();
+    for (int k = 1; k <= 8; ++k)
+      loading.stages.push_back(k * 0.005);
+    const Course             whole = loaded(small_sample(80), loading, options);
+    std::vector<std::size_t> first_steps;
+    for (std::size_t k = 1; k < whole.before.size(); ++k)
+      if (whole.before[k].stage > whole.before[k - 1].stage)
+        first_steps.push_back(k);
+    ASSERT_EQ(first_steps.size(), 7u);
+    expect_same_from(small_sample(80), loading, options, first_steps);
+  }
+
+  // A spring pulls with kt x stretch whatever the step that follows. A stage of 0.7 steps is taken in one step 0.7 times as
+  // long: the shear force on the platen goes on but for what one step adds, and is not scaled by 0.7.
+  TEST(Penalty, SpringsGoOnWhereTheStepChanges)
+  {
+    Options options                 = quick_options();
+    options.method.method           = Method::penalty;
+    options.method.history_interval = 1;
+    options.penalty.step_fraction   = 0.05;
+    Loading loading                 = two_stages();
+    loading.inertial_number         = 0.05;
+    loading.stages                  = {0.001};
+    const Course one                = loaded(small_sample(80), loading, options);
+    const double strain_of_a_step   = one.report.step * loading.inertial_number;
+    loading.stages                  = {0.001, 0.001 + 0.7 * strain_of_a_step};
+    const Course change             = loaded(small_sample(80), loading, options);
+    ASSERT_EQ(change.rows.size(), one.rows.size() + 1);
+    ASSERT_NEAR(change.report.step / one.report.step, 0.7, 1e-9);
+    const double before = one.rows.back().upper_force.x(), after = change.rows.back().upper_force.x();
+    EXPECT_NEAR(after / before, 1, 0.1);
+  }
+} // namespace

@@ -1,0 +1,57 @@
+// diptych: explicit smooth contacts for tests
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cmath>
+#include <random>
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+#include "discrete/stepping/penalty.h"
+#include "discrete/samples/soft_relaxation.h"
+#include "tests/discrete/small_scenes.h"
+
+namespace
+{
+  using namespace diptych::discrete;
+  using namespace diptych::tests;
+
+  constexpr double kt_over_kn = 0.5; // penalty.h
+
+  // Pressure 1, so that PenaltyOptions::stiffness is kn itself.
+  struct Penalty
+  {
+    double         step;
+    StepSetting    setting;
+    PenaltyOptions options;
+    PenaltyState   kept;
+
+    Penalty(const double h, const double stiffness, const double damping = 0)
+        : step(h),
+          setting(exact_setting(h)),
+          options{stiffness, 0, damping}
+    {
+      setting.pressure = 1;
+    }
+
+    StepResult advance(State &state) { return advance_penalty(state, kept, setting, options); }
+  };
+
+  struct Collision
+  {
+    double duration, restitution;
+  };
+
+  // Two equal discs, the first at speed 1 towards the second.
+  Collision head_on(const double stiffness, const double damping, const double fraction)
+  {
+    State        state = row_of_discs(2, 0.01);
+    const double step  = penalty_step(state.grains, stiffness, fraction);
+    Penalty      penalty(step, stiffness, damping);
+    int          closed = 0;
+    for (double time = 0; time < 0.05; time += step)
+      closed += !penalty.advance(state).contacts.empty();
+    return {closed * step, state.grains.velocity[1].x() - state.grains.velocity[0].x()};
+  }
+} // namespace
