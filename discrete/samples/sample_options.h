@@ -28,19 +28,19 @@ namespace diptych::discrete
 
   struct SampleOptions
   {
-    int                   grains                 = 4000;
-    double                mean_diameter          = 1;
-    RadiusKind            radius_distribution    = RadiusKind::uniform_by_number;
-    double                radius_min             = 0.3;
-    double                radius_max             = 0.7;
-    std::string           radius_table           = "";
-    double                width_over_height      = 0.7;
-    double                width                  = 0;
-    double                height                 = 0;
-    double                density                = 1;
-    double                solid_fraction         = 0.85;
-    double                box_solid_fraction     = 0.835;
-    int                   preparation_steps      = 300;
+    int                   grains              = 4000;
+    double                mean_diameter       = 1;
+    RadiusKind            radius_distribution = RadiusKind::uniform_by_number;
+    double                radius_min          = 0.3;
+    double                radius_max          = 0.7;
+    std::string           radius_table        = "";
+    double                width_over_height   = 0.7;
+    double                width               = 0;
+    double                height              = 0;
+    double                density             = 1;
+    double                solid_fraction      = 0.85;
+    double                box_solid_fraction  = 0.835;
+    int                   preparation_steps   = 300;
     std::optional<double> preparation_step; // [time]; none: 0.2 d sqrt(rho/P)
     double                preparation_tolerance  = 1e-3;
     int                   preparation_max_sweeps = 300;

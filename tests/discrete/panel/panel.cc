@@ -57,7 +57,7 @@ namespace
     loading.pressure      = 4;
     *options.time.step /= 2;
     sample.preparation_step = 0.1;
-    const Course b = loaded(sample, loading, options);
+    const Course b          = loaded(sample, loading, options);
     ASSERT_EQ(a.rows.size(), b.rows.size());
     EXPECT_NEAR(b.rows.back().time, 0.5 * a.rows.back().time, 1e-9);
     for (std::size_t i = 0; i < a.snapshots.back().position.size(); ++i)
