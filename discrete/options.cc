@@ -55,6 +55,9 @@ namespace diptych::discrete
                     {"step", "tolerance", "max_sweeps", "snapshot_accuracy", "snapshot_max_sweeps", "reference_sweeps"});
       unused.unless(o.lateral.lateral == Lateral::end_grains, lateral, {"band_height", "end_grains"});
       unused.unless(o.lateral.lateral == Lateral::rigid_walls, lateral, {"wall_friction"});
+      unused.unless(moves, lateral, {"wall_mass"});
+      unused.unless(o.solver.solver == ContactSolver::psor, "discrete/solver = " + name_of(o.solver.solver),
+                    {"omega_sticking", "omega_slipping"});
       unused.unless(moves, lateral, {"side_motion", "side_velocity"});
       unused.unless(!moves || o.lateral.side_motion == SideMotion::velocity,
                     "discrete/side_motion = " + name_of(o.lateral.side_motion), {"side_velocity"});

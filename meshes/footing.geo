@@ -1,5 +1,5 @@
 // A rectangle under a strip in the middle of its upper edge; the rest of the upper edge is free. Structured. The program
-// makes the same mesh by itself (make_rectangle_mesh in continuum/mesh.h); this is a start for shapes of your own.
+// makes the same mesh by itself (continuum/mesh/rectangle_mesh.cc); this is a start for shapes of your own.
 //   gmsh footing.geo -2 -format msh22 -setnumber width 40 -setnumber strip 4
 DefineConstant[ width = 20, height = 10, strip = 2, size = 0.5 ];
 

@@ -14,7 +14,7 @@ Line(4) = {4, 1};
 Curve Loop(1) = {1, 2, 3, 4};
 Plane Surface(1) = {1};
 
-// The four ids that the continuum panel reads (BoundaryId in continuum/mesh.h).
+// The four ids that the continuum panel reads (BoundaryId in continuum/mesh/).
 Physical Curve("lower_platen", 1) = {1};
 Physical Curve("upper_platen", 2) = {3};
 Physical Curve("left_side", 3) = {4};

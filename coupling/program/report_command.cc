@@ -57,6 +57,8 @@ namespace diptych::coupling
   {
     if (!fs::is_directory(line.target))
       throw SceneError(line.target + ": no result folder");
+    if (!is_ensemble_folder(line.target) && !fs::exists(line.target + "/comparison.json"))
+      throw SceneError(line.target + ": holds no comparison.json, nor is it the folder of an ensemble");
     return keeping(line.target, [&] {
       draw_page(line, is_ensemble_folder(line.target) ? Drawing::ensemble : Drawing::page, line.target);
       return int(done);

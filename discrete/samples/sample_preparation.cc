@@ -133,7 +133,8 @@ namespace diptych::discrete
 
     double step_of_preparation(const SampleOptions &o, const double pressure)
     {
-      return o.preparation_step.value_or(0.2 * o.mean_diameter * std::sqrt(o.density / pressure));
+      const double unit = pressure > 0 ? o.mean_diameter * std::sqrt(o.density / pressure) : 1; // of time
+      return o.preparation_step.value_or(0.2 * unit);
     }
 
     StepSetting compaction_setting(const SampleOptions &options, const PreparationSetting &preparation, const double friction)

@@ -13,7 +13,7 @@ import tempfile
 import time
 import unittest
 
-from running import bits, diptych, main, QUICK, setting, SMALL, start
+from running import bits, diptych, listing, main, QUICK, setting, SMALL, start
 
 KILLS = 30
 SIGNALS = (signal.SIGKILL, signal.SIGTERM, signal.SIGINT)
@@ -42,7 +42,7 @@ class Kills(unittest.TestCase):
         began = time.monotonic()
         result = diptych(*words, "--output", self.alone, "--quiet")
         self.assertEqual(result.returncode, 0, result.stderr)
-        length, dice, kills, ends = time.monotonic() - began, random.Random(seed), 0, 0
+        length, dice, kills, ends, checkpoints = time.monotonic() - began, random.Random(seed), 0, 0, 0
         while kills < KILLS or ends == 0:
             process = start(*words, "--output", self.folder, "--resume", "--quiet")
             if kills < KILLS:
@@ -56,6 +56,8 @@ class Kills(unittest.TestCase):
             else:
                 self.assertIn(process.returncode, (3, -signal.SIGKILL, -signal.SIGTERM, -signal.SIGINT), errors)
                 kills += 1
+                checkpoints += any("checkpoint" in name for name in (listing(self.folder) if os.path.isdir(self.folder) else []))
+        self.assertGreater(checkpoints, KILLS // 5, "hardly anything was taken up")
         print(f"{words[0]}: {kills} kills, {ends} runs to their end, all the same")
 
     def test_the_grains(self):

@@ -203,6 +203,8 @@ class ReferenceScene(unittest.TestCase):
         self.assertLess(grains["kinetic_energy_ratio_median"], 2)
         self.assertLess(grains["spin_term_share"], 1e-4)
         self.assertGreater(grains["platen_difference_share_below_1_percent"], 0.98)
+        for window in comparison["windows"]:
+            self.assertEqual([band["between_packs"] for band in window["continuum"]["bands"]], [True])
         last = comparison["windows"][-1]
         self.assertLess(abs(number(last["discrete"]["bands"][0]["angle_deg"]) + 47), 5)
         self.assertTrue(12 < number(last["discrete"]["bands"][0]["width_10_90_d"]) < 25)
@@ -250,6 +252,7 @@ class WrongInput(unittest.TestCase):
         self.expect_wrong(["run", QUICK, "--set", "sample/grains=-4"], "sample/grains", "-4")
         self.expect_wrong(["run", QUICK, "--threads", "none"], "--threads")
         self.expect_wrong(["compare", "no_such_folder"], "no_such_folder")
+        self.expect_wrong(["report", SOURCE], "comparison.json")
         self.expect_wrong(["explain", "sampel"], "sample")
 
     def test_a_truncated_result_is_named(self):

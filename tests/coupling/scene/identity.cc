@@ -103,6 +103,8 @@ namespace
     expect_one(warnings("subsection continuum\n  set law = mohr_coulomb\n  set internal_length = 2\nend\n"),
                {"line 3", "internal_length", "law = mohr_coulomb"});
     expect_one(warnings("", {"comparison/averaging_width=2"}), {"--set", "averaging_width", "averaging = segments"});
+    expect_one(warnings("", {"discrete/wall_mass=3"}), {"wall_mass", "discrete/lateral = end_grains"});
+    expect_one(warnings("", {"discrete/solver=nsgs", "discrete/omega_sticking=1.5"}), {"omega_sticking", "solver = nsgs"});
     expect_one(warnings("", {"loading/normal_pressure=2"}), {"normal_pressure", "loading/mode = descent"});
     EXPECT_TRUE(warnings("subsection continuum\n  set refinement_levels = 1\nend\n").empty()) << "the default value, spelled out";
     EXPECT_TRUE(warnings("subsection continuum\n  set refinement = adaptive\n  set refinement_levels = 3\nend\n").empty());
