@@ -8,7 +8,7 @@ import subprocess
 import tempfile
 import unittest
 
-from running import ENVIRONMENT, PROGRAM, SMALL, SOURCE, content, main, setting
+from running import ENVIRONMENT, PROGRAM, SMALL, SOURCE, content, main, setting, write
 
 BUILD = os.path.dirname(PROGRAM)
 
@@ -68,8 +68,10 @@ class Package(unittest.TestCase):
         report = os.path.join(self.root, "usr", "share", "diptych", "report")
         os.rename(report, away)
         try:
-            folder = os.path.join(self.work, "out")
+            folder = os.path.join(self.work, "broken")
             os.makedirs(folder, exist_ok=True)
+            if not os.path.exists(os.path.join(folder, "comparison.json")):
+                write(os.path.join(folder, "comparison.json"), "{}")
             done = self.run_program("report", folder, "--quiet")
         finally:
             os.rename(away, report)
