@@ -21,8 +21,8 @@ namespace diptych::coupling
         throw std::invalid_argument("averaging: one radius and one row of quantities a grain are needed");
       if (c.half_size.size() != c.half.size() || !rows_match(c.uniform, c.half.size()) || !rows_match(c.tapered, c.half.size()))
         throw std::invalid_argument("averaging: one size and one row of quantities a half branch are needed");
-      if (!c.half_force.empty() && (c.half_force.size() != c.half.size() || c.uniform.cols() < 4))
-        throw std::invalid_argument("averaging: one force a half branch is needed, or none, beside its moments");
+      if (c.judge_nodes && c.uniform.cols() < 4)
+        throw std::invalid_argument("averaging: the nodal identity needs the moments of the half branches");
       for (const HalfBranch &half : c.half)
         if (half.grain >= c.position.size())
           throw std::invalid_argument("averaging: a half branch names grain " + std::to_string(half.grain) + " of " +
@@ -80,7 +80,6 @@ namespace diptych::coupling
         for_each_half(contact, position, [&](const unsigned int grain, const Eigen::Vector2d &l, const Eigen::Vector2d &f) {
           c.half.push_back({grain, l});
           c.half_size.push_back(f.norm() * l.norm());
-          c.half_force.push_back(f);
           moment.insert(moment.end(), {-f.x() * l.x(), -f.x() * l.y(), -f.y() * l.x(), -f.y() * l.y()});
         });
     c.uniform = Eigen::Map<const Columns>(moment.data(), Eigen::Index(c.half.size()), 4);

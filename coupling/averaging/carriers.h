@@ -28,15 +28,14 @@ namespace diptych::coupling
     double                       mean_diameter = 1; // unit of AveragingOptions::width [length]
     std::vector<HalfBranch>      half;
 
-    Columns of_grains; // n_grains x any
-    Columns uniform;   // n_halves x any, spread evenly along the half branch
-    Columns tapered;   // n_halves x any, densest at the centre, falling linearly to zero at the contact point
-    // n_halves: force on the grain, where the first four columns of `uniform` are the moments -force (x) vector. Given, segments
-    // tell the residual of the nodal identity from the same cuts; empty: no residual. [pressure * length]
-    std::vector<Eigen::Vector2d> half_force;
-    std::vector<double>          half_size; // n_halves: what outside_share is counted in, >= 0; of a force |f| x length
+    Columns             of_grains; // n_grains x any
+    Columns             uniform;   // n_halves x any, spread evenly along the half branch
+    Columns             tapered;   // n_halves x any, densest at the centre, falling linearly to zero at the contact point
+    std::vector<double> half_size; // n_halves: what outside_share is counted in, >= 0; of a force |f| x length
 
     bool count_joined = false; // CellSums::joined is wanted
+    // CellSums::nodal_residual is wanted: the first four columns of `uniform` are moments -force (x) vector.
+    bool judge_nodes = false;
   };
 
   // n_cells rows, columns as in the carriers. The sum over cells is the sum over carriers to round-off, whatever the method.
@@ -47,7 +46,7 @@ namespace diptych::coupling
     // (segments), the centre (centroid), the whole power cell (laguerre), a quadrature point beyond the kernel's reach
     // (kernel) or outside the mesh (projection).
     double outside_share = 0;
-    // segments with half_force: sum_K M_K grad N_a against the sum over halves of f (N_a(centre) - N_a(contact point)), what a
+    // segments with judge_nodes: sum_K M_K grad N_a against the sum over halves of f (N_a(centre) - N_a(contact point)), what a
     // branch within the mesh telescopes to: largest difference at any node, collar included, / largest force. NaN where no
     // collar can be laid round the mesh, a half leaves it, or without forces.
     double nodal_residual = NAN;

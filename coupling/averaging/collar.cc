@@ -204,4 +204,17 @@ namespace diptych::coupling
     add(boundary->upper, above + mean_length(mesh, boundary->upper));
     return periodic_images(result, period, boundary->left);
   }
+
+  double largest_difference(const CollaredMesh                 &cells,
+                            const std::vector<Eigen::Vector2d> &a,
+                            const std::vector<Eigen::Vector2d> &b)
+  {
+    std::vector<Eigen::Vector2d> difference(a.size(), Eigen::Vector2d::Zero());
+    for (std::size_t k = 0; k < a.size(); ++k)
+      difference[cells.same_as[k]] += a[k] - b[k];
+    double largest = 0;
+    for (const Eigen::Vector2d &d : difference)
+      largest = std::max(largest, d.norm());
+    return largest;
+  }
 } // namespace diptych::coupling

@@ -35,4 +35,9 @@ namespace diptych::coupling
 
   // The mesh alone, or (period > 0) its three images, which share no nodes: for meshes that can have no collar.
   CollaredMesh without_collar(const QuadMesh &mesh, double period);
+
+  // Largest difference of two sums over nodes at any node, images of one node taken together.
+  double largest_difference(const CollaredMesh                 &cells,
+                            const std::vector<Eigen::Vector2d> &a,
+                            const std::vector<Eigen::Vector2d> &b);
 } // namespace diptych::coupling

@@ -89,20 +89,15 @@ namespace diptych::coupling
     };
 
     // Largest difference between the two sides of the nodal identity at any node / largest contact force.
-    double largest_difference(const Ground                              &ground,
-                              const std::vector<Eigen::Vector2d>        &stress_side,
-                              const std::vector<Eigen::Vector2d>        &force_side,
-                              const std::vector<discrete::ContactForce> &contacts)
+    double relative_difference(const Ground                              &ground,
+                               const std::vector<Eigen::Vector2d>        &stress_side,
+                               const std::vector<Eigen::Vector2d>        &force_side,
+                               const std::vector<discrete::ContactForce> &contacts)
     {
-      std::vector<Eigen::Vector2d> difference(stress_side.size(), Eigen::Vector2d::Zero());
-      for (std::size_t a = 0; a < difference.size(); ++a)
-        difference[ground.cells.same_as[a]] += stress_side[a] - force_side[a];
-      double largest = 0, force = 0;
-      for (const Eigen::Vector2d &d : difference)
-        largest = std::max(largest, d.norm());
+      double force = 0;
       for (const auto &c : contacts)
         force = std::max(force, c.force.norm());
-      return force > 0 ? largest / force : NAN;
+      return force > 0 ? largest_difference(ground.cells, stress_side, force_side) / force : NAN;
     }
 
     // The moments of images and collar given to the mesh's own triangles.
@@ -158,9 +153,9 @@ namespace diptych::coupling
 
     result.has_collar = ground.has_collar && result.moment.outside_weight == 0;
     if (result.has_collar)
-      result.nodal_residual = largest_difference(ground, nodal_forces(cells, result.moment),
-                                                 nodal_contact_forces(cells, ground.search, network.position, network.contacts),
-                                                 network.contacts);
+      result.nodal_residual = relative_difference(ground, nodal_forces(cells, result.moment),
+                                                  nodal_contact_forces(cells, ground.search, network.position, network.contacts),
+                                                  network.contacts);
     add_spin_term(ground.search, network.position, grains.mean_spin_term, result.moment);
     result.moment = folded(result.moment, ground.cells, mesh.triangle.size());
     return result;
@@ -181,8 +176,8 @@ namespace diptych::coupling
     const MappedMoment mapped = map_segments(ground.cells.mesh, ground.search, last.position, last.contacts);
     if (!ground.has_collar || mapped.outside_weight > 0)
       return NAN;
-    return largest_difference(ground, nodal_forces(ground.cells.mesh, mapped),
-                              nodal_applied_forces(ground.cells.mesh, ground.search, last, acceleration), last.contacts);
+    return relative_difference(ground, nodal_forces(ground.cells.mesh, mapped),
+                               nodal_applied_forces(ground.cells.mesh, ground.search, last, acceleration), last.contacts);
   }
 
   CellCover grain_cover(const QuadMesh &mesh, const discrete::Snapshot &grains)

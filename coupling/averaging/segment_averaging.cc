@@ -7,6 +7,7 @@
 #include "coupling/averaging/averaging_methods.h"
 #include "coupling/averaging/collar.h"
 #include "coupling/averaging/disc_part.h"
+#include "coupling/averaging/segments.h"
 
 namespace diptych::coupling
 {
@@ -78,53 +79,61 @@ namespace diptych::coupling
       return ground ? *std::move(ground) : without_collar(target.mesh, target.period);
     }
 
-    // Both sides of the nodal identity, filled while the halves are cut.
-    struct NodalIdentity
+    // Both sides of the nodal identity of the halves' forces, filled while the halves are cut.
+    class NodalIdentity
     {
+    public:
+      NodalIdentity(const CollaredMesh &ground, const TriangleSearch &search)
+          : ground(ground),
+            search(search),
+            force_side(ground.mesh.node.size(), Eigen::Vector2d::Zero())
+      {
+        mapped.triangle_moment.assign(ground.mesh.triangle.size(), Eigen::Matrix2d::Zero());
+      }
+
+      // moment: -force (x) (to - from).
+      void add(const Eigen::Matrix2d                    &moment,
+               const Eigen::Vector2d                    &from,
+               const Eigen::Vector2d                    &to,
+               const std::vector<TriangleSearch::Piece> &pieces)
+      {
+        if (moment.isZero(0))
+          return;
+        const Eigen::Vector2d along = to - from, force = -moment * along / along.squaredNorm();
+        for (const TriangleSearch::Piece &piece : pieces)
+          {
+            mapped.triangle_moment[piece.triangle] += (piece.to - piece.from) * moment;
+            has_left = has_left || !piece.inside;
+          }
+        largest_force = std::max(largest_force, force.norm());
+        add_at_nodes(ground.mesh, search, force, from, force_side);
+        add_at_nodes(ground.mesh, search, -force, to, force_side);
+      }
+
+      double residual() const
+      {
+        if (has_left || ground.n_inner == ground.mesh.triangle.size() || largest_force == 0)
+          return NAN;
+        return largest_difference(ground, nodal_forces(ground.mesh, mapped), force_side) / largest_force;
+      }
+
+    private:
       const CollaredMesh          &ground;
       const TriangleSearch        &search;
-      std::vector<Eigen::Matrix2d> triangle_moment = std::vector<Eigen::Matrix2d>(ground.mesh.triangle.size(),
-                                                                                  Eigen::Matrix2d::Zero());
-      std::vector<Eigen::Vector2d> difference    = std::vector<Eigen::Vector2d>(ground.mesh.node.size(), Eigen::Vector2d::Zero());
+      MappedMoment                 mapped;
+      std::vector<Eigen::Vector2d> force_side;
       double                       largest_force = 0;
-      bool                         left          = false; // a half lay beyond the ground
-
-      void add_force(const Eigen::Vector2d &force, const Eigen::Vector2d &at)
-      {
-        const unsigned int triangle = search.locate(at).triangle;
-        const auto         node     = triangle_nodes(ground.mesh, triangle);
-        const auto         value    = shape_values(ground.mesh, triangle, at);
-        for (unsigned int k = 0; k < 3; ++k)
-          difference[ground.same_as[node[k]]] -= value[k] * force;
-      }
-
-      double residual()
-      {
-        if (left || ground.n_inner == ground.mesh.triangle.size() || largest_force == 0)
-          return NAN;
-        for (unsigned int t = 0; t < triangle_moment.size(); ++t)
-          {
-            const auto node     = triangle_nodes(ground.mesh, t);
-            const auto gradient = shape_gradients(ground.mesh, t);
-            for (unsigned int k = 0; k < 3; ++k)
-              difference[ground.same_as[node[k]]] += triangle_moment[t] * gradient.col(k);
-          }
-        double largest = 0;
-        for (const Eigen::Vector2d &d : difference)
-          largest = std::max(largest, d.norm());
-        return largest / largest_force;
-      }
+      bool                         has_left      = false; // a half lay beyond the ground
     };
 
     // Adds the halves to the sums.
     void cut_halves(const TargetCells &target, const Carriers &carriers, CellSums &sums)
     {
-      const bool uniform = carriers.uniform.cols() > 0, tapered = carriers.tapered.cols() > 0,
-                 judged                          = !carriers.half_force.empty();
+      const bool                         uniform = carriers.uniform.cols() > 0, tapered = carriers.tapered.cols() > 0;
       double                             outside = 0;
       const CollaredMesh                 ground  = ground_of(target, carriers);
       const TriangleSearch               search(ground.mesh);
-      NodalIdentity                      identity{ground, search};
+      NodalIdentity                      identity(ground, search);
       std::vector<TriangleSearch::Piece> pieces;
       for (std::size_t h = 0; h < carriers.half.size(); ++h)
         {
@@ -141,25 +150,18 @@ namespace diptych::coupling
                 sums.tapered.row(cell) += tapered_share(piece.from, piece.to) * carriers.tapered.row(row);
               if (!piece.inside || piece.triangle >= ground.n_inner)
                 outside += share * carriers.half_size[h];
-              if (judged)
-                {
-                  const auto moment = carriers.uniform.row(row);
-                  identity.triangle_moment[piece.triangle] +=
-                    share * (Eigen::Matrix2d() << moment[0], moment[1], moment[2], moment[3]).finished();
-                  identity.left = identity.left || (!piece.inside && !carriers.half_force[h].isZero(0));
-                }
             }
-          if (judged && !carriers.half_force[h].isZero(0))
+          if (carriers.judge_nodes)
             {
-              identity.largest_force = std::max(identity.largest_force, carriers.half_force[h].norm());
-              identity.add_force(carriers.half_force[h], from);
-              identity.add_force(-carriers.half_force[h], to);
+              const auto      m = carriers.uniform.row(row);
+              Eigen::Matrix2d moment;
+              moment << m[0], m[1], m[2], m[3];
+              identity.add(moment, from, to, pieces);
             }
         }
-      if (judged)
-        sums.nodal_residual = identity.residual();
-      const double size  = std::accumulate(carriers.half_size.begin(), carriers.half_size.end(), 0.);
-      sums.outside_share = size > 0 ? outside / size : 0;
+      sums.nodal_residual = identity.residual();
+      const double size   = std::accumulate(carriers.half_size.begin(), carriers.half_size.end(), 0.);
+      sums.outside_share  = size > 0 ? outside / size : 0;
     }
   } // namespace
 

@@ -24,19 +24,12 @@ namespace diptych::coupling
                                           const std::vector<discrete::ContactForce> &contacts)
     {
       std::vector<Eigen::Vector2d> nodal(mesh.node.size(), Eigen::Vector2d::Zero());
-      const auto                   add = [&](const Eigen::Vector2d &f, const Eigen::Vector2d &point) {
-        const unsigned int triangle = search.locate(point).triangle;
-        const auto         node     = triangle_nodes(mesh, triangle);
-        const auto         value    = shape_values(mesh, triangle, point);
-        for (unsigned int k = 0; k < 3; ++k)
-          nodal[node[k]] += value[k] * f;
-      };
       for (const auto &contact : contacts)
         if (!joins_grains(contact, position))
-          add(-contact.force, contact.point);
+          add_at_nodes(mesh, search, -contact.force, contact.point, nodal);
       for (std::size_t i = 0; i < position.size(); ++i)
         if (!force[i].isZero(0))
-          add(force[i], position[i]);
+          add_at_nodes(mesh, search, force[i], position[i], nodal);
       return nodal;
     }
 
@@ -52,6 +45,19 @@ namespace diptych::coupling
       return on_grain;
     }
   } // namespace
+
+  void add_at_nodes(const QuadMesh               &mesh,
+                    const TriangleSearch         &search,
+                    const Eigen::Vector2d        &force,
+                    const Eigen::Vector2d        &point,
+                    std::vector<Eigen::Vector2d> &nodal)
+  {
+    const unsigned int triangle = search.locate(point).triangle;
+    const auto         node     = triangle_nodes(mesh, triangle);
+    const auto         value    = shape_values(mesh, triangle, point);
+    for (unsigned int k = 0; k < 3; ++k)
+      nodal[node[k]] += value[k] * force;
+  }
 
   double outside_share(const MappedMoment &mapped)
   {

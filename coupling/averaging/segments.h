@@ -53,6 +53,13 @@ namespace diptych::coupling
   // sum_K |K| sigma_K grad N_a at every node of the mesh [pressure * length], N_a linear on the triangles.
   std::vector<Eigen::Vector2d> nodal_forces(const QuadMesh &mesh, const MappedMoment &mapped);
 
+  // Adds N_a(point) force to the nodes of the triangle at the point.
+  void add_at_nodes(const QuadMesh               &mesh,
+                    const TriangleSearch         &search,
+                    const Eigen::Vector2d        &force,
+                    const Eigen::Vector2d        &point,
+                    std::vector<Eigen::Vector2d> &nodal);
+
   // What nodal_forces() gives when every branch lies inside the mesh (collar.h sees to that), computed without cutting: N_a at
   // the grain centres times the contact forces on the grains, minus N_a at the contact points times the forces from the platens.
   std::vector<Eigen::Vector2d> nodal_contact_forces(const QuadMesh                            &mesh,

@@ -43,14 +43,14 @@ namespace diptych::coupling
     double r_squared        = 0; // weighted 1 - SS_res/SS_tot of the longitudinal component u.s at the raw points
     double r_squared_strips = 0; // the same for the means over 16 strips parallel to the band
 
-    bool        between_packs = false; // a zone between the two packs that the platens carry (packs.h)
-    std::string no_packs_because;      // what speaks against it; empty where nothing does
+    std::string no_packs_because = "not judged"; // what speaks against a zone between two packs (packs.h); empty: nothing does
 
     Interval to_minor_stress_deg; // angle to the minor principal stress beside it, in [0, 90], with the interval of the
                                   // inclination alone; NaN: not known here
 
     BandIntervals interval; // of the numbers above
 
+    bool            between_packs() const { return no_packs_because.empty(); }
     Eigen::Vector2d direction() const { return {std::cos(angle_deg * M_PI / 180), std::sin(angle_deg * M_PI / 180)}; }
 
     Eigen::Vector2d normal() const { return {-std::sin(angle_deg * M_PI / 180), std::cos(angle_deg * M_PI / 180)}; }

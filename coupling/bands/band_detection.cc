@@ -248,7 +248,6 @@ namespace diptych::coupling
         Band band = reported_band(numbers, frame.mean_diameter);
         add_r_squared(data, fit, frame, band);
         band.no_packs_because = objection_to_packs(band, frame, fit.converged);
-        band.between_packs    = band.no_packs_because.empty();
         report.bands.push_back(band);
       }
     std::stable_sort(report.bands.begin(), report.bands.end(),
@@ -257,8 +256,8 @@ namespace diptych::coupling
     const std::array<std::string, 3> names = {{"diffuse", "one band", "two bands"}};
     report.verdict                         = names[best];
     if (best == 1)
-      report.verdict += report.bands[0].between_packs ? " between two packs"
-                                                      : ", no zone between two packs: " + report.bands[0].no_packs_because;
+      report.verdict += report.bands[0].between_packs() ? " between two packs"
+                                                        : ", no zone between two packs: " + report.bands[0].no_packs_because;
     if (best + 1 < fits.size())
       report.verdict += "; no further band: " +
                         (objections[best + 1].empty() ? std::string("it lowers the misfit too little") : objections[best + 1]);

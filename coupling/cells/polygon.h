@@ -16,8 +16,8 @@ namespace diptych::coupling
 
   double distance_to_edges(const Eigen::Vector2d &point, const std::vector<Eigen::Vector2d> &polygon); // [length]
 
-  // Walks along the corners of a polygon that a line cuts: keep(k, at(next corner)) for each with at(corner) >= 0, and
-  // cut(k, point, leaves) where the edge from corner k crosses the line (Sutherland and Hodgman 1974). at(x): distance to the
+  // Walks along the corners of a polygon that a line cuts: keep(k, at(corner), at(next corner)) for each with at(corner) >= 0,
+  // and cut(k, point, leaves) where the edge from corner k crosses the line (Sutherland and Hodgman 1974). at(x): distance to the
   // line times any factor.
   template <class At, class Keep, class Cut>
   void cut_polygon(const std::vector<Eigen::Vector2d> &corner, const At &at, const Keep &keep, const Cut &cut)

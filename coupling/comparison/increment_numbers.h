@@ -20,7 +20,7 @@ namespace diptych::coupling
     v({"offset_d", "mean diameters", "offset from the sample's centre along the normal", Kind::number, true}, i.offset);
     v({"jump", "-", "jump of the displacement over the platen's, with the sign of the slip"}, i.jump);
     v({"dilation_deg", "degrees", "dilation angle"}, i.dilation_deg);
-    v({"between_packs", "-", "a zone between the two packs that the platens carry", Kind::setting}, b.between_packs);
+    v({"between_packs", "-", "a zone between the two packs that the platens carry", Kind::setting}, b.between_packs());
     v({"no_packs_because", "-", "what speaks against it", Kind::setting}, b.no_packs_because);
     v({"to_minor_stress_deg", "degrees", "angle to the minor principal stress of the zone"}, b.to_minor_stress_deg);
     v({"resamples", "-", "resamples behind the intervals", Kind::setting}, i.resamples);

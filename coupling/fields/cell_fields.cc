@@ -80,7 +80,7 @@ namespace diptych::coupling
   {
     CellFields fields;
     fields.mesh      = mesh;
-    fields.grains    = grain_fields(mesh, stage.grains_from, stage.grains_to, averaging);
+    fields.grains    = grain_fields(mesh, stage.grains_from, stage.grains_to, averaging, /* judge_nodes */ true);
     fields.own       = continuum_fields(stage.nodes_from, stage.nodes_to);
     fields.continuum = averaged_continuum({fields.mesh, fields.own}, fields.mesh, scale_of(stage), averaging);
     add_kinematics(stage, fields);

@@ -105,7 +105,6 @@ namespace diptych::coupling
             tapered.push_back(-0.5 * (l.x() * f.y() - l.y() * f.x()) * l.transpose());
             c.half.push_back({i, l});
             c.half_size.push_back(f.norm() * l.norm());
-            c.half_force.push_back(f);
           });
         }
       for (const discrete::ContactForce &contact : s.contacts)
@@ -119,7 +118,6 @@ namespace diptych::coupling
             tapered.push_back(Eigen::RowVector2d::Zero());
             c.half.push_back({i, l});
             c.half_size.push_back(0);
-            c.half_force.emplace_back(0, 0);
             ++n_contacts[i];
           });
       c.uniform.resize(Eigen::Index(uniform.size()), half::n_columns);
@@ -240,13 +238,16 @@ namespace diptych::coupling
   GrainFields grain_fields(const QuadMesh           &mesh,
                            const discrete::Snapshot &from,
                            const discrete::Snapshot &to,
-                           const AveragingOptions   &options)
+                           const AveragingOptions   &options,
+                           const bool                judge_nodes)
   {
     if (from.rotation.size() != to.rotation.size() || to.mean_internal_moment.size() != to.position.size() ||
         to.mean_spin_term.size() != to.position.size())
       throw std::invalid_argument("fields between two stages need the same grains at both, with their moments");
     const TargetCells target(mesh, to.cell_width);
-    const CellSums    sums = distribute(options, target, carriers_of(target, from, to));
+    Carriers          carriers = carriers_of(target, from, to);
+    carriers.judge_nodes       = judge_nodes;
+    const CellSums sums        = distribute(options, target, carriers);
 
     GrainFields f;
     take_stress(sums, target.area, f);

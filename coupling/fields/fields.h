@@ -61,9 +61,10 @@ namespace diptych::coupling
   };
 
   // Grains at two stages onto the cells of a mesh in its shape at `to`; the period is that of `to`. Throws std::invalid_argument
-  // for snapshots of different grains and as distribute() does.
+  // for snapshots of different grains and as distribute() does. judge_nodes: nodal_residual is wanted.
   GrainFields grain_fields(const QuadMesh           &mesh,
                            const discrete::Snapshot &from,
                            const discrete::Snapshot &to,
-                           const AveragingOptions   &options);
+                           const AveragingOptions   &options,
+                           bool                      judge_nodes = false);
 } // namespace diptych::coupling

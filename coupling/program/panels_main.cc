@@ -41,11 +41,10 @@ int main(int argc, char **argv)
   ParsedLine parsed = parse_command_line({argv + 1, argv + argc});
   if (parsed.exit_code)
     return *parsed.exit_code;
-  install_stop_signals(); // before anything takes its time, and again: MPI takes signals to itself
   // One thread: deal.II's pool would change nothing but the clock.
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   parsed.line.quiet          = parsed.line.quiet || !is_first_process();
   parsed.line.tells_warnings = is_first_process();
-  install_stop_signals();
+  install_stop_signals(); // after MPI has started, which takes signals to itself
   return answer_for([&] { return execute(parsed.line); }, code_of);
 }

@@ -115,7 +115,9 @@ namespace
           const MappedGrains mapped = map_grains(mesh.mesh, s);
           const auto         stress = cell_stress(mesh.mesh, mapped.moment);
           const TargetCells  target(mesh.mesh, s.cell_width);
-          const CellSums     sums = distribute({}, target, moment_carriers(s.position, s.radius, s.window_forces));
+          Carriers           carriers = moment_carriers(s.position, s.radius, s.window_forces);
+          carriers.judge_nodes        = true;
+          const CellSums sums         = distribute({}, target, carriers);
           EXPECT_NEAR(sums.outside_share, mapped.moment.outside_share, 1e-10);
           EXPECT_GT(sums.outside_share, 0.01);
           EXPECT_EQ(std::isnan(sums.nodal_residual), std::isnan(mapped.nodal_residual));

@@ -74,13 +74,13 @@ namespace
     const SampleFrame tall = frame_52_75();
     const BandReport  zone = find_bands(grain_field(tall, {{-45, 5, 1, 0.9, 8}}, 0.03, 1), tall);
     ASSERT_EQ(zone.bands.size(), 1u);
-    EXPECT_TRUE(zone.bands[0].between_packs);
+    EXPECT_TRUE(zone.bands[0].between_packs());
     expect_reason(zone.verdict, "one band between two packs; no further band");
 
     const SampleFrame wide     = frame_of(90, 60, {0.5, -0.5});
     const BandReport  diagonal = find_bands(grain_field(wide, {{-36, 5, 0, 1.35, 8}}, 0.03, 2), wide);
     ASSERT_EQ(diagonal.bands.size(), 1u);
-    EXPECT_FALSE(diagonal.bands[0].between_packs);
+    EXPECT_FALSE(diagonal.bands[0].between_packs());
     expect_reason(diagonal.verdict, "one band, no zone between two packs: ");
     expect_reason(diagonal.verdict, "more than 1.2");
   }
