@@ -36,7 +36,7 @@ def draw_window(folder, window, path):
         group = file[f"window_{window}"]
         position, radius = group["discrete/position"][()][:, :2], group["discrete/radius"][()]
         grains = group["discrete/shear_strain_increment"][()]
-        corners, cells = group["cells/node"][()][group["cells/cell"][()]], group["cells/continuum_shear_strain_increment"][()]
+        corners, cells = group["cells/node_position"][()][group["cells/nodes"][()]], group["cells/continuum_shear_strain_increment"][()]
     top = numpy.nanpercentile(grains, 97)
     figure, axes = pyplot.subplots(1, 2, figsize=(8.4, 5.6), constrained_layout=True, sharey=True)
     axes[0].add_collection(EllipseCollection(2 * radius, 2 * radius, numpy.zeros_like(radius), units="xy", offsets=position,

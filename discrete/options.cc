@@ -39,8 +39,8 @@ namespace diptych::discrete
                     {"grains", "width_over_height"});
       unused.unless(!generated || o.radius_distribution != RadiusKind::table, "sample/radius_distribution = table",
                     {"radius_min", "radius_max"});
-      unused.unless(!generated || !(o.target_solid_fraction > 0),
-                    "sample/target_solid_fraction = " + std::to_string(o.target_solid_fraction), {"preparation_friction"});
+      unused.unless(!generated || !(o.target_solid_fraction > 0), "sample/target_solid_fraction is given",
+                    {"preparation_friction"});
     }
 
     void add_unused(const Options &o, std::vector<UnusedKey> &keys)

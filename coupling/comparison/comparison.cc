@@ -71,7 +71,7 @@ namespace diptych::coupling
     {
       const ProbeRecord *probe = panel.probes.empty() ? nullptr : &panel.probes.front();
       for (const ProbeRecord &one : panel.probes)
-        if (one.region.name == "zone")
+        if (one.region.is_zone)
           probe = &one;
       return probe == nullptr ? NAN : probe->stress.direction_deg + 90;
     }

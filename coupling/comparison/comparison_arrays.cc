@@ -106,46 +106,10 @@ namespace diptych::coupling
 
   namespace
   {
-    // Writes listed arrays below a group.
-    struct IntoGroup
-    {
-      discrete::Hdf5Writer &file;
-      std::string           group;
-
-      template <class T> void operator()(const ArrayEntry &entry, const std::vector<T> &values) const
-      {
-        const std::string name = group + "/" + entry.key;
-        file.write(name, values); // vectors and tensors of the plane
-        file.attribute(name, "title", entry.title);
-        file.attribute(name, "unit", entry.unit);
-        file.attribute(name, "meaning", entry.meaning);
-      }
-    };
-
-    void write_mesh(discrete::Hdf5Writer &file, const std::string &group, const QuadMesh &mesh)
-    {
-      std::vector<int> corners;
-      for (const auto &cell : mesh.cell)
-        corners.insert(corners.end(), cell.begin(), cell.end());
-      const IntoGroup into{file, group};
-      into(ArrayEntry{"node", "place", "length", "of the nodes"}, mesh.node);
-      file.write(group + "/cell", corners, {mesh.cell.size(), 4});
-      file.attribute(group + "/cell", "meaning", "nodes of a cell, anticlockwise");
-    }
-
     // Mean increment of each cell's corners.
     std::vector<Eigen::Vector2d> moved_cells(const continuum::Snapshot &from, const continuum::Snapshot &to)
     {
       return continuum_fields(from, to).displacement_increment;
-    }
-
-    void write_attributes(discrete::Hdf5Writer &file, const std::string &group, const Increment &increment)
-    {
-      file.attribute(group, "from", increment.from);
-      file.attribute(group, "to", increment.to);
-      file.attribute(group, "displacement_unit", increment.displacement_unit);
-      file.attribute(group, "velocity_unit", motion_units(increment).velocity);
-      file.attribute(group, "centre", std::vector<double>{increment.frame.centre.x(), increment.frame.centre.y()});
     }
 
     void write_stage(discrete::Hdf5Writer &file,
@@ -159,10 +123,10 @@ namespace diptych::coupling
       list_grain_arrays(stage.increment, snapshots[k - 1], snapshots[k], IntoGroup{file, group});
       for (const auto &[name, fields] : {std::pair{"/cells", &stage.fields}, std::pair{"/grid", &stage.grid}})
         {
-          write_mesh(file, group + name, fields->mesh);
+          list_mesh_arrays(fields->mesh, IntoGroup{file, group + name});
           list_cell_arrays(*fields, motion_units(stage.increment), IntoGroup{file, group + name});
         }
-      write_attributes(file, group, stage.increment);
+      list_increment_attributes(stage.increment, IntoGroup{file, group});
     }
 
     // Which snapshot stands at a progress.
@@ -178,10 +142,10 @@ namespace diptych::coupling
     {
       const std::size_t from = snapshot_at(results, window.from), to = snapshot_at(results, window.to);
       list_increment_arrays(window, results.discrete.snapshots[to], IntoGroup{file, group});
-      write_mesh(file, group + "/cells", window.mesh);
+      list_mesh_arrays(window.mesh, IntoGroup{file, group + "/cells"});
       list_window_cell_arrays(window, moved_cells(results.continuum.snapshots[from], results.continuum.snapshots[to]),
                               IntoGroup{file, group + "/cells"});
-      write_attributes(file, group, window);
+      list_increment_attributes(window, IntoGroup{file, group});
     }
 
     VtuGrid vtu_of(const CellFields &fields, const MotionUnits &unit)
@@ -208,13 +172,7 @@ namespace diptych::coupling
     list_history_arrays(c.discrete_history, width, IntoGroup{file, "histories/discrete"});
     list_history_arrays(c.continuum_history, width, IntoGroup{file, "histories/continuum"});
 
-    const discrete::Snapshot &start   = results.discrete.snapshots.front();
-    const discrete::Outline  &outline = start.outline;
-    file.attribute("/", "mean_diameter", scene.sample.mean_diameter);
-    file.attribute("/", "pressure", scene.loading.pressure);
-    file.attribute("/", "height0", start.upper_y - start.lower_y);
-    file.attribute("/", "width0", start.area / (outline.left.back().y() - outline.left.front().y()));
-    file.attribute("/", "walk", discrete::name_of(discrete::walk_of(scene.loading.mode)));
+    list_file_attributes(scene, results.discrete.snapshots.front(), IntoGroup{file, "/"});
     file.finish();
   }
 

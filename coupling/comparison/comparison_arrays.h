@@ -2,23 +2,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <array>
+#include <cmath>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "coupling/comparison/comparison.h"
+#include "coupling/numbers/array_entry.h"
+#include "discrete/snapshot_fields.h"
 
 namespace diptych::coupling
 {
-  // Every list calls visit(ArrayEntry, values), a vector of numbers, vectors or tensors; of cells NaN where a panel has no value.
-  // Tensors are positive in compression, row index = component of the force; rotations anticlockwise.
-  struct ArrayEntry
-  {
-    const char *key;   // of the dataset of comparison.h5 and of the array of fields.vtu and grid.vtu
-    const char *title; // short, for a picture
-    const char *unit, *meaning;
-  };
-
+  // Of cells NaN where a panel has no value. Tensors are positive in compression, row index = component of the force; rotations
+  // anticlockwise.
   namespace arrays
   {
     // s = (s_xx + s_yy)/2 and t/s of the symmetric part; NaN in tension.
@@ -168,11 +166,11 @@ namespace diptych::coupling
     for (std::size_t k = 0; k < to.rotation.size(); ++k)
       rotation.push_back(to.rotation[k] - from.rotation[k]);
     std::vector<Eigen::Vector2d> point, force;
-    std::vector<int>             first, second;
+    std::vector<std::array<int, 2>> body;
     for (const discrete::ContactForce &contact : to.window_forces)
       {
         point.push_back(contact.point), force.push_back(contact.force);
-        first.push_back(contact.i), second.push_back(contact.j);
+        body.push_back({contact.i, contact.j});
       }
     const std::vector<Eigen::Matrix2d> stress = arrays::grain_stress(to);
     visit(ArrayEntry{"discrete/velocity", "velocity", "length/time", "at the end of the stage"}, to.velocity);
@@ -193,10 +191,40 @@ namespace diptych::coupling
           std::vector<int>(to.rattler.begin(), to.rattler.end()));
     visit(ArrayEntry{"contacts/point", "contact point", "length", "of every pair that touched in the stage"}, point);
     visit(ArrayEntry{"contacts/force", "contact force", "pressure length", "mean over the stage, on the first body"}, force);
-    visit(ArrayEntry{"contacts/i", "first body", "-", "grains count from 0"}, first);
-    visit(ArrayEntry{"contacts/j", "second body", "-", "grains count from 0, walls on from the number of grains"}, second);
+    visit(ArrayEntry{"contacts/body", "bodies", "-", discrete::contact_bodies}, body);
     visit(ArrayEntry{"outline/left", "left side", "length", "of the sample's outline, upward"}, to.outline.left);
     visit(ArrayEntry{"outline/right", "right side", "length", "of the sample's outline, upward"}, to.outline.right);
+  }
+
+  // Below the group of the cells or of the grid.
+  template <class Visit> void list_mesh_arrays(const QuadMesh &mesh, Visit &&visit)
+  {
+    visit(ArrayEntry{"node_position", "place", "length", "of the nodes"}, mesh.node);
+    visit(ArrayEntry{"nodes", "nodes of a cell", "-", "its corners anticlockwise, counted from 0"}, mesh.cell);
+  }
+
+  // Attributes of the group of a stage or a window.
+  template <class Visit> void list_increment_attributes(const Increment &i, Visit &&visit)
+  {
+    const MotionUnits unit = motion_units(i);
+    visit(NumberEntry{"from", "as walk says", "progress at the beginning"}, i.from);
+    visit(NumberEntry{"to", "as walk says", "progress at the end"}, i.to);
+    visit(NumberEntry{"displacement_unit", "length", "what displacements count in: the upper platen's"}, unit.displacement);
+    visit(NumberEntry{"velocity_unit", "length/time", "what velocities count in: the upper platen's"}, unit.velocity);
+    visit(NumberEntry{"centre", "length", "of the sample, which offsets of bands count from"}, i.frame.centre);
+  }
+
+  // Attributes of the whole file. `start`: the grains before the loading.
+  template <class Visit> void list_file_attributes(const Scene &scene, const discrete::Snapshot &start, Visit &&visit)
+  {
+    const auto  &left   = start.outline.left;
+    const double height = left.empty() ? NAN : left.back().y() - left.front().y();
+    visit(NumberEntry{"mean_diameter", "length", "mean diameter d of the grains"}, scene.sample.mean_diameter);
+    visit(NumberEntry{"pressure", "pressure", "P of the lateral action"}, scene.loading.pressure);
+    visit(NumberEntry{"height0", "length", "between the platens, before the loading"}, start.upper_y - start.lower_y);
+    visit(NumberEntry{"width0", "length", "area of the outline over its height, before the loading"}, start.area / height);
+    visit(NumberEntry{"walk", "-", "what progress is: axial_strain, shear_strain or time"},
+          std::string(discrete::name_of(discrete::walk_of(scene.loading.mode))));
   }
 
   // Of a panel's whole history, one entry a row of its .csv.

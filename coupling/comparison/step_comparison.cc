@@ -7,14 +7,18 @@
 #include <sstream>
 #include <stdexcept>
 
-#include <nlohmann/json.hpp>
-
+#include "coupling/numbers/number_json.h"
 #include "discrete/files/text_file.h"
+#include "discrete/panel/history.h"
 
 namespace diptych::coupling
 {
   namespace
   {
+    // Columns of discrete.csv that study_step.csv repeats.
+    const std::vector<std::string> repeated = {"stress_ratio",       "external_work",  "friction_dissipation",
+                                               "impact_dissipation", "kinetic_energy", "max_penetration"};
+
     const std::vector<std::string> cumulated = {"external_work", "friction_dissipation", "impact_dissipation"};
 
     constexpr int    n_instants = 200; // at which runs are compared
@@ -65,6 +69,9 @@ namespace diptych::coupling
     names.insert(names.end(), cumulated.begin(), cumulated.end());
     StepComparison comparison;
     comparison.window = window;
+    comparison.margin = margin;
+    for (const StepRun &run : runs)
+      comparison.steps.push_back(run.step);
     for (const std::string &name : names)
       {
         StepComparison::Quantity q{name, {}, 0};
@@ -101,15 +108,26 @@ namespace diptych::coupling
     return comparison;
   }
 
+  std::vector<NumberEntry> step_study_columns()
+  {
+    std::vector<NumberEntry> columns{{"step", "time", "length of the step that the run was asked for"},
+                                     {"time", "time", "since the start of the loading"},
+                                     {"progress", "as walk says", "what the loading has walked along its path"},
+                                     {"stress_ratio_mean", "-", "running mean of the stress ratio"}};
+    for (const std::string &name : repeated)
+      visit_columns(discrete::HistoryRow(), [&](const char *key, const auto &, const char *unit, const char *meaning) {
+        if (key == name)
+          columns.push_back({key, unit, meaning});
+      });
+    return columns;
+  }
+
   void write_step_comparison(const std::string &directory, const std::vector<StepRun> &runs, const StepComparison &comparison)
   {
-    const std::vector<std::string> columns = {"stress_ratio",       "external_work",  "friction_dissipation",
-                                              "impact_dissipation", "kinetic_energy", "max_penetration"};
-    std::ostringstream             csv;
+    std::ostringstream csv;
     csv.precision(10);
-    csv << "step,time,progress,stress_ratio_mean";
-    for (const std::string &name : columns)
-      csv << ',' << name;
+    for (const NumberEntry &column : step_study_columns())
+      csv << (csv.tellp() > 0 ? "," : "") << column.key;
     csv << '\n';
     for (const StepRun &run : runs)
       {
@@ -120,19 +138,16 @@ namespace diptych::coupling
           {
             csv << run.step << ',' << column(run.history, "time")[k] << ',' << column(run.history, "progress")[k] << ','
                 << mean[k];
-            for (const std::string &name : columns)
+            for (const std::string &name : repeated)
               csv << ',' << column(run.history, name)[k];
             csv << '\n';
           }
       }
     discrete::write_text(directory + "/study_step.csv", csv.str());
 
-    nlohmann::json root = {{"verdict", comparison.verdict}, {"largest_difference", comparison.largest}, {"margin", margin}};
-    for (const StepRun &run : runs)
-      root["steps"].push_back(run.step);
-    for (const StepComparison::Quantity &q : comparison.quantities)
-      root["quantities"].push_back(
-        {{"name", q.name}, {"largest_difference", q.largest_difference}, {"at_progress", q.at_progress}});
+    nlohmann::json root = nlohmann::json::object();
+    NumbersToJson  writer{root, 1};
+    list_numbers(comparison, writer);
     discrete::write_text(directory + "/study_step.json", root.dump(1) + "\n");
   }
 } // namespace diptych::coupling

@@ -54,17 +54,6 @@ namespace diptych::coupling
         }
       return values;
     }
-
-    void write_curves(discrete::Hdf5Writer &file, const std::string &group, const EnsembleCurves &curves)
-    {
-      std::vector<double> all;
-      for (const std::vector<double> &member : curves.members)
-        all.insert(all.end(), member.begin(), member.end());
-      file.write(group + "/members", all, {curves.members.size(), std::size_t(n_points)});
-      file.write(group + "/mean", curves.mean);
-      file.write(group + "/low", curves.low);
-      file.write(group + "/high", curves.high);
-    }
   } // namespace
 
   EnsembleCurves with_means(std::vector<std::vector<double>> members)
@@ -88,21 +77,20 @@ namespace diptych::coupling
     const auto          discrete  = histories<discrete::HistoryRow>(directory, seeds, "discrete.csv");
     const auto          continuum = histories<continuum::HistoryRow>(directory, seeds, "continuum.csv");
     const double        last      = std::max(last_progress(discrete), last_progress(continuum));
-    std::vector<double> grid;
+    EnsembleGrid        grid{{}, seeds, averaging_width(scene)};
     for (int k = 0; k < n_points; ++k)
-      grid.push_back(last * k / (n_points - 1));
+      grid.progress.push_back(last * k / (n_points - 1));
 
     discrete::Hdf5Writer file(directory + "/ensemble.h5");
-    file.write("progress", grid);
-    file.write("seeds", seeds);
-    file.attribute("/", "averaging_width", averaging_width(scene));
+    list_grid(grid, IntoGroup{file, "/"});
     for (const auto &[panel, tables] : {std::pair{"discrete", &discrete}, std::pair{"continuum", &continuum}})
       for (const std::string &quantity : quantities)
         {
           std::vector<std::vector<double>> members;
           for (const HistoryTable &table : *tables)
-            members.push_back(on_grid(column(table, "progress"), running_mean(table, quantity, averaging_width(scene)), grid));
-          write_curves(file, std::string(panel) + "/" + quantity, with_means(std::move(members)));
+            members.push_back(
+              on_grid(column(table, "progress"), running_mean(table, quantity, grid.averaging_width), grid.progress));
+          list_curve_arrays(with_means(std::move(members)), IntoGroup{file, std::string(panel) + "/" + quantity});
         }
     file.finish();
   }

@@ -26,6 +26,8 @@ namespace diptych::coupling
     Ensemble                  ensemble;    // of the rest
   };
 
+  std::string text_of(const BandCount &count); // "one band in 6 of 8, none in 2"
+
   // ensemble.json: every mean, interval and verdict with the value of every member (null where it has none); numbers of members
   // are in the order of "done". Nothing in it depends on when, where and in which order the members ran.
   void write_ensemble_json(const std::string &directory, const Scene &scene, const EnsembleRecord &record);

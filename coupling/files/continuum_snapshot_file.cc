@@ -58,6 +58,7 @@ namespace diptych::coupling
       const std::vector<unsigned int> nodes = node_list(s);
       const std::string               cells = group + "/" + continuum::cells_name;
       file.write(cells, std::vector<int>(nodes.begin(), nodes.end()), {s.cells.size(), 9});
+      file.attribute(cells, "unit", "-");
       file.attribute(cells, "meaning", continuum::cells_meaning);
       for_each_array(s, [&](const std::string &name, const auto &values, const char *unit, const char *meaning, bool) {
         discrete::write_field(file, group + "/" + name, values, unit, meaning);

@@ -9,8 +9,8 @@
 
 #include <sys/resource.h>
 
+#include "coupling/folders/origin.h"
 #include "coupling/numbers/number_json.h"
-#include "coupling/version.h"
 #include "discrete/files/text_file.h"
 
 namespace diptych::coupling
@@ -128,18 +128,19 @@ namespace diptych::coupling
                      const std::string            &command,
                      const std::vector<PhaseCost> &phases)
   {
-    json record            = read_record(directory);
-    record["program"]      = "diptych";
-    record["version"]      = version;
-    record["git_revision"] = git_revision;
-    record["libraries"]    = {{"deal.II", deal_ii_version}, {"Trilinos", trilinos_version}, {"Eigen", eigen_version},
-                              {"HDF5", hdf5_version},       {"compiler", compiler_version}, {"build", build_type}};
-    record["command"]      = command;
-    record["scene"]        = scene.name;
-    record["seed"]         = scene.sample.seed;
-    record["host"]         = {{"cpu", cpu_name()}, {"cores", std::thread::hardware_concurrency()}};
-    record["date"]         = now_utc();
-    json &stored           = record["phases"];
+    record_phases(directory, scene, command, phases, {scene.sample.seed});
+  }
+
+  void record_phases(const std::string            &directory,
+                     const Scene                  &scene,
+                     const std::string            &command,
+                     const std::vector<PhaseCost> &phases,
+                     const std::vector<int>       &seeds)
+  {
+    json          record = read_record(directory);
+    NumbersToJson into{record, 1};
+    list_numbers(Origin{command, scene.name, seeds, now_utc(), cpu_name(), std::thread::hardware_concurrency()}, into);
+    json &stored = record["phases"];
     if (!stored.is_array())
       stored = json::array();
     for (const PhaseCost &phase : phases)

@@ -28,11 +28,16 @@ namespace diptych::coupling
 
   // provenance.json of the result folder, merged: phases of the same name are replaced, other members kept, so that each
   // command adds its own. Throws std::runtime_error where it cannot be written, std::invalid_argument where what stands there is
-  // broken.
-  void record_phases(const std::string &directory,
-                     const Scene       &scene,
-                     const std::string &command,
-                     const std::vector<PhaseCost> &);
+  // broken. `seeds`: of the samples; that of the scene where none are given.
+  void record_phases(const std::string            &directory,
+                     const Scene                  &scene,
+                     const std::string            &command,
+                     const std::vector<PhaseCost> &phases);
+  void record_phases(const std::string            &directory,
+                     const Scene                  &scene,
+                     const std::string            &command,
+                     const std::vector<PhaseCost> &phases,
+                     const std::vector<int>       &seeds);
 
   // The facts of one part: "discrete", "continuum" or "continuum_coarse".
   void record_facts(const std::string &directory, const DiscreteFacts &facts);

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <array>
-#include <filesystem>
 
 #include "continuum/mesh/mesh.h"
 #include "coupling/panels/continuum_mesh.h"
+#include "coupling/scene/keys.h"
 #include "coupling/scene/scene_error.h"
 
 namespace diptych::coupling
@@ -197,12 +197,12 @@ namespace diptych::coupling
       const continuum::Options &o    = scene.continuum;
       const double              edge = first_edge(scene, o.element_size);
       if (edge > std::min(o.rectangle_width, o.rectangle_height))
-        throw SceneError("continuum/element_size = " + std::to_string(o.element_size) + ": elements of " + std::to_string(edge) +
-                         " [length] at first do not fit into continuum/rectangle_width = " + std::to_string(o.rectangle_width) +
-                         " and rectangle_height = " + std::to_string(o.rectangle_height));
+        throw SceneError("continuum/element_size = " + text_of(o.element_size) + ": elements of " + text_of(edge) +
+                         " [length] at first do not fit into continuum/rectangle_width = " + text_of(o.rectangle_width) +
+                         " and rectangle_height = " + text_of(o.rectangle_height));
       if (o.platen_width > o.rectangle_width)
-        throw SceneError("continuum/platen_width = " + std::to_string(o.platen_width) +
-                         " must not exceed continuum/rectangle_width = " + std::to_string(o.rectangle_width));
+        throw SceneError("continuum/platen_width = " + text_of(o.platen_width) +
+                         " must not exceed continuum/rectangle_width = " + text_of(o.rectangle_width));
     }
 
     // A mesh of the user's is read whole, before a result folder is opened for it.
@@ -217,17 +217,14 @@ namespace diptych::coupling
         check_rectangle(scene);
       if (mesh.kind != Kind::file)
         return;
-      const std::string ending = std::filesystem::path(mesh.file).extension();
-      if ((ending != ".msh" && ending != ".geo") || !std::filesystem::is_regular_file(mesh.file))
-        throw SceneError("continuum/mesh = '" + mesh.file +
-                         "' is not allowed: outline, rectangle or a .msh or .geo file that can be read is");
       try
         {
           (void)continuum::read_mesh(mesh.file);
         }
       catch (const std::invalid_argument &error)
         {
-          throw SceneError("continuum/mesh = '" + mesh.file + "': " + error.what());
+          throw SceneError("continuum/mesh = '" + mesh.file + "': " + error.what() +
+                           " (allowed: outline, rectangle, or a .msh or .geo file that can be read)");
         }
     }
   } // namespace

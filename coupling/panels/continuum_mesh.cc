@@ -41,7 +41,7 @@ namespace diptych::coupling
     std::vector<ContinuumPart> parts     = {{"continuum", "continuum panel", directory, scene.continuum.element_size}};
     if (has_coarse(scene))
       parts.push_back(
-        {"continuum_coarse", "continuum panel, coarse mesh", directory + "/coarse", scene.comparison.coarse_element_size});
+        {"continuum_coarse", "continuum panel, coarse mesh", directory + "/coarse", scene.comparison.coarse_element_size, true});
     return parts;
   }
 

@@ -19,6 +19,7 @@ namespace diptych::coupling
     std::string title;            // for messages
     std::string directory;        // of its files
     double      element_size = 0; // [mean diameters]
+    bool        is_coarse    = false;
 
     std::string checkpoint() const { return directory + "/continuum_checkpoint.h5"; }
   };

@@ -108,7 +108,7 @@ namespace diptych::coupling
 
     std::vector<ProbeRegion> stacked_probes(const Polygon &outline, const SampleFrame &frame, const ProbeOptions &options)
     {
-      std::vector<ProbeRegion> probes = {{"upper", {}, 0}, {"zone", {}, 0}, {"lower", {}, 0}};
+      std::vector<ProbeRegion> probes = {{"upper", {}, 0}, {"zone", {}, 0, true}, {"lower", {}, 0}};
       for (int k = 0; k < 3; ++k)
         {
           Rectangle part{
@@ -178,7 +178,7 @@ namespace diptych::coupling
     if (!(zone.length > 0))
       return stacked_probes(outline, frame, options);
     return {{"upper", polygon_or_none(pack_rectangle(outline, frame, bands[0], zone, options, 1)), 0},
-            {"zone", corners(zone), bands[0].angle_deg},
+            {"zone", corners(zone), bands[0].angle_deg, true},
             {"lower", polygon_or_none(pack_rectangle(outline, frame, bands[0], zone, options, -1)), 0}};
   }
 } // namespace diptych::coupling

@@ -19,6 +19,7 @@ namespace diptych::coupling
     std::string                  name;          // "upper", "zone", "lower"; "probe 1", ... where the scene gives them
     std::vector<Eigen::Vector2d> polygon;       // corners, counter-clockwise [length]
     double                       angle_deg = 0; // of its sides of length, from the horizontal
+    bool                         is_zone   = false;
   };
 
   // Closed outline, counter-clockwise: left side downward, right side upward.

@@ -114,33 +114,45 @@ namespace diptych::coupling
       return interval_from(value, minus(column(a, member), column(b, member)));
     }
 
-    std::string phrase(const std::string &name, const Interval &x, const double margin, std::string &summary)
+    // The later outweighs the earlier.
+    enum class Finding
+    {
+      none,
+      cannot_tell,
+      difference
+    };
+    std::string words(const Finding finding)
+    {
+      return finding == Finding::none ? "do not differ" : finding == Finding::cannot_tell ? "cannot tell" : "differ";
+    }
+
+    std::string phrase(const std::string &name, const Interval &x, const double margin, Finding &worst)
     {
       char numbers[96];
       std::snprintf(numbers, sizeof numbers, " (%.3g, %.3g to %.3g)", x.value, x.low, x.high);
       if (!std::isfinite(x.low) || !std::isfinite(x.high))
         {
-          summary = summary == "differ" ? summary : "cannot tell";
+          worst = std::max(worst, Finding::cannot_tell);
           return name + ": cannot tell, too few blocks";
         }
       if (x.low > 0 || x.high < 0)
         {
-          summary = "differ";
+          worst = Finding::difference;
           return name + " differs" + numbers;
         }
       if (x.low >= -margin && x.high <= margin)
         return name + " does not differ" + numbers;
-      summary = summary == "differ" ? summary : "cannot tell";
+      worst = std::max(worst, Finding::cannot_tell);
       return name + ": cannot tell" + numbers;
     }
 
     void judge(const ProbeMargins &margins, ProbeDifference &d)
     {
-      std::string       summary = "do not differ";
-      const std::string phrases = phrase("t/s", d.t_over_s, margins.t_over_s, summary) + "; " +
-                                  phrase("anisotropy", d.anisotropy, margins.anisotropy, summary) + "; " +
-                                  phrase("direction", d.direction_deg, margins.direction_deg, summary);
-      d.verdict = summary + ": " + phrases;
+      Finding           worst   = Finding::none;
+      const std::string phrases = phrase("t/s", d.t_over_s, margins.t_over_s, worst) + "; " +
+                                  phrase("anisotropy", d.anisotropy, margins.anisotropy, worst) + "; " +
+                                  phrase("direction", d.direction_deg, margins.direction_deg, worst);
+      d.verdict = words(worst) + ": " + phrases;
     }
   } // namespace
 
@@ -257,7 +269,7 @@ namespace diptych::coupling
   {
     if (blocks.size() != probes.size())
       throw std::invalid_argument("blocks of every probe are needed");
-    const auto        zone  = std::find_if(probes.begin(), probes.end(), [](const auto &p) { return p.name == "zone"; });
+    const auto        zone  = std::find_if(probes.begin(), probes.end(), [](const auto &p) { return p.is_zone; });
     const std::size_t first = zone == probes.end() ? 0 : zone - probes.begin();
 
     std::vector<ProbeReplicas> all;

@@ -82,7 +82,7 @@ namespace diptych::coupling
 
   GrainPressure grain_pressure(const ProbeRegion &probe, const GrainNetwork &network);
 
-  // The probe called "zone" (where there is none: the first) minus each of the others. The verdict says of each quantity
+  // The probe of the zone (where there is none: the first) minus each of the others. The verdict says of each quantity
   // "differs" (the interval leaves out 0), "does not differ" (it lies within the margin on both sides) or "cannot tell"; its
   // first words are "differ" if one of them does, "do not differ" if none does, else "cannot tell". Probes are resampled each by
   // itself.

@@ -75,6 +75,17 @@ namespace diptych::coupling
       void add_quiet(CLI::App *to) { to->add_flag("--quiet", line.quiet, "no progress"); }
       // clang-format on
 
+      // A value of an enum that has a table of names.
+      template <class Choice, class Take> void add_choice(CLI::App *to, const char *option, const char *meaning, const Take &take)
+      {
+        std::vector<std::string> names;
+        for (const auto &choice : choices(Choice()))
+          names.emplace_back(choice.second);
+        to->add_option_function<std::string>(
+            option, [take](const std::string &name) { take(*discrete::value_of<Choice>(name)); }, meaning)
+          ->check(CLI::IsMember(names));
+      }
+
       void add_run()
       {
         CLI::App *run = add(Command::run, "both panels, homogenisation, comparison, report");
@@ -121,19 +132,12 @@ namespace diptych::coupling
         CLI::App *solve = add(Command::solve, "one stored contact problem (FCLIB layout): sweeps, residual, seconds");
         solve->add_option("PROBLEM", line.target, "problem file, .h5 or .hdf5")->required();
         solve->add_option("--output", line.output, "file for the problem with its solution")->type_name("FILE");
-        std::vector<std::string> names;
-        for (const auto &choice : choices(discrete::ContactSolver()))
-          names.emplace_back(choice.second);
-        solve
-          ->add_option_function<std::string>(
-            "--solver", [this](const std::string &name) { line.solver = *discrete::value_of<discrete::ContactSolver>(name); },
-            "default: psor")
-          ->check(CLI::IsMember(names));
+        add_choice<discrete::ContactSolver>(solve, "--solver", "default: psor", [this](const auto chosen) { line.solver = chosen; });
         solve->add_option("--tolerance", line.tolerance, "natural map relative to |r| (default: 1e-8)")
           ->check(CLI::Range(1e-300, 0.999999));
         solve->add_option("--max-sweeps", line.max_sweeps, "(default: 1000000)")->check(CLI::Range(1, 2147483647));
-        solve->add_option("--form", line.form, "body or local (default: body where the file has one)")
-          ->check(CLI::IsMember({"body", "local"}));
+        add_choice<discrete::ProblemForm>(solve, "--form", "default: body where the file has one",
+                                          [this](const auto chosen) { line.form = chosen; });
         add_threads(solve);
       }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "coupling/scene/scene.h"
+#include "discrete/problem_files/fclib.h"
 #include "discrete/solvers/solver.h"
 
 namespace diptych::coupling
@@ -45,10 +46,10 @@ namespace diptych::coupling
     bool                     study_of_step = false;                      // --study step
     std::string              seeds;                                      // --seeds: "1-8", "1,3,5-7"
     int                      jobs       = 0;                             // --jobs; 0: as many as fit
-    discrete::ContactSolver  solver     = discrete::ContactSolver::psor; // --solver, --tolerance, --max-sweeps, --form: of solve
+    discrete::ContactSolver  solver     = discrete::ContactSolver::psor; // --solver, --tolerance, --max-sweeps: of solve
     double                   tolerance  = 1e-8;
     int                      max_sweeps = 1000000;
-    std::string              form;
+    std::optional<discrete::ProblemForm> form; // --form; none: the better one that the file has
     bool                     quiet          = false; // --quiet
     bool                     tells_warnings = true;  // the first of several processes does
     std::string              text;                   // as it was typed

@@ -32,7 +32,7 @@ namespace diptych::coupling
 
     ContinuumFacts facts_of_part(const RunFacts &facts, const ContinuumPart &part)
     {
-      return part.name == "continuum" ? facts.continuum : facts.continuum_coarse;
+      return part.is_coarse ? facts.continuum_coarse : facts.continuum;
     }
 
     // Its provenance says so, and no stage is missing: either alone may be left of another run.

@@ -96,7 +96,7 @@ namespace diptych::coupling
     write_ensemble_json(directory, scene, record);
     write_ensemble_csv(directory, record.ensemble);
     write_ensemble_curves(directory, scene, record.ensemble.seeds);
-    record_phases(directory, scene, line.text, {timer.stop()});
+    record_phases(directory, scene, line.text, {timer.stop()}, record.seeds);
     for (const PanelVerdict &verdict : record.ensemble.verdicts)
       say(line, text_of(verdict));
   }

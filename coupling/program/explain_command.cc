@@ -4,6 +4,8 @@
 
 #include <iostream>
 
+#include "coupling/comparison/step_comparison.h"
+#include "coupling/folders/origin.h"
 #include "coupling/program/result_entries.h"
 #include "coupling/scene/scene_file.h"
 #include "discrete/panel/history.h"
@@ -37,6 +39,12 @@ namespace diptych::coupling
     result.push_back({h5, "contacts/impulse", "pairs of numbers", "pressure length time", contact_impulses});
     visit_contact_values(s, add);
     visit_outline(s, add);
+    for (const NumberEntry &column : step_study_columns())
+      result.push_back({"study_step.csv", column.key, "column", column.unit, column.meaning});
+    add_record("study_step.json", StepComparison(), result);
+    add_record("provenance.json", ProvenanceDocument{Origin(), RunFacts()}, result);
+    result.push_back({"checkpoint.h5, continuum_checkpoint.h5", "/", "group", "",
+                      "what --resume goes on from; its arrays are the program's own and change with it"});
     return result;
   }
 

@@ -5,6 +5,8 @@
 #include "continuum/snapshot_fields.h"
 #include "coupling/comparison/comparison_arrays.h"
 #include "coupling/comparison/comparison_schema.h"
+#include "coupling/ensembles/ensemble_curves.h"
+#include "coupling/ensembles/ensemble_numbers.h"
 #include "coupling/program/result_entries.h"
 
 namespace diptych::coupling
@@ -28,19 +30,6 @@ namespace diptych::coupling
       });
     }
 
-    // What list functions of comparison_arrays.h give, below a place of comparison.h5.
-    struct AddArrays
-    {
-      std::string file, place;
-      ResultList &result;
-
-      template <class T> void operator()(const ArrayEntry &entry, const std::vector<T> &) const
-      {
-        result.push_back(
-          {file, place + entry.key, array_shape<T>(), entry.unit, std::string(entry.title) + "; " + entry.meaning});
-      }
-    };
-
     void add_comparison_arrays(ResultList &result)
     {
       const Increment          increment;
@@ -48,14 +37,28 @@ namespace diptych::coupling
       const CellFields         fields;
       const HistoryTable       history = history_table(std::vector<discrete::HistoryRow>(1));
       const std::string        stages = "comparison.h5, group stage_NNNN", windows = "comparison.h5, group window_N";
+      list_file_attributes(Scene(), grains, AddArrays{"comparison.h5", "", result});
+      list_increment_attributes(increment, AddArrays{stages, "", result});
       list_increment_arrays(increment, grains, AddArrays{stages, "", result});
       list_grain_arrays(increment, grains, grains, AddArrays{stages, "", result});
-      result.push_back({stages, "cells/node, grid/node", "vectors", "length", "nodes of the mesh and of the regular grid"});
-      result.push_back({stages, "cells/cell, grid/cell", "four whole numbers a cell", "-", "its nodes, anticlockwise"});
+      list_mesh_arrays(QuadMesh(), AddArrays{stages, "cells/, grid/ ", result});
       list_cell_arrays(fields, {}, AddArrays{stages + "; fields.vtu (cells), grid.vtu (grid)", "cells/, grid/ ", result});
+      list_increment_attributes(increment, AddArrays{windows, "", result});
       list_increment_arrays(increment, grains, AddArrays{windows, "", result});
+      list_mesh_arrays(QuadMesh(), AddArrays{windows, "cells/", result});
       list_window_cell_arrays(increment, {}, AddArrays{windows, "cells/", result});
       list_history_arrays(history, 1, AddArrays{"comparison.h5, groups histories/discrete and histories/continuum", "", result});
+    }
+
+    void add_ensemble(ResultList &result)
+    {
+      const EnsembleRecord record;
+      add_record("ensemble.json", EnsembleDocument{Scene(), record}, result);
+      for (const NumberEntry &column : ensemble_columns())
+        result.push_back({"ensemble.csv", column.key, "column", column.unit, column.meaning});
+      const std::string file = "ensemble.h5";
+      list_grid(EnsembleGrid(), AddArrays{file, "", result});
+      list_curve_arrays(EnsembleCurves(), AddArrays{file + ", groups PANEL/stress_ratio and PANEL/volumetric_strain", "", result});
     }
   } // namespace
 
@@ -65,9 +68,9 @@ namespace diptych::coupling
     add_columns<continuum::HistoryRow>("continuum.csv", result);
     add_continuum_file(result);
     add_columns<continuum::MaterialPointRow>("material_point.csv", result);
-    for (const NumberDescription &number : comparison_schema())
-      result.push_back({"comparison.json, comparison.csv", number.place, number.shape, number.unit, number.meaning});
+    add_numbers("comparison.json, comparison.csv", comparison_schema(), result);
     add_comparison_arrays(result);
+    add_ensemble(result);
     return result;
   }
 } // namespace diptych::coupling

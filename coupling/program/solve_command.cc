@@ -26,21 +26,19 @@ namespace diptych::coupling
     }
 
     // The form asked for, by default the better one that the file has.
-    std::string form_of(const CommandLine &line, const discrete::StoredProblem &problem)
+    discrete::ProblemForm form_of(const CommandLine &line, const discrete::StoredProblem &problem)
     {
-      if (line.form.empty())
-        return problem.form;
-      if (line.form == "body" && !problem.bodies)
+      if (line.form == discrete::ProblemForm::body && !problem.bodies)
         throw std::invalid_argument("--form body: " + line.target + " has no such form: " + problem.reason);
-      return line.form;
+      return line.form.value_or(problem.form);
     }
 
-    void print_problem(const CommandLine &line, const discrete::StoredProblem &problem, const std::string &form)
+    void print_problem(const CommandLine &line, const discrete::StoredProblem &problem, const discrete::ProblemForm form)
     {
       std::cout << "problem: " << line.target << "\ncontacts: " << problem.local.n_contacts() << "\n";
       if (problem.bodies)
         std::cout << "bodies: " << problem.bodies->free_velocity.size() << "\n";
-      std::cout << "form: " << form;
+      std::cout << "form: " << name_of(form);
       if (!problem.bodies)
         std::cout << " (" << problem.reason << ")";
       std::cout << "\n";
@@ -72,17 +70,17 @@ namespace diptych::coupling
     if (!line.output.empty() && std::filesystem::equivalent(line.target, line.output, error))
       throw SceneError("--output " + line.output + " is the problem itself: name another file");
     const discrete::StoredProblem problem = discrete::read_fclib(line.target);
-    const std::string             form    = form_of(line, problem);
+    const discrete::ProblemForm   form    = form_of(line, problem);
 
     std::vector<discrete::Impulse> r(problem.local.n_contacts());
     discrete::ThreadTeam           team(line.threads);
-    const discrete::SolveReport    report = form == "body" ? discrete::solve(*problem.bodies, options, r, team)
+    const discrete::SolveReport    report = form == discrete::ProblemForm::body ? discrete::solve(*problem.bodies, options, r, team)
                                                            : discrete::solve(problem.local, options, r);
     print_problem(line, problem, form);
     print_result(line, report, problem.local, r);
     if (!line.output.empty())
       discrete::write_solution(line.target, line.output,
-                               {r, relative_velocities(problem.local, r), discrete::name_of(line.solver) + ", " + form + " form",
+                               {r, relative_velocities(problem.local, r), discrete::name_of(line.solver) + ", " + name_of(form) + " form",
                                 status_of(report), report.residual});
     return report.status == discrete::SolveStatus::converged ? done : not_converged;
   }

@@ -27,10 +27,10 @@ namespace diptych::coupling
         {
           const double k = edge / interval;
           if (std::abs(k - std::round(k)) > 1e-6 || edge > last * (1 + 1e-9))
-            throw std::invalid_argument("comparison/window_edges holds " + std::to_string(edge) +
+            throw std::invalid_argument("comparison/window_edges holds " + text_of(edge) +
                                         ", which is no stage: stages are multiples of loading/" +
-                                        (time ? "stage_time" : "stage_strain") + " = " + std::to_string(interval) +
-                                        " up to loading/" + (time ? "duration" : "axial_strain") + " = " + std::to_string(last));
+                                        (time ? "stage_time" : "stage_strain") + " = " + text_of(interval) +
+                                        " up to loading/" + (time ? "duration" : "axial_strain") + " = " + text_of(last));
         }
     }
 
@@ -41,11 +41,11 @@ namespace diptych::coupling
       const double          last    = time ? loading.duration : loading.axial_strain;
       const double          count   = last / (time ? loading.stage_time : loading.stage_strain);
       if (time && (std::abs(count - std::round(count)) > 1e-6 || count < 0.5))
-        throw std::invalid_argument("loading/duration = " + std::to_string(loading.duration) +
-                                    " is not a whole number of loading/stage_time = " + std::to_string(loading.stage_time));
+        throw std::invalid_argument("loading/duration = " + text_of(loading.duration) +
+                                    " is not a whole number of loading/stage_time = " + text_of(loading.stage_time));
       if (!time && (std::abs(count - std::round(count)) > 1e-6 || count < 0.5))
-        throw std::invalid_argument("loading/axial_strain = " + std::to_string(loading.axial_strain) +
-                                    " is not a whole number of loading/stage_strain = " + std::to_string(loading.stage_strain));
+        throw std::invalid_argument("loading/axial_strain = " + text_of(loading.axial_strain) +
+                                    " is not a whole number of loading/stage_strain = " + text_of(loading.stage_strain));
       const std::vector<double> &edges = scene.comparison.window_edges;
       if (edges.size() < 2 || std::adjacent_find(edges.begin(), edges.end(), std::greater_equal<double>()) != edges.end())
         throw std::invalid_argument(

@@ -21,6 +21,7 @@ namespace diptych::discrete
       for (const ContactForce &c : contacts)
         body.insert(body.end(), {c.i, c.j});
       file.write(group + "/body", body, {contacts.size(), 2});
+      file.attribute(group + "/body", "unit", "-");
       file.attribute(group + "/body", "meaning", contact_bodies);
       for_each_column(contacts, contact_fields,
                       [&](const std::string &name, const auto &values, const char *unit, const char *meaning) {

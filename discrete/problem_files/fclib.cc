@@ -139,7 +139,7 @@ namespace diptych::discrete
     problem.local       = file.has("/fclib_local") ? read_local(file) : read_global(file);
     const BodyForm form = read_body_form(file, problem.local);
     problem.bodies      = form.bodies;
-    problem.form        = form.bodies ? "body" : "local";
+    problem.form        = form.bodies ? ProblemForm::body : ProblemForm::local;
     problem.reason      = form.reason;
     if (form.bodies)
       problem.local.order = form.bodies->order;

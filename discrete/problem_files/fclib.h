@@ -2,17 +2,30 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "discrete/choices.h"
 #include "discrete/contacts/contact_problem.h"
 #include "discrete/problem_files/delassus_problem.h"
 
 namespace diptych::discrete
 {
+  enum class ProblemForm
+  {
+    body, // bodies with their masses
+    local // contacts alone
+  };
+  constexpr auto choices(ProblemForm)
+  {
+    return std::array{std::pair{ProblemForm::body, "body"}, std::pair{ProblemForm::local, "local"}};
+  }
+
   // A plane problem of a file: u = W r + q, impulses r, normal component first. The layout is that of FCLIB (Acary, Bremond,
   // Koziara & Perignon 2014): /fclib_local (W, q, mu) and /fclib_global (M v = f + H r, u = H^T v + w, mu), beside /solution
   // and /guesses; matrices by rows (nz = -2), by columns (nz = -1) or as triplets (nz >= 0; p is the column and i the row).
@@ -21,7 +34,7 @@ namespace diptych::discrete
     DelassusProblem local; // contacts in the order of the file; made from /fclib_global where that is all
     std::optional<ContactProblem>
                          bodies;   // of our own group /nscd: discs, then walls; rows in the order of the file, swept upwards
-    std::string          form;     // "body" where there are bodies, else "local"
+    ProblemForm          form = ProblemForm::local; // body where there are bodies
     std::string          reason;   // why there are none
     std::vector<Impulse> solution; // /solution/r; empty: none
     std::vector<std::vector<Impulse>> guesses; // /guesses/1, 2, ...

@@ -278,11 +278,11 @@ namespace diptych::discrete
   void validate(const SampleOptions &o)
   {
     if (o.radius_distribution == RadiusKind::uniform_by_number && std::abs(o.radius_min + o.radius_max - 1) > 1e-9)
-      throw std::invalid_argument("sample/radius_min + sample/radius_max is " + std::to_string(o.radius_min + o.radius_max) +
+      throw std::invalid_argument("sample/radius_min + sample/radius_max is " + exact_text(o.radius_min + o.radius_max) +
                                   " mean diameters; it must be 1, so that radii uniform by number have the mean diameter 1");
     if (o.box_solid_fraction > o.solid_fraction)
-      throw std::invalid_argument("sample/box_solid_fraction " + std::to_string(o.box_solid_fraction) +
-                                  " exceeds sample/solid_fraction " + std::to_string(o.solid_fraction));
+      throw std::invalid_argument("sample/box_solid_fraction " + exact_text(o.box_solid_fraction) +
+                                  " exceeds sample/solid_fraction " + exact_text(o.solid_fraction));
     if (o.radius_distribution == RadiusKind::table && o.radius_table.empty())
       throw std::invalid_argument("sample/radius_distribution = table: sample/radius_table must name the CSV file");
     if (!o.radius_table.empty() && o.radius_distribution != RadiusKind::table)
@@ -292,11 +292,11 @@ namespace diptych::discrete
     if (o.radius_distribution == RadiusKind::table)
       (void)read_for("radius_table", o.radius_table, read_radius_table);
     if (o.lower_platen && o.upper_platen && *o.lower_platen >= *o.upper_platen)
-      throw std::invalid_argument("sample/lower_platen " + std::to_string(*o.lower_platen) +
-                                  " is not below sample/upper_platen " + std::to_string(*o.upper_platen));
+      throw std::invalid_argument("sample/lower_platen " + exact_text(*o.lower_platen) +
+                                  " is not below sample/upper_platen " + exact_text(*o.upper_platen));
     if (o.left_wall && o.right_wall && *o.left_wall >= *o.right_wall)
-      throw std::invalid_argument("sample/left_wall " + std::to_string(*o.left_wall) + " is not left of sample/right_wall " +
-                                  std::to_string(*o.right_wall));
+      throw std::invalid_argument("sample/left_wall " + exact_text(*o.left_wall) + " is not left of sample/right_wall " +
+                                  exact_text(*o.right_wall));
   }
 
   PreparedSample prepare_sample(const SampleOptions                 &options,

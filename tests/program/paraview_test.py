@@ -50,7 +50,7 @@ class Files(unittest.TestCase):
     def test_fields_are_plane_tensors_with_the_values_of_the_comparison(self):
         mesh, stored = meshio.read(self.path("fields.vtu")), self.last_stage()
         self.assertEqual([block.type for block in mesh.cells], ["quad"])
-        np.testing.assert_allclose(mesh.points[mesh.cells[0].data][:, :, :2], stored["node"][stored["cell"]], atol=1e-6)
+        np.testing.assert_allclose(mesh.points[mesh.cells[0].data][:, :, :2], stored["node_position"][stored["nodes"]], atol=1e-6)
         for name in ("discrete_stress", "continuum_stress"):
             found = self.tensors(mesh, name)
             # ten digits are written; row and column keep their order: the grains' stress is not symmetric on a cell

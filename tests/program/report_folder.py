@@ -108,8 +108,8 @@ def write_group(file, name, start, end, stress):
     store(group, "nodes/position", node, "length")
     store(group, "nodes/displacement_increment", np.column_stack([node[:, 1], -node[:, 1]]) * (end - start), "length")
     for place in ("cells", "grid") if stress else ("cells",):
-        store(group, place + "/node", node, "length")
-        group[place + "/cell"] = cell
+        store(group, place + "/node_position", node, "length")
+        group[place + "/nodes"] = cell
         store(group, place + "/continuum_displacement_over_platen", np.linspace(0.1, 0.6, 6))
         store(group, place + "/continuum_shear_strain_increment", np.linspace(0, 0.08, 6))
         store(group, place + "/discrete_shear_strain_increment", np.array([0.01, np.nan, 0.01, 0.02, 0.01, 0.0]))

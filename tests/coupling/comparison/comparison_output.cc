@@ -66,7 +66,9 @@ namespace
         EXPECT_TRUE(described.insert(number.place).second) << number.place << " twice";
         EXPECT_FALSE(number.meaning.empty()) << number.place;
         if (number.shape != "group" && number.shape != "list of groups")
-          EXPECT_FALSE(number.unit.empty()) << number.place;
+          {
+            EXPECT_FALSE(number.unit.empty()) << number.place;
+          }
       }
     json document = written().document;
     document.erase("numbers");
@@ -127,7 +129,7 @@ namespace
     EXPECT_EQ(file.text_attribute(name, "title"), "mean stress s");
     EXPECT_FALSE(file.text_attribute(name, "meaning").empty());
     EXPECT_EQ(file.read(name).size(), 20u * 28);
-    EXPECT_EQ(file.extents("stage_0002/cells/cell"), (std::vector<std::size_t>{20 * 28, 4}));
+    EXPECT_EQ(file.extents("stage_0002/cells/nodes"), (std::vector<std::size_t>{20 * 28, 4}));
     EXPECT_NEAR(file.attribute("window_0", "displacement_unit"), 1.12e-6 * std::sqrt(2.), 1e-18);
     EXPECT_EQ(file.text_attribute("/", "walk"), "axial_strain");
   }

@@ -35,16 +35,16 @@ namespace
   }
 
   std::vector<Impulse> solved(const StoredProblem &problem,
-                              const std::string   &form,
+                              const ProblemForm    form,
                               const ContactSolver  solver,
                               const double         tolerance)
   {
     const SolverOptions  options = options_for(solver, tolerance);
     std::vector<Impulse> r(problem.local.n_contacts());
-    const SolveReport    report = form == "body" ? solve(*problem.bodies, options, r) : solve(problem.local, options, r);
-    EXPECT_EQ(report.status, SolveStatus::converged) << name_of(solver) << ", " << form << ", residual " << report.residual;
-    EXPECT_LE(natural_map_residual(problem.local, r), 1.01 * tolerance) << name_of(solver) << ", " << form;
-    std::cout << problem.local.n_contacts() << " contacts, " << name_of(solver) << ", " << form << ", " << tolerance << ": "
+    const SolveReport    report = form == ProblemForm::body ? solve(*problem.bodies, options, r) : solve(problem.local, options, r);
+    EXPECT_EQ(report.status, SolveStatus::converged) << name_of(solver) << ", " << name_of(form) << ", residual " << report.residual;
+    EXPECT_LE(natural_map_residual(problem.local, r), 1.01 * tolerance) << name_of(solver) << ", " << name_of(form);
+    std::cout << problem.local.n_contacts() << " contacts, " << name_of(solver) << ", " << name_of(form) << ", " << tolerance << ": "
               << report.sweeps << " sweeps, " << report.cpu_s << " s, "
               << 1e9 * report.cpu_s / double(report.sweeps * long(r.size())) << " ns an update\n";
     return r;
@@ -75,7 +75,7 @@ namespace
     for (const std::string name : {"small.h5", "medium.h5"})
       {
         const StoredProblem problem = read_fclib(stored(name));
-        ASSERT_EQ(problem.form, "body") << problem.reason;
+        ASSERT_EQ(problem.form, ProblemForm::body) << problem.reason;
         EXPECT_LT(relative_difference(problem.local, read_fclib_global(stored(name))), 1e-13);
         EXPECT_LT(relative_difference(problem.local, delassus_form(*problem.bodies)), 1e-10);
         std::cout << name << ": global " << relative_difference(problem.local, read_fclib_global(stored(name))) << ", bodies "
@@ -109,14 +109,14 @@ namespace
   {
     const StoredProblem problem = read_fclib(stored("small.h5"));
     for (const ContactSolver solver : {ContactSolver::nsgs, ContactSolver::psor})
-      for (const std::string form : {"body", "local"})
+      for (const ProblemForm form : {ProblemForm::body, ProblemForm::local})
         expect_complementary(problem.local, solved(problem, form, solver, 1e-8), 1e-6);
   }
 
   TEST(Fclib, PsorSolvesTheMediumProblemInBothForms)
   {
     const StoredProblem problem = read_fclib(stored("medium.h5"));
-    for (const std::string form : {"body", "local"})
+    for (const ProblemForm form : {ProblemForm::body, ProblemForm::local})
       expect_complementary(problem.local, solved(problem, form, ContactSolver::psor, 1e-8), 1e-6);
   }
 
@@ -132,7 +132,7 @@ namespace
                                            reader.read_vectors("/nscd/x")};
     write_fclib(file.path, *problem.bodies, {"a title", "a description"}, geometry, r);
     const StoredProblem again = read_fclib(file.path);
-    ASSERT_EQ(again.form, "body") << again.reason;
+    ASSERT_EQ(again.form, ProblemForm::body) << again.reason;
     EXPECT_LT(relative_difference(problem.local, again.local), 1e-13);
     EXPECT_LT(relative_difference(problem.local, read_fclib_global(file.path)), 1e-13);
     EXPECT_EQ(Hdf5Reader(file.path).read_string("/fclib_local/info/title"), "a title");
@@ -146,7 +146,7 @@ namespace
       }
     write_fclib(file.path, *problem.bodies, {"a title", "a description"});
     const StoredProblem without = read_fclib(file.path);
-    EXPECT_EQ(without.form, "local");
+    EXPECT_EQ(without.form, ProblemForm::local);
     EXPECT_NE(without.reason, "");
     EXPECT_LT(relative_difference(problem.local, without.local), 1e-13);
     EXPECT_FALSE(std::filesystem::exists(file.path + ".part"));
@@ -178,7 +178,7 @@ namespace
     write_fclib(file.path, problem, {"two discs", "across the edge of a free cell"},
                 StoredGeometry{0.1, {0, 0}, {1, 1}, {{0, 0}, {1, 1}}});
     const StoredProblem again = read_fclib(file.path);
-    EXPECT_EQ(again.form, "local");
+    EXPECT_EQ(again.form, ProblemForm::local);
     EXPECT_LT(relative_difference(local, again.local), 1e-15);
     EXPECT_LT(relative_difference(local, read_fclib_global(file.path)), 1e-14);
   }
@@ -205,7 +205,7 @@ namespace
       writer.finish();
     }
     const StoredProblem problem = read_fclib(file.path);
-    EXPECT_EQ(problem.form, "local");
+    EXPECT_EQ(problem.form, ProblemForm::local);
     EXPECT_FALSE(problem.bodies);
     EXPECT_NE(problem.reason.find("disc 1"), std::string::npos) << problem.reason;
     EXPECT_EQ(problem.local.n_contacts(), 214u);
@@ -219,7 +219,7 @@ namespace
     write_solution(stored("small.h5"), file.path,
                    {r, relative_velocities(problem.local, r), "psor", "converged", natural_map_residual(problem.local, r)});
     const StoredProblem again = read_fclib(file.path);
-    EXPECT_EQ(again.form, "body");
+    EXPECT_EQ(again.form, ProblemForm::body);
     EXPECT_EQ(relative_difference(problem.local, again.local), 0);
     for (std::size_t k = 0; k < r.size(); ++k)
       EXPECT_EQ(again.solution[k].tangential, r[k].tangential);

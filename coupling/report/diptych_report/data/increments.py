@@ -111,7 +111,7 @@ def text_of(item, name):
 def _take_group(increment, group, units, described):
     arrays = increment.arrays = read_arrays(group, units, described)
     for mesh in MESHES:
-        node, cell = arrays.pop(mesh + "/node", None), arrays.pop(mesh + "/cell", None)
+        node, cell = arrays.pop(mesh + "/node_position", None), arrays.pop(mesh + "/nodes", None)
         if node is not None and cell is not None:
             arrays[mesh + "/corners"] = node[:, :2][cell.astype(int)]
     attributes = group.attrs

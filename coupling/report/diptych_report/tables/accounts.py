@@ -18,8 +18,9 @@ def cost(result):
 def provenance(result):
     source, rows = result.provenance, []
     for key, words in (("program", "program"), ("version", "version"), ("git_revision", "revision"),
-                       ("command", "command"), ("scene", "scene"), ("seed", "seed"), ("date", "run on")):
-        rows.append([words, number(source.get(key)) if not isinstance(source.get(key), int) else str(source[key])])
+                       ("command", "command"), ("scene", "scene"), ("seeds", "seed"), ("date", "run on")):
+        said = source.get(key)
+        rows.append([words, ", ".join(str(entry) for entry in said) if isinstance(said, list) else number(said)])
     rows += [[name, str(version)] for name, version in sorted((source.get("libraries") or {}).items())]
     rows += [["host: " + name, str(value)] for name, value in sorted((source.get("host") or {}).items())]
     return {"head": ["", ""], "rows": rows}
