@@ -165,7 +165,7 @@ namespace diptych::coupling
     std::vector<double> rotation;
     for (std::size_t k = 0; k < to.rotation.size(); ++k)
       rotation.push_back(to.rotation[k] - from.rotation[k]);
-    std::vector<Eigen::Vector2d> point, force;
+    std::vector<Eigen::Vector2d>    point, force;
     std::vector<std::array<int, 2>> body;
     for (const discrete::ContactForce &contact : to.window_forces)
       {

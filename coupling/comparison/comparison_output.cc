@@ -35,7 +35,9 @@ namespace diptych::coupling
       {
         for (const NumberDescription &number : comparison_schema())
           units[number.place] = number.unit;
-        out << "progress_from,progress_to,panel,quantity,value,low,high,unit\n";
+        for (const NumberEntry &column : comparison_columns())
+          out << (out.tellp() > 0 ? "," : "") << column.key;
+        out << '\n';
       }
 
       // `line`: where the numbers belong; `place`: of the value in the list of numbers.

@@ -2,12 +2,27 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "coupling/comparison/comparison.h"
+#include "coupling/numbers/number_entry.h"
 
 namespace diptych::coupling
 {
+  // Columns of comparison.csv, a line a number of comparison.json.
+  inline std::array<NumberEntry, 8> comparison_columns()
+  {
+    return {{{"progress_from", "as walk says", "beginning of the window or stage; empty where the number is of the whole run"},
+             {"progress_to", "as walk says", "its end"},
+             {"panel", "-", "discrete, continuum, difference or mapping, or the part of comparison.json that the number is of"},
+             {"quantity", "-", "keys on the way to the number; entries of lists count from 1, or have their name"},
+             {"value", "as unit says", "the number"},
+             {"low", "as unit says", "lower end of its 95 % interval, where it carries one"},
+             {"high", "as unit says", "upper end"},
+             {"unit", "-", "of the three"}}};
+  }
+
   // comparison.json: every number that comparison_numbers.h lists, and under "numbers" what each of them is. comparison.csv: the
   // same, one line a number: progress_from, progress_to, panel, quantity, value and, where they are known, the ends of its 95 %
   // interval, unit.

@@ -110,12 +110,13 @@ namespace diptych::coupling
 
   std::vector<NumberEntry> step_study_columns()
   {
-    std::vector<NumberEntry> columns{{"step", "time", "length of the step that the run was asked for"},
+    std::vector<NumberEntry>   columns{{"step", "time", "length of the step that the run was asked for"},
                                      {"time", "time", "since the start of the loading"},
                                      {"progress", "as walk says", "what the loading has walked along its path"},
                                      {"stress_ratio_mean", "-", "running mean of the stress ratio"}};
+    const discrete::HistoryRow row;
     for (const std::string &name : repeated)
-      visit_columns(discrete::HistoryRow(), [&](const char *key, const auto &, const char *unit, const char *meaning) {
+      visit_columns(row, [&](const char *key, const auto &, const char *unit, const char *meaning) {
         if (key == name)
           columns.push_back({key, unit, meaning});
       });

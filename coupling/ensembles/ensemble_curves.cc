@@ -74,10 +74,10 @@ namespace diptych::coupling
 
   void write_ensemble_curves(const std::string &directory, const Scene &scene, const std::vector<int> &seeds)
   {
-    const auto          discrete  = histories<discrete::HistoryRow>(directory, seeds, "discrete.csv");
-    const auto          continuum = histories<continuum::HistoryRow>(directory, seeds, "continuum.csv");
-    const double        last      = std::max(last_progress(discrete), last_progress(continuum));
-    EnsembleGrid        grid{{}, seeds, averaging_width(scene)};
+    const auto   discrete  = histories<discrete::HistoryRow>(directory, seeds, "discrete.csv");
+    const auto   continuum = histories<continuum::HistoryRow>(directory, seeds, "continuum.csv");
+    const double last      = std::max(last_progress(discrete), last_progress(continuum));
+    EnsembleGrid grid{{}, seeds, averaging_width(scene)};
     for (int k = 0; k < n_points; ++k)
       grid.progress.push_back(last * k / (n_points - 1));
 

@@ -19,7 +19,8 @@ namespace diptych::coupling
 
   template <class Visit> void list_curve_arrays(const EnsembleCurves &c, Visit &&visit)
   {
-    visit(ArrayEntry{"members", "every member", "-", "running mean, a row a seed; nan where a history does not reach"}, c.members);
+    visit(ArrayEntry{"members", "every member", "-", "running mean, a row a seed; nan where a history does not reach"},
+          c.members);
     visit(ArrayEntry{"mean", "mean", "-", "of all members, where all have a value"}, c.mean);
     visit(ArrayEntry{"low", "lower end", "-", "of the 95 % Student interval of the mean"}, c.low);
     visit(ArrayEntry{"high", "upper end", "-", "of the same interval"}, c.high);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <array>
-#include <optional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -60,8 +60,10 @@ namespace diptych::coupling
   template <class Visitor> void list_numbers(const EquivalenceMargins &m, Visitor &v)
   {
     EquivalenceMargins margins = m; // keys are listed for who may set them
-    visit_parameters(margins, [&v](const char *key, const double value, const char *unit, const std::array<double, 2> &,
-                             const char *meaning) { v({key, unit, meaning, Kind::setting}, value); });
+    visit_parameters(
+      margins, [&v](const char *key, const double value, const char *unit, const std::array<double, 2> &, const char *meaning) {
+        v({key, unit, meaning, Kind::setting}, value);
+      });
   }
 
   struct EnsembleDocument
@@ -71,9 +73,8 @@ namespace diptych::coupling
   };
   template <class Visitor> void list_numbers(const EnsembleDocument &d, Visitor &v)
   {
-    const Ensemble             &e = d.record.ensemble;
-    const int                   n = int(e.seeds.size());
-    const std::optional<double> t = n > 1 ? std::optional(student_quantile(0.975, n - 1)) : std::nullopt;
+    const Ensemble &e = d.record.ensemble;
+    const int       n = int(e.seeds.size());
     v({"format", "-", "of this file"}, 1);
     v({"scene", "-", "name of the scene"}, d.scene.name);
     v({"seeds", "-", "asked for"}, d.record.seeds);
@@ -84,7 +85,8 @@ namespace diptych::coupling
     v({"walk", "-", "what progress is: axial_strain, shear_strain or time"},
       std::string(discrete::name_of(discrete::walk_of(d.scene.loading.mode))));
     v({"folded", "-", "mirror images of bands were brought together"}, is_mirror_symmetric(d.scene));
-    v({"student_t_95", "-", "half width of the intervals in standard errors; null for less than two members"}, t);
+    v({"student_t_95", "-", "half width of the intervals in standard errors; null for less than two members"},
+      n > 1 ? student_quantile(0.975, n - 1) : std::numeric_limits<double>::quiet_NaN());
     v.list("quantities", "every number of comparison.json that may be averaged", e.quantities);
     v.list("bands", "how many bands were found", e.bands);
     v.list("verdicts", "whether the panels are equivalent", e.verdicts);

@@ -15,8 +15,8 @@ namespace diptych::coupling
   {
     const int   n = count.members[0] + count.members[1] + count.members[2];
     std::string text;
-    for (const auto &[words, members] : {std::pair{"one band", count.members[1]}, std::pair{"two bands", count.members[2]},
-                                         std::pair{"none", count.members[0]}})
+    for (const auto &[words, members] :
+         {std::pair{"one band", count.members[1]}, std::pair{"two bands", count.members[2]}, std::pair{"none", count.members[0]}})
       if (members > 0)
         text += (text.empty() ? "" : ", ") + std::string(words) + " in " + std::to_string(members) +
                 (text.empty() ? " of " + std::to_string(n) : "");

@@ -51,8 +51,7 @@ namespace diptych::coupling
     {
       file.write(name, values); // vectors and tensors of the plane
     }
-    template <class Whole, std::size_t n>
-    void write(const std::string &name, const std::vector<std::array<Whole, n>> &rows) const
+    template <class Whole, std::size_t n> void write(const std::string &name, const std::vector<std::array<Whole, n>> &rows) const
     {
       std::vector<int> all;
       for (const auto &row : rows)

@@ -132,7 +132,8 @@ namespace diptych::coupling
         CLI::App *solve = add(Command::solve, "one stored contact problem (FCLIB layout): sweeps, residual, seconds");
         solve->add_option("PROBLEM", line.target, "problem file, .h5 or .hdf5")->required();
         solve->add_option("--output", line.output, "file for the problem with its solution")->type_name("FILE");
-        add_choice<discrete::ContactSolver>(solve, "--solver", "default: psor", [this](const auto chosen) { line.solver = chosen; });
+        add_choice<discrete::ContactSolver>(solve, "--solver", "default: psor",
+                                            [this](const auto chosen) { line.solver = chosen; });
         solve->add_option("--tolerance", line.tolerance, "natural map relative to |r| (default: 1e-8)")
           ->check(CLI::Range(1e-300, 0.999999));
         solve->add_option("--max-sweeps", line.max_sweeps, "(default: 1000000)")->check(CLI::Range(1, 2147483647));

@@ -37,22 +37,22 @@ namespace diptych::coupling
   // A member is of use to the commands that have its option.
   struct CommandLine
   {
-    Command                  command = Command::explain;
-    std::string              target;                                     // scene or problem file, result folder, section or shell
-    std::string              output;                                     // --output
-    std::vector<std::string> overrides;                                  // --set section/key=value
-    int                      threads       = 1;                          // --threads
-    bool                     resume        = false;                      // --resume
-    bool                     study_of_step = false;                      // --study step
-    std::string              seeds;                                      // --seeds: "1-8", "1,3,5-7"
-    int                      jobs       = 0;                             // --jobs; 0: as many as fit
-    discrete::ContactSolver  solver     = discrete::ContactSolver::psor; // --solver, --tolerance, --max-sweeps: of solve
-    double                   tolerance  = 1e-8;
-    int                      max_sweeps = 1000000;
-    std::optional<discrete::ProblemForm> form; // --form; none: the better one that the file has
-    bool                     quiet          = false; // --quiet
-    bool                     tells_warnings = true;  // the first of several processes does
-    std::string              text;                   // as it was typed
+    Command                              command = Command::explain;
+    std::string                          target;                // scene or problem file, result folder, section or shell
+    std::string                          output;                // --output
+    std::vector<std::string>             overrides;             // --set section/key=value
+    int                                  threads       = 1;     // --threads
+    bool                                 resume        = false; // --resume
+    bool                                 study_of_step = false; // --study step
+    std::string                          seeds;                 // --seeds: "1-8", "1,3,5-7"
+    int                                  jobs   = 0;            // --jobs; 0: as many as fit
+    discrete::ContactSolver              solver = discrete::ContactSolver::psor; // --solver, --tolerance, --max-sweeps: of solve
+    double                               tolerance  = 1e-8;
+    int                                  max_sweeps = 1000000;
+    std::optional<discrete::ProblemForm> form;                   // --form; none: the better one that the file has
+    bool                                 quiet          = false; // --quiet
+    bool                                 tells_warnings = true;  // the first of several processes does
+    std::string                          text;                   // as it was typed
   };
 
   // The words after the program's name; or, where they ask for help, the version or a completion script or are wrong, the exit

@@ -4,6 +4,7 @@
 #include "continuum/laws/material_point_row.h"
 #include "continuum/snapshot_fields.h"
 #include "coupling/comparison/comparison_arrays.h"
+#include "coupling/comparison/comparison_output.h"
 #include "coupling/comparison/comparison_schema.h"
 #include "coupling/ensembles/ensemble_curves.h"
 #include "coupling/ensembles/ensemble_numbers.h"
@@ -58,7 +59,8 @@ namespace diptych::coupling
         result.push_back({"ensemble.csv", column.key, "column", column.unit, column.meaning});
       const std::string file = "ensemble.h5";
       list_grid(EnsembleGrid(), AddArrays{file, "", result});
-      list_curve_arrays(EnsembleCurves(), AddArrays{file + ", groups PANEL/stress_ratio and PANEL/volumetric_strain", "", result});
+      list_curve_arrays(EnsembleCurves(),
+                        AddArrays{file + ", groups PANEL/stress_ratio and PANEL/volumetric_strain", "", result});
     }
   } // namespace
 
@@ -68,7 +70,9 @@ namespace diptych::coupling
     add_columns<continuum::HistoryRow>("continuum.csv", result);
     add_continuum_file(result);
     add_columns<continuum::MaterialPointRow>("material_point.csv", result);
-    add_numbers("comparison.json, comparison.csv", comparison_schema(), result);
+    add_numbers("comparison.json", comparison_schema(), result);
+    for (const NumberEntry &column : comparison_columns())
+      result.push_back({"comparison.csv", column.key, "column", column.unit, column.meaning});
     add_comparison_arrays(result);
     add_ensemble(result);
     return result;

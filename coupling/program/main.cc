@@ -33,9 +33,20 @@ namespace
     return compare_again(line);
   }
 
+  // MPI keeps its own files there, and where it cannot it ends the process with an exit code that says nothing.
+  void require_temporary_folder()
+  {
+    std::error_code   error;
+    const std::string folder = std::filesystem::temp_directory_path(error).string();
+    if (error || access(folder.c_str(), W_OK) != 0)
+      throw std::runtime_error("the folder for temporary files, TMPDIR, cannot be written to: " +
+                               (error ? error.message() : folder));
+  }
+
   // diptych-panels beside this program, or in PREFIX/libexec where it is installed.
   [[noreturn]] void become_the_panels(char **argv)
   {
+    require_temporary_folder();
     namespace fs             = std::filesystem;
     const fs::path    folder = fs::path(own_path()).parent_path();
     const std::string name   = "diptych-panels";

@@ -20,7 +20,7 @@ namespace diptych::coupling
   };
   using ResultList = std::vector<ResultEntry>;
 
-  template <class T> inline constexpr std::size_t row_length = 0; // of arrays whose rows hold whole numbers
+  template <class T> inline constexpr std::size_t                    row_length = 0; // of arrays whose rows hold whole numbers
   template <class Whole, std::size_t n> inline constexpr std::size_t row_length<std::array<Whole, n>> = n;
 
   template <class Value> std::string array_shape()

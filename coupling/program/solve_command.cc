@@ -74,14 +74,15 @@ namespace diptych::coupling
 
     std::vector<discrete::Impulse> r(problem.local.n_contacts());
     discrete::ThreadTeam           team(line.threads);
-    const discrete::SolveReport    report = form == discrete::ProblemForm::body ? discrete::solve(*problem.bodies, options, r, team)
-                                                           : discrete::solve(problem.local, options, r);
+    const discrete::SolveReport report = form == discrete::ProblemForm::body ? discrete::solve(*problem.bodies, options, r, team)
+                                                                             : discrete::solve(problem.local, options, r);
     print_problem(line, problem, form);
     print_result(line, report, problem.local, r);
     if (!line.output.empty())
       discrete::write_solution(line.target, line.output,
-                               {r, relative_velocities(problem.local, r), discrete::name_of(line.solver) + ", " + name_of(form) + " form",
-                                status_of(report), report.residual});
+                               {r, relative_velocities(problem.local, r),
+                                discrete::name_of(line.solver) + ", " + name_of(form) + " form", status_of(report),
+                                report.residual});
     return report.status == discrete::SolveStatus::converged ? done : not_converged;
   }
 } // namespace diptych::coupling

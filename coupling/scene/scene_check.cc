@@ -29,8 +29,8 @@ namespace diptych::coupling
           if (std::abs(k - std::round(k)) > 1e-6 || edge > last * (1 + 1e-9))
             throw std::invalid_argument("comparison/window_edges holds " + text_of(edge) +
                                         ", which is no stage: stages are multiples of loading/" +
-                                        (time ? "stage_time" : "stage_strain") + " = " + text_of(interval) +
-                                        " up to loading/" + (time ? "duration" : "axial_strain") + " = " + text_of(last));
+                                        (time ? "stage_time" : "stage_strain") + " = " + text_of(interval) + " up to loading/" +
+                                        (time ? "duration" : "axial_strain") + " = " + text_of(last));
         }
     }
 

@@ -34,10 +34,12 @@ namespace diptych::coupling
       return names;
     }
 
-    [[noreturn]] void refuse_section(const std::string &place, const std::string &section)
+    [[noreturn]] void refuse_section(const std::string              &place,
+                                     const std::string              &section,
+                                     const std::vector<std::string> &known = section_names())
     {
-      throw SceneError(place + "unknown section '" + section + "'; the nearest is '" +
-                       discrete::nearest_name(section, section_names()) + "'");
+      throw SceneError(place + "unknown section '" + section + "'; the nearest is '" + discrete::nearest_name(section, known) +
+                       "'");
     }
 
     [[noreturn]] void refuse_key(const Entry &entry)
@@ -86,8 +88,10 @@ namespace diptych::coupling
 
   Scene read_scene(const std::string &file, const std::vector<std::string> &overrides, const bool compares)
   {
+    if (std::filesystem::is_directory(file))
+      throw SceneError(file + ": is a folder; a scene file, .prm or .json, is needed");
     std::ifstream in(file);
-    if (!in || std::filesystem::is_directory(file))
+    if (!in)
       throw SceneError(file + ": cannot be read");
     const bool         json    = std::filesystem::path(file).extension() == ".json";
     std::vector<Entry> entries = json ? entries_of_json(file, in) : entries_of_prm(file, in);
@@ -153,9 +157,12 @@ namespace diptych::coupling
 
   std::string explain(const std::string &section)
   {
-    const std::vector<std::string> sections = section_names();
-    if (!section.empty() && std::find(sections.begin(), sections.end(), section) == sections.end())
-      refuse_section("", section);
+    std::vector<std::string> known = section_names();
+    if (!section.empty() && std::find(known.begin(), known.end(), section) == known.end())
+      {
+        known.push_back("results"); // which the command explains itself
+        refuse_section("", section, known);
+      }
     std::ostringstream out;
     std::string        current;
     for (const KeyDescription &key : describe(section))

@@ -33,11 +33,11 @@ namespace diptych::discrete
   {
     DelassusProblem local; // contacts in the order of the file; made from /fclib_global where that is all
     std::optional<ContactProblem>
-                         bodies;   // of our own group /nscd: discs, then walls; rows in the order of the file, swept upwards
+                         bodies; // of our own group /nscd: discs, then walls; rows in the order of the file, swept upwards
     ProblemForm          form = ProblemForm::local; // body where there are bodies
-    std::string          reason;   // why there are none
-    std::vector<Impulse> solution; // /solution/r; empty: none
-    std::vector<std::vector<Impulse>> guesses; // /guesses/1, 2, ...
+    std::string          reason;                    // why there are none
+    std::vector<Impulse> solution;                  // /solution/r; empty: none
+    std::vector<std::vector<Impulse>> guesses;      // /guesses/1, 2, ...
   };
 
   // The body form is taken where its W and q are those of the file within 1e-10 and no contact couples its normal and

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "discrete/bodies/outline.h"
+#include "discrete/files/csv_file.h"
 #include "discrete/samples/placed_grains.h"
 #include "discrete/samples/sample_file.h"
 #include "discrete/samples/soft_relaxation.h"
@@ -292,8 +293,8 @@ namespace diptych::discrete
     if (o.radius_distribution == RadiusKind::table)
       (void)read_for("radius_table", o.radius_table, read_radius_table);
     if (o.lower_platen && o.upper_platen && *o.lower_platen >= *o.upper_platen)
-      throw std::invalid_argument("sample/lower_platen " + exact_text(*o.lower_platen) +
-                                  " is not below sample/upper_platen " + exact_text(*o.upper_platen));
+      throw std::invalid_argument("sample/lower_platen " + exact_text(*o.lower_platen) + " is not below sample/upper_platen " +
+                                  exact_text(*o.upper_platen));
     if (o.left_wall && o.right_wall && *o.left_wall >= *o.right_wall)
       throw std::invalid_argument("sample/left_wall " + exact_text(*o.left_wall) + " is not left of sample/right_wall " +
                                   exact_text(*o.right_wall));

@@ -254,6 +254,8 @@ class WrongInput(unittest.TestCase):
         self.expect_wrong(["compare", "no_such_folder"], "no_such_folder")
         self.expect_wrong(["report", SOURCE], "comparison.json")
         self.expect_wrong(["explain", "sampel"], "sample")
+        self.expect_wrong(["explain", "resultz"], "results")
+        self.expect_wrong(["run", SOURCE], SOURCE, "folder")
 
     def test_a_truncated_result_is_named(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -41,11 +41,12 @@ namespace
   {
     const SolverOptions  options = options_for(solver, tolerance);
     std::vector<Impulse> r(problem.local.n_contacts());
-    const SolveReport    report = form == ProblemForm::body ? solve(*problem.bodies, options, r) : solve(problem.local, options, r);
-    EXPECT_EQ(report.status, SolveStatus::converged) << name_of(solver) << ", " << name_of(form) << ", residual " << report.residual;
+    const SolveReport report = form == ProblemForm::body ? solve(*problem.bodies, options, r) : solve(problem.local, options, r);
+    EXPECT_EQ(report.status, SolveStatus::converged)
+      << name_of(solver) << ", " << name_of(form) << ", residual " << report.residual;
     EXPECT_LE(natural_map_residual(problem.local, r), 1.01 * tolerance) << name_of(solver) << ", " << name_of(form);
-    std::cout << problem.local.n_contacts() << " contacts, " << name_of(solver) << ", " << name_of(form) << ", " << tolerance << ": "
-              << report.sweeps << " sweeps, " << report.cpu_s << " s, "
+    std::cout << problem.local.n_contacts() << " contacts, " << name_of(solver) << ", " << name_of(form) << ", " << tolerance
+              << ": " << report.sweeps << " sweeps, " << report.cpu_s << " s, "
               << 1e9 * report.cpu_s / double(report.sweeps * long(r.size())) << " ns an update\n";
     return r;
   }
@@ -65,7 +66,7 @@ namespace
           content.write(file.path);
           const StoredProblem problem = read_fclib(file.path);
           for (const ContactSolver solver : {ContactSolver::nsgs, ContactSolver::psor})
-            expect_complementary(problem.local, solved(problem, "local", solver, 1e-13), 1e-11);
+            expect_complementary(problem.local, solved(problem, ProblemForm::local, solver, 1e-13), 1e-11);
         }
   }
 
@@ -126,7 +127,7 @@ namespace
   {
     const TemporaryFile        file;
     const StoredProblem        problem = read_fclib(stored("small.h5"));
-    const std::vector<Impulse> r       = solved(problem, "body", ContactSolver::nsgs, 1e-8);
+    const std::vector<Impulse> r       = solved(problem, ProblemForm::body, ContactSolver::nsgs, 1e-8);
     const Hdf5Reader           reader(stored("small.h5"));
     const StoredGeometry       geometry = {reader.read("/nscd/dt")[0], reader.read("/nscd/gap"), reader.read("/nscd/radius"),
                                            reader.read_vectors("/nscd/x")};
@@ -137,7 +138,7 @@ namespace
     EXPECT_LT(relative_difference(problem.local, read_fclib_global(file.path)), 1e-13);
     EXPECT_EQ(Hdf5Reader(file.path).read_string("/fclib_local/info/title"), "a title");
     EXPECT_EQ(again.bodies->order, problem.bodies->order);
-    const std::vector<Impulse> r_again = solved(again, "body", ContactSolver::nsgs, 1e-8);
+    const std::vector<Impulse> r_again = solved(again, ProblemForm::body, ContactSolver::nsgs, 1e-8);
     for (std::size_t k = 0; k < r.size(); ++k)
       {
         EXPECT_EQ(again.solution[k].normal, r[k].normal);
@@ -215,7 +216,7 @@ namespace
   {
     const TemporaryFile        file;
     const StoredProblem        problem = read_fclib(stored("small.h5"));
-    const std::vector<Impulse> r       = solved(problem, "body", ContactSolver::psor, 1e-8);
+    const std::vector<Impulse> r       = solved(problem, ProblemForm::body, ContactSolver::psor, 1e-8);
     write_solution(stored("small.h5"), file.path,
                    {r, relative_velocities(problem.local, r), "psor", "converged", natural_map_residual(problem.local, r)});
     const StoredProblem again = read_fclib(file.path);

@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+# diptych: whatever stands in a file of results is explained, with the unit that the file itself tells
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: explain_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
+
+import csv
+import json
+import os
+import re
+import tempfile
+import unittest
+
+import h5py
+
+from running import QUICK, diptych, main, setting
+
+TINY = setting(sample_grains=150, loading_inertial_number=1e-3, loading_axial_strain=0.01, discrete_step=0.1,
+               discrete_tolerance=1e-4, discrete_snapshot_max_sweeps=100, discrete_reference_sweeps=0,
+               comparison_window_edges="0,0.01", continuum_element_size=2.5, comparison_coarse_element_size=3,
+               output_report="false")
+INTERVAL = {"value", "low", "high"}
+
+
+def explained():
+    """Heading -> name -> (unit, shape) of `diptych explain results`."""
+    found, heading = {}, None
+    for line in diptych("explain", "results").stdout.splitlines():
+        entry = re.fullmatch(r"  (\S.*?)  \[(.*?)\]  (.*)", line)
+        if entry:
+            names = entry[1]
+            for name in [names] if not names.startswith("cells/, grid/ ") else [p + names[14:] for p in ("cells/", "grid/")]:
+                assert name not in found[heading], f"{heading}: {name} twice"
+                found[heading][name] = entry[2], entry[3]
+        elif line and not line.startswith(" "):
+            heading = line
+            found.setdefault(heading, {})
+    return found
+
+
+def places(value, place=""):
+    """Keys on the way to every value of a JSON file; a list's entries stand under the list's key."""
+    if isinstance(value, dict) and not INTERVAL <= set(value):
+        for key, part in value.items():
+            inner = place + "/" + key if place else key
+            yield inner
+            yield from places(part, inner)
+    elif isinstance(value, list):
+        for part in value:
+            if isinstance(part, dict):
+                yield from places(part, place)
+
+
+class Results(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.keep = tempfile.TemporaryDirectory()
+        cls.ensemble, cls.study, cls.point = (os.path.join(cls.keep.name, name) for name in ("ensemble", "study", "point"))
+        for words in (["run", "--seeds", "1-2", "--output", cls.ensemble], ["discrete", "--study", "step", "--output", cls.study],
+                      ["material-point", "--output", cls.point]):
+            result = diptych(words[0], QUICK, *TINY, *words[1:], "--quiet")
+            assert result.returncode == 0, result.stderr
+        cls.run_ = os.path.join(cls.ensemble, "seed_1")
+        cls.explained = explained()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.keep.cleanup()
+
+    def entries(self, file, group=None):
+        """Those of every heading that names the file and, if any, the group."""
+        found = {}
+        for heading, entries in self.explained.items():
+            parts = [part.strip() for part in re.split("[,;]", heading)]
+            if file in (part.split(" ")[0] for part in parts) and (group is None or any(part.endswith(group) for part in parts)):
+                found.update(entries)
+        self.assertTrue(found, f"nothing is said of {file} {group or ''}")
+        return found
+
+    def test_columns_of_tables(self):
+        for folder, name in ((self.run_, "discrete.csv"), (self.run_, "continuum.csv"), (self.point, "material_point.csv"),
+                             (self.run_, "comparison.csv"), (self.ensemble, "ensemble.csv"), (self.study, "study_step.csv")):
+            with open(os.path.join(folder, name), encoding="utf-8") as file:
+                columns = [column for column in next(csv.reader(file)) if not re.fullmatch("seed_[0-9]+", column)]
+            self.assertGreater(len(columns), 5)
+            self.assertEqual([column for column in columns if column not in self.entries(name)], [], name)
+
+    def test_keys_of_json_files(self):
+        for folder, name in ((self.run_, "comparison.json"), (self.run_, "provenance.json"), (self.ensemble, "ensemble.json"),
+                             (self.ensemble, "provenance.json"), (self.study, "study_step.json")):
+            with open(os.path.join(folder, name), encoding="utf-8") as file:
+                record = json.load(file)
+            record.pop("numbers", None)  # what explains the file itself
+            found = set(places(record))
+            self.assertGreater(len(found), 5)
+            self.assertEqual(sorted(found - set(self.entries(name))), [], name)
+
+    def test_arrays_and_attributes_of_hdf5_files(self):
+        groups = {"discrete.h5": {"stage_0001": "stage_NNNN"}, "continuum.h5": {"stage_0001": "stage_NNNN"},
+                  "comparison.h5": {"stage_0001": "stage_NNNN", "window_0": "window_N", "histories/discrete": "histories/discrete "
+                                    "and histories/continuum"},
+                  "ensemble.h5": {"discrete/stress_ratio": "PANEL/stress_ratio and PANEL/volumetric_strain"}}
+        for name, of_file in groups.items():
+            with h5py.File(os.path.join(self.ensemble if name == "ensemble.h5" else self.run_, name)) as file:
+                self.assertEqual([key for key in file.attrs if key not in self.entries(name)], [], name)
+                for group, heading in of_file.items():
+                    said, n_arrays = self.entries(name, heading), 0
+                    wrong = [key for key in file[group].attrs if key not in said]
+
+                    def look(path, item):
+                        nonlocal n_arrays
+                        if isinstance(item, h5py.Dataset):
+                            n_arrays += 1
+                            unit = item.attrs.get("unit", "none")
+                            if said.get(path, ("nothing", ))[0] != (unit.decode() if isinstance(unit, bytes) else unit):
+                                wrong.append(f"{path} [{unit}], explained {said.get(path)}")
+                    file[group].visititems(look)
+                    self.assertGreater(n_arrays, 3)
+                    self.assertEqual(wrong, [], f"{name} {group}")
+
+    def test_arrays_of_paraview_files(self):
+        for name, heading in (("fields.vtu", "comparison.h5"), ("grid.vtu", "comparison.h5"),
+                              ("continuum/stage_0001.vtu", "continuum.h5")):
+            with open(os.path.join(self.run_, name), "rb") as file:
+                text = file.read().decode(errors="ignore")
+            arrays = set(re.findall('Name="([^"]+)"', text)) - {"connectivity", "offsets", "types", "Points"}
+            self.assertGreater(len(arrays), 8)
+            known = {path.rsplit("/", 1)[-1] for path in self.entries(heading, "stage_NNNN")}
+            self.assertEqual(sorted(arrays - known), [], name)
+
+
+if __name__ == "__main__":
+    main()
