@@ -303,6 +303,18 @@ namespace diptych::coupling
         entry.value *= sign.emplace(band_of(entry.name), 1).first->second;
   }
 
+  std::string text_of(const BandCount &count)
+  {
+    const int   n = count.members[0] + count.members[1] + count.members[2];
+    std::string text;
+    for (const auto &[words, members] :
+         {std::pair{"one band", count.members[1]}, std::pair{"two bands", count.members[2]}, std::pair{"none", count.members[0]}})
+      if (members > 0)
+        text += (text.empty() ? "" : ", ") + std::string(words) + " in " + std::to_string(members) +
+                (text.empty() ? " of " + std::to_string(n) : "");
+    return text;
+  }
+
   Ensemble evaluate(const std::vector<Member> &members, const EquivalenceMargins &margins)
   {
     Ensemble ensemble;

@@ -76,5 +76,24 @@ namespace diptych::coupling
     std::vector<PanelVerdict> verdicts; // peak stress ratio, volumetric strain, angle and thickness of each window
   };
 
+  std::string text_of(const BandCount &count); // "one band in 6 of 8, none in 2"
+
   Ensemble evaluate(const std::vector<Member> &members, const EquivalenceMargins &margins);
+
+  // A realisation that ended with another exit code than 0.
+  struct FailedMember
+  {
+    int         seed      = 0;
+    int         exit_code = 0; // 128 + signal where a signal ended it
+    std::string message;
+  };
+
+  // What became of each seed.
+  struct EnsembleRecord
+  {
+    std::vector<int>          seeds;       // asked for, ascending
+    std::vector<FailedMember> failed;      // ascending
+    std::vector<int>          interrupted; // stopped or not begun, ascending
+    Ensemble                  ensemble;    // of the rest
+  };
 } // namespace diptych::coupling

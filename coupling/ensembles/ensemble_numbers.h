@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/ensembles/ensemble_output.h"
+#include "coupling/ensembles/ensemble.h"
 #include "coupling/numbers/number_entry.h"
 #include "coupling/statistics/student.h"
 
