@@ -212,7 +212,9 @@ namespace
         for (const auto &[file, includes] : sources(DIPTYCH_SOURCE_DIR, "coupling"))
           for (const std::string &include : includes)
             if (folder_of(include) == panel)
-              EXPECT_EQ(listed.count(include), 1u) << file << " includes " << include;
+              {
+                EXPECT_EQ(listed.count(include), 1u) << file << " includes " << include;
+              }
       }
   }
 
