@@ -187,6 +187,81 @@ namespace diptych::coupling
       return band_intervals(data, fit, sample, {options.correlation_length, options.resamples, seed},
                             [&](const BandFit &refit, const std::size_t b) { return objection(refit, b, sample, 0).empty(); });
     }
+
+    BandFitOptions fit_options_of(const SampleFrame &frame, const BandOptions &options)
+    {
+      BandFitOptions fit;
+      fit.width           = frame.width / frame.mean_diameter;
+      fit.height          = frame.height / frame.mean_diameter;
+      fit.huber_threshold = options.huber_threshold;
+      fit.scale_floor     = options.residual_floor;
+      return fit;
+    }
+
+    // The best fit with no, one, two bands, as many as are allowed.
+    std::vector<BandFit> fits_of(const BandData &data, const BandFitOptions &sample, const BandOptions &options)
+    {
+      const BandData       blocks = block_means(data, std::min(4., std::min(sample.width, sample.height) / 10));
+      std::vector<BandFit> fits   = {fit_bands(data, {}, sample)};
+      if (options.max_bands < 1)
+        return fits;
+      const LineScan      scan(blocks, sample);
+      std::vector<Shapes> starts;
+      for (const auto &line : scan.best_lines({}, 3))
+        starts.push_back({line});
+      fits.push_back(best_fit(data, blocks, starts, sample, options));
+      if (options.max_bands < 2)
+        return fits;
+      starts.clear();
+      for (const auto &line : scan.best_lines(fits[1].shape, 2))
+        starts.push_back({fits[1].shape[0], line});
+      if (const Shapes pair = scan.best_pair(); !pair.empty())
+        starts.push_back(pair);
+      fits.push_back(best_fit(data, blocks, starts, sample, options));
+      return fits;
+    }
+
+    // How many bands there are, and why not more: one word of objection for each fit, empty where it may be taken.
+    struct Choice
+    {
+      std::size_t                best = 0;
+      std::array<std::string, 3> objections;
+    };
+
+    // BIC = n log(variance) + p log(n); p = 6 affine coefficients and 5 for each band
+    Choice choose(const std::vector<BandFit> &fits, const BandFitOptions &sample, const BandOptions &options, BandReport &report)
+    {
+      Choice choice;
+      for (std::size_t k = 0; k < fits.size(); ++k)
+        {
+          choice.objections[k] = objection(fits[k], sample, options.minimum_jump);
+          if (!choice.objections[k].empty())
+            continue;
+          report.residual[k]    = std::sqrt(fits[k].robust_variance);
+          const double variance = fits[k].robust_variance + std::pow(options.residual_floor, 2);
+          report.bic[k]         = report.n_effective * std::log(variance) + (6 + 5. * k) * std::log(report.n_effective);
+          if (report.bic[k] < report.bic[choice.best])
+            choice.best = k;
+        }
+      return choice;
+    }
+
+    std::string verdict(const Choice &choice, const std::size_t n_fits, const BandReport &report)
+    {
+      const std::array<std::string, 3> names = {{"diffuse", "one band", "two bands"}};
+      std::string                      text  = names[choice.best];
+      if (choice.best == 1)
+        text += report.bands[0].between_packs() ? " between two packs"
+                                                : ", no zone between two packs: " + report.bands[0].no_packs_because;
+      if (choice.best + 1 < n_fits)
+        {
+          const std::string &objection = choice.objections[choice.best + 1];
+          text += "; no further band: " + (objection.empty() ? "it lowers the misfit too little" : objection);
+        }
+      if (!report.converged && choice.best != 1)
+        text += " (fit not converged)";
+      return text;
+    }
   } // namespace
 
   BandReport find_bands(const DisplacementField &field,
@@ -194,56 +269,18 @@ namespace diptych::coupling
                         const BandOptions       &options,
                         const std::uint64_t      seed)
   {
-    const BandData data = scaled_data(field, frame);
-    BandFitOptions fit_options;
-    fit_options.width           = frame.width / frame.mean_diameter;
-    fit_options.height          = frame.height / frame.mean_diameter;
-    fit_options.huber_threshold = options.huber_threshold;
-    fit_options.scale_floor     = options.residual_floor;
-
-    BandReport report;
+    const BandData       data   = scaled_data(field, frame);
+    const BandFitOptions sample = fit_options_of(frame, options);
+    BandReport           report;
     // two components in each block of one correlation length
-    report.n_effective = std::clamp(2 * fit_options.width * fit_options.height / std::pow(options.correlation_length, 2), 8.,
+    report.n_effective = std::clamp(2 * sample.width * sample.height / std::pow(options.correlation_length, 2), 8.,
                                     2. * data.x.size());
 
-    const BandData       blocks = block_means(data, std::min(4., std::min(fit_options.width, fit_options.height) / 10));
-    std::vector<BandFit> fits   = {fit_bands(data, {}, fit_options)};
-    if (options.max_bands >= 1)
-      {
-        const LineScan      scan(blocks, fit_options);
-        std::vector<Shapes> starts;
-        for (const auto &line : scan.best_lines({}, 3))
-          starts.push_back({line});
-        fits.push_back(best_fit(data, blocks, starts, fit_options, options));
-        if (options.max_bands >= 2)
-          {
-            starts.clear();
-            for (const auto &line : scan.best_lines(fits[1].shape, 2))
-              starts.push_back({fits[1].shape[0], line});
-            if (const Shapes pair = scan.best_pair(); !pair.empty())
-              starts.push_back(pair);
-            fits.push_back(best_fit(data, blocks, starts, fit_options, options));
-          }
-      }
-
-    // BIC = n log(variance) + p log(n); p = 6 affine coefficients and 5 for each band
-    std::size_t                best = 0;
-    std::array<std::string, 3> objections;
-    for (std::size_t k = 0; k < fits.size(); ++k)
-      {
-        objections[k] = objection(fits[k], fit_options, options.minimum_jump);
-        if (!objections[k].empty())
-          continue;
-        report.residual[k]    = std::sqrt(fits[k].robust_variance);
-        const double variance = fits[k].robust_variance + std::pow(options.residual_floor, 2);
-        report.bic[k]         = report.n_effective * std::log(variance) + (6 + 5. * k) * std::log(report.n_effective);
-        if (report.bic[k] < report.bic[best])
-          best = k;
-      }
-
-    const BandFit fit = with_folded_angles(fits[best]);
-    report.converged  = fit.converged;
-    for (const BandIntervals &numbers : intervals_of(data, fit, fit_options, options, seed))
+    const std::vector<BandFit> fits   = fits_of(data, sample, options);
+    const Choice               choice = choose(fits, sample, options, report);
+    const BandFit              fit    = with_folded_angles(fits[choice.best]);
+    report.converged                  = fit.converged;
+    for (const BandIntervals &numbers : intervals_of(data, fit, sample, options, seed))
       {
         Band band = reported_band(numbers, frame.mean_diameter);
         add_r_squared(data, fit, frame, band);
@@ -252,17 +289,7 @@ namespace diptych::coupling
       }
     std::stable_sort(report.bands.begin(), report.bands.end(),
                      [](const Band &a, const Band &b) { return std::abs(a.jump) > std::abs(b.jump); });
-
-    const std::array<std::string, 3> names = {{"diffuse", "one band", "two bands"}};
-    report.verdict                         = names[best];
-    if (best == 1)
-      report.verdict += report.bands[0].between_packs() ? " between two packs"
-                                                        : ", no zone between two packs: " + report.bands[0].no_packs_because;
-    if (best + 1 < fits.size())
-      report.verdict += "; no further band: " +
-                        (objections[best + 1].empty() ? std::string("it lowers the misfit too little") : objections[best + 1]);
-    if (!fit.converged && best != 1)
-      report.verdict += " (fit not converged)";
+    report.verdict = verdict(choice, fits.size(), report);
     return report;
   }
 } // namespace diptych::coupling

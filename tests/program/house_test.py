@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# diptych: how the sources look: formatted as .clang-format says, no file above what CONTRIBUTING.md allows
+# diptych: how the sources look: formatted as .clang-format says, no file and no function above what CONTRIBUTING.md allows
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: house_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
 
@@ -20,19 +20,60 @@ def sources(*endings):
                   for name in names if name.endswith(endings))
 
 
-def allowed_lines():
-    """The number that CONTRIBUTING.md states."""
-    text = content(os.path.join(SOURCE, "CONTRIBUTING.md")).decode()
-    return int(re.search(r"One idea a file \(about \d+ lines, (\d+) at most\)", text).group(1))
+def allowed(pattern):
+    """The numbers that CONTRIBUTING.md states."""
+    text = " ".join(content(os.path.join(SOURCE, "CONTRIBUTING.md")).decode().split())
+    return [int(number) for number in re.search(pattern, text).groups()]
+
+
+CONTROL = re.compile(r"(if|for|while|else|do|switch|try|catch|namespace|struct|class|enum|union|extern)\b")
+
+
+def functions(path):
+    """(lines of the body, arguments, line, head) of every function of a formatted source; lists of keys and numbers, which call
+    a visitor line by line, left out."""
+    lines = content(path).decode().split("\n")
+    for k, line in enumerate(lines):
+        brace = re.fullmatch(r"( *)\{", line)
+        if not brace or k == 0:
+            continue
+        first = k - 1
+        while first > 0 and lines[first].startswith(brace[1] + " "):
+            first -= 1
+        head = " ".join(part.strip() for part in lines[first:k])
+        if not lines[first].startswith(brace[1]) or CONTROL.match(head) or "(" not in head:
+            continue
+        if re.search(r"\b(visit_|list_)\w*\(", head):
+            continue
+        end = k + 1
+        while not lines[end].startswith(brace[1] + "}"):
+            end += 1
+        plain = head
+        while re.search(r"<[^<>]*>", plain):
+            plain = re.sub(r"<[^<>]*>", "", plain)
+        listed = re.search(r"\w\s*\(((?:[^()]|\([^()]*\))*)\)", plain)
+        words = re.sub(r"\([^()]*\)", "", listed[1]).strip() if listed else ""
+        yield end - k - 1, words.count(",") + 1 if words else 0, k, head
 
 
 class House(unittest.TestCase):
     def test_no_file_is_longer_than_allowed(self):
-        most = allowed_lines()
+        most, = allowed(r"One idea a file \(about \d+ lines, (\d+) at most\)")
         files = sources(".h", ".cc", ".py", ".js")
         self.assertGreater(len(files), 300)
         long = {os.path.relpath(path, SOURCE): content(path).count(b"\n") for path in files}
         self.assertEqual({path: lines for path, lines in long.items() if lines > most}, {})
+
+    def test_no_function_is_longer_or_takes_more_than_allowed(self):
+        most_lines, most_arguments = allowed(r"functions of about \d+ lines \((\d+) at most.*?arguments \((\d+) at most\)")
+        found = [(os.path.relpath(path, SOURCE), *function) for path in sources(".h", ".cc")
+                 if not os.path.relpath(path, SOURCE).startswith("tests") for function in functions(path)]
+        self.assertGreater(len(found), 1500)
+        self.assertGreater(max(lines for _, lines, *_ in found), most_lines // 2)
+        self.assertEqual([one for one in found if one[1] > most_lines or one[2] > most_arguments], [])
+        with tempfile.TemporaryDirectory() as work:  # it can fail
+            path = write(os.path.join(work, "long.cc"), "int f(const A<int, B> a,\n      int b)\n{\n" + "  ++a;\n" * 70 + "}\n")
+            self.assertEqual([function[:2] for function in functions(path)], [(70, 2)])
 
     def misformatted(self, files):
         words = ["clang-format", "--style=file:" + os.path.join(SOURCE, ".clang-format"), "--dry-run", *files]
