@@ -31,6 +31,8 @@ namespace diptych::coupling
                       const discrete::Snapshot *grains,
                       double                    solid_fraction,
                       bool                      resume);
+    RecordedContinuum(const RecordedContinuum &)            = delete; // the panel's hooks call this one
+    RecordedContinuum &operator=(const RecordedContinuum &) = delete;
 
     const continuum::Report &run();
 
