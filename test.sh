@@ -2,7 +2,9 @@
 # Installs what is missing (Debian 12), builds Release and runs the tests.
 #   ./test.sh         all but the long ones (label slow)
 #   ./test.sh --all   the long ones too
-#   ./test.sh debug | sanitize | discrete   the same on another preset of CMakePresets.json
+#   ./test.sh discrete   all of the discrete panel alone (Eigen and HDF5 only)
+#   ./test.sh debug      tests of units, in discrete/, continuum/ and coupling/, with assertions of deal.II, Eigen and our own
+#   ./test.sh sanitize   tests of units, in discrete/ and coupling/, with address and undefined-behaviour sanitizers
 set -euo pipefail
 cd "$(dirname "$0")"
 source ./.build.sh
@@ -16,7 +18,14 @@ for word in "$@"; do
     *) echo "usage: ./test.sh [--all] [release|debug|sanitize|discrete]" >&2; exit 2 ;;
   esac
 done
+targets=(all)
+case "$preset" in
+  debug) targets=(house_tests discrete_tests continuum_tests coupling_tests coupling_panel_tests)
+         select+=(-R '^(house[.]House|discrete|continuum|coupling|coupling_panels)[.]') ;;
+  sanitize) targets=(house_tests discrete_tests coupling_tests)
+            select+=(-R '^(house[.]House|discrete|coupling)[.]') ;;
+esac
 packages+=(chromium python3-meshio dpkg-dev clang-format) # the tests alone: they open report.html, read the ParaView files back, make a package
 install_missing
-build "$preset" all
+build "$preset" "${targets[@]}"
 ctest --test-dir build/"$preset" --output-on-failure -j "$(nproc)" "${select[@]}"
