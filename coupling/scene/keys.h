@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "continuum/options.h"
-#include "discrete/options.h"
+#include "discrete/panel/options.h"
 
 namespace diptych::coupling
 {

@@ -10,7 +10,7 @@
 #include "coupling/bands/band_options.h"
 #include "coupling/probes/probe_options.h"
 #include "coupling/statistics/equivalence_margins.h"
-#include "discrete/options.h"
+#include "discrete/panel/options.h"
 
 namespace diptych::coupling
 {

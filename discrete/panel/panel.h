@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "discrete/options.h"
 #include "discrete/panel/history.h"
+#include "discrete/panel/options.h"
 #include "discrete/panel/window_forces.h"
 #include "discrete/problem_files/fclib.h"
 #include "discrete/snapshot.h"

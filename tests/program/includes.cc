@@ -58,7 +58,7 @@ namespace
     return path.substr(0, path.find('/'));
   }
 
-  // "contacts" of discrete/contacts/law.h; "" of discrete/options.h.
+  // "contacts" of discrete/contacts/law.h; "" of discrete/snapshot.h.
   std::string room_of(const std::string &path)
   {
     const std::size_t first = path.find('/'), second = path.find('/', first + 1);

@@ -1,6 +1,6 @@
 // diptych: everything that a scene says of the discrete panel, checked
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "discrete/options.h"
+#include "discrete/panel/options.h"
 
 #include <algorithm>
 #include <stdexcept>
