@@ -102,6 +102,15 @@ class Failures(unittest.TestCase):
         for wrong in ("max_sweeps", "did not converge"):
             self.assertNotIn(wrong, facts(self.folder)["message"])
 
+    def test_no_folder_for_temporary_files(self):
+        """MPI needs one, and where it has none ends the process by itself, with an exit code that says nothing."""
+        result = subprocess.run([PROGRAM, "continuum", QUICK, *FEW, *RECTANGLE, "--output", self.folder, "--quiet"],
+                                env=dict(ENVIRONMENT, TMPDIR=os.path.join(self.work, "none")), capture_output=True, text=True,
+                                check=False)
+        self.assertEqual(result.returncode, 4, result.stderr)
+        self.assertIn("TMPDIR", result.stderr)
+        self.assertFalse(os.path.exists(self.folder))
+
     def test_on_two_processes_one_code_and_one_message(self):
         os.makedirs(os.path.join(self.folder, "continuum.csv.part", "mine"))
         write(os.path.join(self.folder, "scene.prm"), "# every parameter, as it was used\n")
