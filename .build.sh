@@ -23,6 +23,11 @@ install_missing() {
   "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
+# Cores that this process may use; nproc alone would take OMP_NUM_THREADS, which is about something else.
+cores() {
+  env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc
+}
+
 # build PRESET TARGET...: at most one compiler per 2.5 GB of memory, which a deal.II unit takes.
 build() {
   local preset=$1 jobs memory_gb log
@@ -30,7 +35,7 @@ build() {
   memory_gb=$(awk '/MemAvailable/ {print int($2 / 1048576)}' /proc/meminfo)
   jobs=$((memory_gb * 2 / 5))
   [ "$jobs" -ge 1 ] || jobs=1
-  [ "$jobs" -le "$(nproc)" ] || jobs=$(nproc)
+  [ "$jobs" -le "$(cores)" ] || jobs=$(cores)
   log=$(mktemp)
   cmake --preset "$preset" >"$log" 2>&1 || { cat "$log"; return 1; }
   rm -f "$log"

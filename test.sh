@@ -28,4 +28,4 @@ esac
 packages+=(chromium python3-meshio dpkg-dev clang-format) # the tests alone: they open report.html, read the ParaView files back, make a package
 install_missing
 build "$preset" "${targets[@]}"
-ctest --test-dir build/"$preset" --output-on-failure -j "$(nproc)" "${select[@]}"
+ctest --test-dir build/"$preset" --output-on-failure -j "$(cores)" "${select[@]}"

@@ -156,7 +156,8 @@ namespace diptych::coupling
       void add_others()
       {
         add(Command::explain, "every key of a scene: default, unit, range, meaning; or all that result files hold")
-          ->add_option("SECTION", line.target, "a section of a scene, or: results");
+          ->add_option("SECTION", line.target, "a section of a scene, or what the files of results hold (default: all sections)")
+          ->type_name("{" + joined(section_names(), ",") + ",results}");
         add(Command::completion, "a script that completes command lines: source <(diptych completion bash)")
           ->add_option("SHELL", line.target)
           ->required()

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/program/completion.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include <CLI/App.hpp>
@@ -24,6 +25,27 @@ namespace diptych::coupling
       for (const KeyDescription &key : keys)
         words.push_back(key.section + "/" + key.name + "=");
       return joined(words);
+    }
+
+    // What an option or a word may be, where that is one of a few: CLI11 tells it as TEXT:{a,b}.
+    std::string values_of(const CLI::Option &option)
+    {
+      const std::string type = option.get_type_name();
+      const std::size_t open = type.find('{'), close = type.find('}');
+      if (open == std::string::npos || close == std::string::npos)
+        return "";
+      std::string values = type.substr(open + 1, close - open - 1);
+      std::replace(values.begin(), values.end(), ',', ' ');
+      return values;
+    }
+
+    std::string words_of(CLI::App &command)
+    {
+      std::string words;
+      for (const CLI::Option *option : command.get_options())
+        if (option->get_lnames().empty())
+          words += values_of(*option);
+      return words;
     }
   } // namespace
 
@@ -48,21 +70,29 @@ namespace diptych::coupling
   {
     std::ostringstream       out;
     std::vector<std::string> commands;
+    std::string              choices; // a line for each option that has a few
     out << "# diptych: completion, made by `diptych completion " << shell << "`\n";
     if (shell == "zsh")
       out << "autoload -U +X bashcompinit && bashcompinit\n";
-    out << "_diptych()\n{\n  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} options=\"\"\n"
+    out << "_diptych()\n{\n  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} options=\"\" words=\"\"\n"
         << "  case ${COMP_WORDS[1]} in\n";
     for (CLI::App *command : app.get_subcommands({}))
       {
         commands.push_back(command->get_name());
-        out << "    " << command->get_name() << ") options=\"" << joined(option_names(*command)) << "\" ;;\n";
+        out << "    " << command->get_name() << ") options=\"" << joined(option_names(*command)) << "\" words=\""
+            << words_of(*command) << "\" ;;\n";
+        for (const CLI::Option *option : command->get_options())
+          if (const std::string values = values_of(*option); !values.empty() && !option->get_lnames().empty())
+            choices += "    \"" + command->get_name() + " --" + option->get_lnames().front() + "\") COMPREPLY=($(compgen -W \"" +
+                       values + "\" -- \"$word\")); return ;;\n";
       }
-    out << "  esac\n  if [ \"$COMP_CWORD\" -eq 1 ]; then\n    COMPREPLY=($(compgen -W \"" << joined(commands)
+    out << "  esac\n  case \"${COMP_WORDS[1]} $before\" in\n"
+        << choices << "  esac\n  if [ \"$COMP_CWORD\" -eq 1 ]; then\n    COMPREPLY=($(compgen -W \"" << joined(commands)
         << " --help --version\" -- \"$word\"))\n"
         << "  elif [ \"$before\" = --set ]; then\n    compopt -o nospace 2>/dev/null\n    COMPREPLY=($(compgen -W \""
         << keys_of_scenes() << "\" -- \"$word\"))\n"
         << "  elif [ \"${word#-}\" != \"$word\" ]; then\n    COMPREPLY=($(compgen -W \"$options\" -- \"$word\"))\n"
+        << "  elif [ -n \"$words\" ]; then\n    COMPREPLY=($(compgen -W \"$words\" -- \"$word\"))\n"
         << "  else\n    compopt -o filenames 2>/dev/null\n    COMPREPLY=($(compgen -f -- \"$word\"))\n  fi\n}\n"
         << "complete -F _diptych diptych\n";
     return out.str();

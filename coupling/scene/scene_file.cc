@@ -26,14 +26,6 @@ namespace diptych::coupling
       return keys;
     }
 
-    std::vector<std::string> section_names()
-    {
-      std::vector<std::string> names;
-      Scene                    scene;
-      for_each_section(scene, [&](const char *section, auto &) { names.push_back(section); });
-      return names;
-    }
-
     [[noreturn]] void refuse_section(const std::string              &place,
                                      const std::string              &section,
                                      const std::vector<std::string> &known = section_names())
@@ -85,6 +77,14 @@ namespace diptych::coupling
       return path.stem() == "scene" ? path.parent_path().filename().string() : path.stem().string();
     }
   } // namespace
+
+  std::vector<std::string> section_names()
+  {
+    std::vector<std::string> names;
+    Scene                    scene;
+    for_each_section(scene, [&](const char *section, auto &) { names.push_back(section); });
+    return names;
+  }
 
   Scene read_scene(const std::string &file, const std::vector<std::string> &overrides, const bool compares)
   {

@@ -29,6 +29,8 @@ namespace diptych::coupling
   // where there is no echo, or one of a version with other keys.
   std::optional<Scene> echoed_scene(const std::string &file);
 
+  std::vector<std::string> section_names();
+
   // Every key of a section (of all, if empty): default, unit, range, meaning. Throws SceneError on an unknown section.
   std::string explain(const std::string &section);
 } // namespace diptych::coupling

@@ -277,6 +277,21 @@ class Help(unittest.TestCase):
             self.assertIn(key, result.stdout)
 
 
+    def test_completion_offers_commands_options_keys_and_values(self):
+        with tempfile.TemporaryDirectory() as folder:
+            script = os.path.join(folder, "completion")
+            with open(script, "w") as file:
+                file.write(diptych("completion", "bash").stdout)
+            for words, offered in ((["ru"], "run"), (["run", "scene.prm", "--see"], "--seeds"), (["solve", "--solver", ""], "psor"),
+                                   (["solve", "--form", "lo"], "local"), (["explain", "samp"], "sample"), (["explain", "res"], "results"),
+                                   (["completion", ""], "zsh"), (["run", "--set", "discrete/fric"], "discrete/friction=")):
+                quoted = " ".join(f"'{word}'" for word in ["diptych", *words])
+                told = subprocess.run(["bash", "-c", f"source {script}; COMP_WORDS=({quoted}); COMP_CWORD={len(words)}; _diptych; "
+                                       "echo ${COMPREPLY[@]}"], capture_output=True, text=True, check=True).stdout.split()
+                self.assertIn(offered, told, words)
+                self.assertLess(len(told), 20, words)
+
+
 class Interruption(unittest.TestCase):
     def test_ctrl_c_keeps_what_was_done(self):
         with tempfile.TemporaryDirectory() as folder:
