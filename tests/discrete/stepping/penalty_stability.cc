@@ -127,6 +127,7 @@ namespace
         const StepResult result = penalty.advance(state);
         if (result.solve.status == SolveStatus::converged)
           continue;
+        EXPECT_EQ(result.solve.status, SolveStatus::blown_up); // nothing was swept
         EXPECT_TRUE(std::isinf(result.solve.residual));
         EXPECT_EQ(state.grains.position, before.grains.position);
         EXPECT_EQ(state.grains.velocity, before.grains.velocity);
