@@ -59,15 +59,15 @@ namespace diptych::continuum
     return unused;
   }
 
-  std::vector<std::string> doubtful_values(const Options &o)
+  std::vector<DoubtfulValue> doubtful_values(const Options &o)
   {
-    constexpr double         softest = 50, stiffest = 1e6, most_cohesive = 1;
-    std::vector<std::string> told;
-    const auto               tell = [&](const bool doubtful, const char *key, const double value, const std::string &why) {
+    constexpr double           softest = 50, stiffest = 1e6, most_cohesive = 1;
+    std::vector<DoubtfulValue> told;
+    const auto                 tell = [&](const bool doubtful, const char *key, const double value, const std::string &why) {
       std::ostringstream text;
-      text << key << " = " << value << " (in units of loading/pressure) " << why;
+      text << " = " << value << " (in units of loading/pressure) " << why;
       if (doubtful)
-        told.push_back(text.str());
+        told.push_back({key, text.str()});
     };
     const double E = o.material.elastic.youngs_modulus;
     tell(E < softest, "youngs_modulus", E, "is below 50: the sample is squeezed by percents before it yields");

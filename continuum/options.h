@@ -191,6 +191,10 @@ namespace diptych::continuum
   // Keys that nothing reads as the options stand.
   std::vector<UnusedKey> unused_keys(const Options &options);
 
-  // Pointed out, not refused: moduli and cohesions that no granular sample has. In words that name key and value.
-  std::vector<std::string> doubtful_values(const Options &options);
+  // Pointed out, not refused: moduli and cohesions that no granular sample has. `words` go on behind the key.
+  struct DoubtfulValue
+  {
+    std::string key, words; // "youngs_modulus", " = 49 (in units of ...) is below 50: ..."
+  };
+  std::vector<DoubtfulValue> doubtful_values(const Options &options);
 } // namespace diptych::continuum

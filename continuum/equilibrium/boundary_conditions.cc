@@ -203,7 +203,7 @@ namespace diptych::continuum
     AffineConstraints<double> constraints;
     constraints.copy_from(unresolved);
     for (const auto &rule : rules)
-      if (rule.value != nullptr && constraints.is_constrained(rule.dof))
+      if (rule.value != nullptr && constraints.get_local_lines().is_element(rule.dof) && constraints.is_constrained(rule.dof))
         constraints.set_inhomogeneity(rule.dof, (*rule.value)(to) - (*rule.value)(from));
     constraints.close();
     return constraints;

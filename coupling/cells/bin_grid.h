@@ -8,6 +8,8 @@
 
 #include <Eigen/Core>
 
+#include "discrete/contacts/counted_bins.h"
+
 namespace diptych::coupling
 {
   // Columns and rows of bins that a box meets: [column_begin, column_end) x [row_begin, row_end).
@@ -53,29 +55,16 @@ namespace diptych::coupling
     int row_of(const Eigen::Vector2d &x) const { return int(std::floor((x.y() - origin.y()) / size)); }
     int column_of(const Eigen::Vector2d &x) const { return int(std::floor((x.x() - origin.x()) / size)); }
 
-    // Sorts items 0 .. n - 1: bins_of(item, action) calls action(bin) for every bin of an item.
+    // As CountedBins::sort().
     template <class BinsOf> void sort(const std::size_t n, BinsOf &&bins_of)
     {
-      begin.assign(std::size_t(columns) * rows + 1, 0);
-      for (unsigned int i = 0; i < n; ++i)
-        bins_of(i, [this](const std::size_t bin) { ++begin[bin + 1]; });
-      for (std::size_t b = 1; b < begin.size(); ++b)
-        begin[b] += begin[b - 1];
-      items.resize(begin.back());
-      std::vector<unsigned int> next(begin.begin(), begin.end() - 1);
-      for (unsigned int i = 0; i < n; ++i)
-        bins_of(i, [&](const std::size_t bin) { items[next[bin]++] = i; });
+      bins.sort(std::size_t(columns) * rows, n, bins_of);
     }
 
-    // Items of a bin: sorted()[begins(bin)] .. sorted()[begins(bin + 1) - 1].
-    unsigned int                     begins(const std::size_t bin) const { return begin[bin]; }
-    const std::vector<unsigned int> &sorted() const { return items; }
+    unsigned int                     begins(const std::size_t bin) const { return bins.begins(bin); }
+    const std::vector<unsigned int> &sorted() const { return bins.sorted(); }
 
-    template <class Action> void for_each_in(const std::size_t bin, Action &&action) const
-    {
-      for (unsigned int k = begin[bin]; k < begin[bin + 1]; ++k)
-        action(items[k]);
-    }
+    template <class Action> void for_each_in(const std::size_t bin, Action &&action) const { bins.for_each_in(bin, action); }
 
     template <class Action> void for_each_in(const BinRange &range, Action &&action) const
     {
@@ -91,9 +80,9 @@ namespace diptych::coupling
       return int(std::min(std::max(std::floor(distance / size), -1.), double(n)));
     }
 
-    Eigen::Vector2d           origin  = Eigen::Vector2d::Zero();
-    double                    size    = 1;
-    int                       columns = 0, rows = 0;
-    std::vector<unsigned int> begin = {0}, items;
+    Eigen::Vector2d       origin  = Eigen::Vector2d::Zero();
+    double                size    = 1;
+    int                   columns = 0, rows = 0;
+    discrete::CountedBins bins;
   };
 } // namespace diptych::coupling

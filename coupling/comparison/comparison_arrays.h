@@ -177,7 +177,7 @@ namespace diptych::coupling
     visit(ArrayEntry{"discrete/speed_over_platen", "speed over the platen's", "-", "at the end of the stage"},
           arrays::sizes_over(to.velocity, motion_units(i).velocity));
     visit(ArrayEntry{"discrete/rotation_increment", "rotation increment", "rad", "of the grains"}, rotation);
-    visit(ArrayEntry{"discrete/internal_moment", "internal moment", "pressure length^2", "mean over the stage"},
+    visit(ArrayEntry{"discrete/mean_internal_moment", "internal moment", "pressure length^2", "mean over the stage"},
           to.mean_internal_moment);
     visit(ArrayEntry{"discrete/stress", "stress", "pressure", "internal moment over the grain's share of the sample's area"},
           stress);
@@ -189,9 +189,9 @@ namespace diptych::coupling
           arrays::stress_direction(stress));
     visit(ArrayEntry{"discrete/rattler", "rattlers", "-", "1 where the grain carries no contact force"},
           std::vector<int>(to.rattler.begin(), to.rattler.end()));
-    visit(ArrayEntry{"contacts/point", "contact point", "length", "of every pair that touched in the stage"}, point);
-    visit(ArrayEntry{"contacts/force", "contact force", "pressure length", "mean over the stage, on the first body"}, force);
-    visit(ArrayEntry{"contacts/body", "bodies", "-", discrete::contact_bodies}, body);
+    visit(ArrayEntry{"window/point", "contact point", "length", "of every pair that touched in the stage"}, point);
+    visit(ArrayEntry{"window/force", "contact force", "pressure length", "mean over the stage, on the first body"}, force);
+    visit(ArrayEntry{"window/body", "bodies", "-", discrete::contact_bodies}, body);
     visit(ArrayEntry{"outline/left", "left side", "length", "of the sample's outline, upward"}, to.outline.left);
     visit(ArrayEntry{"outline/right", "right side", "length", "of the sample's outline, upward"}, to.outline.right);
   }

@@ -33,20 +33,29 @@ namespace
     return compare_again(line);
   }
 
-  // MPI keeps its own files there, and where it cannot it ends the process with an exit code that says nothing.
-  void require_temporary_folder()
+  // MPI keeps files of its own there, and where it cannot it ends the process by itself, with exit code 1.
+  void require_temporary_room()
   {
-    std::error_code   error;
-    const std::string folder = std::filesystem::temp_directory_path(error).string();
-    if (error || access(folder.c_str(), W_OK) != 0)
-      throw std::runtime_error("the folder for temporary files, TMPDIR, cannot be written to: " +
-                               (error ? error.message() : folder));
+    std::error_code   none;
+    const auto        folder = std::filesystem::temp_directory_path(none);
+    std::string       path   = (folder / "diptych_XXXXXX").string();
+    const int         file   = none ? -1 : mkstemp(path.data());
+    std::string       why    = none ? none.message() : file < 0 ? std::strerror(errno) : "";
+    const std::string zeros(1 << 16, '\0');
+    for (int k = 0; why.empty() && k < 16; ++k)
+      if (const ssize_t n = write(file, zeros.data(), zeros.size()); n < ssize_t(zeros.size()))
+        why = n < 0 ? std::strerror(errno) : "no room for a file of a megabyte";
+    if (file >= 0)
+      close(file), unlink(path.c_str());
+    if (!why.empty())
+      throw std::runtime_error("temporary files cannot be written in " + folder.string() + " (TMPDIR): " + why +
+                               "; nothing was written");
   }
 
   // diptych-panels beside this program, or in PREFIX/libexec where it is installed.
   [[noreturn]] void become_the_panels(char **argv)
   {
-    require_temporary_folder();
+    require_temporary_room();
     namespace fs             = std::filesystem;
     const fs::path    folder = fs::path(own_path()).parent_path();
     const std::string name   = "diptych-panels";

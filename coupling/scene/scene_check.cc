@@ -144,6 +144,8 @@ namespace diptych::coupling
         keys.push_back({"continuum/" + key, "continuum/" + because});
       for (const Unused &unused : unused_keys(scene.comparison))
         keys.push_back(unused);
+      if (scene.loading.mode == LoadingMode::time)
+        keys.push_back({"comparison/averaging_strain", "loading/mode = time: means are over the whole stage"});
       return keys;
     }
 
@@ -180,21 +182,21 @@ namespace diptych::coupling
 
   std::vector<std::string> warnings_of(const Scene &scene, const std::vector<Entry> &entries)
   {
-    const auto                         values = values_of(scene), defaults = values_of(Scene());
-    std::map<std::string, std::string> place;
+    const auto                   values = values_of(scene), defaults = values_of(Scene());
+    std::map<std::string, Entry> last;
     for (const Entry &entry : entries)
-      place[entry.section + "/" + entry.key] = entry.place;
+      last[entry.section + "/" + entry.key] = entry;
     std::vector<std::string> warnings;
     for (const auto &[key, because] : unused_keys(scene))
-      if (place.count(key) > 0 && values.at(key) != defaults.at(key))
+      if (const auto set = last.find(key); set != last.end() && (!set->second.of_echo || values.at(key) != defaults.at(key)))
         {
-          warnings.push_back(place[key] + ": " + key + " = '" + values.at(key) + "' is not used: " + because);
-          place.erase(key); // one reason is enough
+          warnings.push_back(set->second.place + ": " + key + " = '" + values.at(key) + "' is not used: " + because);
+          last.erase(set); // one reason is enough
         }
-    for (const std::string &text : continuum::doubtful_values(scene.continuum))
+    for (const auto &[name, text] : continuum::doubtful_values(scene.continuum))
       {
-        const std::string key = "continuum/" + text.substr(0, text.find(' '));
-        warnings.push_back((place.count(key) > 0 ? place[key] + ": " : "") + "continuum/" + text);
+        const auto set = last.find("continuum/" + name);
+        warnings.push_back((set == last.end() ? "" : set->second.place + ": ") + "continuum/" + name + text);
       }
     return warnings;
   }

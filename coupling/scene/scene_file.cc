@@ -95,6 +95,9 @@ namespace diptych::coupling
       throw SceneError(file + ": cannot be read");
     const bool         json    = std::filesystem::path(file).extension() == ".json";
     std::vector<Entry> entries = json ? entries_of_json(file, in) : entries_of_prm(file, in);
+    if (is_echo(file))
+      for (Entry &entry : entries)
+        entry.of_echo = true;
     for (const std::string &text : overrides)
       entries.push_back(entry_of_override(text));
     Scene scene;

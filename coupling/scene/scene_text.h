@@ -14,6 +14,7 @@ namespace diptych::coupling
   struct Entry
   {
     std::string section, key, value, place, folder;
+    bool        of_echo = false; // of a file that holds every key, wanted or not
   };
 
   // subsection NAME / set KEY = VALUE / end, '#' comments and '\\' continuation: the format of deal.II's parameter files. Throws

@@ -7,18 +7,19 @@
 #include <limits>
 #include <stdexcept>
 
+#include "discrete/contacts/counted_bins.h"
+
 namespace diptych::discrete
 {
   namespace
   {
-    // Grains sorted into cells; cell (a, b) holds grains[start[b * columns + a]] up to the next start. With a period the
-    // columns wrap around.
+    // Grains sorted into cells; cell (a, b) is bin b * columns + a. With a period the columns wrap around.
     struct CellGrid
     {
-      Eigen::Vector2d  origin, cell_size;
-      int              columns = 1, rows = 1;
-      double           period = 0; // 0: none
-      std::vector<int> start, grains;
+      Eigen::Vector2d origin, cell_size;
+      int             columns = 1, rows = 1;
+      double          period = 0; // 0: none
+      CountedBins     grains;
 
       // Not clamped and, with a period, not wrapped.
       int raw_column(const double x) const { return int(std::floor((x - origin.x()) / cell_size.x())); }
@@ -55,19 +56,12 @@ namespace diptych::discrete
         grid.columns = int((high.x() - low.x()) / grid.cell_size.x()) + 1;
       grid.rows = int((high.y() - low.y()) / grid.cell_size.y()) + 1;
 
-      std::vector<int> cell(grains.size());
-      grid.start.assign(std::size_t(grid.columns) * grid.rows + 1, 0);
-      for (std::size_t i = 0; i < grains.size(); ++i)
-        {
-          cell[i] = grid.row(grains.position[i].y()) * grid.columns + grid.column(grains.position[i].x());
-          ++grid.start[cell[i] + 1];
-        }
-      for (std::size_t c = 1; c < grid.start.size(); ++c)
-        grid.start[c] += grid.start[c - 1];
-      grid.grains.resize(grains.size());
-      std::vector<int> next(grid.start.begin(), grid.start.end() - 1);
-      for (std::size_t i = 0; i < grains.size(); ++i)
-        grid.grains[next[cell[i]]++] = int(i);
+      std::vector<std::size_t> cell;
+      cell.reserve(grains.size());
+      for (const Eigen::Vector2d &x : grains.position)
+        cell.push_back(std::size_t(grid.row(x.y())) * grid.columns + grid.column(x.x()));
+      grid.grains.sort(std::size_t(grid.columns) * grid.rows, grains.size(),
+                       [&cell](const unsigned int i, const auto &into) { into(cell[i]); });
       return grid;
     }
 
@@ -82,9 +76,8 @@ namespace diptych::discrete
       for (int b = grid.row(x.y() - reach); b <= grid.row(x.y() + reach); ++b)
         for (int a = from; a <= to; ++a)
           {
-            const int cell = b * grid.columns + (grid.period > 0 ? grid.wrapped(a) : a);
-            for (int k = grid.start[cell]; k < grid.start[cell + 1]; ++k)
-              visit(grid.grains[k]);
+            grid.grains.for_each_in(std::size_t(b) * grid.columns + (grid.period > 0 ? grid.wrapped(a) : a),
+                                    [&visit](const unsigned int j) { visit(int(j)); });
           }
     }
 

@@ -34,7 +34,8 @@ namespace diptych::discrete
                     {"grains", "radius_distribution", "radius_min", "radius_max", "radius_table", "width_over_height", "height",
                      "solid_fraction", "box_solid_fraction", "target_solid_fraction"});
       unused.unless(prepared, "sample/prepare_file = false",
-                    {"preparation_steps", "preparation_tolerance", "preparation_max_sweeps", "quiet_unbalanced_force"});
+                    {"preparation_steps", "preparation_step", "preparation_tolerance", "preparation_max_sweeps",
+                     "preparation_friction", "quiet_unbalanced_force"});
       unused.unless(!generated || !(o.width > 0 && o.height > 0), "sample/width and sample/height are given",
                     {"grains", "width_over_height"});
       unused.unless(!generated || o.radius_distribution != RadiusKind::table, "sample/radius_distribution = table",
@@ -52,7 +53,8 @@ namespace diptych::discrete
       const bool moves          = o.lateral.lateral == Lateral::rigid_walls || o.lateral.lateral == Lateral::periodic;
       unused.unless(penalty, method, {"penalty_stiffness", "penalty_step_fraction", "penalty_damping"});
       unused.unless(!penalty, method,
-                    {"step", "tolerance", "max_sweeps", "snapshot_accuracy", "snapshot_max_sweeps", "reference_sweeps"});
+                    {"step", "penetration_correction", "tolerance", "max_sweeps", "snapshot_accuracy", "snapshot_max_sweeps",
+                     "reference_sweeps"});
       unused.unless(o.lateral.lateral == Lateral::end_grains, lateral, {"band_height", "end_grains"});
       unused.unless(o.lateral.lateral == Lateral::rigid_walls, lateral, {"wall_friction"});
       unused.unless(moves, lateral, {"wall_mass"});
@@ -71,6 +73,14 @@ namespace diptych::discrete
     std::vector<UnusedKey> keys;
     add_unused(sample, keys);
     add_unused(options, keys);
+    const Lateral     lateral = options.lateral.lateral;
+    const bool        of_file = !sample.file.empty(), sweeps = !of_file || sample.prepare_file;
+    const std::string sides = "discrete/lateral = " + name_of(lateral);
+    Unused{"sample", keys}.unless(lateral == Lateral::rigid_walls, sides, {"left_wall", "right_wall"});
+    Unused{"sample", keys}.unless(!of_file || lateral == Lateral::periodic, "sample/file with " + sides, {"width"});
+    Unused{"discrete", keys}.unless(options.method.method == Method::nscd || sweeps,
+                                    "discrete/method = penalty, and a sample from a file that is not prepared",
+                                    {"solver", "omega_sticking", "omega_slipping", "sweeps_per_check"});
     return keys;
   }
 

@@ -146,8 +146,8 @@ def write_state(group):
     store(group, "discrete/velocity", np.full((40, 2), 0.001), "length/time")
     store(group, "discrete/speed_over_platen", np.full(40, 0.4))
     store(group, "discrete/rotation_increment", np.linspace(-0.1, 0.1, 40), "rad", "rotation increment")
-    store(group, "contacts/point", np.array([[1.0, 0.5], [2.0, 0.5]]), "length")
-    store(group, "contacts/force", np.array([[3.0, 0.0], [0.0, 0.0]]), "pressure length")
+    store(group, "window/point", np.array([[1.0, 0.5], [2.0, 0.5]]), "length")
+    store(group, "window/force", np.array([[3.0, 0.0], [0.0, 0.0]]), "pressure length")
 
 
 def comparison_of_two_stages():

@@ -122,7 +122,9 @@ namespace
           EXPECT_GT(sums.outside_share, 0.01);
           EXPECT_EQ(std::isnan(sums.nodal_residual), std::isnan(mapped.nodal_residual));
           if (mapped.has_collar)
-            EXPECT_LT(sums.nodal_residual, 1e-10);
+            {
+              EXPECT_LT(sums.nodal_residual, 1e-10);
+            }
           double largest = 0;
           for (unsigned int k = 0; k < target.n_cells(); ++k)
             largest = std::max(largest, std::abs(stress[k](1, 0) - sums.uniform(k, 2) / target.area[k]));

@@ -106,7 +106,13 @@ namespace
     expect_one(warnings("", {"discrete/wall_mass=3"}), {"wall_mass", "discrete/lateral = end_grains"});
     expect_one(warnings("", {"discrete/solver=nsgs", "discrete/omega_sticking=1.5"}), {"omega_sticking", "solver = nsgs"});
     expect_one(warnings("", {"loading/normal_pressure=2"}), {"normal_pressure", "loading/mode = descent"});
-    EXPECT_TRUE(warnings("subsection continuum\n  set refinement_levels = 1\nend\n").empty()) << "the default value, spelled out";
+    expect_one(warnings("subsection continuum\n  set refinement_levels = 1\nend\n"), {"refinement_levels = '1' is not used"});
+    expect_one(warnings("", {"loading/mode=time", "comparison/window_edges=0,10", "comparison/averaging_strain=0.01"}), {"averaging_strain", "whole stage"});
+    expect_one(warnings("", {"sample/left_wall=-3"}), {"left_wall", "is empty"});
+    expect_one(warnings("", {"discrete/method=penalty", "discrete/penetration_correction=none"}), {"penetration_correction"});
+    // an echo holds every key, and only what was changed in it is somebody's wish
+    EXPECT_TRUE(warnings(echo(Scene())).empty());
+    expect_one(warnings(echo(Scene()), {"continuum/refinement_levels=3"}), {"--set", "refinement_levels"});
     EXPECT_TRUE(warnings("subsection continuum\n  set refinement = adaptive\n  set refinement_levels = 3\nend\n").empty());
   }
 

@@ -92,7 +92,7 @@ def cross_unit(increments):
 
 def forces(increment, store):
     """Moreau 1997, figure 3: forces at the contacts, mean over the stage [P d]."""
-    point, force = increment.state.get("contacts/point"), increment.state.get("contacts/force")
+    point, force = increment.state.get("window/point"), increment.state.get("window/force")
     if point is None or force is None:
         return None
     size = np.linalg.norm(force[:, :2], axis=1)
@@ -104,7 +104,7 @@ def forces(increment, store):
 
 def force_unit(increments):
     """Thickness of the line of a force of 1 P d [d]: the strongest hundredth is drawn 0.7 d thick or more."""
-    found = [increment.state.get("contacts/force") for increment in increments]
+    found = [increment.state.get("window/force") for increment in increments]
     largest = [np.percentile(np.linalg.norm(f[:, :2], axis=1), 99) for f in found if f is not None and len(f)]
     return short(0.7 / max(np.median(largest), 1e-9)) if largest else 0.1
 
