@@ -19,7 +19,7 @@ import h5py
 import numpy
 
 import browser
-from running import ENVIRONMENT, PROGRAM, QUICK, SOURCE, diptych
+from running import ENVIRONMENT, PROGRAM, QUICK, SOURCE, diptych, setting
 
 # A sample that takes seconds: the physics of the quick scene on 300 grains to 1 % strain.
 SMALL = ["--set", "sample/grains=300", "--set", "loading/axial_strain=0.01", "--set", "loading/inertial_number=1e-3",
@@ -213,6 +213,31 @@ class ReferenceScene(unittest.TestCase):
         fine = last["continuum"]["bands"][0]
         # The internal length sets it, not the mesh: elements of 2 and 3 d agree (benchmarks/moreau_1997/README.md).
         self.assertLess(abs(number(coarse["width_10_90_d"]) / number(fine["width_10_90_d"]) - 1), 0.05)
+
+
+class WideSample(unittest.TestCase):
+    """W/H = 1.5: a line at 45 degrees cannot leave by both sides, and what is found along the diagonal parts no two packs."""
+
+    def test_no_band_is_called_a_zone_between_two_packs(self):
+        n_bands = 0
+        for seed in (1, 2, 3):
+            with tempfile.TemporaryDirectory() as folder:
+                words = setting(sample_width_over_height=1.5, sample_seed=seed, output_report="false")
+                result = diptych("run", QUICK, *words, "--output", folder, "--quiet")
+                self.assertEqual(result.returncode, 0, result.stderr)
+                with open(os.path.join(folder, "comparison.json")) as file:
+                    windows = json.load(file)["windows"]
+            self.assertEqual(len(windows), 3)
+            for window in windows:
+                for panel in ("discrete", "continuum"):
+                    found = window[panel]
+                    n_bands += len(found["bands"])
+                    for band in found["bands"]:
+                        self.assertFalse(band["between_packs"], (seed, window["from"], panel))
+                        self.assertTrue(band["no_packs_because"])
+                    if len(found["bands"]) == 1:
+                        self.assertIn("no zone between two packs: ", found["band_verdict"])
+        self.assertGreater(n_bands, 9, "there must have been bands to judge")
 
 
 class WrongInput(unittest.TestCase):

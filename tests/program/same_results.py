@@ -4,8 +4,9 @@
 """Usage: same_results.py PROGRAM OTHER_PROGRAM SOURCE_DIR [--keep DIR] [--relative R] [CASE ...]
 
 For a change that must change no result: OTHER_PROGRAM was built from the revision before. Every case is run by both. Compared
-are all datasets and attributes of discrete.h5 (bit by bit; what only one of the files has is told) and every number of
-comparison.json except costs (equal, or within R relative). Exit codes: 0 the same, 1 a difference, 2 a run failed.
+are all datasets and attributes of discrete.h5 (bit by bit), the datasets of the last stage of continuum.h5 and every number of
+comparison.json except costs (equal, or within R relative). What is new is told; what is gone counts as a difference. Exit codes:
+0 the same, 1 a difference, 2 a run failed.
 --keep DIR: run folders stay there, and those of OTHER_PROGRAM that are there already are not run again.
 """
 
@@ -111,12 +112,26 @@ def same(a, b, relative):
     return a == b
 
 
+def continuum_arrays(folder):
+    """Datasets of the last stage by name."""
+    with h5py.File(os.path.join(folder, "continuum.h5"), "r") as file:
+        last, found = file[sorted(name for name in file if name.startswith("stage_"))[-1]], {}
+        last.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
+    return found
+
+
 def compare(one, other, relative):
     """Sentences about what differs, and about what only one of the two has."""
-    different, missing, largest = [], [], 0.0
+    different, new, gone, largest = [], [], [], 0.0
     a, b = (bits(os.path.join(folder, "discrete.h5")) for folder in (one, other))
     different += [f"discrete.h5 {name}" for name in sorted(a.keys() & b.keys()) if a[name] != b[name]]
-    missing += [f"discrete.h5 {name}" for name in sorted(a.keys() ^ b.keys())]
+    new += [f"discrete.h5 {name}" for name in sorted(a.keys() - b.keys())]
+    gone += [f"discrete.h5 {name}" for name in sorted(b.keys() - a.keys())]
+    a, b = continuum_arrays(one), continuum_arrays(other)
+    different += [f"continuum.h5 {name}" for name in sorted(a.keys() & b.keys())
+                  if a[name].shape != b[name].shape
+                  or not numpy.allclose(a[name], b[name], rtol=relative, atol=relative * numpy.abs(b[name]).max(initial=0))]
+    gone += [f"continuum.h5 {name}" for name in sorted(b.keys() - a.keys())]
     a, b = comparison(one), comparison(other)
     if "/stages/0/progress" in a and "/stages/0/progress" not in b:  # before format 2 both were called axial strain
         b = {walked(name): value for name, value in b.items()}
@@ -126,8 +141,9 @@ def compare(one, other, relative):
         elif isinstance(a[name], float) and a[name] != b[name]:
             size = max(abs(a[name]), abs(b[name]))
             largest = max(largest, abs(a[name] - b[name]) / size if size > 1e-9 else 0)
-    missing += [f"comparison.json {name}" for name in sorted(a.keys() ^ b.keys())]
-    return different, missing, largest, len(a.keys() & b.keys())
+    new += [f"comparison.json {name}" for name in sorted(a.keys() - b.keys())]
+    gone += [f"comparison.json {name}" for name in sorted(b.keys() - a.keys())]
+    return different, new, gone, largest, len(a.keys() & b.keys())
 
 
 def main():
@@ -150,11 +166,11 @@ def main():
             run(words.program, words.source, name, one)
             if not os.path.exists(os.path.join(other, "comparison.json")):
                 run(words.other_program, words.source, name, other)
-            different, missing, largest, count = compare(one, other, words.relative)
-            failed = failed or bool(different)
+            different, new, gone, largest, count = compare(one, other, words.relative)
+            failed = failed or bool(different or gone)
             print(f"{name}: {count} numbers, {len(different)} differ" + (f" (rest within {largest:.1e})" if largest else "")
-                  + f", {len(missing)} in one only")
-            for text in different[:12] + ["only one has " + text for text in missing[:12]]:
+                  + f", {len(gone)} gone, {len(new)} new")
+            for text in different[:12] + ["gone: " + text for text in gone[:12]] + ["new: " + text for text in new[:12]]:
                 print("    " + text)
             sys.stdout.flush()
     return 1 if failed else 0

@@ -107,7 +107,8 @@ namespace
     expect_one(warnings("", {"discrete/solver=nsgs", "discrete/omega_sticking=1.5"}), {"omega_sticking", "solver = nsgs"});
     expect_one(warnings("", {"loading/normal_pressure=2"}), {"normal_pressure", "loading/mode = descent"});
     expect_one(warnings("subsection continuum\n  set refinement_levels = 1\nend\n"), {"refinement_levels = '1' is not used"});
-    expect_one(warnings("", {"loading/mode=time", "comparison/window_edges=0,10", "comparison/averaging_strain=0.01"}), {"averaging_strain", "whole stage"});
+    expect_one(warnings("", {"loading/mode=time", "comparison/window_edges=0,10", "comparison/averaging_strain=0.01"}),
+               {"averaging_strain", "whole stage"});
     expect_one(warnings("", {"sample/left_wall=-3"}), {"left_wall", "is empty"});
     expect_one(warnings("", {"discrete/method=penalty", "discrete/penetration_correction=none"}), {"penetration_correction"});
     // an echo holds every key, and only what was changed in it is somebody's wish
