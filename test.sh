@@ -2,7 +2,7 @@
 # Installs what is missing (Debian 12), builds Release and runs the tests.
 #   ./test.sh         all but the long ones (label slow)
 #   ./test.sh --all   the long ones too
-#   ./test.sh discrete   all of the discrete panel alone (Eigen and HDF5 only)
+#   ./test.sh discrete   all of the discrete panel alone (no deal.II)
 #   ./test.sh debug      tests of units, in discrete/, continuum/ and coupling/, with assertions of deal.II, Eigen and our own
 #   ./test.sh sanitize   tests of units, in discrete/ and coupling/, with address and undefined-behaviour sanitizers
 set -euo pipefail
