@@ -14,17 +14,37 @@ namespace diptych::coupling
 {
   namespace
   {
-    std::string keys_of_scenes()
+    std::vector<KeyDescription> keys_of_scenes()
     {
       std::vector<KeyDescription> keys;
       Scene                       defaults;
       for_each_section(defaults, [&](const char *section, auto &options) {
         visit_parameters(options, DescribeKeys{section, keys});
       });
+      return keys;
+    }
+
+    std::string assignments(const std::vector<KeyDescription> &keys)
+    {
       std::vector<std::string> words;
       for (const KeyDescription &key : keys)
         words.push_back(key.section + "/" + key.name + "=");
       return joined(words);
+    }
+
+    std::string offer(const std::string &pattern, const std::string &words)
+    {
+      return "    \"" + pattern + "\") COMPREPLY=($(compgen -W \"" + words + "\" -- \"$word\")); return ;;\n";
+    }
+
+    // After `--set section/key=`, which bash divides at the sign.
+    std::string values_of_keys(const std::vector<KeyDescription> &keys)
+    {
+      std::string lines;
+      for (const KeyDescription &key : keys)
+        if (!key.choices.empty())
+          lines += offer(key.section + "/" + key.name, joined(key.choices));
+      return lines;
     }
 
     // What an option or a word may be, where that is one of a few: CLI11 tells it as TEXT:{a,b}.
@@ -68,13 +88,15 @@ namespace diptych::coupling
 
   std::string completion_script(CLI::App &app, const std::string &shell)
   {
-    std::ostringstream       out;
-    std::vector<std::string> commands;
-    std::string              choices; // a line for each option that has a few
+    const std::vector<KeyDescription> keys = keys_of_scenes();
+    std::ostringstream                out;
+    std::vector<std::string>          commands;
+    std::string                       choices; // a line for each option that has a few
     out << "# diptych: completion, made by `diptych completion " << shell << "`\n";
     if (shell == "zsh")
       out << "autoload -U +X bashcompinit && bashcompinit\n";
-    out << "_diptych()\n{\n  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} options=\"\" words=\"\"\n"
+    out << "_diptych()\n{\n  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} options=\"\" words=\"\" "
+           "key=\"\"\n"
         << "  case ${COMP_WORDS[1]} in\n";
     for (CLI::App *command : app.get_subcommands({}))
       {
@@ -83,14 +105,15 @@ namespace diptych::coupling
             << words_of(*command) << "\" ;;\n";
         for (const CLI::Option *option : command->get_options())
           if (const std::string values = values_of(*option); !values.empty() && !option->get_lnames().empty())
-            choices += "    \"" + command->get_name() + " --" + option->get_lnames().front() + "\") COMPREPLY=($(compgen -W \"" +
-                       values + "\" -- \"$word\")); return ;;\n";
+            choices += offer(command->get_name() + " --" + option->get_lnames().front(), values);
       }
     out << "  esac\n  case \"${COMP_WORDS[1]} $before\" in\n"
-        << choices << "  esac\n  if [ \"$COMP_CWORD\" -eq 1 ]; then\n    COMPREPLY=($(compgen -W \"" << joined(commands)
-        << " --help --version\" -- \"$word\"))\n"
+        << choices << "  esac\n  if [ \"$before\" = = ]; then\n    key=${COMP_WORDS[COMP_CWORD-2]}\n"
+        << "  elif [ \"$word\" = = ]; then\n    key=$before word=\"\"\n  fi\n  case \"$key\" in\n"
+        << values_of_keys(keys) << "  esac\n  if [ \"$COMP_CWORD\" -eq 1 ]; then\n    COMPREPLY=($(compgen -W \""
+        << joined(commands) << " --help --version\" -- \"$word\"))\n"
         << "  elif [ \"$before\" = --set ]; then\n    compopt -o nospace 2>/dev/null\n    COMPREPLY=($(compgen -W \""
-        << keys_of_scenes() << "\" -- \"$word\"))\n"
+        << assignments(keys) << "\" -- \"$word\"))\n"
         << "  elif [ \"${word#-}\" != \"$word\" ]; then\n    COMPREPLY=($(compgen -W \"$options\" -- \"$word\"))\n"
         << "  elif [ -n \"$words\" ]; then\n    COMPREPLY=($(compgen -W \"$words\" -- \"$word\"))\n"
         << "  else\n    compopt -o filenames 2>/dev/null\n    COMPREPLY=($(compgen -f -- \"$word\"))\n  fi\n}\n"

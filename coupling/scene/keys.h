@@ -17,7 +17,8 @@ namespace diptych::coupling
 
   struct KeyDescription
   {
-    std::string section, name, value, unit, allowed, meaning;
+    std::string              section, name, value, unit, allowed, meaning;
+    std::vector<std::string> choices = {}; // where it is one of a few
   };
 
   // Numbers as they are written everywhere: the shortest text that reads back as the same number.
@@ -68,6 +69,18 @@ namespace diptych::coupling
   }
 
   // Collects each key with its present value.
+  // What a value may be, where that is one of a few.
+  template <class Value> std::vector<std::string> choices_of(const Value &value)
+  {
+    std::vector<std::string> names;
+    if constexpr (std::is_same_v<Value, bool>)
+      names = {"true", "false"};
+    else if constexpr (std::is_enum_v<Value>)
+      for (const auto &choice : choices(value))
+        names.emplace_back(choice.second);
+    return names;
+  }
+
   struct DescribeKeys
   {
     std::string                  section;
@@ -91,7 +104,7 @@ namespace diptych::coupling
     }
     template <class Value> void operator()(const char *name, const Value &value, const char *unit, const char *meaning) const
     {
-      keys.push_back({section, name, text_of(value), unit, allowed_value(value), meaning});
+      keys.push_back({section, name, text_of(value), unit, allowed_value(value), meaning, choices_of(value)});
     }
   };
 
