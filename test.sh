@@ -22,8 +22,8 @@ targets=(all)
 case "$preset" in
   debug) targets=(house_tests discrete_tests continuum_tests coupling_tests coupling_panel_tests)
          select+=(-R '^(house[.]House|discrete|continuum|coupling|coupling_panels)[.]') ;;
-  sanitize) targets=(house_tests discrete_tests coupling_tests)
-            select+=(-R '^(house[.]House|discrete|coupling)[.]') ;;
+  sanitize) targets=(house_tests discrete_tests coupling_tests coupling_panel_tests)
+            select+=(-R '^(house[.]House|discrete|coupling|coupling_panels)[.]') ;;
 esac
 packages+=(chromium python3-meshio dpkg-dev clang-format) # the tests alone: they open report.html, read the ParaView files back, make a package
 install_missing
