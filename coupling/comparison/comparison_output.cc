@@ -35,9 +35,7 @@ namespace diptych::coupling
       {
         for (const NumberDescription &number : comparison_schema())
           units[number.place] = number.unit;
-        for (const NumberEntry &column : comparison_columns())
-          out << (out.tellp() > 0 ? "," : "") << column.key;
-        out << '\n';
+        out << header_of(comparison_columns()) << '\n';
       }
 
       // `line`: where the numbers belong; `place`: of the value in the list of numbers.

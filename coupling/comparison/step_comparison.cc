@@ -127,9 +127,7 @@ namespace diptych::coupling
   {
     std::ostringstream csv;
     csv.precision(10);
-    for (const NumberEntry &column : step_study_columns())
-      csv << (csv.tellp() > 0 ? "," : "") << column.key;
-    csv << '\n';
+    csv << header_of(step_study_columns()) << '\n';
     for (const StepRun &run : runs)
       {
         HistoryTable in_time           = run.history;

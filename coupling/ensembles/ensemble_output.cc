@@ -23,8 +23,7 @@ namespace diptych::coupling
   {
     std::ostringstream out;
     out.precision(10);
-    for (const NumberEntry &column : ensemble_columns())
-      out << (out.tellp() > 0 ? "," : "") << column.key;
+    out << header_of(ensemble_columns());
     for (const int seed : ensemble.seeds)
       out << ",seed_" << seed;
     out << '\n';

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <utility>
 
 namespace diptych::coupling
@@ -31,4 +32,13 @@ namespace diptych::coupling
     Kind        kind         = Kind::number;
     bool        in_diameters = false; // the member is a length, told in mean diameters
   };
+
+  // First line of a table with these columns.
+  template <class Columns> std::string header_of(const Columns &columns)
+  {
+    std::string line;
+    for (const NumberEntry &column : columns)
+      line += (line.empty() ? "" : ",") + std::string(column.key);
+    return line;
+  }
 } // namespace diptych::coupling

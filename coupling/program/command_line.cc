@@ -11,6 +11,7 @@
 #include <CLI/Formatter.hpp>
 
 #include "coupling/program/completion.h"
+#include "coupling/scene/keys.h"
 #include "coupling/scene/scene_file.h"
 #include "coupling/version.h"
 #include "discrete/files/nearest_name.h"
@@ -78,12 +79,9 @@ namespace diptych::coupling
       // A value of an enum that has a table of names.
       template <class Choice, class Take> void add_choice(CLI::App *to, const char *option, const char *meaning, const Take &take)
       {
-        std::vector<std::string> names;
-        for (const auto &choice : choices(Choice()))
-          names.emplace_back(choice.second);
         to->add_option_function<std::string>(
             option, [take](const std::string &name) { take(*discrete::value_of<Choice>(name)); }, meaning)
-          ->check(CLI::IsMember(names));
+          ->check(CLI::IsMember(choices_of(Choice())));
       }
 
       void add_run()

@@ -39,8 +39,7 @@ namespace diptych::coupling
     result.push_back({h5, "contacts/impulse", "pairs of numbers", "pressure length time", contact_impulses});
     visit_contact_values(s, add);
     visit_outline(s, add);
-    for (const NumberEntry &column : step_study_columns())
-      result.push_back({"study_step.csv", column.key, "column", column.unit, column.meaning});
+    add_table("study_step.csv", step_study_columns(), result);
     add_record("study_step.json", StepComparison(), result);
     add_record("provenance.json", ProvenanceDocument{Origin(), RunFacts()}, result);
     result.push_back({"checkpoint.h5, continuum_checkpoint.h5", "/", "group", "",

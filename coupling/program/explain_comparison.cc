@@ -55,8 +55,7 @@ namespace diptych::coupling
     {
       const EnsembleRecord record;
       add_record("ensemble.json", EnsembleDocument{Scene(), record}, result);
-      for (const NumberEntry &column : ensemble_columns())
-        result.push_back({"ensemble.csv", column.key, "column", column.unit, column.meaning});
+      add_table("ensemble.csv", ensemble_columns(), result);
       const std::string file = "ensemble.h5";
       list_grid(EnsembleGrid(), AddArrays{file, "", result});
       list_curve_arrays(EnsembleCurves(),
@@ -71,8 +70,7 @@ namespace diptych::coupling
     add_continuum_file(result);
     add_columns<continuum::MaterialPointRow>("material_point.csv", result);
     add_numbers("comparison.json", comparison_schema(), result);
-    for (const NumberEntry &column : comparison_columns())
-      result.push_back({"comparison.csv", column.key, "column", column.unit, column.meaning});
+    add_table("comparison.csv", comparison_columns(), result);
     add_comparison_arrays(result);
     add_ensemble(result);
     return result;

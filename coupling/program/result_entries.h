@@ -54,6 +54,12 @@ namespace diptych::coupling
     });
   }
 
+  template <class Columns> void add_table(const std::string &file, const Columns &columns, ResultList &result)
+  {
+    for (const NumberEntry &column : columns)
+      result.push_back({file, column.key, "column", column.unit, column.meaning});
+  }
+
   // What a function of listed arrays and attributes gives, below a place of a file.
   struct AddArrays
   {

@@ -42,6 +42,18 @@ namespace diptych::coupling
     return discrete::name_of(value);
   }
 
+  // What a value may be, where that is one of a few.
+  template <class Value> std::vector<std::string> choices_of(const Value &value)
+  {
+    std::vector<std::string> names;
+    if constexpr (std::is_same_v<Value, bool>)
+      names = {"true", "false"};
+    else if constexpr (std::is_enum_v<Value>)
+      for (const auto &choice : choices(value))
+        names.emplace_back(choice.second);
+    return names;
+  }
+
   // What a value may be, in words. Lists and numbers name their range.
   std::string        allowed_number(const Range &range);
   inline std::string allowed_value(const bool)
@@ -60,27 +72,15 @@ namespace diptych::coupling
   {
     return "outline, rectangle or a .msh or .geo file";
   }
-  template <class E, std::enable_if_t<std::is_enum_v<E>, int> = 0> std::string allowed_value(const E)
+  template <class E, std::enable_if_t<std::is_enum_v<E>, int> = 0> std::string allowed_value(const E value)
   {
     std::string text;
-    for (const auto &choice : choices(E()))
-      text += (text.empty() ? "one of " : ", ") + std::string(choice.second);
+    for (const std::string &name : choices_of(value))
+      text += (text.empty() ? "one of " : ", ") + name;
     return text;
   }
 
   // Collects each key with its present value.
-  // What a value may be, where that is one of a few.
-  template <class Value> std::vector<std::string> choices_of(const Value &value)
-  {
-    std::vector<std::string> names;
-    if constexpr (std::is_same_v<Value, bool>)
-      names = {"true", "false"};
-    else if constexpr (std::is_enum_v<Value>)
-      for (const auto &choice : choices(value))
-        names.emplace_back(choice.second);
-    return names;
-  }
-
   struct DescribeKeys
   {
     std::string                  section;

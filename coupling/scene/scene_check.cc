@@ -97,10 +97,7 @@ namespace diptych::coupling
         }
     }
 
-    struct Unused
-    {
-      std::string key, because; // section and name of both
-    };
+    using Unused = discrete::UnusedKey; // section and name of both
 
     std::vector<Unused> unused_keys(const LoadingOptions &o)
     {
@@ -138,8 +135,8 @@ namespace diptych::coupling
     std::vector<Unused> unused_keys(const Scene &scene)
     {
       std::vector<Unused> keys = unused_keys(scene.loading);
-      for (const auto &[key, because] : discrete::unused_keys(scene.sample, scene.discrete))
-        keys.push_back({key, because});
+      for (const Unused &unused : discrete::unused_keys(scene.sample, scene.discrete))
+        keys.push_back(unused);
       for (const auto &[key, because] : continuum::unused_keys(scene.continuum))
         keys.push_back({"continuum/" + key, "continuum/" + because});
       for (const Unused &unused : unused_keys(scene.comparison))
