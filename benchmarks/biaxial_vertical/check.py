@@ -17,7 +17,8 @@ SCENE = os.path.join(HERE, "scene.prm")
 LATE = 2  # window from 2 to 3 % strain
 
 # Mean and four standard deviations over the first twelve seeds of the README, cut where the claim is stricter: two bands that
-# cross, in every window, each with more than a quarter of the platen's travel.
+# cross, in every window, each with more than a quarter of the platen's travel. The last line: of the eight seeds at present settings,
+# whose steps are half as long and so average the platens' forces over half the time.
 CLAIMS = [("grains: windows of 3 with two bands", 3, 3), ("continuum: windows of 3 with two bands", 3, 3),
           ("grains, 2-3 %: bands that cross", 2, 2),
           ("grains, 2-3 %: rising, degrees", 22, 66), ("grains, 2-3 %: falling, degrees", -66, -28),
@@ -25,7 +26,7 @@ CLAIMS = [("grains: windows of 3 with two bands", 3, 3), ("continuum: windows of
           ("continuum, 2-3 %: bands that cross", 2, 2), ("continuum, 2-3 %: rising, degrees", 43.9, 48.6),
           ("continuum, 2-3 %: falling, degrees", -48.6, -44.3), ("continuum, 2-3 %: mean width, d", 20.9, 23.9),
           ("grains: mean |Fx / Fy| of the upper platen", 0, 0.031), ("grains: peak t/s", 0.319, 0.43),
-          ("continuum: peak t/s", 0.361, 0.3645), ("grains: steps with platen forces within 1 %", 0.83, 1)]
+          ("continuum: peak t/s", 0.361, 0.3645), ("grains: steps with platen forces within 1 %", 0.67, 1)]
 
 
 def crossing(panel, name):

@@ -11,6 +11,7 @@
 #include "discrete/panel/checkpoint.h"
 #include "discrete/stepping/grain_stress_error.h"
 #include "discrete/stepping/step_problem.h"
+#include "discrete/stepping/warm_start.h"
 
 namespace diptych::benchmarks
 {

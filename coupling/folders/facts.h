@@ -16,9 +16,11 @@ namespace diptych::coupling
   {
     double      preparation_solid_fraction = NAN, preparation_friction = NAN;
     int         preparation_steps    = 0;
-    double      preparation_residual = NAN, preparation_unbalanced_force = NAN;
+    double      preparation_residual = NAN, preparation_unbalanced_force = NAN, preparation_largest_overlap = NAN;
+    int         preparation_settling_steps = 0;
     double      initial_height = NAN, platen_speed = NAN; // [length], [length/time]
-    double      step = NAN;                               // [time]
+    double      step = NAN, tolerance = NAN;              // [time], -
+    double      expected_strength_error = NAN, expected_dilation_error = NAN;
     std::string step_bound;
     int         halved_steps = 0, kinetic_energy_bursts = 0;
     double      ns_per_update = NAN, solver_share_of_cpu = NAN;
@@ -38,10 +40,17 @@ namespace diptych::coupling
     v({"preparation_steps", "-", "steps of the preparation"}, f.preparation_steps);
     v({"preparation_residual", "-", "residual at the end of the preparation"}, f.preparation_residual);
     v({"preparation_unbalanced_force", "-", "unbalanced force after the preparation"}, f.preparation_unbalanced_force);
+    v({"preparation_settling_steps", "-", "steps after the compaction, from rest, that took out the overlaps"},
+      f.preparation_settling_steps);
+    v({"preparation_largest_overlap", "mean diameters", "largest overlap of the sample as it was loaded"},
+      f.preparation_largest_overlap);
     v({"initial_height", "length", "initial height"}, f.initial_height);
     v({"platen_speed", "length/time", "platen speed"}, f.platen_speed);
     v({"step", "time", "step of the last stage"}, f.step);
     v({"step_bound", "-", "which bound gave the step, where it was chosen automatically"}, f.step_bound);
+    v({"tolerance", "-", "residual at which the steps of the last stage ended"}, f.tolerance);
+    v({"expected_strength_error", "-", "relative, that step and strain rate lead to expect"}, f.expected_strength_error);
+    v({"expected_dilation_error", "-", "relative loss that tolerance and step lead to expect"}, f.expected_dilation_error);
     v({"halved_steps", "-", "steps halved because the sweeps stalled"}, f.halved_steps);
     v({"kinetic_energy_bursts", "-", "times the kinetic energy rose above twice M|V|²/4"}, f.kinetic_energy_bursts);
     v({"ns_per_update", "ns", "time of one contact update", Kind::clock}, f.ns_per_update);

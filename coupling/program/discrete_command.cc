@@ -44,10 +44,15 @@ namespace diptych::coupling
       f.preparation_steps                  = r.preparation.steps;
       f.preparation_residual               = r.preparation.residual;
       f.preparation_unbalanced_force       = r.preparation.unbalanced_force;
+      f.preparation_settling_steps         = r.preparation.settling_steps;
+      f.preparation_largest_overlap        = r.preparation.largest_overlap;
       f.initial_height                     = r.initial_height;
       f.platen_speed                       = r.platen_speed;
       f.step                               = r.step;
       f.step_bound                         = r.step_bound;
+      f.tolerance                          = r.tolerance;
+      f.expected_strength_error            = r.expected.strength;
+      f.expected_dilation_error            = r.expected.dilation;
       f.halved_steps                       = r.halved_steps;
       f.kinetic_energy_bursts              = bursts(rows);
       f.ns_per_update                      = r.updates > 0 ? 1e9 * r.solver_cpu_s / double(r.updates) : 0;
@@ -116,10 +121,26 @@ namespace diptych::coupling
     }
 
     // What makes a finished run doubtful goes to standard error, quiet or not.
-    void warn(const Rows &rows)
+    void warn(const Rows &rows, const discrete::Report &report, const discrete::Options &options)
     {
-      constexpr double doubtful_penetration = 0.02, doubtful_gain = 0.1;
-      double           penetration = 0;
+      constexpr double doubtful_penetration = 0.02, doubtful_gain = 0.1, doubtful_overlap = 1e-3, doubtful_force = 2;
+      constexpr double doubtful_strength = 0.03, doubtful_dilation = 0.05; // auto keeps to 0.02 and 0.03
+      if (report.preparation.largest_overlap > doubtful_overlap)
+        std::cerr << "discrete panel: warning: the sample's grains overlap by up to " << report.preparation.largest_overlap
+                  << " mean diameters before they are loaded; sample/prepare_file = true takes that out" << std::endl;
+      const double explosion = report.preparation.largest_overlap * options.penalty.stiffness; // of springs, overlap x kn / P
+      if (options.method.method == discrete::Method::penalty && explosion > doubtful_force)
+        std::cerr << "discrete panel: warning: before they are pressed, the grains overlap by up to "
+                  << report.preparation.largest_overlap << " mean diameters: springs of penalty_stiffness "
+                  << options.penalty.stiffness << " push there with " << explosion << " d P" << std::endl;
+      if (report.expected.strength > doubtful_strength)
+        std::cerr << "discrete panel: warning: steps of " << report.step << " add about " << 100 * report.expected.strength
+                  << " % to the strength; discrete/step = auto keeps to discrete/accuracy" << std::endl;
+      if (report.expected.dilation > doubtful_dilation)
+        std::cerr << "discrete panel: warning: a tolerance of " << report.tolerance << " at this step loses about "
+                  << 100 * report.expected.dilation
+                  << " % of the dilation; discrete/tolerance = auto keeps to 1.5 discrete/accuracy" << std::endl;
+      double penetration = 0;
       for (const discrete::HistoryRow &row : rows)
         penetration = std::max(penetration, row.max_penetration);
       if (penetration > doubtful_penetration)
@@ -357,7 +378,7 @@ namespace diptych::coupling
     const Rows              rows   = std::filesystem::exists(csv) ? discrete::read_rows<discrete::HistoryRow>(csv) : Rows();
     record(line, scene, report, rows, timer, checkpoint.has_value());
     recorded.warnings += reference_text(report);
-    warn(rows);
+    warn(rows, report, scene.discrete);
     if (!recorded.warnings.empty() && report.snapshots_accurate < report.snapshots_sampled)
       std::cerr << recorded.warnings << std::flush;
     else if (!recorded.warnings.empty())

@@ -10,16 +10,18 @@ namespace diptych::discrete
 {
   namespace
   {
-    // Outermost surface on lines y = bottom + k dy; sign = -1 for the left side, +1 for the right one.
+    // Outermost surface on lines y = bottom + k dy; sign = -1 for the left side, +1 for the right one. The first and the last
+    // line are platens: what lies within a hundredth of a diameter of a line (dy is a tenth) touches it.
     std::vector<double> raw_envelope(const Grains &g, const double bottom, const double dy, const int n, const int sign)
     {
+      const double        touch = 0.1 * dy;
       std::vector<double> edge(n, -std::numeric_limits<double>::infinity());
       for (std::size_t i = 0; i < g.size(); ++i)
         {
           const Eigen::Vector2d &x     = g.position[i];
           const double           r     = g.radius[i];
-          const int              first = std::max(0, int(std::ceil((x.y() - r - bottom) / dy)));
-          const int              last  = std::min(n - 1, int(std::floor((x.y() + r - bottom) / dy)));
+          const int              first = std::max(0, int(std::ceil((x.y() - r - touch - bottom) / dy)));
+          const int              last  = std::min(n - 1, int(std::floor((x.y() + r + touch - bottom) / dy)));
           for (int k = first; k <= last; ++k)
             if (sign * x.x() + r > edge[k]) // nearly all discs lie inside: no root for them
               {

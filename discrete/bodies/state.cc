@@ -21,6 +21,9 @@ namespace diptych::discrete
     if (factor == 1)
       return;
     for (PairImpulse &r : state.impulses)
-      r.normal *= factor, r.tangential *= factor;
+      {
+        r.normal *= factor, r.tangential *= factor;
+        r.normal_change *= factor * factor, r.tangential_change *= factor * factor;
+      }
   }
 } // namespace diptych::discrete

@@ -116,6 +116,7 @@ namespace diptych::discrete
   {
     int    i, j; // i < j
     double normal, tangential;
+    double normal_change = 0, tangential_change = 0; // since the step before; 0 where the pair did not act then
   };
 
   struct State
@@ -133,6 +134,6 @@ namespace diptych::discrete
     return cell ? int(std::lround((xi - xj) / cell->width)) : 0;
   }
 
-  // Of the last step, all of them times `factor`.
+  // Of the last step, as for steps `factor` times as long.
   void scale_impulses(State &state, double factor);
 } // namespace diptych::discrete

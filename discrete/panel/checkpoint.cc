@@ -33,6 +33,10 @@ namespace diptych::discrete
       visit("preparation_quiet", r.preparation.quiet), visit("preparation_steps", r.preparation.steps);
       visit("preparation_residual", r.preparation.residual), visit("preparation_unbalanced", r.preparation.unbalanced_force);
       visit("preparation_solid_fraction", r.preparation.solid_fraction), visit("preparation_overlap", r.preparation.soft_overlap);
+      visit("report_tolerance", r.tolerance), visit("expected_strength_error", r.expected.strength),
+        visit("expected_dilation_error", r.expected.dilation);
+      visit("preparation_settling_steps", r.preparation.settling_steps);
+      visit("preparation_largest_overlap", r.preparation.largest_overlap);
       visit("preparation_friction", r.preparation.friction);
     }
 
@@ -102,14 +106,16 @@ namespace diptych::discrete
     void write_pairs(Hdf5Writer &file, const Checkpoint &p)
     {
       std::vector<int>    body, window_body;
-      std::vector<double> impulse, window_impulse, window_dissipation, window_impact;
+      std::vector<double> impulse, change, window_impulse, window_dissipation, window_impact;
       for (const PairImpulse &r : p.state.impulses)
-        body.insert(body.end(), {r.i, r.j}), impulse.insert(impulse.end(), {r.normal, r.tangential});
+        body.insert(body.end(), {r.i, r.j}), impulse.insert(impulse.end(), {r.normal, r.tangential}),
+          change.insert(change.end(), {r.normal_change, r.tangential_change});
       for (const WindowForces::PairSum &s : p.window.sums)
         window_body.insert(window_body.end(), {s.i, s.j}), window_dissipation.push_back(s.dissipation),
           window_impact.push_back(s.impact), window_impulse.insert(window_impulse.end(), {s.impulse.x(), s.impulse.y()});
       file.write("impulses/body", body);
       file.write("impulses/impulse", impulse);
+      file.write("impulses/change", change);
       file.write("window/body", window_body);
       file.write("window/impulse", window_impulse);
       file.write("window/dissipation", window_dissipation);
@@ -120,10 +126,11 @@ namespace diptych::discrete
     void read_pairs(const Hdf5Reader &file, Checkpoint &p)
     {
       const std::vector<int>    body = file.read_int("impulses/body"), window_body = file.read_int("window/body");
-      const std::vector<double> impulse = file.read("impulses/impulse"), window_impulse = file.read("window/impulse"),
+      const std::vector<double> impulse = file.read("impulses/impulse"), change = file.read("impulses/change"),
+                                window_impulse     = file.read("window/impulse"),
                                 window_dissipation = file.read("window/dissipation"), window_impact = file.read("window/impact");
       for (std::size_t k = 0; k + 1 < body.size(); k += 2)
-        p.state.impulses.push_back({body[k], body[k + 1], impulse.at(k), impulse.at(k + 1)});
+        p.state.impulses.push_back({body[k], body[k + 1], impulse.at(k), impulse.at(k + 1), change.at(k), change.at(k + 1)});
       for (std::size_t k = 0; k + 1 < window_body.size(); k += 2)
         p.window.sums.push_back({window_body[k],
                                  window_body[k + 1],

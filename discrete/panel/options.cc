@@ -51,10 +51,15 @@ namespace diptych::discrete
       const std::string method  = "discrete/method = " + name_of(o.method.method),
                         lateral = "discrete/lateral = " + name_of(o.lateral.lateral);
       const bool moves          = o.lateral.lateral == Lateral::rigid_walls || o.lateral.lateral == Lateral::periodic;
-      unused.unless(penalty, method, {"penalty_stiffness", "penalty_step_fraction", "penalty_damping"});
+      unused.unless(
+        penalty, method,
+        {"penalty_stiffness", "penalty_step_fraction", "penalty_damping", "penalty_preload", "penalty_preload_friction"});
+      unused.unless(!penalty || o.penalty.preload > 0, "discrete/penalty_preload = 0", {"penalty_preload_friction"});
       unused.unless(!penalty, method,
-                    {"step", "penetration_correction", "tolerance", "max_sweeps", "snapshot_accuracy", "snapshot_max_sweeps",
-                     "reference_sweeps"});
+                    {"step", "penetration_correction", "accuracy", "tolerance", "max_sweeps", "snapshot_accuracy",
+                     "snapshot_max_sweeps", "reference_sweeps"});
+      unused.unless(penalty || !o.time.step || !o.accuracy.tolerance, "discrete/step and discrete/tolerance are given",
+                    {"accuracy"});
       unused.unless(o.lateral.lateral == Lateral::end_grains, lateral, {"band_height", "end_grains"});
       unused.unless(o.lateral.lateral == Lateral::rigid_walls, lateral, {"wall_friction"});
       unused.unless(moves, lateral, {"wall_mass"});

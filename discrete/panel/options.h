@@ -4,6 +4,7 @@
 
 #include "discrete/panel/loading.h"
 #include "discrete/stepping/penalty.h"
+#include "discrete/stepping/step_rule.h"
 #include "discrete/samples/sample_preparation.h"
 #include "discrete/stepping/time_stepping.h"
 
@@ -47,6 +48,7 @@ namespace diptych::discrete
   {
     MethodOptions     method;
     StepOptions       time;
+    AccuracyOptions   accuracy;
     ContactLawOptions law;
     SolverOptions     solver;
     SamplingOptions   sampling;
@@ -60,6 +62,7 @@ namespace diptych::discrete
   {
     visit_parameters(o.method, visitor);
     visit_parameters(o.time, visitor);
+    visit_parameters(o.accuracy, visitor);
     visit_parameters(o.law, visitor);
     visit_parameters(o.solver, visitor);
     visit_parameters(o.sampling, visitor);

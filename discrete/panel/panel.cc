@@ -4,11 +4,12 @@
 
 #include <cmath>
 #include <ctime>
-#include <sstream>
 #include <stdexcept>
 
 #include "discrete/contacts/internal_moment.h"
 #include "discrete/panel/make_snapshot.h"
+#include "discrete/panel/messages.h"
+#include "discrete/panel/spring_press.h"
 #include "discrete/stepping/step_rule.h"
 
 namespace diptych::discrete
@@ -62,19 +63,19 @@ namespace diptych::discrete
         },
         grains_ ? &*grains_ : nullptr);
       now.state                = std::move(prepared.state);
-      now.step                 = prepared.step; // that of the impulses
       report.preparation       = prepared.report;
+      const bool quiet         = prepared.report.quiet || fail(unrest_text(report.preparation));
+      const bool ready         = quiet && (!presses() || press(prepared));
       report.preparation_cpu_s = cpu_seconds() - start;
       report.initial_height    = sample_height(now.state);
       report.platen_speed      = loading_.mode == LoadingMode::time ? 0 : rate_ * report.initial_height;
-      if (!prepared.report.quiet)
-        {
-          note_unrest();
-          return false;
-        }
+      if (!ready)
+        return false;
+      now.step = prepared.step; // that of the impulses
       StepSetting setting;
       setting.step          = prepared.step;
-      setting.law           = {prepared.report.friction, prepared.report.friction, 0, 0, prepared.report.friction};
+      const double friction = presses() ? options_.penalty.preload_friction : prepared.report.friction;
+      setting.law           = {friction, friction, 0, 0, friction};
       setting.mean_diameter = setting_.mean_diameter;
       prepared_       = make_snapshot(now.state, prepared.last_step, {}, make_reference(now.state, setting_.mean_diameter, 0.),
                                       setting);
@@ -86,8 +87,9 @@ namespace diptych::discrete
 
     void resume(const Checkpoint &checkpoint)
     {
-      now           = checkpoint;
-      setting_.step = now.step;
+      now                       = checkpoint;
+      setting_.step             = now.step;
+      setting_.solver.tolerance = now.report.tolerance;
       set_drives(now.state, {loading_, options_.lateral, options_.drives, rate_});
     }
 
@@ -132,20 +134,35 @@ namespace diptych::discrete
     bool penalty() const { return options_.method.method == Method::penalty; }
     bool stop_requested() const { return hooks_.stop_requested && hooks_.stop_requested(); }
 
+    bool presses() const { return penalty() && loading_.mode != LoadingMode::time && options_.penalty.preload > 0; }
+
+    // The springs of the penalty method. False where it was stopped or they blew up.
+    bool press(PreparedSample &prepared)
+    {
+      const LoadingStart start{loading_, options_.lateral, options_.drives, rate_};
+      auto pressed = press_springs(now.state, {options_.penalty, start, setting_, sample_.density}, [this](const double share) {
+        tell("pressing the springs", share);
+        return !stop_requested();
+      });
+      const bool done = pressed && pressed->last_step.solve.status == SolveStatus::converged;
+      if (!done)
+        fail(pressed ? press_text(options_) : "");
+      else
+        prepared.last_step = std::move(pressed->last_step), prepared.step = pressed->step;
+      return done;
+    }
+
     void tell(const std::string &phase, const double fraction) const
     {
       if (hooks_.on_progress)
         hooks_.on_progress(phase, fraction);
     }
 
-    void note_unrest()
+    bool fail(const std::string &message)
     {
-      now.report.status = stop_requested() ? Status::stopped_by_user : Status::not_converged;
-      std::ostringstream text;
-      text << "the sample was not quiet after " << now.report.preparation.steps << " preparation steps: residual "
-           << now.report.preparation.residual << ", unbalanced force " << now.report.preparation.unbalanced_force
-           << "; a little sample/preparation_friction quiets slender or tiny samples";
-      now.report.message = text.str();
+      now.report.status  = stop_requested() ? Status::stopped_by_user : Status::not_converged;
+      now.report.message = message;
+      return false;
     }
 
     // Begins the next stage: its step, in whole numbers, and a new window.
@@ -162,9 +179,11 @@ namespace diptych::discrete
         scale_impulses(now.state, fitted / now.step);
       springs_.impulse_step = fitted;
       now.step = setting_.step = now.report.step = fitted;
-      now.interval                               = options_.method.history_interval > 0 ? options_.method.history_interval
-                                                   : penalty()                          ? std::max(1L, now.steps_left / 1000)
-                                                                                        : 1;
+      if (!penalty())
+        set_tolerance();
+      now.interval = options_.method.history_interval > 0 ? options_.method.history_interval
+                     : penalty()                          ? std::max(1L, now.steps_left / 1000)
+                                                          : 1;
     }
 
     double wanted_step()
@@ -173,13 +192,23 @@ namespace diptych::discrete
         return penalty_step(now.state.grains, options_.penalty.stiffness * loading_.pressure, options_.penalty.step_fraction);
       if (options_.time.step)
         return *options_.time.step;
-      const double     rate   = loading_.mode == LoadingMode::time ? 0 : rate_;
-      const double     stress = now.row.step > 0 ? 0.5 * now.row.stress.trace() : loading_.pressure;
-      const StepChoice choice = choose_step(now.state, setting_, stress, rate);
+      const StepChoice choice = choose_step(now.state, setting_, flow());
       if (!std::isfinite(choice.step))
         throw std::invalid_argument("discrete/step = auto: nothing moves and nothing presses, so no step follows; give one");
       now.report.step_bound = choice.bound;
       return choice.step;
+    }
+
+    FlowState flow() const
+    {
+      return {now.row.step > 0 ? 0.5 * now.row.stress.trace() : loading_.pressure, loading_.mode == LoadingMode::time ? 0 : rate_,
+              options_.accuracy};
+    }
+
+    void set_tolerance()
+    {
+      setting_.solver.tolerance = now.report.tolerance = choose_tolerance(now.state, setting_, flow());
+      note(now.report, expected_errors(now.state, setting_, flow()));
     }
 
     StepResult next()
@@ -205,43 +234,21 @@ namespace diptych::discrete
       hooks_.on_problem(now.stage + 1, problem, geometry, impulses);
     }
 
-    void note_accuracy(const SampledAccuracy &accuracy)
-    {
-      ++now.report.snapshots_sampled;
-      now.report.snapshots_accurate += accuracy.reached;
-      if (std::isnan(accuracy.reference_residual))
-        return;
-      now.report.error_over_residual = accuracy.error_over_residual;
-      now.report.reference_residual  = accuracy.reference_residual;
-      now.report.reference_error     = accuracy.true_error;
-      now.report.estimated_error     = accuracy.stress_error;
-    }
-
     // Impulses are given and taken in pairs: more than round-off means that the program is wrong.
     void check_momentum(const double residual) const
     {
       constexpr double round_off = 1e-10;
       if (residual <= round_off)
         return;
-      std::ostringstream text;
-      text << "the balance of momentum is violated in step " << now.row.step + 1 << ": " << residual
-           << " of the contact impulses, more than round-off";
-      throw std::logic_error(text.str());
+      throw std::logic_error(momentum_text(now.row.step + 1, residual));
     }
 
     void note_failure(const SolveReport &solve)
     {
-      now.report.status = Status::not_converged;
-      std::ostringstream text;
-      text << "step " << now.row.step + 1 << " at " << text_of(walk_of(loading_.mode), now.report.progress);
-      if (penalty())
-        text << " blew up: a grain went further than its radius in one step, penalty_step_fraction is "
-             << options_.penalty.step_fraction;
-      else
-        text << " did not converge: residual " << solve.residual << " after " << solve.sweeps << " sweeps, wanted "
-             << setting_.solver.tolerance << ", nor did its halves, down to a step of " << setting_.step
-             << "; a larger step, tolerance or max_sweeps may help";
-      now.report.message = text.str();
+      now.report.status  = Status::not_converged;
+      now.report.message = failure_text(
+        {now.row.step + 1, text_of(walk_of(loading_.mode), now.report.progress), solve, setting_.solver.tolerance, setting_.step},
+        options_);
     }
 
     // Where nothing gives way between prescribed walls, rigid grains end up within each other.
@@ -250,10 +257,8 @@ namespace diptych::discrete
       constexpr double limit = 0.3; // mean diameters
       if (penetration <= limit || penalty())
         return false;
-      now.report.status = Status::not_converged;
-      std::ostringstream text;
-      text << "step " << now.row.step << ": grains interpenetrate by " << penetration << " mean diameters";
-      now.report.message = text.str();
+      now.report.status  = Status::not_converged;
+      now.report.message = interpenetration_text(now.row.step, penetration);
       return true;
     }
 
@@ -273,7 +278,7 @@ namespace diptych::discrete
           add_step(result, setting_, now.row);
           now.window.add(result, spin_terms(now.state.grains), h);
           if (result.accuracy)
-            note_accuracy(*result.accuracy);
+            note(now.report, *result.accuracy);
           const double penetration = result.largest_penetration / setting_.mean_diameter;
           last_ = std::move(result), last_step_ = h;
           return !interpenetrate(penetration);

@@ -11,38 +11,13 @@
 
 #include "discrete/panel/history.h"
 #include "discrete/panel/options.h"
+#include "discrete/panel/report.h"
 #include "discrete/panel/window_forces.h"
 #include "discrete/problem_files/fclib.h"
 #include "discrete/snapshot.h"
 
 namespace diptych::discrete
 {
-  enum class Status
-  {
-    finished,
-    stopped_by_user,
-    not_converged
-  };
-
-  struct Report
-  {
-    Status            status       = Status::finished;
-    double            progress     = 0;                   // reached, of what the loading walks along
-    double            axial_strain = 0, shear_strain = 0; // reached
-    std::string       message;                            // empty when finished
-    PreparationReport preparation;
-    double            step = 0;                           // of the last stage
-    std::string       step_bound;                         // step = auto: which bound of the rule gave it
-    long              steps = 0, sweeps = 0, updates = 0; // of the loading; one update = one contact in one sweep
-    double            preparation_cpu_s = 0, loading_cpu_s = 0, solver_cpu_s = 0;
-    double            initial_height = 0, platen_speed = 0;                           // speed: strain rate x height
-    double            error_over_residual = std::numeric_limits<double>::quiet_NaN(); // of grain stress, measured once
-    double            reference_residual  = error_over_residual;                      // of the solve it was measured against
-    double            reference_error = error_over_residual, estimated_error = error_over_residual; // true and estimated, there
-    int               snapshots_sampled = 0, snapshots_accurate = 0;
-    int               halved_steps = 0; // because the sweeps stalled
-  };
-
   // Everything that changes while a sample is loaded. A panel that goes on from it gives the same bits as one that was never
   // interrupted. Drives of walls and cell are no part of it: they follow from the loading.
   struct Checkpoint

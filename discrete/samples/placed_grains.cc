@@ -3,6 +3,7 @@
 #include "discrete/samples/placed_grains.h"
 
 #include <cmath>
+#include <numeric>
 #include <limits>
 #include <utility>
 

@@ -13,6 +13,7 @@
 #include "discrete/files/csv_file.h"
 #include "discrete/samples/placed_grains.h"
 #include "discrete/samples/sample_file.h"
+#include "discrete/samples/settling.h"
 #include "discrete/samples/soft_relaxation.h"
 
 namespace diptych::discrete
@@ -122,13 +123,11 @@ namespace diptych::discrete
     // Everything stands still, nothing is free under a force any more.
     void bring_to_rest(State &state)
     {
-      for (Eigen::Vector2d &v : state.grains.velocity)
-        v.setZero();
-      std::fill(state.grains.spin.begin(), state.grains.spin.end(), 0.);
+      stop(state);
       for (Wall &wall : state.walls)
-        wall.velocity.setZero(), wall.drive_x = wall.drive_y = KeptVelocity{};
+        wall.drive_x = wall.drive_y = KeptVelocity{};
       if (state.cell)
-        state.cell->velocity = 0, state.cell->pressure.reset();
+        state.cell->pressure.reset();
       state.time = 0;
     }
 
@@ -160,7 +159,7 @@ namespace diptych::discrete
       return disc_area(state.grains.radius) / outline_area(make_outline(state, mean_diameter));
     }
 
-    // Steps until quiet.
+    // Steps until quiet, then more that take out the overlaps.
     PreparedSample compact(State                                start,
                            const SampleOptions                 &options,
                            const StepSetting                   &setting,
@@ -180,6 +179,17 @@ namespace diptych::discrete
           ++report.steps;
           report.quiet = report.steps >= options.preparation_steps && report.residual <= options.preparation_tolerance &&
                          report.unbalanced_force <= options.quiet_unbalanced_force;
+        }
+      if (report.quiet)
+        {
+          const SettlingOptions wanted{largest_prepared_overlap * options.mean_diameter, 0.1 * options.quiet_unbalanced_force,
+                                       10 * options.preparation_steps};
+          Settled settled        = settle(sample.state, setting, wanted, [&] { return progress(report.steps, report.steps); });
+          report.quiet           = settled.quiet;
+          report.settling_steps  = settled.steps;
+          report.largest_overlap = settled.largest_overlap / options.mean_diameter;
+          report.residual = settled.last_step.solve.residual, report.unbalanced_force = settled.last_step.unbalanced_force;
+          sample.last_step = std::move(settled.last_step);
         }
       report.solid_fraction = solid_fraction(sample.state, options.mean_diameter);
       return sample;
@@ -268,6 +278,8 @@ namespace diptych::discrete
       sample.report.quiet          = true; // nobody asked
       sample.report.solid_fraction = solid_fraction(state, o.mean_diameter);
       sample.last_step.contacts    = find_contacts(state, std::vector<double>(state.grains.size(), 0.));
+      for (const Contact &c : sample.last_step.contacts)
+        sample.report.largest_overlap = std::max(sample.report.largest_overlap, -c.gap / o.mean_diameter);
       sample.last_step.impulses.resize(sample.last_step.contacts.size());
       sample.last_step.wall_force.assign(state.walls.size(), Eigen::Vector2d::Zero());
       sample.last_step.applied_force = applied_forces(state, setting);

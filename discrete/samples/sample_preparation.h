@@ -13,14 +13,19 @@ namespace diptych::discrete
   // Throws std::invalid_argument naming key and range where options contradict each other.
   void validate(const SampleOptions &options);
 
+  // What may be left between the grains of a prepared sample. [mean diameters]
+  inline constexpr double largest_prepared_overlap = 1e-4;
+
   struct PreparationReport
   {
     bool   quiet    = false;
     int    steps    = 0;
     double residual = 0, unbalanced_force = 0; // of the last step
-    double solid_fraction = 0;                 // grain area / sample area
-    double soft_overlap   = 0;                 // largest overlap left by the soft discs [length]
-    double friction       = 0;                 // of the preparation
+    double solid_fraction  = 0;                // grain area / sample area
+    double soft_overlap    = 0;                // largest overlap left by the soft discs [length]
+    int    settling_steps  = 0;                // after `steps`, from rest, that took out the overlaps
+    double largest_overlap = 0;                // between grains and with walls, at the end [mean diameters]
+    double friction        = 0;                // of the preparation
   };
 
   struct PreparedSample

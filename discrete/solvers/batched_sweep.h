@@ -30,6 +30,8 @@ namespace diptych::discrete
     // Calls solve(velocities, impulses of the held rows in the order given), which may change both, in step with each other.
     template <class Solve> void solve_held(Solve &&solve) { solve(v_, rest_impulses_.data() + n_swept_rest_); }
 
+    const std::vector<BodyVelocity> &velocities() const { return v_; } // of the problem's bodies first
+
     // Velocities taken afresh from the impulses, so that round-off does not pile up.
     void refresh_velocities();
 

@@ -20,7 +20,7 @@ namespace diptych::discrete
   struct SolverOptions
   {
     ContactSolver solver           = ContactSolver::psor;
-    double        tolerance        = 2e-5;
+    double        tolerance        = 2e-5; // natural map residual relative to |r|; of a step: by the rule or as the user said
     int           max_sweeps       = 50000;
     double        omega_sticking   = 1.8;
     double        omega_slipping   = 1.0;
@@ -31,8 +31,6 @@ namespace diptych::discrete
   {
     visitor("solver", o.solver, "-",
             "psor: over-relaxed Gauss-Seidel, omega by contact status; nsgs: plain Gauss-Seidel, the reference");
-    visitor("tolerance", o.tolerance, "-", {1e-14, 1.},
-            "stop of a step: natural map residual relative to |r|; keep tolerance x step / inertial number below 0.7");
     visitor("max_sweeps", o.max_sweeps, "-", {1, 100000000},
             "sweeps after which a step counts as not converged; it is then halved, up to three times, before the run stops with "
             "exit code 3");

@@ -37,12 +37,18 @@ namespace diptych::discrete
 
   void keep_impulses(const std::vector<Contact> &contacts,
                      const std::vector<Impulse> &impulses,
+                     const std::vector<Impulse> &previous,
                      const std::vector<int>     &acting,
                      State                      &state)
   {
     state.impulses.clear();
     state.impulses.reserve(acting.size());
     for (const int k : acting)
-      state.impulses.push_back({contacts[k].i, contacts[k].j, impulses[k].normal, impulses[k].tangential});
+      {
+        const Impulse &r = impulses[k], &before = previous[k];
+        const bool     both = before.normal > 0 && r.normal > 0;
+        state.impulses.push_back({contacts[k].i, contacts[k].j, r.normal, r.tangential, both ? r.normal - before.normal : 0.,
+                                  both ? r.tangential - before.tangential : 0.});
+      }
   }
 } // namespace diptych::discrete

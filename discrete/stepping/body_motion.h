@@ -15,9 +15,11 @@ namespace diptych::discrete
   // Velocities of a solved problem to grains that are not fixed, walls and the cell.
   void take_velocities(const std::vector<BodyVelocity> &v, State &state);
 
-  // Keeps the impulses of the contacts that act for the next step's first guess. `contacts` ascend in (i, j).
+  // Keeps the impulses of the contacts that act for the next step's first guess, and what `previous`, those of the step before,
+  // has become of. `contacts` ascend in (i, j).
   void keep_impulses(const std::vector<Contact> &contacts,
                      const std::vector<Impulse> &impulses,
+                     const std::vector<Impulse> &previous,
                      const std::vector<int>     &acting,
                      State                      &state);
 } // namespace diptych::discrete

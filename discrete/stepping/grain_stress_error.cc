@@ -64,6 +64,13 @@ namespace diptych::discrete
     return q < most ? safety * last * q / (1 - q) : std::numeric_limits<double>::infinity();
   }
 
+  bool GrainStressError::hopeless() const
+  {
+    constexpr double  falls = 0.9;
+    const std::size_t n     = changes_.size();
+    return n >= 4 && changes_[n - 1] >= falls * changes_[n - 2] && changes_[n - 2] >= falls * changes_[n - 3];
+  }
+
   SolveReport solve_sampled(const SampledProblem &sampled,
                             const SolverOptions  &solver,
                             const SampleRequest  &request,
@@ -86,14 +93,14 @@ namespace diptych::discrete
                                          return true;
                                        if (error.wants(now.sweeps))
                                          error.observe(moments(present()));
-                                       const bool used_up = now.sweeps >= request.options.snapshot_max_sweeps;
+                                       const bool used_up = now.sweeps >= request.options.snapshot_max_sweeps || error.hopeless();
                                        return residual <= solver.tolerance && (error.estimate() <= wanted || used_up);
                                      });
     accuracy.stress_error     = residual <= as_good_as_exact ? 0 : error.estimate();
     accuracy.stress_change    = error.change();
     accuracy.reached          = accuracy.stress_error <= wanted;
 
-    if (request.measure_factor && request.options.reference_sweeps > 0)
+    if (request.measure_factor && accuracy.reached && request.options.reference_sweeps > 0)
       {
         std::vector<Impulse> reference = impulses;
         on.tolerance                   = as_good_as_exact;

@@ -61,6 +61,7 @@ namespace diptych::discrete
     void observe(std::vector<double> moments);
 
     double estimate() const; // infinity where it is not known
+    bool   hopeless() const; // the change has not fallen in two doublings on end: more sweeps will not tell
     double change() const { return changes_.empty() ? std::numeric_limits<double>::infinity() : changes_.back(); } // D_k
 
   private:
@@ -98,7 +99,8 @@ namespace diptych::discrete
   };
 
   // Solves to the tolerance of `solver`, then on until the estimate is below the accuracy wanted, the residual below 1e-9
-  // (estimate: 0) or the sweeps are used up. The report says whether the tolerance was met, `accuracy` the rest.
+  // (estimate: 0), it is hopeless, or the sweeps are used up. The factor is measured only where the accuracy was reached. The
+  // report says whether the tolerance was met, `accuracy` the rest.
   SolveReport solve_sampled(const SampledProblem &sampled,
                             const SolverOptions  &solver,
                             const SampleRequest  &request,

@@ -12,6 +12,7 @@
 #include "discrete/stepping/body_motion.h"
 #include "discrete/contacts/contact_law.h"
 #include "discrete/stepping/step_problem.h"
+#include "discrete/stepping/warm_start.h"
 
 namespace diptych::discrete
 {
@@ -136,7 +137,7 @@ namespace diptych::discrete
     drift(trial, 0.5 * h);
     if (has_blown_up(trial, h))
       return blown_up();
-    keep_impulses(result.contacts, result.impulses, acting, trial);
+    keep_impulses(result.contacts, result.impulses, result.impulses, acting, trial);
     trial.time += h;
     state                = std::move(trial);
     penalty.impulse_step = h;

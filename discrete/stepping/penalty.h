@@ -8,9 +8,11 @@ namespace diptych::discrete
 {
   struct PenaltyOptions
   {
-    double stiffness     = 1000;
-    double step_fraction = 0.2;
-    double damping       = 0.2;
+    double stiffness        = 1000;
+    double step_fraction    = 0.2;
+    double damping          = 0.2;
+    double preload          = 30;
+    double preload_friction = 0;
   };
 
   template <class Visitor> void visit_parameters(PenaltyOptions &o, Visitor &&visitor)
@@ -22,6 +24,11 @@ namespace diptych::discrete
             "starts at 0.55");
     visitor("penalty_damping", o.damping, "-", {0., 1.},
             "normal dashpot of a contact, fraction of the critical one of its two bodies; there is no other damping");
+    visitor(
+      "penalty_preload", o.preload, "d sqrt(rho/P)", {0., 1e6},
+      "time in which the springs take up the pressure before the loading, platens at rest; 0: not at all. loading/mode = time "
+      "has none");
+    visitor("penalty_preload_friction", o.preload_friction, "-", {0., 100.}, "Coulomb coefficient of all contacts in that time");
   }
 
   // Step fraction x sqrt(m_min / stiffness), m_min the smallest mass of a grain that moves. [time]

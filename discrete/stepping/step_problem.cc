@@ -124,25 +124,4 @@ namespace diptych::discrete
       }
     return problem;
   }
-
-  std::vector<Impulse> first_guess(const std::vector<PairImpulse> &previous, const std::vector<Contact> &contacts)
-  {
-    std::vector<Impulse> guess(contacts.size());
-    auto                 pair = previous.begin(); // both lists ascend in (i, j)
-    for (std::size_t k = 0; k < contacts.size(); ++k)
-      {
-        const Contact &c = contacts[k];
-        while (pair != previous.end() && (pair->i < c.i || (pair->i == c.i && pair->j < c.j)))
-          ++pair;
-        if (pair == previous.end())
-          break;
-        // Which contacts were there before follows no pattern: a choice without a branch.
-        const PairImpulse  none{c.i, c.j, 0, 0};
-        const bool         known = pair->i == c.i && pair->j == c.j;
-        const PairImpulse &r     = *(known ? &*pair : &none);
-        guess[k]                 = {r.normal, r.tangential};
-        pair += known;
-      }
-    return guess;
-  }
 } // namespace diptych::discrete

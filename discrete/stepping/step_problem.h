@@ -27,9 +27,6 @@ namespace diptych::discrete
                               const std::vector<BodyVelocity> &v,
                               ContactProblem                   problem);
 
-  // Impulses of the preceding step by body pair; new contacts start from zero.
-  std::vector<Impulse> first_guess(const std::vector<PairImpulse> &previous, const std::vector<Contact> &contacts);
-
   // Impulse of a contact as a vector on body i.
   inline Eigen::Vector2d impulse_vector(const Contact &c, const Impulse &r)
   {

@@ -49,6 +49,26 @@ namespace diptych::discrete
       return demands;
     }
 
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+
+    // Of the errors: strength over strain per step, tolerance x step / inertial number over accuracy.
+    constexpr double strength_budget = 1. / 80, noise_budget = 2.5;
+    // Residuals of looser solves mean nothing any more.
+    constexpr double loosest_tolerance = 1e-2;
+
+    double least_tolerance(const AccuracyOptions &o)
+    {
+      return 1e-3 * o.accuracy;
+    }
+
+    // d sqrt(rho/s); infinity where nothing is pressed.
+    double unit_of_time(const State &state, const StepSetting &setting, const FlowState &flow)
+    {
+      const bool   end_grains = std::holds_alternative<EndGrains>(setting.lateral);
+      const double stress     = std::max(flow.mean_stress, end_grains ? setting.pressure : 0.);
+      return stress > 0 ? setting.mean_diameter * std::sqrt(grain_density(state.grains) / stress) : infinity;
+    }
+
     double fastest(const State &state)
     {
       double speed = 0, squares = 0;
@@ -60,13 +80,11 @@ namespace diptych::discrete
     }
   } // namespace
 
-  StepChoice choose_step(const State &state, const StepSetting &setting, const double mean_stress, const double rate)
+  StepChoice choose_step(const State &state, const StepSetting &setting, const FlowState &flow)
   {
-    constexpr double   infinity   = std::numeric_limits<double>::infinity();
     const double       d          = setting.mean_diameter;
     const bool         end_grains = std::holds_alternative<EndGrains>(setting.lateral);
-    const double       stress     = std::max(mean_stress, end_grains ? setting.pressure : 0.);
-    const double       unit       = stress > 0 ? d * std::sqrt(grain_density(state.grains) / stress) : infinity;
+    const double       unit       = unit_of_time(state, setting, flow);
     const DriveDemands demands    = drive_demands(state);
     const double       speed      = std::max(fastest(state), demands.speed),
                  gravity          = std::hypot(setting.time.gravity_x, setting.time.gravity_y);
@@ -84,8 +102,31 @@ namespace diptych::discrete
     bound(0.1 * demands.interval, "drives");
     if (gravity > 0)
       bound(0.3 * std::sqrt(d / gravity), "gravity");
-    if (rate > 0 && std::isfinite(unit))
-      bound(0.6 * rate * unit / setting.solver.tolerance * unit, "solver");
+    if (flow.rate > 0)
+      bound(strength_budget * flow.accuracy.accuracy / flow.rate, "strain");
+    if (flow.rate > 0 && std::isfinite(unit))
+      bound(noise_budget * flow.accuracy.accuracy * flow.rate * unit * unit /
+              flow.accuracy.tolerance.value_or(least_tolerance(flow.accuracy)),
+            "solver");
     return choice;
+  }
+
+  double choose_tolerance(const State &state, const StepSetting &setting, const FlowState &flow)
+  {
+    if (flow.accuracy.tolerance)
+      return *flow.accuracy.tolerance;
+    const double unit = unit_of_time(state, setting, flow);
+    if (!(flow.rate > 0) || !std::isfinite(unit))
+      return least_tolerance(flow.accuracy);
+    return std::min(loosest_tolerance, noise_budget * flow.accuracy.accuracy * flow.rate * unit * unit / setting.step);
+  }
+
+  ExpectedErrors expected_errors(const State &state, const StepSetting &setting, const FlowState &flow)
+  {
+    const double unit = unit_of_time(state, setting, flow);
+    if (!(flow.rate > 0) || !std::isfinite(unit))
+      return {};
+    return {flow.rate * setting.step / strength_budget,
+            std::min(1., 0.5 * setting.solver.tolerance * setting.step / (flow.rate * unit * unit))};
   }
 } // namespace diptych::discrete

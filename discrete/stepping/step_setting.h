@@ -47,7 +47,7 @@ namespace diptych::discrete
 
   struct StepOptions
   {
-    std::optional<double> step                   = 1.; // none: auto
+    std::optional<double> step                   = {}; // none: auto
     PenetrationCorrection penetration_correction = PenetrationCorrection::projection;
     double                gravity_x              = 0;
     double                gravity_y              = 0;
@@ -57,7 +57,7 @@ namespace diptych::discrete
   {
     visitor("step", o.step, "time", {1e-12, 1e12},
             "step h, at most d sqrt(rho/P) with free end grains, shortened so that every stage is a whole number of steps; auto: "
-            "chosen at the start of every stage from forces, motion and tolerance (discrete/README.md)");
+            "chosen at the start of every stage from forces, motion and accuracy (discrete/README.md)");
     visitor("penetration_correction", o.penetration_correction, "-",
             "what undoes interpenetration: up to ten position sweeps after the step, or gap/h (soft_velocity: 0.2 gap/h) in the "
             "normal term, whose work is a ledger column");

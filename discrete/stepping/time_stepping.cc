@@ -7,8 +7,9 @@
 
 #include "discrete/contacts/natural_map.h"
 #include "discrete/stepping/body_motion.h"
-#include "discrete/stepping/position_projection.h"
+#include "discrete/stepping/position_correction.h"
 #include "discrete/stepping/step_problem.h"
+#include "discrete/stepping/warm_start.h"
 
 namespace diptych::discrete
 {
@@ -69,11 +70,13 @@ namespace diptych::discrete
     result.applied_force              = applied_forces(trial, setting);
     const std::vector<BodyVelocity> v = body_velocities(trial);
     result.contacts = cache.neighbours.find_contacts(trial, detection_margins(trial, setting, v, result.applied_force));
-    result.largest_penetration    = largest_penetration(result.contacts);
-    cache.problem.free_velocity   = free_velocities(trial, v, result.applied_force, setting);
-    cache.problem                 = make_problem(trial, setting, result.contacts, v, std::move(cache.problem));
-    const ContactProblem &problem = cache.problem;
-    result.impulses               = first_guess(state.impulses, result.contacts);
+    result.largest_penetration          = largest_penetration(result.contacts);
+    cache.problem.free_velocity         = free_velocities(trial, v, result.applied_force, setting);
+    cache.problem                       = make_problem(trial, setting, result.contacts, v, std::move(cache.problem));
+    const ContactProblem      &problem  = cache.problem;
+    const std::vector<Impulse> previous = first_guess(state.impulses, result.contacts);
+    result.impulses                     = previous;
+    extrapolate(problem, last_changes(state.impulses, result.contacts), result.impulses);
     if (sample && sample->options.snapshot_max_sweeps > 0)
       result.solve = solve_sampled({problem, trial.grains.radius, result.contacts}, setting.solver, *sample, *cache.team,
                                    result.impulses, result.accuracy.emplace());
@@ -98,8 +101,8 @@ namespace diptych::discrete
     take_velocities(v_new, trial);
     drift(trial, 0.5 * h);
     if (setting.time.penetration_correction == PenetrationCorrection::projection)
-      project_positions(trial, result.contacts, 1e-4 * setting.mean_diameter);
-    keep_impulses(result.contacts, result.impulses, acting, trial);
+      correct_positions(trial, {problem, result.contacts, result.impulses, v_new, h}, 1e-4 * setting.mean_diameter, *cache.team);
+    keep_impulses(result.contacts, result.impulses, previous, acting, trial);
     trial.time += h;
     state = std::move(trial);
     return result;

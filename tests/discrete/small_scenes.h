@@ -68,8 +68,8 @@ namespace diptych::tests
   inline Options quick_options()
   {
     Options options;
-    options.time.step        = 0.1;
-    options.solver.tolerance = 1e-4;
+    options.time.step          = 0.1;
+    options.accuracy.tolerance = 1e-4;
     return options;
   }
 

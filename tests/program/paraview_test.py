@@ -16,7 +16,7 @@ import numpy as np
 from running import QUICK, SMALL, diptych, main, setting
 
 # A law without couple stresses: its stress is symmetric, and so is everything that a tensor of it may be checked against.
-SYMMETRIC = SMALL + setting(continuum_law="mohr_coulomb", output_report="false")
+SYMMETRIC = SMALL + setting(sample_seed=2, continuum_law="mohr_coulomb", output_report="false")  # 2: a smooth outline
 
 
 class Files(unittest.TestCase):

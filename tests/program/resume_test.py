@@ -168,7 +168,7 @@ class Resume(unittest.TestCase):
         """Springs with steps far too long blow up soon. In a loading of one stage the prepared sample and the last accepted
         step are two snapshots, as many as a whole run has."""
         words = SMALL + setting(sample_grains=100, loading_axial_strain=0.005, comparison_window_edges="0,0.005",
-                                discrete_method="penalty", discrete_penalty_step_fraction=1.5)
+                                discrete_method="penalty", discrete_penalty_step_fraction=1.5, discrete_penalty_preload=0)
         first = diptych("discrete", QUICK, *words, "--output", self.folder, "--quiet")
         self.assertEqual(first.returncode, 3, first.stderr)
         with h5py.File(os.path.join(self.folder, "discrete.h5"), "r") as file:

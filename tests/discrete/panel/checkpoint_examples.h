@@ -36,7 +36,11 @@ namespace
       (*this)(c.i), (*this)(c.j), (*this)(c.point), (*this)(c.normal), (*this)(c.force), (*this)(c.shift);
     }
     void operator()(const ContactStatus &status) { (*this)(double(status)); }
-    void operator()(const PairImpulse &r) { (*this)(r.i), (*this)(r.j), (*this)(r.normal), (*this)(r.tangential); }
+    void operator()(const PairImpulse &r)
+    {
+      (*this)(r.i), (*this)(r.j), (*this)(r.normal), (*this)(r.tangential);
+      (*this)(r.normal_change), (*this)(r.tangential_change);
+    }
     void operator()(const WindowForces::PairSum &s)
     {
       (*this)(s.i), (*this)(s.j), (*this)(s.dissipation), (*this)(s.impact), (*this)(s.impulse);
@@ -98,7 +102,8 @@ namespace
     b(p.row, p.window.sums, p.window.spin, p.window.time, p.stage, double(p.steps_left), p.step, double(p.interval));
     const Report &q = p.report;
     b(q.progress, q.axial_strain, q.shear_strain, double(q.preparation.quiet), q.preparation.steps, q.preparation.residual,
-      q.preparation.unbalanced_force, q.preparation.solid_fraction, q.preparation.soft_overlap, q.preparation.friction);
+      q.preparation.unbalanced_force, q.preparation.solid_fraction, q.preparation.soft_overlap, q.preparation.friction,
+      q.preparation.settling_steps, q.preparation.largest_overlap);
     b(double(q.steps), double(q.sweeps), double(q.updates), q.preparation_cpu_s, q.loading_cpu_s, q.solver_cpu_s,
       q.initial_height, q.platen_speed, q.error_over_residual, q.reference_residual, q.reference_error, q.estimated_error);
     b(q.snapshots_sampled, q.snapshots_accurate);
@@ -151,7 +156,7 @@ namespace
       }
     state.cell = PeriodicCell{dice(), dice(), {}, dice()};
     for (int k = 0; k < 5; ++k)
-      state.impulses.push_back({k, k + 3, dice(), dice()});
+      state.impulses.push_back({k, k + 3, dice(), dice(), dice(), dice()});
     state.time = dice();
   }
 
@@ -159,7 +164,7 @@ namespace
   {
     q.progress = dice(), q.axial_strain = dice(), q.shear_strain = dice(), q.steps = dice.whole(), q.sweeps = 123456789012345,
     q.updates           = 9007199254740991; // 2^53 - 1
-    q.preparation       = {true, dice.whole(), dice(), dice(), dice(), dice(), dice()};
+    q.preparation       = {true, dice.whole(), dice(), dice(), dice(), dice(), dice.whole(), dice(), dice()};
     q.preparation_cpu_s = dice(), q.loading_cpu_s = dice(), q.solver_cpu_s = dice(), q.initial_height = dice();
     q.platen_speed = dice(), q.reference_error = dice(), q.snapshots_sampled = 12, q.snapshots_accurate = 7;
     q.estimated_error = std::numeric_limits<double>::infinity(); // error_over_residual and reference_residual stay NaN

@@ -67,10 +67,10 @@ namespace
 
   TEST(Panel, AStepThatDoesNotConvergeEndsTheRunAndIsNotTaken)
   {
-    Options options           = quick_options();
-    options.solver.tolerance  = 1e-12;
-    options.solver.max_sweeps = 5;
-    const Course r            = loaded(small_sample(150), short_loading(), options);
+    Options options            = quick_options();
+    options.accuracy.tolerance = 1e-12;
+    options.solver.max_sweeps  = 5;
+    const Course r             = loaded(small_sample(150), short_loading(), options);
     EXPECT_EQ(r.report.status, Status::not_converged);
     EXPECT_NE(r.report.message.find("did not converge"), std::string::npos) << r.report.message;
     EXPECT_LT(r.rows.size(), 100u);

@@ -7,6 +7,7 @@
 
 #include "discrete/stepping/grain_stress_error.h"
 #include "discrete/stepping/step_problem.h"
+#include "discrete/stepping/warm_start.h"
 #include "tests/discrete/small_scenes.h"
 
 namespace
@@ -106,6 +107,7 @@ namespace
     step.contacts                            = find_contacts(step.state, std::vector<double>(now.grains.size(), 0.05));
     step.problem = make_problem(step.state, setting, step.contacts, v, {free_velocities(step.state, v, force, setting), {}, {}});
     step.first   = first_guess(now.impulses, step.contacts);
+    extrapolate(step.problem, last_changes(now.impulses, step.contacts), step.first);
     return step;
   }
 
@@ -163,7 +165,8 @@ namespace
   struct Statistics
   {
     int                 n_problems = 0, n_solved = 0, n_trials = 0, n_reached = 0;
-    std::vector<double> ratio; // true error / estimate, where there is one
+    int                 n_right = 0; // called accurate, and so they were
+    std::vector<double> ratio;       // true error / estimate, where there is one
   };
 
   Statistics measured(const std::vector<double> &wanted)
@@ -172,7 +175,7 @@ namespace
     SolverOptions fully;
     fully.tolerance  = 1e-9;
     fully.max_sweeps = 300000;
-    for (const int seed : {1, 2, 3})
+    for (const int seed : {1, 2, 3, 4, 5, 6, 7, 8})
       for (const StoredStep &step : sheared_steps(seed, 4))
         {
           ++s.n_problems;
@@ -186,6 +189,7 @@ namespace
               const Trial t = trial_of(step, truth, request_of(accuracy, 50000));
               EXPECT_EQ(t.accuracy.reached, t.accuracy.stress_error <= accuracy);
               ++s.n_trials, s.n_reached += t.accuracy.reached;
+              s.n_right += t.accuracy.reached && t.true_error <= accuracy;
               if (std::isfinite(t.accuracy.stress_error) && t.accuracy.stress_error > 0)
                 s.ratio.push_back(t.true_error / t.accuracy.stress_error);
             }
@@ -201,12 +205,13 @@ namespace
     ASSERT_GE(s.n_solved, 5) << "too few solutions at 1e-9 to compare with";
     ASSERT_GE(s.ratio.size(), 5u);
     const auto quantile = [&](const double share) { return s.ratio[std::size_t(share * double(s.ratio.size() - 1))]; };
-    const auto below    = double(std::count_if(s.ratio.begin(), s.ratio.end(), [](const double q) { return q <= 1; }));
     std::cout << s.n_solved << " of " << s.n_problems << " steps solved to 1e-9; " << s.ratio.size() << " of " << s.n_trials
-              << " solves with an estimate, " << s.n_reached << " as accurate as wanted; true error / estimate: median "
-              << quantile(0.5) << ", 90 % " << quantile(0.9) << ", largest " << s.ratio.back() << "\n";
-    EXPECT_GE(below, 0.9 * double(s.ratio.size()));
-    EXPECT_LE(s.ratio.back(), 3);
+              << " solves with an estimate, " << s.n_reached << " called as accurate as wanted, " << s.n_right
+              << " rightly; true error / estimate: median " << quantile(0.5) << ", 90 % " << quantile(0.9) << ", largest "
+              << s.ratio.back() << "\n";
+    // Now and then the sweeps come to rest near a state that is no solution and leave it much later.
+    EXPECT_GE(s.n_right, 0.85 * s.n_reached);
+    EXPECT_LE(quantile(0.5), 0.5);
   }
 
   TEST(SolveSampled, AUsedUpBudgetIsReportedAndNotCalledAccurate)
@@ -259,10 +264,17 @@ namespace
   TEST(SolveSampled, AFinishedSolveHasNoErrorAndTheFactorIsMeasuredAgainstIt)
   {
     const StoredStep step            = sheared_steps(1, 1).front();
-    SampleRequest    request         = request_of(0.05, 2000);
+    SampleRequest    request         = request_of(1e-6, 200);
     request.measure_factor           = true;
     request.options.reference_sweeps = 100000;
-    const Trial t                    = trial_of(step, step.moments(step.first), request);
+    const Trial vain                 = trial_of(step, step.moments(step.first), request);
+    EXPECT_FALSE(vain.accuracy.reached);
+    EXPECT_TRUE(std::isnan(vain.accuracy.true_error)) << "nothing is measured where the accuracy was not reached";
+
+    request.options.snapshot_accuracy   = std::numeric_limits<double>::infinity();
+    request.options.snapshot_max_sweeps = 2000;
+    const Trial t                       = trial_of(step, step.moments(step.first), request);
+    ASSERT_TRUE(t.accuracy.reached);
     EXPECT_GT(t.accuracy.true_error, 0);
     if (t.accuracy.reference_residual <= 0.1 * t.report.residual)
       EXPECT_NEAR(t.accuracy.error_over_residual, t.accuracy.true_error / t.report.residual,

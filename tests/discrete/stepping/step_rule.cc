@@ -18,15 +18,24 @@ namespace
     State       state;
     StepSetting setting = exact_setting(1);
 
+    AccuracyOptions accuracy;
+
     RuleScene()
     {
       state.walls = {{{0, 0}, {0, 1}}, {{0, 4}, {0, -1}}};
       add_grain(state.grains, {0, 1}, 1, 4.);
       add_grain(state.grains, {3, 1}, 1, 4.);
-      setting.mean_diameter    = 2;
-      setting.solver.tolerance = 1e-4;
+      setting.mean_diameter = 2;
+      accuracy.tolerance    = 1e-4;
     }
-    StepChoice choose(const double stress, const double rate) const { return choose_step(state, setting, stress, rate); }
+    StepChoice choose(const double stress, const double rate) const
+    {
+      return choose_step(state, setting, {stress, rate, accuracy});
+    }
+    double tolerance(const double stress, const double rate) const
+    {
+      return choose_tolerance(state, setting, {stress, rate, accuracy});
+    }
   };
 
   TEST(StepRule, PressedGrainsAreBoundByTheForces)
@@ -60,14 +69,49 @@ namespace
     EXPECT_NEAR(s.choose(0, 0).step, 0.3 * std::sqrt(0.4), 1e-14);
   }
 
-  // nat h / I up to 0.6 with h and I in the unit d sqrt(rho/s): h = 0.6 (rate unit)/tolerance unit.
+  // tolerance h / I up to 2.5 accuracy with h and I in the unit d sqrt(rho/s): h = 0.05 (rate unit)/tolerance unit.
   TEST(StepRule, SlowLoadingIsBoundByTheSolversNoise)
   {
     RuleScene s;
     EXPECT_EQ(s.choose(9, 1e-5).bound, "solver");
-    EXPECT_NEAR(s.choose(9, 1e-5).step, 0.6 * 1e-5 * 16. / 9 / 1e-4, 1e-14);
-    s.setting.solver.tolerance = 1e-7;
+    EXPECT_NEAR(s.choose(9, 1e-5).step, 0.05 * 1e-5 * 16. / 9 / 1e-4, 1e-14);
+    s.accuracy.tolerance = 1e-7;
     EXPECT_EQ(s.choose(9, 1e-5).bound, "forces") << "a tighter solve allows longer steps";
+  }
+
+  TEST(StepRule, FastLoadingIsBoundByTheStrainPerStep)
+  {
+    RuleScene s;
+    s.accuracy.tolerance.reset();
+    EXPECT_EQ(s.choose(9, 1e-2).bound, "strain");
+    EXPECT_NEAR(s.choose(9, 1e-2).step, 0.02 / 80 / 1e-2, 1e-14);
+    s.accuracy.accuracy = 0.01;
+    EXPECT_NEAR(s.choose(9, 1e-2).step, 0.01 / 80 / 1e-2, 1e-14);
+  }
+
+  TEST(StepRule, ToleranceAutoFollowsStepAndStrainRate)
+  {
+    RuleScene s;
+    EXPECT_EQ(s.tolerance(9, 1e-3), 1e-4) << "what the user asked for";
+    s.accuracy.tolerance.reset();
+    s.setting.step = 0.5;
+    EXPECT_NEAR(s.tolerance(9, 1e-3), 2.5 * 0.02 * 1e-3 * 16. / 9 / 0.5, 1e-18);
+    EXPECT_EQ(s.tolerance(9, 0), 2e-5) << "nothing strains";
+    EXPECT_EQ(s.tolerance(0, 1e-3), 2e-5) << "nothing is pressed";
+    s.setting.step = s.choose(9, 1e-5).step; // the longest that the sweeps can serve
+    EXPECT_EQ(s.choose(9, 1e-5).bound, "solver");
+    EXPECT_NEAR(s.tolerance(9, 1e-5), 2e-5, 1e-17);
+  }
+
+  TEST(StepRule, SettingsOfTheUserAreToldWhatTheyCost)
+  {
+    RuleScene s;
+    s.setting.step              = 0.5;
+    s.setting.solver.tolerance  = 1e-3;
+    const ExpectedErrors errors = expected_errors(s.state, s.setting, {9, 1e-3, s.accuracy});
+    EXPECT_NEAR(errors.strength, 80 * 1e-3 * 0.5, 1e-14);
+    EXPECT_NEAR(errors.dilation, 0.5 * 1e-3 * 0.5 / (1e-3 * 16. / 9), 1e-14);
+    EXPECT_EQ(expected_errors(s.state, s.setting, {9, 0, s.accuracy}).strength, 0);
   }
 
   TEST(StepRule, WhereNothingMovesOrPressesNoStepFollows)
@@ -76,7 +120,7 @@ namespace
     EXPECT_EQ(RuleScene().choose(0, 0).bound, "none");
   }
 
-  // No rate of 1e-3 with a tolerance of 1e-4 allows h > 6; end grains 1 in units of 1.
+  // No strain of more than 2.5e-4 a step; end grains 1 in units of 1.
   TEST(StepRule, ARunWithStepAutoReachesItsStagesAndNamesItsBound)
   {
     Options options   = quick_options();
@@ -84,7 +128,8 @@ namespace
     const Course r    = loaded(small_sample(150), short_loading(), options);
     ASSERT_EQ(r.report.status, Status::finished) << r.report.message;
     EXPECT_NEAR(r.report.axial_strain, 0.01, 1e-12);
-    EXPECT_TRUE(r.report.step_bound == "forces" || r.report.step_bound == "motion" || r.report.step_bound == "solver")
+    EXPECT_TRUE(r.report.step_bound == "forces" || r.report.step_bound == "motion" || r.report.step_bound == "solver" ||
+                r.report.step_bound == "strain")
       << r.report.step_bound;
     EXPECT_GT(r.report.step, 0.1);
     EXPECT_LE(r.report.step, 1);

@@ -1,0 +1,25 @@
+// diptych: what the panel says where it cannot go on
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+
+#include "discrete/panel/options.h"
+
+namespace diptych::discrete
+{
+  std::string unrest_text(const PreparationReport &report);
+  std::string press_text(const Options &options); // springs that blew up while they took up the pressure
+  std::string momentum_text(int step, double residual);
+  std::string interpenetration_text(int step, double penetration); // [mean diameters]
+
+  // A step that the sweeps left unsolved, or on which springs blew up.
+  struct FailedStep
+  {
+    int         step;  // counts from 1
+    std::string where; // along the loading
+    SolveReport solve;
+    double      tolerance, length;
+  };
+  std::string failure_text(const FailedStep &failed, const Options &options);
+} // namespace diptych::discrete

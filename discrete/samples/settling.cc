@@ -1,0 +1,51 @@
+// diptych: takes the overlaps out of a compacted sample
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/samples/settling.h"
+
+#include <algorithm>
+
+#include "discrete/stepping/body_motion.h"
+
+namespace diptych::discrete
+{
+  void stop(State &state)
+  {
+    for (Eigen::Vector2d &v : state.grains.velocity)
+      v.setZero();
+    std::fill(state.grains.spin.begin(), state.grains.spin.end(), 0.);
+    for (Wall &wall : state.walls)
+      wall.velocity.setZero();
+    if (state.cell)
+      state.cell->velocity = 0;
+  }
+
+  Settled settle(State &state, StepSetting setting, const SettlingOptions &options, const std::function<bool()> &go_on)
+  {
+    // What a residual e leaves of overlaps is about e h^2 P/m: 1e-4 d at a step of 0.2 d sqrt(rho/P) needs this.
+    constexpr double tolerance          = 5e-5;
+    constexpr int    max_sweeps         = 2000;
+    setting.time.penetration_correction = PenetrationCorrection::velocity;
+    setting.solver.tolerance            = std::min(setting.solver.tolerance, tolerance);
+    setting.solver.max_sweeps           = std::max(setting.solver.max_sweeps, max_sweeps);
+    Settled   settled;
+    StepCache cache;
+    stop(state);
+    while (settled.steps < options.most_steps && go_on())
+      {
+        State next              = state;
+        settled.last_step       = advance(next, setting, cache); // contacts at the places of `state`, for nothing moves yet
+        settled.largest_overlap = settled.last_step.largest_penetration;
+        ++settled.steps;
+        state.impulses = next.impulses;
+        settled.quiet  = settled.largest_overlap <= options.largest_overlap &&
+                        settled.last_step.solve.residual <= setting.solver.tolerance &&
+                        settled.last_step.unbalanced_force <= options.unbalanced_force;
+        if (settled.quiet)
+          break;
+        drift(next, 0.5 * setting.step); // to the next mid-step
+        state = std::move(next);
+        stop(state);
+      }
+    return settled;
+  }
+} // namespace diptych::discrete

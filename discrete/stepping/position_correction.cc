@@ -1,0 +1,81 @@
+// diptych: takes out what penetration a step has left
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/stepping/position_correction.h"
+
+#include <algorithm>
+
+#include "discrete/contacts/contact_law.h"
+#include "discrete/solvers/batched_sweep.h"
+
+namespace diptych::discrete
+{
+  namespace
+  {
+    std::vector<double> gaps_to_come(const SolvedContacts &s)
+    {
+      std::vector<double> gap(s.contacts.size());
+      for (std::size_t k = 0; k < gap.size(); ++k)
+        gap[k] = s.contacts[k].gap + s.step * relative_velocity(s.problem.contacts[k], s.v_new).normal;
+      return gap;
+    }
+
+    // Rows whose contacts act or might be closed by what is moved, with the impulses of the step.
+    struct Displacements
+    {
+      ContactProblem       problem; // its velocities are those of w
+      std::vector<Impulse> impulses;
+    };
+
+    Displacements make_displacements(const SolvedContacts &s, const std::vector<double> &gap, const double penetration)
+    {
+      Displacements d;
+      d.problem.free_velocity = s.problem.free_velocity;
+      for (std::size_t b = 0; b < s.v_new.size(); ++b)
+        {
+          BodyVelocity &w = d.problem.free_velocity[b];
+          w.x -= s.v_new[b].x, w.y -= s.v_new[b].y, w.surface -= s.v_new[b].surface;
+        }
+      d.problem.contacts.reserve(gap.size()), d.impulses.reserve(gap.size());
+      for (const int k : s.problem.order)
+        if (s.impulses[k].normal > 0 || gap[k] < 2 * penetration)
+          {
+            d.problem.contacts.push_back(s.problem.contacts[k]);
+            d.problem.contacts.back().normal_term     = gap[k] / s.step;
+            d.problem.contacts.back().tangential_term = 0;
+            d.impulses.push_back(s.impulses[k]);
+          }
+      return d;
+    }
+
+    void move(State &state, const std::vector<BodyVelocity> &w, const double step)
+    {
+      Grains           &g = state.grains;
+      const std::size_t n = g.size();
+      for (std::size_t i = 0; i < n; ++i)
+        if (!g.fixed[i])
+          {
+            g.position[i] += step * Eigen::Vector2d(w[i].x, w[i].y);
+            g.rotation[i] += step * w[i].surface / g.radius[i];
+          }
+      for (std::size_t k = 0; k < state.walls.size(); ++k)
+        state.walls[k].point += step * Eigen::Vector2d(w[n + k].x, w[n + k].y);
+      if (state.cell && state.cell->moves())
+        state.cell->width += step * w[n + state.walls.size()].x;
+    }
+  } // namespace
+
+  void correct_positions(State &state, const SolvedContacts &solved, const double enough, ThreadTeam &team)
+  {
+    constexpr int             sweeps      = 10;
+    const std::vector<double> gap         = gaps_to_come(solved);
+    const double              penetration = gap.empty() ? 0 : -*std::min_element(gap.begin(), gap.end());
+    if (penetration <= enough)
+      return;
+    const Displacements displacements = make_displacements(solved, gap, penetration);
+    BatchedContacts     batches(displacements.problem);
+    batches.set_impulses(displacements.impulses);
+    batches.sweep(1., 1., sweeps, team); // over-relaxed ones swing, and drive grains apart
+    batches.refresh_velocities();
+    move(state, batches.velocities(), solved.step);
+  }
+} // namespace diptych::discrete

@@ -1,0 +1,28 @@
+// diptych: takes out what penetration a step has left
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "discrete/contacts/contact_detection.h"
+#include "discrete/contacts/contact_problem.h"
+#include "discrete/solvers/thread_team.h"
+
+namespace diptych::discrete
+{
+  // What a step was solved with and for.
+  struct SolvedContacts
+  {
+    const ContactProblem            &problem;
+    const std::vector<Contact>      &contacts; // at mid-step
+    const std::vector<Impulse>      &impulses;
+    const std::vector<BodyVelocity> &v_new;
+    double                           step;
+  };
+
+  // Ten Gauss-Seidel sweeps of the contact law on displacements h w, w = M^-1 H (r' - r), that start from the impulses r of the
+  // step:
+  //   0 <= g + h (u_n' + w_n)  _|_  r_n' >= 0,   |r_t'| <= mu r_n', sliding against w_t.
+  // So loaded contacts hold with their friction while their grains are parted: sweeps without it would let them slide, and the
+  // sample would take up the overlap without giving its volume back. Adds no velocity and no impulse. Does nothing where no
+  // penetration at the next mid-step exceeds `enough` [length].
+  void correct_positions(State &state, const SolvedContacts &solved, double enough, ThreadTeam &team);
+} // namespace diptych::discrete

@@ -1,0 +1,85 @@
+// diptych: where the solution of a step starts
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/stepping/warm_start.h"
+
+#include <algorithm>
+
+#include "discrete/contacts/contact_law.h"
+#include "discrete/contacts/natural_map.h"
+
+namespace diptych::discrete
+{
+  namespace
+  {
+    // value(pair) of each contact's pair; both lists ascend in (i, j).
+    template <class Value>
+    std::vector<Impulse> by_pair(const std::vector<PairImpulse> &previous, const std::vector<Contact> &contacts, Value &&value)
+    {
+      std::vector<Impulse> result(contacts.size());
+      auto                 pair = previous.begin();
+      for (std::size_t k = 0; k < contacts.size(); ++k)
+        {
+          const Contact &c = contacts[k];
+          while (pair != previous.end() && (pair->i < c.i || (pair->i == c.i && pair->j < c.j)))
+            ++pair;
+          if (pair == previous.end())
+            break;
+          // Which contacts were there before follows no pattern: a choice without a branch.
+          const PairImpulse none{c.i, c.j, 0, 0};
+          const bool        known = pair->i == c.i && pair->j == c.j;
+          result[k]               = value(*(known ? &*pair : &none));
+          pair += known;
+        }
+      return result;
+    }
+
+    std::vector<BodyVelocity> at_rest(std::vector<BodyVelocity> bodies)
+    {
+      for (BodyVelocity &v : bodies)
+        v.x = v.y = v.surface = 0;
+      return bodies;
+    }
+  } // namespace
+
+  std::vector<Impulse> first_guess(const std::vector<PairImpulse> &previous, const std::vector<Contact> &contacts)
+  {
+    return by_pair(previous, contacts, [](const PairImpulse &r) { return Impulse{r.normal, r.tangential}; });
+  }
+
+  std::vector<Impulse> last_changes(const std::vector<PairImpulse> &previous, const std::vector<Contact> &contacts)
+  {
+    return by_pair(previous, contacts, [](const PairImpulse &r) { return Impulse{r.normal_change, r.tangential_change}; });
+  }
+
+  void extrapolate(const ContactProblem &problem, const std::vector<Impulse> &changes, std::vector<Impulse> &impulses)
+  {
+    const std::vector<int> changed = acting_contacts(changes);
+    if (changed.empty())
+      return;
+    const std::vector<BodyVelocity> v = velocities(problem, impulses);
+    std::vector<BodyVelocity>       w = at_rest(problem.free_velocity); // that the changes cause
+    for (const int k : changed)
+      apply_impulse(problem.contacts[k], changes[k], w);
+    double work = 0, change_of_work = 0;
+    for (const int k : changed)
+      {
+        const ContactRow      &c = problem.contacts[k];
+        const RelativeVelocity u = relative_velocity(c, v), du = relative_velocity(c, w);
+        const double           violation = u.tangential + c.tangential_term;
+        const bool   slides     = is_slipping(c.friction, impulses[k]) && impulses[k].tangential * violation < 0; // as it should
+        const double tangential = slides ? 0 : changes[k].tangential;
+        work += changes[k].normal * (u.normal + c.normal_term) + tangential * violation;
+        change_of_work += changes[k].normal * du.normal + tangential * du.tangential;
+      }
+    if (!(change_of_work > 0))
+      return;
+    const double share = std::clamp(-work / change_of_work, -1., 1.);
+    for (const int k : changed)
+      {
+        Impulse &r         = impulses[k];
+        r.normal           = std::max(0., r.normal + share * changes[k].normal);
+        const double bound = problem.contacts[k].friction * r.normal;
+        r.tangential       = std::clamp(r.tangential + share * changes[k].tangential, -bound, bound);
+      }
+  }
+} // namespace diptych::discrete
