@@ -88,10 +88,10 @@ namespace diptych::discrete
             "Coulomb coefficient of grains, platens and walls during the preparation; 0: densest");
     visitor("target_solid_fraction", o.target_solid_fraction, "-", {0., 0.92},
             "if not 0, the preparation friction is searched between 0 and 1 until the sample has this fraction within 0.002");
-    visitor(
-      "quiet_unbalanced_force", o.quiet_unbalanced_force, "-", {1e-12, 1e3},
-      "the sample is quiet when the mean unbalanced force on a grain / mean contact force is below this; a tenth of it once the "
-      "overlaps are taken out");
+    visitor("quiet_unbalanced_force", o.quiet_unbalanced_force, "-", {1e-12, 1e3},
+            "the sample is quiet when the mean unbalanced force on a grain / mean contact force is below this; a tenth of it, "
+            "where it gets there, once the "
+            "overlaps are taken out");
     visitor("seed", o.seed, "-", {0, 2147483647}, "of the one random generator");
     visitor("file", FileName{o.file}, "-",
             "read the grains from here: CSV with the columns x, y, r and, where wanted, vx, vy, omega, fixed; or .h5 snapshots");

@@ -182,8 +182,8 @@ namespace diptych::discrete
         }
       if (report.quiet)
         {
-          const SettlingOptions wanted{largest_prepared_overlap * options.mean_diameter, 0.1 * options.quiet_unbalanced_force,
-                                       10 * options.preparation_steps};
+          const SettlingOptions wanted{largest_prepared_overlap * options.mean_diameter, options.quiet_unbalanced_force,
+                                       options.preparation_steps, 10 * options.preparation_steps};
           Settled settled        = settle(sample.state, setting, wanted, [&] { return progress(report.steps, report.steps); });
           report.quiet           = settled.quiet;
           report.settling_steps  = settled.steps;

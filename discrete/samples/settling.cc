@@ -36,10 +36,11 @@ namespace diptych::discrete
         settled.last_step       = advance(next, setting, cache); // contacts at the places of `state`, for nothing moves yet
         settled.largest_overlap = settled.last_step.largest_penetration;
         ++settled.steps;
-        state.impulses = next.impulses;
-        settled.quiet  = settled.largest_overlap <= options.largest_overlap &&
+        state.impulses      = next.impulses;
+        const double wanted = (settled.steps <= options.patient_steps ? 0.1 : 1.) * options.unbalanced_force;
+        settled.quiet       = settled.largest_overlap <= options.largest_overlap &&
                         settled.last_step.solve.residual <= setting.solver.tolerance &&
-                        settled.last_step.unbalanced_force <= options.unbalanced_force;
+                        settled.last_step.unbalanced_force <= wanted;
         if (settled.quiet)
           break;
         drift(next, 0.5 * setting.step); // to the next mid-step

@@ -12,6 +12,7 @@ namespace diptych::discrete
   {
     double largest_overlap  = 0; // that may be left, between grains and with walls [length]
     double unbalanced_force = 0; // mean over grains / mean contact force, likewise
+    int    patient_steps    = 0; // in which a tenth of that is wanted: tiny and slender samples never come to it
     int    most_steps       = 0;
   };
 
