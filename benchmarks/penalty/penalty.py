@@ -19,6 +19,7 @@ STRAIN = 0.04
 STIFFNESSES = (1e2, 1e3, 1e4)
 STEPS = (0.4, 0.2, 0.1, 0.05)  # of NSCD [d sqrt(rho/P)]
 FRACTIONS = (0.2, 0.4, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.9, 1.0, 1.05, 1.1, 1.2)
+NSCD = ["discrete/tolerance=1e-4"]
 PENALTY = ["discrete/method=penalty", "discrete/penalty_preload=0", "sample/allowed_overlap=0.5"]
 # name, friction between grains, penalty_damping, inertial number
 CASES = (("frictionless, undamped", 0, 0, 1.13e-3), ("sticking, undamped", 100, 0, 1.13e-3),
@@ -72,7 +73,7 @@ def compare(options, scratch, samples):
     for seed, sample in samples.items():
         for step in STEPS:
             folder = os.path.join(scratch, f"nscd_{step}_{seed}")
-            figures.setdefault(f"NSCD h = {step:g}", []).append(load(options.program, folder, sample, [f"discrete/step={step}", "discrete/tolerance=1e-4"]))
+            figures.setdefault(f"NSCD h = {step:g}", []).append(load(options.program, folder, sample, [f"discrete/step={step}", *NSCD]))
         for stiffness in STIFFNESSES:
             folder = os.path.join(scratch, f"penalty_{stiffness:g}_{seed}")
             compressed = sample_under_springs(options.program, folder + "_springs", sample, stiffness)

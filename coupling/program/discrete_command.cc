@@ -124,7 +124,8 @@ namespace diptych::coupling
     void warn(const Rows &rows, const discrete::Report &report, const discrete::Options &options)
     {
       constexpr double doubtful_penetration = 0.02, doubtful_gain = 0.1, doubtful_overlap = 1e-3, doubtful_force = 2;
-      constexpr double doubtful_strength = 0.03, doubtful_dilation = 0.05; // auto keeps to 0.02 and 0.03
+      // auto keeps to 1 and 1.25 times the accuracy
+      const double doubtful_strength = 1.5 * options.accuracy.accuracy, doubtful_dilation = 2.5 * options.accuracy.accuracy;
       if (report.preparation.largest_overlap > doubtful_overlap)
         std::cerr << "discrete panel: warning: the sample's grains overlap by up to " << report.preparation.largest_overlap
                   << " mean diameters before they are loaded; sample/prepare_file = true takes that out" << std::endl;

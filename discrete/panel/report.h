@@ -25,10 +25,10 @@ namespace diptych::discrete
     double            axial_strain = 0, shear_strain = 0; // reached
     std::string       message;                            // empty when finished
     PreparationReport preparation;
-    double            step = 0;                           // of the last stage
-    std::string       step_bound;                         // step = auto: which bound of the rule gave it
-    double            tolerance = 0;                      // of the last stage
-    ExpectedErrors    expected;                           // of step and tolerance; largest of all stages
+    double            step = 0;                                             // of the last stage
+    std::string       step_bound;                                           // step = auto: which bound of the rule gave it
+    double            tolerance = std::numeric_limits<double>::quiet_NaN(); // of the last stage
+    ExpectedErrors    expected;                                             // of step and tolerance; largest of all stages
     long              steps = 0, sweeps = 0, updates = 0; // of the loading; one update = one contact in one sweep
     double            preparation_cpu_s = 0, loading_cpu_s = 0, solver_cpu_s = 0;
     double            initial_height = 0, platen_speed = 0;                           // speed: strain rate x height

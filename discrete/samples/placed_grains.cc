@@ -3,8 +3,8 @@
 #include "discrete/samples/placed_grains.h"
 
 #include <cmath>
-#include <numeric>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace diptych::discrete

@@ -64,7 +64,6 @@ namespace
             overlap = std::max(overlap, -c.gap / d);
           EXPECT_EQ(overlap, sample.report.largest_overlap) << "sides " << side.index();
           EXPECT_LE(overlap, 1e-4) << "sides " << side.index();
-          EXPECT_EQ(largest_prepared_overlap, 1e-4);
         }
   }
 
@@ -96,15 +95,21 @@ namespace
     EXPECT_GT(state.grains.position[2].x(), 0.5 - 2e-6);
   }
 
-  // A 10 x 20 lattice of discs fills a rectangle: the outline's area is the rectangle's, to the scallops of its edge.
-  TEST(Outline, OfALatticeHasItsArea)
+  // 10 x 20 discs of diameter 1 between two platens.
+  State lattice()
   {
     State state;
     for (int a = 0; a < 10; ++a)
       for (int b = 0; b < 20; ++b)
         add_grain(state.grains, {0.5 + a, 0.5 + b}, 0.5, 1.);
-    state.walls           = {{{0, 0}, {0, 1}}, {{0, 20}, {0, -1}}};
-    const Outline outline = make_outline(state, 1.);
+    state.walls = {{{0, 0}, {0, 1}}, {{0, 20}, {0, -1}}};
+    return state;
+  }
+
+  // The lattice fills a rectangle: the outline's area is the rectangle's, to the scallops of its edge.
+  TEST(Outline, OfALatticeHasItsArea)
+  {
+    const Outline outline = make_outline(lattice(), 1.);
     // Mean depth of a scallop: r (1 - pi/4) = 0.107 on either side, so the width is 10 - 0.215.
     EXPECT_NEAR(outline_area(outline), 20 * (10 - 2 * 0.5 * (1 - M_PI / 4)), 0.02 * 200);
     EXPECT_EQ(outline.left.front().y(), 0);
@@ -114,11 +119,7 @@ namespace
   // Grains that press on a platen with no overlap touch it all the same, whatever the last bits of their places.
   TEST(Outline, DoesNotDependOnWhatIsBetweenAGrainAndItsPlaten)
   {
-    State state;
-    for (int a = 0; a < 10; ++a)
-      for (int b = 0; b < 20; ++b)
-        add_grain(state.grains, {0.5 + a, 0.5 + b}, 0.5, 1.);
-    state.walls           = {{{0, 0}, {0, 1}}, {{0, 20}, {0, -1}}};
+    const State   state   = lattice();
     const Outline outline = make_outline(state, 1.);
     for (const double gap : {1e-5, 1e-3})
       {
