@@ -34,15 +34,15 @@ namespace diptych::coupling
   template <class Visitor> void visit_parameters(LoadingOptions &o, Visitor &&visitor)
   {
     visitor("pressure", o.pressure, "pressure", {1e-12, 1e15}, "P of the lateral action; also the initial isotropic stress");
-    visitor("inertial_number", o.inertial_number, "-", {1e-9, 0.1},
+    visitor("inertial_number", o.inertial_number, "-", {1e-9, 1.},
             "I = strain rate d sqrt(rho/P): fixes the speed of the upper platen in the discrete panel");
     visitor("horizontal_over_vertical", o.horizontal_over_vertical, "-", {-10., 10.},
             "travel of the upper platen to the right per descent: 1 is 45 degrees, 0 vertical");
     visitor(
-      "axial_strain", o.axial_strain, "-", {1e-6, 5.},
+      "axial_strain", o.axial_strain, "-", {1e-6, 1e4},
       "at the end: axial strain, descent of the upper platen / initial height (modes shear and plane_shear: shear strain, its "
       "travel / initial height)");
-    visitor("stage_strain", o.stage_strain, "-", {1e-6, 5.}, "strain between two stages, at which both panels are compared");
+    visitor("stage_strain", o.stage_strain, "-", {1e-6, 1e4}, "strain between two stages, at which both panels are compared");
     visitor("affine_start", o.affine_start, "-",
             "grains start with the affine velocity field between the platens, not at rest (an impulsive start)");
     visitor(

@@ -16,6 +16,17 @@ namespace diptych::discrete
     return value[k - 1] + (value[k] - value[k - 1]) * (t - time[k - 1]) / (time[k] - time[k - 1]);
   }
 
+  void carry_platen_grains(State &state)
+  {
+    Grains &g = state.grains;
+    for (std::size_t i = 0; i < g.size(); ++i)
+      if (const int platen = g.platen(i); platen >= 0)
+        {
+          g.velocity[i] = state.walls[platen].velocity;
+          g.spin[i]     = 0;
+        }
+  }
+
   void scale_impulses(State &state, const double factor)
   {
     if (factor == 1)

@@ -12,6 +12,10 @@
 
 namespace diptych::discrete
 {
+  // Grains::fixed. One that is held keeps its velocity and spin whatever acts on it (rough bottoms, obstacles). One that is part
+  // of a platen moves with it and does not turn, and what acts on it acts on the platen, whose mass is its own: a rough platen.
+  inline constexpr std::uint8_t held_grain = 1, lower_platen_grain = 2, upper_platen_grain = 3;
+
   // Rigid discs of unit thickness. One entry per grain in every vector.
   struct Grains
   {
@@ -21,14 +25,17 @@ namespace diptych::discrete
     std::vector<double>          spin;     // counter-clockwise [rad/time]
     std::vector<double>          radius;   // [length]
     std::vector<double>          mass;     // rho pi r^2, per unit thickness
-    std::vector<std::uint8_t>    fixed;    // 1: keeps its velocity and spin whatever acts on it (rough bottoms, obstacles)
+    std::vector<std::uint8_t>    fixed;    // how a grain is held: 0 free, else one of the numbers below
 
     std::size_t size() const { return radius.size(); }
 
     // I = m r^2 / 2 of a disc about its centre.
     double moment_of_inertia(const std::size_t i) const { return 0.5 * mass[i] * radius[i] * radius[i]; }
 
-    // 1/m; 0 for a fixed grain, which no force can move.
+    // The platen that a grain is part of, as number of its wall; -1: none.
+    int platen(const std::size_t i) const { return fixed[i] >= lower_platen_grain ? fixed[i] - lower_platen_grain : -1; }
+
+    // 1/m; 0 for a fixed grain, which no force can move but through its platen.
     double inverse_mass(const std::size_t i) const { return fixed[i] ? 0. : 1 / mass[i]; }
   };
 
@@ -133,6 +140,9 @@ namespace diptych::discrete
   {
     return cell ? int(std::lround((xi - xj) / cell->width)) : 0;
   }
+
+  // Grains that are part of a platen take its velocity.
+  void carry_platen_grains(State &state);
 
   // Of the last step, as for steps `factor` times as long.
   void scale_impulses(State &state, double factor);

@@ -97,10 +97,15 @@ namespace diptych::discrete
       return {pair.i, pair.j, gap, normal, a.position - (a.radius + 0.5 * gap) * normal, pair.image};
     }
 
-    bool moves(const State &state, const int body)
+    // Something can move one of the two against the other; what is part of a platen meets grains that are not fixed, and no more.
+    bool may_act(const State &state, const int i, const int j)
     {
-      const int n = int(state.grains.size());
-      return body < n ? !state.grains.fixed[body] : state.walls[body - n].inverse_mass() != Eigen::Vector2d::Zero();
+      const Grains &g      = state.grains;
+      const int     n      = int(g.size());
+      const bool    i_free = !g.fixed[i], j_free = j < n && !g.fixed[j];
+      if (i_free || j_free)
+        return true;
+      return j >= n && g.platen(i) < 0 && state.walls[j - n].inverse_mass() != Eigen::Vector2d::Zero();
     }
   } // namespace
 
@@ -169,11 +174,11 @@ namespace diptych::discrete
           const double    alert  = g.radius[i] + g.radius[j] + reach_[i] + reach_[j];
           Eigen::Vector2d branch = g.position[i] - g.position[j];
           branch.x() -= nearest_image(state.cell, g.position[i].x(), g.position[j].x()) * width_;
-          if (branch.squaredNorm() < alert * alert && (moves(state, i) || moves(state, j)))
+          if (branch.squaredNorm() < alert * alert && may_act(state, i, j))
             pairs_.push_back({std::min(i, j), std::max(i, j)});
         });
         for (int w = 0; w < int(state.walls.size()); ++w)
-          if (make_contact(state, i, n + w).gap < reach_[i] && (moves(state, i) || moves(state, n + w)))
+          if (make_contact(state, i, n + w).gap < reach_[i] && may_act(state, i, n + w))
             pairs_.push_back({i, n + w});
       }
     std::sort(pairs_.begin(), pairs_.end(), [](const Pair &a, const Pair &b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });

@@ -24,9 +24,10 @@ namespace diptych::discrete
   {
   public:
     // All pairs whose gap is below the sum of their margins (walls have none), ascending in (i, j), pairs of two bodies that
-    // nothing moves left out. `margin` [length] has one entry per grain. The list behind it is made anew, at a cost of O(n)
-    // cells, when for some grain margin + motion since then exceed what the list foresaw. Throws std::invalid_argument where
-    // a periodic cell is narrower than four times the reach of a grain.
+    // nothing moves left out, and of a grain that is part of a platen and anything but a free grain. `margin` [length] has one
+    // entry per grain. The list behind it is made anew, at a cost of O(n) cells, when for some grain margin + motion since then
+    // exceed what the list foresaw. Throws std::invalid_argument where a periodic cell is narrower than four times the reach of a
+    // grain.
     std::vector<Contact> find_contacts(const State &state, const std::vector<double> &margin);
 
   private:

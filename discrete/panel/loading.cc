@@ -181,6 +181,7 @@ namespace diptych::discrete
     set_drives(state, start);
     for (Wall &wall : state.walls)
       wall.velocity = prescribed_wall_velocity(wall, 0.);
+    carry_platen_grains(state);
   }
 
   double loading_progress(const State           &state,

@@ -23,6 +23,13 @@ namespace diptych::discrete
     // Platens and side walls: bodies n_grains to n_grains + 3.
     constexpr int most_walls = 4;
 
+    constexpr const char *how_held = "0 (free), 1 (held), 2 or 3 (part of the lower or upper platen)";
+
+    bool says_how_held(const double value)
+    {
+      return value == 0 || value == held_grain || value == lower_platen_grain || value == upper_platen_grain;
+    }
+
     void check_magnitude(const CsvTable &csv, const std::size_t row, const std::string &column)
     {
       if (std::abs(csv.at(row, column)) > largest_magnitude)
@@ -45,8 +52,8 @@ namespace diptych::discrete
       if (!(r >= smallest_length && r <= largest_magnitude))
         refuse_cell(csv, row, "r", "more than 0: 1e-12 to 1e12");
       const double fixed = cell_or_zero(csv, row, "fixed");
-      if (fixed != 0 && fixed != 1)
-        refuse_cell(csv, row, "fixed", "0 or 1");
+      if (!says_how_held(fixed))
+        refuse_cell(csv, row, "fixed", how_held);
       add_grain(grains, {csv.at(row, "x"), csv.at(row, "y")}, r, density);
       grains.velocity.back() = {cell_or_zero(csv, row, "vx"), cell_or_zero(csv, row, "vy")};
       grains.spin.back()     = cell_or_zero(csv, row, "omega");
@@ -130,8 +137,8 @@ namespace diptych::discrete
       const std::vector<double> values = stage.numbers("grains/fixed", n, 0.);
       for (std::size_t k = 0; k < n; ++k)
         {
-          if (values[k] != 0 && values[k] != 1)
-            stage.refuse("grains/fixed", "entry " + std::to_string(k) + " = " + exact_text(values[k]) + "; allowed: 0 or 1");
+          if (!says_how_held(values[k]))
+            stage.refuse("grains/fixed", "entry " + std::to_string(k) + " = " + exact_text(values[k]) + "; allowed: " + how_held);
           fixed[k] = std::uint8_t(values[k]);
         }
       return fixed;
@@ -275,7 +282,7 @@ namespace diptych::discrete
         for (const double value :
              {g.position[i].x(), g.position[i].y(), g.radius[i], g.velocity[i].x(), g.velocity[i].y(), g.spin[i]})
           text += exact_text(value) + ",";
-        text += g.fixed[i] ? "1\n" : "0\n";
+        text += std::to_string(int(g.fixed[i])) + "\n";
       }
     write_text(path, text);
   }

@@ -50,6 +50,7 @@ namespace diptych::discrete
     int                   seed                   = 1;
     std::string           file                   = "";
     bool                  prepare_file           = false;
+    bool                  rough_platens          = false;
     std::optional<double> lower_platen           = {};
     std::optional<double> upper_platen           = {};
     std::optional<double> left_wall              = {};
@@ -92,9 +93,15 @@ namespace diptych::discrete
             "the sample is quiet when the mean unbalanced force on a grain / mean contact force is below this; a tenth of it, "
             "where it gets there, once the "
             "overlaps are taken out");
+    visitor(
+      "rough_platens", o.rough_platens, "-",
+      "grains that reach within a tenth of the mean diameter of a platen become part of it once the sample is prepared: they "
+      "move with it and do not turn");
     visitor("seed", o.seed, "-", {0, 2147483647}, "of the one random generator");
-    visitor("file", FileName{o.file}, "-",
-            "read the grains from here: CSV with the columns x, y, r and, where wanted, vx, vy, omega, fixed; or .h5 snapshots");
+    visitor(
+      "file", FileName{o.file}, "-",
+      "read the grains from here: CSV with the columns x, y, r and, where wanted, vx, vy, omega, fixed (1: held, 2 or 3: part "
+      "of the lower or upper platen); or .h5 snapshots");
     visitor("prepare_file", o.prepare_file, "-", "compact a sample from a file, too");
     visitor("lower_platen", o.lower_platen, "length", {-1e12, 1e12},
             "height of the lower platen of a sample from a file; auto: as a snapshot stores it, else the lowest grain that moves "

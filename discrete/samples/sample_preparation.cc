@@ -131,6 +131,16 @@ namespace diptych::discrete
       state.time = 0;
     }
 
+    void roughen_platens(State &state, const double mean_diameter)
+    {
+      Grains   &g = state.grains;
+      const int n = int(g.size());
+      for (int i = 0; i < n; ++i)
+        for (int platen = 0; platen < 2; ++platen)
+          if (make_contact(state, i, n + platen).gap < 0.1 * mean_diameter && !g.fixed[i])
+            g.fixed[i] = std::uint8_t(lower_platen_grain + platen);
+    }
+
     double step_of_preparation(const SampleOptions &o, const double pressure)
     {
       const double unit = pressure > 0 ? o.mean_diameter * std::sqrt(o.density / pressure) : 1; // of time
@@ -318,14 +328,20 @@ namespace diptych::discrete
                                 const Grains                        *grains)
   {
     validate(options);
+    PreparedSample sample;
     if (grains != nullptr)
-      return ready_sample(options, setting, progress, place_grains(options, setting, {"the sample", *grains, {}, {}}));
-    if (!options.file.empty())
-      return ready_sample(options, setting, progress, file_sample(options, setting));
-    PreparedSample sample = options.target_solid_fraction > 0
-                              ? at_solid_fraction(options, setting, progress)
-                              : relaxed_and_compacted(options, setting, options.preparation_friction, progress);
-    bring_to_rest(sample.state);
+      sample = ready_sample(options, setting, progress, place_grains(options, setting, {"the sample", *grains, {}, {}}));
+    else if (!options.file.empty())
+      sample = ready_sample(options, setting, progress, file_sample(options, setting));
+    else
+      {
+        sample = options.target_solid_fraction > 0
+                   ? at_solid_fraction(options, setting, progress)
+                   : relaxed_and_compacted(options, setting, options.preparation_friction, progress);
+        bring_to_rest(sample.state);
+      }
+    if (options.rough_platens)
+      roughen_platens(sample.state, options.mean_diameter);
     return sample;
   }
 } // namespace diptych::discrete

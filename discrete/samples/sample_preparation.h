@@ -41,7 +41,7 @@ namespace diptych::discrete
   // instead). Grains are numbered upward. Or grains from a file, with platens and sides where they touch them.
   // `progress` is called with (step, expected steps) and stops the preparation when it returns false.
   // Throws std::invalid_argument on wrong files and where target_solid_fraction is out of reach, naming what can be reached.
-  // `grains`: in the place of a file's, from arrays.
+  // `grains`: in the place of a file's, from arrays. rough_platens: at the end grains near a platen become part of it.
   PreparedSample prepare_sample(const SampleOptions                 &options,
                                 const PreparationSetting            &setting,
                                 const std::function<bool(int, int)> &progress,

@@ -31,6 +31,7 @@ namespace diptych::discrete
       }
     for (std::size_t w = 0; w < state.walls.size(); ++w)
       state.walls[w].velocity = {v[n + w].x, v[n + w].y};
+    carry_platen_grains(state);
     if (state.cell && state.cell->moves())
       state.cell->velocity = v.back().x;
   }

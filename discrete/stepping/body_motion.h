@@ -12,7 +12,7 @@ namespace diptych::discrete
   // q += duration v for grains, walls and the cell.
   void drift(State &state, double duration);
 
-  // Velocities of a solved problem to grains that are not fixed, walls and the cell.
+  // Velocities of a solved problem to grains that are not held, walls and the cell.
   void take_velocities(const std::vector<BodyVelocity> &v, State &state);
 
   // Keeps the impulses of the contacts that act for the next step's first guess, and what `previous`, those of the step before,

@@ -52,7 +52,9 @@ namespace diptych::discrete
       Grains           &g = state.grains;
       const std::size_t n = g.size();
       for (std::size_t i = 0; i < n; ++i)
-        if (!g.fixed[i])
+        if (const int platen = g.platen(i); platen >= 0)
+          g.position[i] += step * Eigen::Vector2d(w[n + platen].x, w[n + platen].y);
+        else if (!g.fixed[i])
           {
             g.position[i] += step * Eigen::Vector2d(w[i].x, w[i].y);
             g.rotation[i] += step * w[i].surface / g.radius[i];

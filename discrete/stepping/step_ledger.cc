@@ -29,6 +29,8 @@ namespace diptych::discrete
       double        energy = e.kinetic, change = e.kinetic_change, work = e.external_work; // in registers
       for (std::size_t i = 0; i < g.size(); ++i)
         {
+          if (g.platen(i) >= 0)
+            continue; // its mass is the platen's
           const double was = kinetic(g.mass[i], s.v[i]), is = kinetic(g.mass[i], s.v_new[i]);
           energy += is;
           change += is - was;
@@ -78,18 +80,18 @@ namespace diptych::discrete
       return sum;
     }
 
-    // A fixed grain takes contact impulses without moving otherwise: what holds it gives them back and works with them.
-    Eigen::Vector2d add_fixed_grains(const SolvedStep &s, StepEnergies &e)
+    // A held grain takes contact impulses without moving otherwise: what holds it gives them back and works with them.
+    Eigen::Vector2d add_held_grains(const SolvedStep &s, StepEnergies &e)
     {
       const Grains   &g        = s.state.grains;
       Eigen::Vector2d reaction = Eigen::Vector2d::Zero();
       const auto      hold     = [&](const int body, const Eigen::Vector2d &impulse, const double tangential) {
-        if (std::size_t(body) >= g.size() || !g.fixed[body])
+        if (std::size_t(body) >= g.size() || g.fixed[body] != held_grain)
           return;
         reaction -= impulse;
         e.external_work -= impulse.dot(mean_velocity(s, body)) - tangential * s.v[body].surface;
       };
-      if (std::none_of(g.fixed.begin(), g.fixed.end(), [](const std::uint8_t fixed) { return fixed != 0; }))
+      if (std::none_of(g.fixed.begin(), g.fixed.end(), [](const std::uint8_t fixed) { return fixed == held_grain; }))
         return reaction;
       for (std::size_t k = 0; k < s.contacts.size(); ++k)
         {
@@ -158,7 +160,7 @@ namespace diptych::discrete
     add_cell(s, ledger.energies);
 
     double          unbalanced = 0, momentum_sum = 0;
-    Eigen::Vector2d balance = -add_fixed_grains(s, ledger.energies);
+    Eigen::Vector2d balance = -add_held_grains(s, ledger.energies);
     for (std::size_t i = 0; i < n; ++i)
       if (!g.fixed[i])
         {

@@ -21,29 +21,49 @@ namespace diptych::discrete
       return (c.gap < 0 ? share * c.gap : c.gap) / h;
     }
 
+    // Who takes part in a row: the platen in the place of a grain that is part of it. Where that grain is i, the row is turned
+    // round, with the normal reversed; relative velocity and impulse keep their signs.
+    struct RowBodies
+    {
+      int  i, j;
+      bool turned = false;
+    };
+
+    RowBodies row_bodies(const State &state, const Contact &c)
+    {
+      const int n = int(state.grains.size());
+      if (const int platen = state.grains.platen(c.i); platen >= 0)
+        return {c.j, n + platen, true};
+      const int platen = c.j < n ? state.grains.platen(c.j) : -1;
+      return {c.i, platen >= 0 ? n + platen : c.j};
+    }
+
     // Geometry and mobilities of a row, whatever it held: all but the terms of the law.
     void set_kinematics(const State &state, const Contact &c, const std::vector<BodyVelocity> &v, ContactRow &row)
     {
-      const int n = int(state.grains.size());
-      row.nx = c.normal.x(), row.ny = c.normal.y(), row.i = c.i, row.j = c.j, row.image = 0, row.cell = -1;
-      const double wi = v[c.i].inverse_mass;
+      const int       n      = int(state.grains.size());
+      const RowBodies body   = row_bodies(state, c);
+      const double    normal = body.turned ? -1 : 1;
+      row.nx = normal * c.normal.x(), row.ny = normal * c.normal.y(), row.i = body.i, row.j = body.j, row.image = 0,
+      row.cell        = -1;
+      const double wi = v[row.i].inverse_mass;
       row.ki          = 2 * wi; // r^2/I of a disc
-      if (c.j < n)
+      if (row.j < n)
         {
-          const double wj = v[c.j].inverse_mass;
+          const double wj = v[row.j].inverse_mass;
           row.jx = row.jy = wj;
           row.kj          = 2 * wj;
         }
       else
         {
-          const Eigen::Vector2d wj = state.walls[c.j - n].inverse_mass();
+          const Eigen::Vector2d wj = state.walls[row.j - n].inverse_mass();
           row.jx = wj.x(), row.jy = wj.y(), row.kj = 0;
         }
       double wnn = wi + row.jx * row.nx * row.nx + row.jy * row.ny * row.ny;
       double wtt = wi + row.jx * row.ny * row.ny + row.jy * row.nx * row.nx + row.ki + row.kj;
       if (c.image != 0 && state.cell && state.cell->moves())
         {
-          row.image = c.image, row.cell = n + int(state.walls.size());
+          row.image = int(normal) * c.image, row.cell = n + int(state.walls.size());
           const double w = state.cell->inverse_mass() * c.image * c.image;
           wnn += w * row.nx * row.nx, wtt += w * row.ny * row.ny;
         }

@@ -118,8 +118,9 @@ namespace diptych::discrete
   {
     double energy = 0;
     for (std::size_t i = 0; i < grains.size(); ++i)
-      energy += 0.5 * grains.mass[i] * grains.velocity[i].squaredNorm() +
-                0.5 * grains.moment_of_inertia(i) * grains.spin[i] * grains.spin[i];
+      if (grains.platen(i) < 0)
+        energy += 0.5 * grains.mass[i] * grains.velocity[i].squaredNorm() +
+                  0.5 * grains.moment_of_inertia(i) * grains.spin[i] * grains.spin[i];
     return energy;
   }
 

@@ -70,7 +70,8 @@ namespace
     EXPECT_EQ(csv_complaint("x,y,r\n0,1e13,1\n"), ", line 2: column 'y' = '1e+13' is out of range; allowed: -1e12 to 1e12");
     EXPECT_EQ(csv_complaint("x,y,r,vx\n0,0,1,-1e13\n"),
               ", line 2: column 'vx' = '-1e+13' is out of range; allowed: -1e12 to 1e12");
-    EXPECT_EQ(csv_complaint("x,y,r,fixed\n0,0,1,0.5\n"), ", line 2: column 'fixed' = '0.5' is out of range; allowed: 0 or 1");
+    EXPECT_EQ(csv_complaint("x,y,r,fixed\n0,0,1,0.5\n"), ", line 2: column 'fixed' = '0.5' is out of range; allowed: 0 (free), 1 "
+                                                         "(held), 2 or 3 (part of the lower or upper platen)");
     EXPECT_EQ(csv_complaint("x,y,r\n"), ": holds no line of numbers below the header; allowed: 1 or more");
     EXPECT_EQ(csv_complaint(""), ": is empty; its first line must name the columns");
   }

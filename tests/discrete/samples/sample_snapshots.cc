@@ -131,11 +131,12 @@ namespace
   TEST(GrainsFromSnapshots, FixedGrainsStayFixed)
   {
     StoredFile stored;
-    stored.fixed = {1, 0, 1};
-    stored.write();
-    EXPECT_EQ(read_grains_hdf5(h5).grains.fixed, (std::vector<std::uint8_t>{1, 0, 1}));
     stored.fixed = {1, 0, 2};
-    EXPECT_EQ(stored_complaint(stored), ", dataset 'stage_0001/grains/fixed': entry 2 = 2; allowed: 0 or 1");
+    stored.write();
+    EXPECT_EQ(read_grains_hdf5(h5).grains.fixed, (std::vector<std::uint8_t>{1, 0, 2}));
+    stored.fixed = {1, 0, 4};
+    EXPECT_EQ(stored_complaint(stored), ", dataset 'stage_0001/grains/fixed': entry 2 = 4; allowed: 0 (free), 1 (held), 2 or 3 "
+                                        "(part of the lower or upper platen)");
   }
 
   TEST(GrainsFromSnapshots, AStageThatIsNotThereIsNamed)

@@ -1,0 +1,227 @@
+#!/usr/bin/env python3
+# diptych: rigid contacts, springs and LAMMPS on the same samples
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""rigid_limit.py PROGRAM [--seeds 11,...,22] [--inertial 1.13e-3,1.13e-4] [--quick] [--output DIR] [--reuse] [--jobs 1]
+               [--also NAME=PROGRAM] [--lammps run|stored] [--store] [--figures DIR]
+
+The samples of samples/ (those of ../dense_biaxial, 1000 discs each), loaded to 4 % strain by NSCD with several steps, by `penalty`
+with several stiffnesses and by LAMMPS. Differences are taken sample by sample. LAMMPS is run where `lmp` is installed (Debian package
+lammps) and asked for, else its results of lammps.csv stand in; --store writes these. --also: the same NSCD runs by another build,
+which prepares its own samples from the same seeds. --quick: NSCD alone. Needs h5py and numpy, the figures matplotlib."""
+import argparse
+import concurrent.futures
+import csv
+import json
+import os
+import sys
+import tempfile
+
+import numpy
+
+import lammps
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.dirname(HERE))
+import claims  # noqa: E402
+
+SCENE = os.path.join(HERE, "../dense_biaxial/scene.prm")
+STORED = os.path.join(HERE, "lammps.csv")
+STRAIN = 0.04
+BIN = 0.001  # of strain, of the stored curves
+EARLY = (0., 0.003)  # told apart: forces build up, and the start decides
+WINDOWS = (EARLY, (0.005, 0.015), (0.015, 0.04), (0.005, 0.04))
+JUDGED = (0.005, 0.04)
+VOLUMES = (0.015, 0.04)  # strains
+# Steps of NSCD [d sqrt(rho/P)] and stiffnesses kn/P, by inertial number.
+STEPS = {1.13e-3: (0.4, 0.2, 0.1, 0.05, 0.025), 1.13e-4: (2., 1., 0.5, 0.25)}
+STIFFNESSES = {1.13e-3: (1e3, 1e4, 1e5), 1.13e-4: (1e3, 1e4)}
+COLUMNS = ("axial_strain", "t", "s", "volumetric_strain", "kinetic_energy")
+
+
+def sample_file(seed):
+    return os.path.join(HERE, "samples", f"seed_{seed}.h5")
+
+
+def binned(columns):
+    """Means over bins of BIN; the volumetric strain at their ends."""
+    edges = numpy.arange(0, STRAIN + BIN / 2, BIN)
+    rows = {name: [] for name in COLUMNS}
+    for low, high in zip(edges[:-1], edges[1:]):
+        k = numpy.flatnonzero((columns["axial_strain"] > low) & (columns["axial_strain"] <= high + 1e-9))
+        rows["axial_strain"].append(high)
+        for name in ("t", "s", "kinetic_energy"):
+            rows[name].append(columns[name][k].mean())
+        rows["volumetric_strain"].append(numpy.interp(high, columns["axial_strain"], columns["volumetric_strain"]))
+    return {name: numpy.array(values) for name, values in rows.items()}
+
+
+def of_panel(result):
+    """(binned columns, CPU seconds of the loading) of a run of the program."""
+    history = result.grains
+    columns = {name: history[name] for name in ("axial_strain", "volumetric_strain", "kinetic_energy")}
+    columns["t"] = numpy.hypot(0.5 * (history["syy"] - history["sxx"]), 0.5 * (history["sxy"] + history["syx"]))
+    columns["s"] = 0.5 * (history["sxx"] + history["syy"])
+    with open(os.path.join(result.folder, "provenance.json")) as file:
+        phases = json.load(file)["phases"]
+    return binned(columns), sum(p["cpu_s"] for p in phases if p["name"] == "discrete")
+
+
+class Method:
+    """A way to load a sample: name, settings for the program (none: LAMMPS with `stiffness`)."""
+
+    def __init__(self, family, value, settings, program=None):
+        self.family, self.value, self.settings, self.program = family, value, settings, program
+
+    @property
+    def name(self):
+        return f"{self.family} {self.value}"
+
+    def load(self, options, inertial, seed):
+        folder = f"{options.output}/I_{inertial:g}/{self.name.replace(' ', '_').replace('/', '')}"
+        if self.settings is None:
+            return self.load_by_lammps(options, inertial, seed, f"{folder}/seed_{seed}")
+        program = self.program or options.program
+        runs = claims.Runs(argparse.Namespace(program=program, reuse=options.reuse, set=[]), seed, folder)
+        source = [f"sample/file={sample_file(seed)}"] if self.program is None else []
+        return of_panel(runs.run(f"seed_{seed}", "discrete", SCENE, f"loading/inertial_number={inertial:g}", f"loading/axial_strain={STRAIN}",
+                                 "loading/stage_strain=0.01", "discrete/snapshot_max_sweeps=0", *source, *self.settings))
+
+    def load_by_lammps(self, options, inertial, seed, folder):
+        if options.lammps == "stored":
+            return stored(inertial, self.value, seed)
+        done = os.path.join(folder, "binned.json")
+        if not (options.reuse and os.path.exists(done)):
+            columns, seconds = lammps.run(sample_file(seed), folder, float(self.value), inertial, STRAIN)
+            with open(done, "w") as file:
+                json.dump({"columns": {name: values.tolist() for name, values in binned(columns).items()}, "seconds": seconds}, file)
+        with open(done) as file:
+            found = json.load(file)
+        return {name: numpy.array(values) for name, values in found["columns"].items()}, found["seconds"]
+
+
+def stored(inertial, stiffness, seed):
+    """What lammps.csv holds of one run. Throws KeyError where it does not."""
+    with open(STORED) as file:
+        rows = [row for row in csv.DictReader(line for line in file if not line.startswith("#"))
+                if (float(row["inertial_number"]), float(row["stiffness"]), int(row["seed"])) == (inertial, float(stiffness), seed)]
+    if not rows:
+        raise KeyError(f"{STORED} holds no run at I = {inertial:g}, kn/P = {stiffness}, seed {seed}")
+    return {name: numpy.array([float(row[name]) for row in rows]) for name in COLUMNS}, float(rows[0]["cpu_s"])
+
+
+def store(found):
+    with open(STORED, "w") as file:
+        file.write("# diptych: dense biaxial tests by LAMMPS on samples/, means over 0.1 % of strain (lammps.py); rigid_limit.py --store writes it\n")
+        file.write("inertial_number,stiffness,seed,cpu_s," + ",".join(COLUMNS) + "\n")
+        for inertial, by_method in found.items():
+            for method, by_seed in by_method.items():
+                if method.family == "LAMMPS kn/P =":
+                    for seed, (columns, seconds) in by_seed.items():
+                        for row in zip(*(columns[name] for name in COLUMNS)):
+                            file.write(f"{inertial:g},{method.value},{seed},{seconds:.2f}," + ",".join(f"{x:.6g}" for x in row) + "\n")
+
+
+def methods(options, inertial):
+    nscd = [Method("NSCD h =", f"{h:g}", [f"discrete/step={h:g}"]) for h in STEPS[inertial]]
+    nscd += [Method("NSCD accuracy", "auto", [])]
+    for name, program in options.also:
+        nscd += [Method(f"NSCD {name} h =", f"{h:g}", [f"discrete/step={h:g}", f"discrete/tolerance={2.5 * 0.02 * inertial / h:g}"], program)
+                 for h in STEPS[inertial]]
+    if options.quick:
+        return nscd
+    penalty = [Method("penalty kn/P =", f"{k:g}", ["discrete/method=penalty", f"discrete/penalty_stiffness={k:g}"])
+               for k in STIFFNESSES[inertial]]
+    return nscd + penalty + [Method("LAMMPS kn/P =", f"{k:g}", None) for k in STIFFNESSES[inertial]]
+
+
+def quantities(columns):
+    """{name: number} of one run: T/S and mean t/s of windows, volume [%], median kinetic energy."""
+    found, end = {}, columns["axial_strain"]
+    for low, high in WINDOWS:
+        k = (end > low + 1e-9) & (end <= high + 1e-9)
+        found[f"T/S {low:.2%}-{high:.2%}"] = columns["t"][k].mean() / columns["s"][k].mean()
+    for strain in VOLUMES:
+        found[f"volume at {strain:.1%}"] = -100 * columns["volumetric_strain"][numpy.argmin(abs(end - strain))]
+    late = end > JUDGED[0] + 1e-9
+    found["kinetic energy"] = numpy.median(columns["kinetic_energy"][late])
+    return found
+
+
+def mean_and_error(values):
+    values = numpy.array(values)
+    return values.mean(), values.std(ddof=1) / numpy.sqrt(len(values)) if len(values) > 1 else numpy.nan
+
+
+def limit(by_method, family, order, name):
+    """(mean, error) over samples of `name` extrapolated to h -> 0 or kn -> infinity along a straight line in value**order."""
+    chosen = [m for m in by_method if m.family == family]
+    x = numpy.array([float(m.value) ** order for m in chosen])
+    fits = [numpy.polyfit(x, [quantities(by_method[m][seed][0])[name] for m in chosen], 1)[1] for seed in by_method[chosen[0]]]
+    return fits
+
+
+def show(inertial, by_method, reference):
+    seeds = list(next(iter(by_method.values())))
+    table = {method: [quantities(by_seed[seed][0]) for seed in seeds] for method, by_seed in by_method.items()}
+    names = list(table[reference][0])
+    print(f"\nI = {inertial:g}, {len(seeds)} samples; means; in brackets the difference from {reference.name}, sample by sample")
+    for method, rows in table.items():
+        seconds = numpy.mean([by_method[method][seed][1] for seed in seeds])
+        print(f"{method.name:24} {seconds:8.2f} s", end="")
+        for name in names:
+            difference = mean_and_error([row[name] - base[name] for row, base in zip(rows, table[reference])])
+            print(f"  {name} {numpy.mean([row[name] for row in rows]):.4f}", end="")
+            if method is not reference:
+                print(f" ({difference[0]:+.4f} +- {difference[1]:.4f})", end="")
+        print()
+    judged = f"T/S {JUDGED[0]:.2%}-{JUDGED[1]:.2%}"
+    for name in (judged, f"volume at {VOLUMES[0]:.1%}", f"volume at {VOLUMES[1]:.1%}"):
+        limits = {family: limit(by_method, family, order, name) for family, order in (("NSCD h =", 1), ("penalty kn/P =", -0.5), ("LAMMPS kn/P =", -0.5))
+                  if any(m.family == family for m in by_method)}
+        print(f"{name}, limits of rigid contacts: " + ", ".join(
+            f"{family.split()[0]} {numpy.mean(values):.4f} +- {mean_and_error(values)[1]:.4f}" for family, values in limits.items()))
+        if "LAMMPS kn/P =" in limits:
+            for family in ("NSCD h =", "penalty kn/P ="):
+                difference = mean_and_error(numpy.array(limits[family]) - limits["LAMMPS kn/P ="])
+                print(f"  {family.split()[0]} - LAMMPS: {difference[0]:+.4f} +- {difference[1]:.4f}")
+
+
+def main():
+    numbers = lambda kind: lambda text: [kind(word) for word in text.split(",")]  # noqa: E731
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", type=os.path.abspath)
+    parser.add_argument("--seeds", type=numbers(int), default=list(range(11, 23)))
+    parser.add_argument("--inertial", type=numbers(float), default=[1.13e-3, 1.13e-4])
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--output", help="folder for the result folders; default: thrown away")
+    parser.add_argument("--reuse", action="store_true", help="keep runs that are already in --output")
+    parser.add_argument("--jobs", type=int, default=1, help="runs side by side; CPU times suffer")
+    parser.add_argument("--also", action="append", default=[], type=lambda text: tuple(text.split("=", 1)))
+    parser.add_argument("--lammps", choices=("run", "stored"), default="stored")
+    parser.add_argument("--store", action="store_true")
+    parser.add_argument("--figures")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as scratch:
+        options.output = options.output or scratch
+        found = {}
+        for inertial in options.inertial:
+            chosen = methods(options, inertial)
+            cases = [(method, seed) for seed in options.seeds for method in chosen]
+            found[inertial] = {method: {} for method in chosen}
+            with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+                try:
+                    for (method, seed), result in zip(cases, pool.map(lambda case: case[0].load(options, inertial, case[1]), cases)):
+                        found[inertial][method][seed] = result
+                except (claims.RunFailed, RuntimeError, KeyError) as failure:
+                    sys.exit(f"rigid_limit.py: {failure}")
+            finest = [m for m in chosen if m.family == "NSCD h ="][-1]
+            show(inertial, found[inertial], finest)
+        if options.store:
+            store(found)
+        if options.figures:
+            import charts
+            charts.draw(found, options.figures)
+
+
+if __name__ == "__main__":
+    main()
