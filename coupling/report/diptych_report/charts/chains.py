@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 import numpy as np
-from matplotlib.figure import Figure
 
-from diptych_report.charts.style import GRAINS, INK, PANEL_COLOURS, PANEL_LINES, ruled, svg
+from diptych_report.charts.style import GRAINS, INK, PANEL_COLOURS, PANEL_LINES, frame, logarithmic, svg
 from diptych_report.data.numbers import plain
 from diptych_report.data.panels import PANEL_NAMES
 
@@ -13,8 +12,7 @@ def distribution(increment):
     """Share of grains whose major principal stress exceeds a multiple of the mean; inside and outside the zone."""
     chains = increment.panel("discrete").get("force_chains") or {}
     levels = np.array(chains.get("quantiles") or [], dtype=float)
-    figure = Figure(figsize=(4.5, 3.1))
-    axes = ruled(figure.add_axes([0.15, 0.16, 0.825, 0.8]))
+    figure, (axes,) = frame("distribution", (4.5, 3.1), [[0.15, 0.16, 0.825, 0.8]])
     drawn = []
     for key, colour, dashes in (("inside", GRAINS, "-"), ("outside", INK, (0, (5, 1.5)))):
         part = chains.get(key) or {}
@@ -28,7 +26,8 @@ def distribution(increment):
     if not drawn:
         return None
     axes.axvline(1, color=INK, linewidth=0.7, linestyle=":")
-    axes.set(yscale="log", xlabel="major principal stress of a grain / mean", ylabel="share of grains above", xlim=(0, None))
+    logarithmic(axes)
+    axes.set(xlabel="major principal stress of a grain / mean", ylabel="share of grains above", xlim=(0, None))
     axes.legend(loc="best", title="10–90 % width of the band", title_fontsize=8.5)
     where = " and ".join(drawn)
     return svg(figure, f"Distribution of the major principal stress of single grains {where} the zone, {increment.title}.")
@@ -37,10 +36,9 @@ def distribution(increment):
 def traction(increment):
     """Mean normal and shear traction on strips parallel to the grains' band: equilibrium asks for uniform ones."""
     stored = {panel: increment.panel(panel).get("band_traction") or {} for panel in PANEL_NAMES}
-    figure = Figure(figsize=(4.5, 3.9))
+    figure, both = frame("traction", (4.5, 3.9), [[0.15, 0.57 - 0.44 * k, 0.825, 0.385] for k in range(2)])
     drawn = []
-    for k, part in enumerate(("normal", "shear")):
-        axes = ruled(figure.add_axes([0.15, 0.57 - 0.44 * k, 0.825, 0.385]))
+    for k, (part, axes) in enumerate(zip(("normal", "shear"), both)):
         for panel, record in stored.items():
             edges, values = (np.array(record.get(name) or [], dtype=float) for name in ("edges_d", part))
             if len(edges) != len(values) + 1 or not np.isfinite(values).any():

@@ -3,9 +3,8 @@
 """Moreau 1997, section 3 and figure 3."""
 
 import numpy as np
-from matplotlib.figure import Figure
 
-from diptych_report.charts.style import INK, PANEL_COLOURS, Pair, ruled, signed, svg
+from diptych_report.charts.style import INK, PANEL_COLOURS, Pair, frame, signed, svg
 from diptych_report.data.numbers import interval, plain
 from diptych_report.data.panels import PANEL_NAMES
 
@@ -53,9 +52,8 @@ def _columns(circle):
 def _panel(increment, panel, columns, spans):
     if columns is None:
         return None
-    figure = Figure(figsize=(4.5, 3.9))
-    for k, (part, label) in enumerate(PARTS):
-        axes = ruled(figure.add_axes([0.14, 0.555 - 0.435 * k, 0.835, 0.375]))
+    figure, both = frame("circular", (4.5, 3.9), [[0.14, 0.555 - 0.435 * k, 0.835, 0.375] for k in range(len(PARTS))])
+    for k, ((part, label), axes) in enumerate(zip(PARTS, both)):
         axes.errorbar(columns["angles_deg"], columns[part], columns[part + "_error"], fmt="o", markersize=3, elinewidth=0.8,
                       color=PANEL_COLOURS[panel], label="across the diameter")
         axes.plot(columns["angles_deg"], columns["predicted_" + part], color=INK, linewidth=1.3, label="by the mean stress")

@@ -3,7 +3,7 @@
 
 from matplotlib.figure import Figure
 
-from diptych_report.charts.style import (CONTINUUM, FAINT, GRAINS, INK, PANEL_COLOURS, THIRD, chart, decades, ruled, svg,
+from diptych_report.charts.style import (CONTINUUM, FAINT, GRAINS, INK, PANEL_COLOURS, THIRD, chart, decades, logarithmic, ruled, svg,
                                          thin)
 from diptych_report.data.numbers import plain
 
@@ -70,7 +70,8 @@ def solver(result):
         axes = ruled(figure.add_axes([0.15, 0.6 - 0.43 * k, 0.825, 0.36]))
         good = values > 0
         axes.plot(*thin(result.walk.factor * progress[good], values[good]), color=PANEL_COLOURS["discrete"], linewidth=0.6)
-        axes.set(ylabel=label, yscale="log", ylim=decades(values[good]))
+        axes.set(ylabel=label, ylim=decades(values[good]))
+        logarithmic(axes)
         axes.set_xlim(left=0)
         axes.tick_params(labelbottom=k == 1)
     axes.set_xlabel(result.walk.label)

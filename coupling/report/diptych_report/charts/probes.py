@@ -4,10 +4,9 @@
 
 import numpy as np
 from matplotlib.collections import PatchCollection
-from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Wedge
 
-from diptych_report.charts.style import GRAINS, INK, svg
+from diptych_report.charts.style import GRAINS, INK, frame, svg
 from diptych_report.data.numbers import plain
 
 SECTORS = 24
@@ -23,8 +22,8 @@ def roses(increment):
 
 
 def _rose(increment, probe, share, reach):
-    figure = Figure(figsize=(2.3, 2.75))
-    axes = figure.add_axes([0.0, 0.08, 1.0, 2.3 / 2.75], aspect="equal")
+    figure, (axes,) = frame("rose", (2.3, 2.75), [[0.0, 0.08, 1.0, 2.3 / 2.75]])
+    axes.set_aspect("equal")
     step = 360 / SECTORS
     axes.add_collection(PatchCollection([Wedge((0, 0), s, step * i, step * (i + 1)) for i, s in enumerate(share)],
                                         facecolor=GRAINS, edgecolor="white", linewidth=0.5, alpha=0.75))
@@ -37,7 +36,9 @@ def _rose(increment, probe, share, reach):
     axes.set(xlim=(-1.08 * reach, 1.08 * reach), ylim=(-1.08 * reach, 1.08 * reach))
     axes.axis("off")
     name = probe.get("name", "")
-    figure.suptitle(f"{name}, {probe.get('contacts', '?')} contacts", fontsize=9.5, y=0.99)
+    figure.texts.clear()
+    figure.legends.clear()
+    figure.text(0.5, 0.99, f"{name}, {probe.get('contacts', '?')} contacts", fontsize=9.5, ha="center", va="top")
     handles, labels = axes.get_legend_handles_labels()
     if handles:
         figure.legend(handles, labels, loc="lower center", ncol=2, fontsize=8.5, borderpad=0.1)

@@ -3,9 +3,8 @@
 """Moreau 1997, section 3: 16 strips; here for both panels, with the fitted profile of the band."""
 
 import numpy as np
-from matplotlib.figure import Figure
 
-from diptych_report.charts.style import INK, PANEL_COLOURS, Pair, signed, svg
+from diptych_report.charts.style import INK, PANEL_COLOURS, Pair, frame, signed, svg
 from diptych_report.data.numbers import interval, plain
 from diptych_report.data.panels import DIFFUSE, PANEL_NAMES
 
@@ -44,9 +43,11 @@ def _panel(increment, panel, profile, box, angle):
         return None
     edges, mean, deviation = profile
     middle, colour = (edges[1:] + edges[:-1]) / 2, PANEL_COLOURS[panel]
-    figure = Figure(figsize=(4.5, 3.3))
-    axes = figure.add_axes([0.14, 0.15, 0.84, 0.76])
-    axes.bar(middle, mean, np.diff(edges) * 0.96, color=colour, alpha=0.35, linewidth=0, label="mean of each strip")
+    figure, (axes,) = frame("strips", (4.5, 3.3), [[0.14, 0.15, 0.84, 0.76]])
+    axes.grid(False)
+    axes.stairs(np.nan_to_num(mean), edges, fill=True, color=colour, alpha=0.35, linewidth=0, label="mean of each strip")
+    across = np.tile([box[2], box[3], np.nan], len(edges))
+    axes.plot(np.repeat(edges, 3), across, color="white", linewidth=0.8)  # strips apart
     axes.errorbar(middle, mean, deviation, fmt="none", ecolor=colour, elinewidth=1, capsize=2,
                   label="standard deviation in it")
     bands = increment.bands(panel)
@@ -82,7 +83,7 @@ def _draw_fit(axes, band, box, background):
     if ends:
         label += signed(f" [{ends[0]:.1f}, {ends[1]:.1f}]")
     if None not in (*background, jump, offset) and delta:
-        x = np.linspace(box[0], box[1], 400)
+        x = np.linspace(box[0], box[1], 150)
         axes.plot(x, background[0] + background[1] * x + jump / 2 * np.tanh((x - offset) / delta), color=INK, label="fit")
     if width is not None and offset is not None:
         axes.axvspan(offset - width / 2, offset + width / 2, color=INK, alpha=0.08, linewidth=0, label=label)

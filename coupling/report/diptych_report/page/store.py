@@ -1,15 +1,21 @@
-# diptych: arrays of the page's maps, 16 bits a number, each stored once
+# diptych: arrays of the page's maps, 12 bits a number, each stored once
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 import base64
 
 import numpy as np
 
-LARGEST = 65534  # code of the highest value; 65535 stands for nan
+LARGEST = 4094  # code of the highest value; 4095 stands for nan
+
+
+def packed(codes):
+    """Bytes of 12-bit codes: of each pair the low eight bits of the first, its high four below the low four of the second, the rest."""
+    first, second = np.append(codes, np.zeros(len(codes) % 2, codes.dtype)).reshape(-1, 2).T
+    return np.stack([first & 255, first >> 8 | (second & 15) << 4, second >> 4], axis=1).astype(np.uint8).tobytes()
 
 
 class Store:
-    """Arrays as {"low", "high", "data"}: value = low + code (high - low)/65534, codes little-endian, base64.
+    """Arrays as {"low", "high", "size", "data"}: value = low + code (high - low)/4094, two codes in three bytes (packed), base64.
 
     Equal arrays share one entry: the grains' positions at the end of a window are those of the stage that ends there.
     """
@@ -26,10 +32,10 @@ class Store:
         finite = values[np.isfinite(values)]
         low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 0.0)
         scale = LARGEST / (high - low) if high > low else 0.0
-        codes = np.where(np.isfinite(values), np.rint((np.nan_to_num(values) - low) * scale), LARGEST + 1).astype("<u2")
-        data = base64.b64encode(codes.tobytes()).decode("ascii")
+        codes = np.where(np.isfinite(values), np.rint((np.nan_to_num(values) - low) * scale), LARGEST + 1).astype(np.uint16)
+        data = base64.b64encode(packed(codes)).decode("ascii")
         key = (low, high, data)
         if key not in self._known:
             self._known[key] = len(self.entries)
-            self.entries.append({"low": low, "high": high, "data": data})
+            self.entries.append({"low": low, "high": high, "size": len(values), "data": data})
         return self._known[key]

@@ -9,11 +9,12 @@ const decoded = new Map();
 function values(id) {
   if (id === null || id === undefined) return null;
   if (!decoded.has(id)) {
-    const entry = data.arrays[id], text = atob(entry.data), out = new Float32Array(text.length / 2);
-    const step = (entry.high - entry.low) / 65534;
-    for (let k = 0; k < out.length; ++k) {
-      const code = text.charCodeAt(2 * k) + 256 * text.charCodeAt(2 * k + 1);
-      out[k] = code === 65535 ? NaN : entry.low + code * step;
+    const entry = data.arrays[id], text = atob(entry.data), out = new Float32Array(entry.size);
+    const step = (entry.high - entry.low) / 4094;
+    for (let k = 0; k < out.length; ++k) { // two codes of 12 bits in three bytes
+      const at = 3 * (k >> 1), middle = text.charCodeAt(at + 1);
+      const code = k % 2 ? (middle >> 4) + 16 * text.charCodeAt(at + 2) : text.charCodeAt(at) + 256 * (middle & 15);
+      out[k] = code === 4095 ? NaN : entry.low + code * step;
     }
     decoded.set(id, out);
   }
