@@ -33,7 +33,8 @@ WINDOWS = (EARLY, (0.005, 0.015), (0.015, 0.04), (0.005, 0.04))
 JUDGED = (0.005, 0.04)
 VOLUMES = (0.015, 0.04)  # strains
 # Steps of NSCD [d sqrt(rho/P)] and stiffnesses kn/P, by inertial number.
-STEPS = {1.13e-3: (0.4, 0.2, 0.1, 0.05, 0.025), 1.13e-4: (2., 1., 0.5, 0.25)}
+STEPS = {1.13e-3: (0.4, 0.2, 0.1, 0.05, 0.025, 0.0125), 1.13e-4: (2., 1., 0.5, 0.25)}
+FINE = "discrete/accuracy=0.008"  # tolerance x step / I = 0.02: so that the step alone tells
 STIFFNESSES = {1.13e-3: (1e3, 1e4, 1e5), 1.13e-4: (1e3, 1e4)}
 COLUMNS = ("axial_strain", "t", "s", "volumetric_strain", "kinetic_energy")
 
@@ -84,7 +85,7 @@ class Method:
         runs = claims.Runs(argparse.Namespace(program=program, reuse=options.reuse, set=[]), seed, folder)
         source = [f"sample/file={sample_file(seed)}"] if self.program is None else []
         return of_panel(runs.run(f"seed_{seed}", "discrete", SCENE, f"loading/inertial_number={inertial:g}", f"loading/axial_strain={STRAIN}",
-                                 "loading/stage_strain=0.01", "discrete/snapshot_max_sweeps=0", *source, *self.settings))
+                                 "loading/stage_strain=0.01", *source, *self.settings))
 
     def load_by_lammps(self, options, inertial, seed, folder):
         if options.lammps == "stored":
@@ -122,10 +123,11 @@ def store(found):
 
 
 def methods(options, inertial):
-    nscd = [Method("NSCD h =", f"{h:g}", [f"discrete/step={h:g}"]) for h in STEPS[inertial]]
+    nscd = [Method("NSCD h =", f"{h:g}", [f"discrete/step={h:g}", FINE]) for h in STEPS[inertial]]
     nscd += [Method("NSCD accuracy", "auto", [])]
     for name, program in options.also:
-        nscd += [Method(f"NSCD {name} h =", f"{h:g}", [f"discrete/step={h:g}", f"discrete/tolerance={2.5 * 0.02 * inertial / h:g}"], program)
+        nscd += [Method(f"NSCD {name} h =", f"{h:g}", [f"discrete/step={h:g}", f"discrete/tolerance={0.02 * inertial / h:g}", "discrete/snapshot_max_sweeps=0"],
+                        program)
                  for h in STEPS[inertial]]
     if options.quick:
         return nscd

@@ -103,6 +103,8 @@ namespace diptych::coupling
     v({"grain_stress_error", "-", "error of single grains' stress"}, s.grain_stress_error);
     v({"peak_stress_ratio", "-", "peak stress ratio t/s, of the running mean"}, s.peak.value);
     v({"strain_at_peak", "as walk says", "progress at the peak"}, s.peak.progress);
+    v({"early_strength", "-", "T/S up to 0.3 % of strain, means of t over means of s"}, s.strength.early);
+    v({"strength", "-", "T/S from there to the end"}, s.strength.later);
     v({"final_volumetric_strain", "-", "volumetric strain at the end"}, s.final_volumetric_strain);
     v({"spin_term_share", "-", "largest spin term over mean stress"}, s.spin_term_share);
     v({"kinetic_energy_ratio_median", "-", "kinetic energy over M|V|²/4, median"}, s.kinetic_energy_ratio_median);
@@ -124,6 +126,8 @@ namespace diptych::coupling
     v({"cut_backs", "-", "load steps cut back"}, s.cut_backs);
     v({"peak_stress_ratio", "-", "peak stress ratio t/s, of the running mean"}, s.peak.value);
     v({"strain_at_peak", "as walk says", "progress at the peak"}, s.peak.progress);
+    v({"early_strength", "-", "T/S up to 0.3 % of strain, means of t over means of s"}, s.strength.early);
+    v({"strength", "-", "T/S from there to the end"}, s.strength.later);
     v({"final_volumetric_strain", "-", "volumetric strain at the end"}, s.final_volumetric_strain);
     v({"share_zz_not_intermediate", "-", "points where σ_zz is not intermediate"}, s.share_zz_not_intermediate);
     v({"viscous_share", "-", "largest share of the strength that viscosity carries"}, s.viscous_share);

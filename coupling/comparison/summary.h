@@ -13,6 +13,13 @@
 
 namespace diptych::coupling
 {
+  // T/S of a walk along strain, that of the beginning told apart: it hangs on the start and on how far the contacts are solved.
+  // Early: up to 0.3 %; then to the end. NaN where the history ends before, or walks along time.
+  struct Strength
+  {
+    double early = NAN, later = NAN;
+  };
+
   struct DiscreteSummary
   {
     int           grains = 0, steps = 0;
@@ -23,6 +30,7 @@ namespace diptych::coupling
     double        solver_noise       = NAN; // residual x step [d sqrt(rho/P)] / mean inertial number
     double        grain_stress_error = NAN; // error over residual x residual; NaN where it was not measured
     Peak          peak;                     // of the running mean of t/s
+    Strength      strength;
     double        final_volumetric_strain = NAN, spin_term_share = NAN;
     double        kinetic_energy_ratio_median = NAN, kinetic_energy_ratio_largest = NAN;
     double        contacts = NAN, coordination_number = NAN, rattlers = NAN; // at the end
@@ -35,6 +43,7 @@ namespace diptych::coupling
     double                element_size      = NAN; // [mean diameters]
     double                newton_iterations = NAN, cut_backs = NAN;
     Peak                  peak;
+    Strength              strength;
     double                final_volumetric_strain = NAN, share_zz_not_intermediate = NAN, viscous_share = NAN;
     double                max_equivalent_plastic_strain = NAN;
     double                platen_unbalance              = NAN; // of the vertical forces, at the end, relative to their mean size

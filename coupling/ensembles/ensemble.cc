@@ -193,10 +193,13 @@ namespace diptych::coupling
 
     std::vector<Question> questions(const std::vector<BandCount> &bands, const EquivalenceMargins &margins)
     {
-      const std::string     peak = "peak_stress_ratio", volume = "final_volumetric_strain", of_grains = " discrete";
-      std::vector<Question> list = {
-        {peak, "discrete_summary " + peak, "continuum_summary " + peak, margins.peak_stress_ratio, Measure::relative, "-"},
-        {volume, "discrete_summary " + volume, "continuum_summary " + volume, margins.volumetric_strain, Measure::absolute, "-"}};
+      const std::string peak = "peak_stress_ratio", strength = "strength", volume = "final_volumetric_strain",
+                        of_grains = " discrete";
+      std::vector<Question> list  = {
+         {peak, "discrete_summary " + peak, "continuum_summary " + peak, margins.peak_stress_ratio, Measure::relative, "-"},
+         {strength, "discrete_summary " + strength, "continuum_summary " + strength, margins.peak_stress_ratio, Measure::relative,
+          "-"},
+         {volume, "discrete_summary " + volume, "continuum_summary " + volume, margins.volumetric_strain, Measure::absolute, "-"}};
       for (const BandCount &count : bands)
         if (count.name.rfind("window ", 0) == 0 && ends_with(count.name, of_grains))
           {

@@ -48,6 +48,21 @@ namespace diptych::coupling
     return to > from ? integral / (to - from) : y;
   }
 
+  double ratio_of_means(const HistoryTable &table, const double from, const double to)
+  {
+    const std::vector<double> &progress = column(table, "progress"), &xx = column(table, "sxx"), &xy = column(table, "sxy"),
+                              &yy = column(table, "syy"), &yx = table.count("syx") > 0 ? column(table, "syx") : xy;
+    if (!(to > from) || progress.empty() || is_beyond(to, progress.back()))
+      return std::numeric_limits<double>::quiet_NaN();
+    HistoryTable stress{{"progress", progress}};
+    for (std::size_t k = 0; k < progress.size(); ++k)
+      {
+        stress["t"].push_back(std::hypot(0.5 * (xx[k] - yy[k]), 0.5 * (xy[k] + yx[k])));
+        stress["s"].push_back(0.5 * (xx[k] + yy[k]));
+      }
+    return mean_over_progress(stress, "t", from, to) / mean_over_progress(stress, "s", from, to);
+  }
+
   std::vector<double> running_mean(const HistoryTable &table, const std::string &name, const double width)
   {
     const std::vector<double> &x = column(table, "progress"), &y = column(table, name);

@@ -44,6 +44,11 @@ namespace diptych::coupling
   };
   double mean_over(const HistoryTable &table, const ColumnPair &names, double from, double to);
 
+  // T/S: the mean of t over [from, to] of the progress over that of s, from the columns sxx, sxy, syx where there is one, and
+  // syy. Unlike the mean of t/s it does not count moments of little load as much as others. NaN where the history does not reach
+  // `to`.
+  double ratio_of_means(const HistoryTable &table, double from, double to);
+
   // At every row the mean over the `width` of progress that ends there; NaN before the first full width. O(rows).
   std::vector<double> running_mean(const HistoryTable &table, const std::string &name, double width);
 

@@ -14,7 +14,7 @@ namespace diptych::discrete
   struct SamplingOptions
   {
     double snapshot_accuracy   = 0.02;
-    int    snapshot_max_sweeps = 26000;
+    int    snapshot_max_sweeps = 0;
     int    reference_sweeps    = 50000;
   };
 
@@ -24,10 +24,11 @@ namespace diptych::discrete
       "snapshot_accuracy", o.snapshot_accuracy, "-", {1e-6, 1e3},
       "the step of a snapshot is solved on until the estimated rms error of the grains' stress, relative to its rms value, is "
       "below this");
-    visitor(
-      "snapshot_max_sweeps", o.snapshot_max_sweeps, "-", {0, 1000000000},
-      "sweeps such a step may take; where they do not suffice the run goes on and the estimate stands with the snapshot. 0: "
-      "snapshots are solved like all other steps, with no estimate");
+    visitor("snapshot_max_sweeps", o.snapshot_max_sweeps, "-", {0, 1000000000},
+            "sweeps such a step may take; where they do not suffice the run goes on and the estimate stands with the snapshot; "
+            "some ten "
+            "thousand where single grains count. 0: "
+            "snapshots are solved like all other steps, with no estimate");
     visitor(
       "reference_sweeps", o.reference_sweeps, "-", {0, 1000000000},
       "further sweeps by which the first sampled step of a run is solved on towards a residual of 1e-9, to measure the ratio "

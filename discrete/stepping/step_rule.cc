@@ -52,7 +52,7 @@ namespace diptych::discrete
     constexpr double infinity = std::numeric_limits<double>::infinity();
 
     // Of the errors: strength over strain per step, tolerance x step / inertial number over accuracy.
-    constexpr double strength_budget = 1. / 80, noise_budget = 2.5;
+    constexpr double strength_budget = 1. / 100, noise_budget = 2.5;
     // Residuals of looser solves mean nothing any more.
     constexpr double loosest_tolerance = 1e-2;
 

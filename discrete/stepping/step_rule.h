@@ -46,14 +46,14 @@ namespace diptych::discrete
   //   drives   0.1 of the shortest interval of a wall's table; sqrt(0.1 d M/F) of a wall of mass M under a force F; the largest
   //            speed of a table counts among the speeds of walls
   //   gravity  0.3 sqrt(d/g)
-  //   strain   1/80 accuracy / rate: long steps add about 80 x (strain per step) to the strength
+  //   strain   1/100 accuracy / rate: long steps add about 100 x (strain per step) to the strength
   //   solver   2.5 accuracy I / tolerance in units of d sqrt(rho/s), tolerance = auto: 1e-3 accuracy, below which sweeps wander
   StepChoice choose_step(const State &state, const StepSetting &setting, const FlowState &flow);
 
   // What was asked for; auto: 2.5 accuracy I / h in units of d sqrt(rho/s), 1e-3 accuracy where nothing strains or presses.
   double choose_tolerance(const State &state, const StepSetting &setting, const FlowState &flow);
 
-  // What step and tolerance of the setting cost, relative, as measured in biaxial compression of 1000 discs: strength + 80 x
+  // What step and tolerance of the setting cost, relative, as measured in biaxial compression of 1000 discs: strength + 100 x
   // (strain per step), dilation lost half of tolerance x step / I. 0 where nothing strains or presses.
   struct ExpectedErrors
   {

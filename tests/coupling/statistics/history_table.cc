@@ -60,6 +60,25 @@ namespace
       }
   }
 
+  // Two halves of a history, one with t = 1, s = 4, one with t = 3, s = 6: T/S = 2/5 where the mean of t/s is 3/8.
+  TEST(HistoryTable, RatioOfMeansIsNotTheMeanOfTheRatio)
+  {
+    const double       inch = 1e-12;
+    const HistoryTable table{{"progress", {0, 0.5, 0.5 + inch, 1}},
+                             {"sxx", {3, 3, 6, 6}},
+                             {"syy", {5, 5, 6, 6}},
+                             {"sxy", {0, 0, 4, 4}},
+                             {"syx", {0, 0, 2, 2}}};
+    EXPECT_NEAR(ratio_of_means(table, 0, 0.5), 0.25, 1e-9);
+    EXPECT_NEAR(ratio_of_means(table, 0.5 + inch, 1), 0.5, 1e-9);
+    EXPECT_NEAR(ratio_of_means(table, 0, 1), 0.4, 1e-9);
+    EXPECT_TRUE(std::isnan(ratio_of_means(table, 0, 1.1))) << "the history ends before";
+    HistoryTable symmetric = table;
+    symmetric["sxy"]       = {0, 0, 3, 3};
+    symmetric.erase("syx");
+    EXPECT_NEAR(ratio_of_means(symmetric, 0, 1), 0.4, 1e-9);
+  }
+
   // 0.1 + 0.2 is not 0.3, and yet not beyond it.
   TEST(HistoryTable, WhatRoundingAddsIsNotBeyond)
   {

@@ -84,9 +84,9 @@ namespace
     RuleScene s;
     s.accuracy.tolerance.reset();
     EXPECT_EQ(s.choose(9, 1e-2).bound, "strain");
-    EXPECT_NEAR(s.choose(9, 1e-2).step, 0.02 / 80 / 1e-2, 1e-14);
+    EXPECT_NEAR(s.choose(9, 1e-2).step, 0.02 / 100 / 1e-2, 1e-14);
     s.accuracy.accuracy = 0.01;
-    EXPECT_NEAR(s.choose(9, 1e-2).step, 0.01 / 80 / 1e-2, 1e-14);
+    EXPECT_NEAR(s.choose(9, 1e-2).step, 0.01 / 100 / 1e-2, 1e-14);
   }
 
   TEST(StepRule, ToleranceAutoFollowsStepAndStrainRate)
@@ -109,7 +109,7 @@ namespace
     s.setting.step              = 0.5;
     s.setting.solver.tolerance  = 1e-3;
     const ExpectedErrors errors = expected_errors(s.state, s.setting, {9, 1e-3, s.accuracy});
-    EXPECT_NEAR(errors.strength, 80 * 1e-3 * 0.5, 1e-14);
+    EXPECT_NEAR(errors.strength, 100 * 1e-3 * 0.5, 1e-14);
     EXPECT_NEAR(errors.dilation, 0.5 * 1e-3 * 0.5 / (1e-3 * 16. / 9), 1e-14);
     EXPECT_EQ(expected_errors(s.state, s.setting, {9, 0, s.accuracy}).strength, 0);
   }

@@ -24,7 +24,7 @@ PER_CENT = {"volumetric_strain", "final_volumetric_strain", "reached_axial_strai
 ORDER = ("grains", "cells", "unknowns", "element_size_d", "preparation_solid_fraction", "preparation_friction",
          "preparation_steps", "preparation_residual", "preparation_unbalanced_force", "initial_height", "platen_speed",
          "mean_inertial_number", "finished", "reached_progress", "reached_axial_strain", "reached_shear_strain",
-         "peak_stress_ratio", "strain_at_peak", "final_volumetric_strain", "max_equivalent_plastic_strain", "internal_length_d",
+         "peak_stress_ratio", "strain_at_peak", "early_strength", "strength", "final_volumetric_strain", "max_equivalent_plastic_strain", "internal_length_d",
          "localisation_strain", "localisation_angle_deg", "viscous_share", "platen_unbalance", "share_zz_not_intermediate",
          "processes", "steps", "step_length", "step", "step_bound", "halved_steps", "cut_backs", "newton_iterations", "sweeps",
          "residual", "solver_noise", "grain_stress_error", "max_penetration_d", "energy_residual", "momentum_residual",

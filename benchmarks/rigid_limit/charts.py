@@ -1,0 +1,103 @@
+# diptych: figures of the rigid limit
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Curves of all methods, and their error against CPU time. Needs matplotlib."""
+import os
+
+import matplotlib
+import numpy
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as pyplot  # noqa: E402
+
+COLOURS = {"NSCD h =": "#0072B2", "NSCD accuracy": "#56B4E9", "penalty kn/P =": "#D55E00", "LAMMPS kn/P =": "#007A5E"}
+MARKS = {"NSCD h =": "o", "NSCD accuracy": "*", "penalty kn/P =": "s", "LAMMPS kn/P =": "^"}
+OTHERS = "#777777"  # another build
+JUDGED = (0.005, 0.04)
+QUANTITIES = (("t", "T/S, running over 0.3 %"), ("volumetric_strain", "dilation (%)"), ("kinetic_energy", "kinetic energy (P d²)"))
+
+
+def mean_and_error(values):
+    values = numpy.array(values)
+    return values.mean(axis=0), values.std(axis=0, ddof=1) / numpy.sqrt(len(values))
+
+
+def curve(columns, name):
+    """Of one run, at the ends of its bins."""
+    if name == "volumetric_strain":
+        return -100 * columns[name]
+    if name == "kinetic_energy":
+        return columns[name]
+    three = numpy.ones(3) / 3
+    t, s = (numpy.convolve(columns[key], three, "same") for key in ("t", "s"))
+    return t / s
+
+
+def draw_curves(by_method, inertial, path):
+    """The finest of every family, and the coarsest of the springs."""
+    figure, axes = pyplot.subplots(1, 3, figsize=(13, 4), constrained_layout=True)
+    shown = {}
+    for method in by_method:
+        shown.setdefault(method.family, []).append(method)
+    for family, methods in shown.items():
+        if family not in COLOURS:
+            continue
+        for method, line in ((methods[0], ":"), (methods[-1], "-")) if len(methods) > 1 else ((methods[0], "--"),):
+            for axis, (name, label) in zip(axes, QUANTITIES):
+                curves = [curve(columns, name) for columns, _ in by_method[method].values()]
+                end = 100 * next(iter(by_method[method].values()))[0]["axial_strain"]
+                mean, error = mean_and_error(curves)
+                axis.plot(end, mean, line, color=COLOURS[family], linewidth=1.4, label=method.name)
+                if line != ":":
+                    axis.fill_between(end, mean - error, mean + error, color=COLOURS[family], alpha=0.12, linewidth=0)
+                axis.set(xlabel="axial strain (%)", ylabel=label)
+                axis.grid(alpha=0.3)
+    axes[0].set_ylim(bottom=0.2)
+    axes[2].set_yscale("log")
+    axes[1].legend(fontsize=8)
+    seeds = len(next(iter(by_method.values())))
+    figure.suptitle(f"I = {inertial:g}, means over {seeds} samples; bands: standard error of the mean (samples differ; the differences are paired)",
+                    fontsize=9.5)
+    figure.savefig(path, dpi=110)
+    pyplot.close(figure)
+
+
+def strength(columns):
+    end = columns["axial_strain"]
+    k = (end > JUDGED[0] + 1e-9) & (end <= JUDGED[1] + 1e-9)
+    return columns["t"][k].mean() / columns["s"][k].mean()
+
+
+def draw_error(by_method, inertial, path):
+    """|T/S / reference - 1| against CPU seconds; the reference: the mean over all samples of the stiffest springs of both programs."""
+    stiffest = [[m for m in by_method if m.family == family][-1] for family in ("penalty kn/P =", "LAMMPS kn/P =")]
+    seeds = list(by_method[stiffest[0]])
+    reference = {seed: numpy.mean([strength(by_method[m][seed][0]) for m in stiffest]) for seed in seeds}
+    figure, axis = pyplot.subplots(figsize=(6.4, 4.4), constrained_layout=True)
+    families = {}
+    for method, by_seed in by_method.items():
+        differences = [100 * (strength(by_seed[seed][0]) / reference[seed] - 1) for seed in seeds]
+        seconds = numpy.mean([by_seed[seed][1] for seed in seeds])
+        families.setdefault(method.family, []).append((seconds, *mean_and_error(differences), method.value))
+    for family, points in families.items():
+        x, y, error, names = zip(*points)
+        colour = COLOURS.get(family, OTHERS)
+        axis.errorbar(x, y, error, fmt=MARKS.get(family, "x") + "-", color=colour, capsize=3, markersize=9 if family == "NSCD accuracy" else 5,
+                      label=family.rstrip(" ="), linewidth=1)
+        for at, height, name in zip(x, y, names):
+            axis.annotate(name, (at, height), textcoords="offset points", xytext=(5, 5), fontsize=8, color=colour)
+    axis.axhspan(-1, 1, color="black", alpha=0.07, linewidth=0)
+    axis.axhline(0, color="black", linewidth=0.7)
+    axis.set(xscale="log", xlabel="CPU seconds to 4 % strain, 1000 discs", ylabel="T/S over 0.5-4 % against the stiffest springs (%)",
+             title=f"I = {inertial:g}; paired, {len(seeds)} samples; grey band: 1 %")
+    axis.title.set_fontsize(10)
+    axis.grid(alpha=0.3, which="both")
+    axis.legend(fontsize=8)
+    figure.savefig(path, dpi=110)
+    pyplot.close(figure)
+
+
+def draw(found, folder):
+    os.makedirs(folder, exist_ok=True)
+    for inertial, by_method in found.items():
+        draw_curves(by_method, inertial, os.path.join(folder, f"curves_{inertial:g}.png"))
+        draw_error(by_method, inertial, os.path.join(folder, f"cost_{inertial:g}.png"))
