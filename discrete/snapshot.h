@@ -60,7 +60,7 @@ namespace diptych::discrete
     std::vector<Eigen::Matrix2d> mean_internal_moment; // of window_forces, mean spin term included
     std::vector<double>          mean_spin_term;       // mean over the window of (1/2) omega^2 I >= 0 (enters M as -1 times it)
     std::vector<std::uint8_t>    rattler;              // 1 where the grain carries no contact force
-    std::vector<std::uint8_t>    fixed;                // 1 where nothing moves the grain, 2 and 3 where it is part of the lower and upper platen
+    std::vector<std::uint8_t>    fixed; // 1 where nothing moves the grain, 2 and 3 where it is part of the lower and upper platen
 
     // candidate contacts of the last step with their impulses / step; open ones carry zero force
     std::vector<ContactForce>    contacts;

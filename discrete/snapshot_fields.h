@@ -26,7 +26,8 @@ namespace diptych::discrete
     visit("grains/mean_spin_term", s.mean_spin_term, "pressure length^2",
           "mean over the stage of (1/2) omega^2 I, which enters the internal moment as -1 times it");
     visit("grains/rattler", s.rattler, "-", "1 where the grain carries no contact force");
-    visit("grains/fixed", s.fixed, "-", "1 where nothing moves the grain, 2 and 3 where it is part of the lower and upper platen");
+    visit("grains/fixed", s.fixed, "-",
+          "1 where nothing moves the grain, 2 and 3 where it is part of the lower and upper platen");
     visit("grains/applied_force", s.applied_force, "pressure length", "lateral action and gravity in the last step");
   }
 

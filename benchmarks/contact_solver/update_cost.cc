@@ -20,7 +20,7 @@ namespace diptych::benchmarks
     constexpr int       n_sweeps = 200, repeats = 15;
     const NextStep      next = next_step(sheared_state(states, 4000, state_a));
     const SolverOptions o;
-    BatchedContacts     batches(next.problem);
+    BatchedContacts     batches(next.problem, {}, next.guess);
     ThreadTeam          alone(1);
 
     std::vector<Impulse>      r     = next.guess;

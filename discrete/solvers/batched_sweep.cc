@@ -58,7 +58,7 @@ namespace diptych::discrete
            same(c.inverse_wtt, c.inverse_wnn * disc_wnn_over_wtt);
   }
 
-  BatchedContacts::BatchedContacts(const ContactProblem &problem, const std::vector<int> &held)
+  BatchedContacts::BatchedContacts(const ContactProblem &problem, const std::vector<int> &held, const std::vector<Impulse> &guess)
       : problem_(problem),
         v_(problem.free_velocity),
         batch_of_(problem.free_velocity.size(), -2)
@@ -76,6 +76,9 @@ namespace diptych::discrete
     for (const int row : order)
       if (!is_held[row])
         (fits_a_batch(problem.contacts[row]) ? rows : rest_).push_back(row);
+    is_idle_.resize(problem.contacts.size());
+    if (std::any_of(guess.begin(), guess.end(), [](const Impulse &r) { return r.normal > 0; }))
+      std::transform(guess.begin(), guess.end(), is_idle_.begin(), [](const Impulse &r) { return !(r.normal > 0); });
     n_swept_rest_ = rest_.size();
     rest_.insert(rest_.end(), held.begin(), held.end());
     rest_impulses_.resize(rest_.size());
@@ -129,13 +132,29 @@ namespace diptych::discrete
   // nor, as far as the window allows, with the batch before, whose velocities need not be waited for then.
   BatchedContacts::Part BatchedContacts::make_part(const std::vector<int> &rows)
   {
-    constexpr int      window_size = 64;
-    const int          n = int(rows.size()), idle = int(v_.size()), first_own = idle + 1;
-    std::vector<int>   own; // bodies that do not move, each with a private copy
-    Part               part;
-    const ContactBatch empty = empty_batch(idle);
+    std::vector<int> own; // bodies that do not move, each with a private copy
+    Part             part;
+    part.idle_body = int(v_.size());
     v_.push_back({0, 0, 0, 0});
-    const auto place = [&](const int body) {
+    part.batches.reserve(rows.size() / 3 + 2), part.rows.reserve(rows.size() / 3 + 2);
+    part.tangential_term.reserve(rows.size() / 3 + 2);
+    std::vector<int> awake, idle;
+    for (const int row : rows)
+      (is_idle_[row] ? idle : awake).push_back(row);
+    pack(awake, part, own);
+    part.n_awake = part.batches.size();
+    pack(idle, part, own);
+    if (std::all_of(rows.begin(), rows.end(), [&](const int row) { return problem_.contacts[row].tangential_term == 0; }))
+      part.tangential_term.clear();
+    return part;
+  }
+
+  void BatchedContacts::pack(const std::vector<int> &rows, Part &part, std::vector<int> &own)
+  {
+    constexpr int      window_size = 64;
+    const int          n = int(rows.size()), first_own = part.idle_body + 1;
+    const ContactBatch empty = empty_batch(part.idle_body);
+    const auto         place = [&](const int body) {
       if (moves(problem_, body))
         return body;
       const auto known = std::find(own.begin(), own.end(), body);
@@ -150,7 +169,6 @@ namespace diptych::discrete
     std::vector<int> after(n + 1);
     std::iota(after.begin(), after.end(), 0);
     int waiting = 0, entered = 0, taken_rows = 0;
-    part.batches.reserve(n / 3 + 1), part.rows.reserve(n / 3 + 1), part.tangential_term.reserve(n / 3 + 1);
     for (int batch = 0; taken_rows < n; ++batch)
       {
         entered = std::min(n, entered + window_size - waiting);
@@ -179,9 +197,6 @@ namespace diptych::discrete
       }
     for (const int row : rows)
       batch_of_[problem_.contacts[row].i] = batch_of_[problem_.contacts[row].j] = -2;
-    if (std::all_of(rows.begin(), rows.end(), [&](const int row) { return problem_.contacts[row].tangential_term == 0; }))
-      part.tangential_term.clear();
-    return part;
   }
 
   void BatchedContacts::fill_lane(Part &part, const int lane, const int row) const
@@ -237,10 +252,29 @@ namespace diptych::discrete
       apply_impulse(problem_.contacts[rest_[k]], rest_impulses_[k], v_);
   }
 
-  void BatchedContacts::sweep_part(Part &part, const double omega_sticking, const double omega_slipping)
+  void BatchedContacts::sweep_part(Part &part, const double omega_sticking, const double omega_slipping, const bool with_idle)
   {
-    sweep_batches(part.batches.data(), part.tangential_term.empty() ? nullptr : part.tangential_term.data(), part.batches.size(),
-                  omega_sticking, omega_slipping, v_.data());
+    sweep_batches(part.batches.data(), part.tangential_term.empty() ? nullptr : part.tangential_term.data(),
+                  with_idle ? part.batches.size() : part.n_awake, omega_sticking, omega_slipping, v_.data());
+    if (with_idle)
+      wake(part);
+  }
+
+  // Batches in which a contact has come to act join those that are swept every time, for good: left among the idle ones, contacts
+  // that come and go keep the sweeps from converging.
+  void BatchedContacts::wake(Part &part)
+  {
+    for (std::size_t b = part.n_awake; b < part.batches.size(); ++b)
+      {
+        const double *normal = part.batches[b].normal;
+        if (!(normal[0] + normal[1] + normal[2] + normal[3] > 0))
+          continue;
+        std::swap(part.batches[b], part.batches[part.n_awake]);
+        std::swap(part.rows[b], part.rows[part.n_awake]);
+        if (!part.tangential_term.empty())
+          std::swap(part.tangential_term[b], part.tangential_term[part.n_awake]);
+        ++part.n_awake;
+      }
   }
 
   void BatchedContacts::sweep_rest(const double omega_sticking, const double omega_slipping)
@@ -263,6 +297,7 @@ namespace diptych::discrete
     team.run([&](const int rank) {
       for (int k = 0; k < n; ++k)
         {
+          const bool  with_idle = k % idle_every == idle_every - 1 || k == n - 1;
           const Share mine = share_of(n_blocks, rank, team.size(), k), ends = share_of(n_between, rank, team.size(), k);
           for (int b = mine.begin; b < mine.end; ++b)
             {
@@ -271,13 +306,13 @@ namespace diptych::discrete
                 between[b - 1].wait_for(k);
               if (b < n_between)
                 between[b].wait_for(k);
-              sweep_part(blocks_[b], omega_sticking, omega_slipping);
+              sweep_part(blocks_[b], omega_sticking, omega_slipping, with_idle);
               blocks[b].advance_to(k + 1);
             }
           for (int b = ends.begin; b < ends.end; ++b)
             {
               blocks[b].wait_for(k + 1), blocks[b + 1].wait_for(k + 1);
-              sweep_part(between_[b], omega_sticking, omega_slipping);
+              sweep_part(between_[b], omega_sticking, omega_slipping, with_idle);
               between[b].advance_to(k + 1);
             }
           if (n_swept_rest_ == 0)

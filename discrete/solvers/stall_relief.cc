@@ -10,7 +10,7 @@ namespace diptych::discrete
 {
   RelievedSweeps::RelievedSweeps(const ContactProblem &problem, const std::vector<Impulse> &impulses)
       : problem_(problem),
-        batches_(std::make_unique<BatchedContacts>(problem))
+        batches_(std::make_unique<BatchedContacts>(problem, std::vector<int>{}, impulses))
   {
     batches_->set_impulses(impulses);
   }
@@ -37,7 +37,7 @@ namespace diptych::discrete
     if (stalled != held_)
       {
         held_    = std::move(stalled);
-        batches_ = std::make_unique<BatchedContacts>(problem_, held_);
+        batches_ = std::make_unique<BatchedContacts>(problem_, held_, impulses);
         batches_->set_impulses(impulses);
       }
     return !held_.empty();
