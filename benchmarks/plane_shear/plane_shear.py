@@ -119,7 +119,7 @@ def draw(found, options, path):
             y = [mean_and_error([r[name] for r in results]) for results, _ in points]
             axis.errorbar(x, [v[0] for v in y], [v[1] for v in y], fmt=marker, color=colour, capsize=3, label=f"friction {friction:g}")
         a, b = LITERATURE[name]
-        span = numpy.array([0.005, 0.2])
+        span = numpy.array([0.005, 0.14])
         axis.plot(span, a + b * span, "k--", linewidth=1, label="da Cruz et al. 2005, friction 0.4")
         axis.set(xlabel="I = shear rate sqrt(m/P)", ylabel=label)
         axis.grid(alpha=0.3)
@@ -132,7 +132,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=os.path.abspath)
     parser.add_argument("--seeds", type=lambda text: [int(word) for word in text.split(",")], default=[1, 2, 3, 4])
-    parser.add_argument("--numbers", type=numbers, default=[0.005, 0.016, 0.05, 0.1, 0.2], help="I from the platens' speed and distance")
+    parser.add_argument("--numbers", type=numbers, default=[0.005, 0.016, 0.05, 0.1, 0.14], help="I from the platens' speed and distance")
     parser.add_argument("--friction", type=numbers, default=[0.4, 0.])
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--output", help="folder for the result folders; default: thrown away")
