@@ -49,25 +49,29 @@ namespace diptych::coupling
       }
 
       // Columns: affine (3), profiles (K), their derivatives (3 K), data (2): one weighted Gram matrix holds most of what a step
-      // needs.
+      // needs. A few points at a time, each column of theirs side by side: sums stay in registers.
       Eigen::MatrixXd gram_matrix() const
       {
-        constexpr int               n    = 5 + 4 * K;
-        Eigen::Matrix<double, n, n> gram = Eigen::Matrix<double, n, n>::Zero();
-        Eigen::Matrix<double, n, 1> row;
-        for (std::size_t i = 0; i < data.x.size(); ++i)
+        constexpr int                      n = 5 + 4 * K, n_points = 16;
+        Eigen::MatrixXd                    gram = Eigen::MatrixXd::Zero(n, n);
+        Eigen::Matrix<double, n_points, n> rows = Eigen::Matrix<double, n_points, n>::Zero();
+        Eigen::Matrix<double, n_points, 1> weights;
+        for (std::size_t first = 0; first < data.x.size(); first += n_points)
           {
-            row.template head<3>() << 1, data.x[i].x(), data.x[i].y();
-            for (int b = 0; b < K; ++b)
+            weights.setZero();
+            for (std::size_t i = first; i < std::min(first + n_points, data.x.size()); ++i)
               {
-                const Place &p     = place[i][b];
-                const double slope = 1 - p.profile * p.profile;
-                row[3 + b]         = p.profile;
-                row.template segment<3>(3 + K + 3 * b) << -slope * p.t, -slope / shape[b].half_width, -slope * p.z;
+                fill_row(i, rows.row(i - first));
+                weights[i - first] = weight[i];
               }
-            row.template tail<2>() = data.u[i];
-            gram.noalias() += (weight[i] * row) * row.transpose();
+            for (int c = 0; c < n; ++c)
+              {
+                const Eigen::Matrix<double, n_points, 1> weighted = rows.col(c).cwiseProduct(weights);
+                for (int r = c; r < n; ++r)
+                  gram(r, c) += rows.col(r).dot(weighted);
+              }
           }
+        gram.template triangularView<Eigen::StrictlyUpper>() = gram.transpose();
         return gram;
       }
 
@@ -102,6 +106,19 @@ namespace diptych::coupling
       }
 
     private:
+      template <class Row> void fill_row(const std::size_t i, Row &&row) const
+      {
+        row.template head<3>() << 1, data.x[i].x(), data.x[i].y();
+        for (int b = 0; b < K; ++b)
+          {
+            const Place &p     = place[i][b];
+            const double slope = 1 - p.profile * p.profile;
+            row[3 + b]         = p.profile;
+            row.template segment<3>(3 + K + 3 * b) << -slope * p.t, -slope / shape[b].half_width, -slope * p.z;
+          }
+        row.template tail<2>() = data.u[i].transpose();
+      }
+
       const BandData                   &data;
       const std::vector<double>        &weight;
       const std::vector<BandShape>     &shape;
