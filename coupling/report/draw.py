@@ -34,7 +34,7 @@ def main(arguments):
     if len(arguments) != 2 or arguments[0] not in WORDS:
         print(f"report: usage: draw.py {'|'.join(WORDS)} DIR", file=sys.stderr)
         return 2
-    gc.set_threshold(50_000)  # a figure is thousands of small objects: a tenth of the time goes into looking for dead ones
+    gc.disable()  # a figure is thousands of small objects: a tenth of the time goes into looking for dead ones, and the program soon ends
     try:
         draw(*arguments)
     except InputError as error:

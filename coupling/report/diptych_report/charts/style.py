@@ -190,7 +190,7 @@ def svg(figure, alt):
 
 # (pattern, what replaces it) of a picture's text.
 LEAN = [(re.compile(pattern, re.DOTALL), new) for pattern, new in (
-    (rb"(\.\d\d)\d+", rb"\1"), (rb"\n *", b"\n"), (rb"<metadata>.*?</metadata>\n", b""), (rb"<!DOCTYPE.*?>\n", b""),
+    (rb"<\?xml.*?>\n", b""), (rb"(\.\d\d)\d+", rb"\1"), (rb"\n *", b"\n"), (rb"<metadata>.*?</metadata>\n", b""), (rb"<!DOCTYPE.*?>\n", b""),
     (rb'<g id="[^"]*">', b"<g>"), (rb' transform="rotate\(-0 [^)]*\)"', b""), (rb"font: ([\d.]+px) [^;\"]*", rb"font-size:\1"),
     (rb" ?\n([LCQz])", rb"\1"), (rb"([\d\"])([LCQ]) (?=[-\d])", rb"\1\2"), (rb">\n<", b"><"),
     (rb'(<use [^>]*) style="stroke: #\w+; stroke-width: [\d.]+"/>', rb"\1/>"))]  # a tick's path has the style
