@@ -162,14 +162,15 @@ class GrainSamples(Folder):
             comparison = json.load(file)
         for stage in comparison["stages"]:
             self.assertLess(stage["mapping"]["total_relative_error"], 1e-12)
-        self.assertEqual(comparison["continuum_summary"]["internal_length_d"], 3)
+        self.assertEqual(comparison["continuum_summary"]["internal_length_d"], 3.5)
         self.assertEqual(comparison["continuum_summary"]["viscous_share"], 0)
         self.assertIn("localisation_strain", comparison["continuum_summary"])
         with h5py.File(os.path.join(self.folder, "comparison.h5"), "r") as file:
             travel = file["window_0/nodes/displacement_increment"][()]
             self.assertEqual(len(travel), len(file["window_0/nodes/position"]))
-        # the window holds the whole descent of the upper platen, of which some node moves all
-        self.assertAlmostEqual(-travel[:, 1].min(), 0.01 * initial_height(self.folder), places=6)
+        # the window holds the whole descent of the upper platen, with which the nodes on it move (one at a free corner may sink deeper)
+        with_platen = np.isclose(travel[:, 1], -0.01 * initial_height(self.folder), rtol=0, atol=1e-6)
+        self.assertGreater(with_platen.sum(), 3)
 
     def test_both_panels_of_a_sheared_periodic_sample_are_compared_by_their_travel(self):
         self.continuum(*SMALL, *FIXED_WIDTH, *setting(loading_mode="plane_shear", output_report="false"), command="run")
@@ -211,7 +212,9 @@ class MaterialPoint(Folder):
 
     def test_a_path_that_ends_early_keeps_what_was_reached(self):
         """Stresses of 1e10 P x 1e-3 round to 1e-9 P: no lateral strain holds the pressure to 1e-10 of it."""
-        result = self.continuum(*setting(continuum_youngs_modulus=1e10), code=3, command="material-point")
+        weak = setting(continuum_friction_angle_peak=22, continuum_friction_angle_residual=17, continuum_dilatancy_angle_peak=10,
+                       continuum_softening_strain=0.8)
+        result = self.continuum(*weak, *setting(continuum_youngs_modulus=1e10), code=3, command="material-point")
         self.assertIn("no lateral strain", result.stderr)
         with open(os.path.join(self.folder, "material_point.csv")) as file:
             self.assertEqual(len(file.readlines()), 3)  # names, the start and the step that still held
@@ -294,7 +297,7 @@ class Resume(Folder):
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertIn("not run again", again.stdout)
         self.assertEqual(content(path), content(os.path.join(self.alone, "continuum.csv")))
-        self.continuum(*LONG, *setting(continuum_friction_angle_peak=25), "--resume")
+        self.continuum(*LONG, *setting(continuum_friction_angle_peak=30), "--resume")
         self.assertGreater(self.rows()["stress_ratio"].max(), table(os.path.join(self.alone, "continuum.csv"))["stress_ratio"].max())
 
     def test_an_interrupted_one_of_another_scene_is_refused_and_nothing_changes(self):

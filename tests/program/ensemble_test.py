@@ -306,7 +306,7 @@ class Page(Folder):
             self.assertTrue(os.path.getsize(self.path(f"seed_{seed}", "report.html")) > 0)
         links = re.findall(r'(?:href|src)="([^"]+)"', text)
         self.assertEqual([link for link in links if not link.startswith(("data:", "seed_"))], [])
-        self.assertEqual(len(re.findall(r'<td class="verdict', text)), 4)  # peak, volume, angle and width of one window
+        self.assertEqual(len(re.findall(r'<td class="verdict', text)), 5)  # peak, strength, volume, angle and width of one window
         self.assertIn("two one-sided tests", text)
         self.assertIn("folded", text)  # left and right by chance
         self.assertTrue(read(self.folder)["folded"])

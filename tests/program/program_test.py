@@ -207,7 +207,7 @@ class ReferenceScene(unittest.TestCase):
             self.assertEqual([band["between_packs"] for band in window["continuum"]["bands"]], [True])
         last = comparison["windows"][-1]
         self.assertLess(abs(number(last["discrete"]["bands"][0]["angle_deg"]) + 47), 5)
-        self.assertTrue(12 < number(last["discrete"]["bands"][0]["width_10_90_d"]) < 25)
+        self.assertTrue(5 < number(last["discrete"]["bands"][0]["width_10_90_d"]) < 25)
         self.assertGreater(last["discrete"]["bands"][0]["r_squared_strips"], 0.97)
         coarse = comparison["continuum_coarse"]["windows"][-1]["bands"][0]
         fine = last["continuum"]["bands"][0]

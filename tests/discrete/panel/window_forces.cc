@@ -84,7 +84,7 @@ namespace
     ASSERT_EQ(r.report.status, Status::finished) << r.report.message;
     ASSERT_EQ(r.snapshots.size(), 3u);
     EXPECT_EQ(r.snapshots[0].window_dissipation, std::vector<double>(r.snapshots[0].window_forces.size(), 0.));
-    const auto expect_ledger = [&r](const auto window, const auto ledger) {
+    const auto expect_ledger = [&](const auto window, const auto ledger) {
       double before = 0;
       for (std::size_t k = 1; k < r.snapshots.size(); ++k)
         {
@@ -97,7 +97,8 @@ namespace
           for (const double x : each)
             size += std::abs(x);
           ASSERT_NE(row, r.rows.end());
-          EXPECT_GT(sum, 0);
+          if (options.method.method == Method::nscd)
+            EXPECT_GT(sum, 0); // springs take up elastic energy, and give it back
           EXPECT_NEAR(sum, (*row).*ledger - before, 3e-12 * (size + before));
           before = (*row).*ledger;
         }
