@@ -169,7 +169,7 @@ class GrainSamples(Folder):
             travel = file["window_0/nodes/displacement_increment"][()]
             self.assertEqual(len(travel), len(file["window_0/nodes/position"]))
         # the window holds the whole descent of the upper platen, with which the nodes on it move (one at a free corner may sink deeper)
-        with_platen = np.isclose(travel[:, 1], -0.01 * initial_height(self.folder), rtol=0, atol=1e-6)
+        with_platen = numpy.isclose(travel[:, 1], -0.01 * initial_height(self.folder), rtol=0, atol=1e-6)
         self.assertGreater(with_platen.sum(), 3)
 
     def test_both_panels_of_a_sheared_periodic_sample_are_compared_by_their_travel(self):
