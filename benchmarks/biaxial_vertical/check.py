@@ -16,9 +16,8 @@ import maps  # noqa: E402
 SCENE = os.path.join(HERE, "scene.prm")
 LATE = 2  # window from 2 to 3 % strain
 
-# Mean and four standard deviations over the first twelve seeds of the README, cut where the claim is stricter: two bands that
-# cross, in every window, each with more than a quarter of the platen's travel. The last line: of the eight seeds at present settings,
-# whose steps are half as long and so average the platens' forces over half the time.
+# Mean and four standard deviations over the fifteen seeds of the README, cut where the claim is stricter: two bands that
+# cross, in every window, each with more than a third of the platen's travel.
 CLAIMS = [("grains: windows of 3 with two bands", 3, 3), ("continuum: windows of 3 with two bands", 3, 3),
           ("grains, 2-3 %: bands that cross", 2, 2),
           ("grains, 2-3 %: rising, degrees", 22, 70), ("grains, 2-3 %: falling, degrees", -66, -24),

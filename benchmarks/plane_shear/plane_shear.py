@@ -83,7 +83,7 @@ def measure(options):
 
 
 def mean_and_error(values):
-    return numpy.mean(values), numpy.std(values, ddof=1) / numpy.sqrt(len(values)) if len(values) > 1 else numpy.nan
+    return numpy.mean(values), numpy.std(values, ddof=1) / numpy.sqrt(len(values)) if len(values) > 1 else 0.
 
 
 def straight_line(found, friction, name, seeds):
@@ -101,7 +101,7 @@ def show(found, options):
     for (friction, _), results in found.items():
         columns = {name: mean_and_error([r[name] for r in results]) for name in ("I", "mu*", "phi")}
         print(f"{friction:8g}   {columns['I'][0]:15.4f}" + "".join(f"    {columns[n][0]:.4f} +- {columns[n][1]:.4f}" for n in ("mu*", "phi")))
-    for friction in options.friction:
+    for friction in options.friction if len(options.numbers) > 2 else ():
         for name in ("mu*", "phi"):
             (a, a_error), (b, b_error) = straight_line(found, friction, name, len(options.seeds))
             print(f"friction {friction:g}: {name} = {a:.4f} (+- {a_error:.4f}) {b:+.3f} (+- {b_error:.3f}) I")

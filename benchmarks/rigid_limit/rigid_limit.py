@@ -178,7 +178,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=os.path.abspath)
     parser.add_argument("--seeds", type=numbers(int), help="default: 11 to 22, at I = 1.13e-4 to 16")
-    parser.add_argument("--inertial", type=numbers(float), default=[1.13e-3, 1.13e-4])
+    parser.add_argument("--inertial", type=numbers(float), default=list(STEPS), help="of 1.13e-3, 1.13e-4: those with steps and stiffnesses here")
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--output", help="folder for the result folders; default: thrown away")
     parser.add_argument("--reuse", action="store_true", help="keep runs that are already in --output")
@@ -188,6 +188,12 @@ def main():
     parser.add_argument("--store", action="store_true")
     parser.add_argument("--figures")
     options = parser.parse_args()
+    if not set(options.inertial) <= set(STEPS):
+        parser.error(f"--inertial: one of {list(STEPS)}")
+    if options.store and (options.quick or options.seeds or options.lammps != "run" or set(options.inertial) != set(STEPS)):
+        parser.error("--store rewrites lammps.csv: only with --lammps run, all seeds and both inertial numbers")
+    if options.figures and options.quick:
+        parser.error("--figures needs the springs that --quick leaves out")
     with tempfile.TemporaryDirectory() as scratch:
         options.output = options.output or scratch
         found = {}

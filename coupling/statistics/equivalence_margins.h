@@ -20,7 +20,7 @@ namespace diptych::coupling
     visitor("margin_thickness", o.thickness, "-", {1e-6, 10.},
             "likewise 10-90 % widths of the bands, relative to the mean of the grains");
     visitor("margin_peak_stress_ratio", o.peak_stress_ratio, "-", {1e-6, 10.},
-            "likewise peak stress ratios, relative to the mean of the grains");
+            "likewise peak stress ratios and strengths (T/S beyond 0.3 % strain), relative to the mean of the grains");
     visitor("margin_volumetric_strain", o.volumetric_strain, "-", {1e-9, 1.},
             "likewise volumetric strains at the end, as they are");
   }

@@ -14,7 +14,9 @@ namespace diptych::discrete
 {
   namespace
   {
-    // Sum of all grains' moments about their centres, and the norms behind the skew share.
+    // Sum of all grains' moments about their centres, and the norms behind the skew share. What acts on a grain that is part of a
+    // platen counts from the platen's surface: height x force, as the forces on the platens ask for; what goes along a rigid
+    // platen is not known.
     struct MomentSums
     {
       Eigen::Matrix2d total       = Eigen::Matrix2d::Zero();
@@ -25,6 +27,7 @@ namespace diptych::discrete
     {
       const Grains                &g = state.grains;
       std::vector<Eigen::Matrix2d> moment(g.size(), Eigen::Matrix2d::Zero());
+      Eigen::RowVector2d           on_platens = Eigen::RowVector2d::Zero();
       for (std::size_t k = 0; k < result.contacts.size(); ++k)
         {
           if (result.impulses[k].normal == 0)
@@ -32,8 +35,15 @@ namespace diptych::discrete
           const Contact         c     = make_contact(state, result.contacts[k].i, result.contacts[k].j);
           const Eigen::Vector2d force = impulse_vector(result.contacts[k], result.impulses[k]) / step;
           // From i the contact lies at -(r_i + gap/2) n, from j at +(r_j + gap/2) n.
-          moment[c.i] += (g.radius[c.i] + 0.5 * c.gap) * c.normal * force.transpose();
-          if (std::size_t(c.j) < g.size())
+          if (const int platen = g.platen(c.i); platen >= 0)
+            on_platens -= (c.point.y() - state.walls[platen].point.y()) * force.transpose();
+          else
+            moment[c.i] += (g.radius[c.i] + 0.5 * c.gap) * c.normal * force.transpose();
+          if (std::size_t(c.j) >= g.size())
+            continue;
+          if (const int platen = g.platen(c.j); platen >= 0)
+            on_platens += (c.point.y() - state.walls[platen].point.y()) * force.transpose();
+          else
             moment[c.j] += (g.radius[c.j] + 0.5 * c.gap) * c.normal * force.transpose();
         }
       MomentSums sums;
@@ -43,6 +53,11 @@ namespace diptych::discrete
           const double skew = 0.5 * (m(0, 1) - m(1, 0)), mean = 0.5 * (m(0, 1) + m(1, 0));
           sums.skew_square += 2 * skew * skew;
           sums.square += m(0, 0) * m(0, 0) + m(1, 1) * m(1, 1) + 2 * mean * mean;
+        }
+      if (std::any_of(g.fixed.begin(), g.fixed.end(), [](const std::uint8_t fixed) { return fixed >= lower_platen_grain; }))
+        {
+          sums.total.row(1) += on_platens;
+          sums.total(0, 1) = sums.total(1, 0); // platens hold what would turn them
         }
       sums.total = (0.5 * (sums.total + sums.total.transpose())).eval();
       return sums;

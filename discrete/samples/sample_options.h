@@ -93,10 +93,9 @@ namespace diptych::discrete
             "the sample is quiet when the mean unbalanced force on a grain / mean contact force is below this; a tenth of it, "
             "where it gets there, once the "
             "overlaps are taken out");
-    visitor(
-      "rough_platens", o.rough_platens, "-",
-      "grains that reach within a tenth of the mean diameter of a platen become part of it once the sample is prepared: they "
-      "move with it and do not turn");
+    visitor("rough_platens", o.rough_platens, "-",
+            "grains that come within a tenth of their diameter to a platen become part of it once the sample is prepared: they "
+            "move with it and do not turn");
     visitor("seed", o.seed, "-", {0, 2147483647}, "of the one random generator");
     visitor(
       "file", FileName{o.file}, "-",

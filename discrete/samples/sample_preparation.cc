@@ -131,14 +131,17 @@ namespace diptych::discrete
       state.time = 0;
     }
 
-    void roughen_platens(State &state, const double mean_diameter)
+    // Throws std::invalid_argument where no grain is left free.
+    void roughen_platens(State &state)
     {
       Grains   &g = state.grains;
       const int n = int(g.size());
       for (int i = 0; i < n; ++i)
         for (int platen = 0; platen < 2; ++platen)
-          if (make_contact(state, i, n + platen).gap < 0.1 * mean_diameter && !g.fixed[i])
+          if (make_contact(state, i, n + platen).gap < 0.2 * g.radius[i] && !g.fixed[i])
             g.fixed[i] = std::uint8_t(lower_platen_grain + platen);
+      if (std::all_of(g.fixed.begin(), g.fixed.end(), [](const std::uint8_t fixed) { return fixed != 0; }))
+        throw std::invalid_argument("sample/rough_platens = true: every grain reaches a platen, and none is left to move");
     }
 
     double step_of_preparation(const SampleOptions &o, const double pressure)
@@ -341,7 +344,7 @@ namespace diptych::discrete
         bring_to_rest(sample.state);
       }
     if (options.rough_platens)
-      roughen_platens(sample.state, options.mean_diameter);
+      roughen_platens(sample.state);
     return sample;
   }
 } // namespace diptych::discrete

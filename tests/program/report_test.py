@@ -101,7 +101,7 @@ class CompleteFolder(unittest.TestCase):
                     self.assertLess(*values["limits"], f"{quantity} {place}")
 
     def test_the_page_holds_the_numbers_of_the_files(self):
-        # 16 bits over the range: at most half a code off, range/65534/2
+        # 12 bits over the range: at most half a code off
         values = stored(self.maps, self.increment("stage-1")["values"]["shear"]["discs"]["discrete"])
         np.testing.assert_allclose(values, np.linspace(0, 2, 40), atol=2 * HALF_A_CODE)
         cells = stored(self.maps, self.increment("stage-1")["values"]["shear"]["cells"]["discrete"])

@@ -98,7 +98,9 @@ namespace
             size += std::abs(x);
           ASSERT_NE(row, r.rows.end());
           if (options.method.method == Method::nscd)
-            EXPECT_GT(sum, 0); // springs take up elastic energy, and give it back
+            {
+              EXPECT_GT(sum, 0); // springs take up elastic energy, and give it back
+            }
           EXPECT_NEAR(sum, (*row).*ledger - before, 3e-12 * (size + before));
           before = (*row).*ledger;
         }

@@ -102,14 +102,21 @@ namespace
     options.law.friction = options.law.platen_friction = 0;
     const Course course                                = loaded(sample, loading, options);
     ASSERT_EQ(course.report.status, Status::finished) << course.report.message;
-    double shear = 0;
+    double          shear  = 0;
+    Eigen::Vector2d stress = Eigen::Vector2d::Zero(),
+                    force  = Eigen::Vector2d::Zero(); // xy and yy of the mean stress, of the platen
     for (const HistoryRow &row : course.rows)
       {
         ASSERT_LT(std::abs(row.energy_residual), 1e-11);
         ASSERT_LT(row.momentum_residual, 1e-12);
         shear += row.upper_force.x() / double(course.rows.size());
+        stress += row.stress.row(1).transpose();
+        force -= 0.5 * (row.upper_force - row.lower_force) / course.snapshots[0].cell_width;
       }
     EXPECT_GT(shear, 0.05 * course.snapshots[0].cell_width) << "smooth frictionless platens would carry none";
+    // Height x force over the area is force over width but for what the grains' inertia carries.
+    EXPECT_NEAR(stress.y() / force.y(), 1, 0.02);
+    EXPECT_NEAR(stress.x() / force.x(), 1, 0.04);
     const Snapshot &first = course.snapshots.front(), &last = course.snapshots.back();
     int             n_glued = 0;
     for (std::size_t i = 0; i < first.fixed.size(); ++i)

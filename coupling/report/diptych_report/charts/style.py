@@ -188,9 +188,10 @@ def svg(figure, alt):
     return _picture(figure, "image/svg+xml", io.BytesIO(_lean(stream.getvalue())), alt)
 
 
+DECIMALS = re.compile(rb"(\.\d\d)\d+")  # of places, which stand in tags: the numbers of a label stay as they are
 # (pattern, what replaces it) of a picture's text.
 LEAN = [(re.compile(pattern, re.DOTALL), new) for pattern, new in (
-    (rb"<\?xml.*?>\n", b""), (rb"(\.\d\d)\d+", rb"\1"), (rb"\n *", b"\n"), (rb"<metadata>.*?</metadata>\n", b""), (rb"<!DOCTYPE.*?>\n", b""),
+    (rb"<\?xml.*?>\n", b""), (rb"<[^>]*>", lambda tag: DECIMALS.sub(rb"\1", tag.group())), (rb"\n *", b"\n"), (rb"<metadata>.*?</metadata>\n", b""), (rb"<!DOCTYPE.*?>\n", b""),
     (rb'<g id="[^"]*">', b"<g>"), (rb' transform="rotate\(-0 [^)]*\)"', b""), (rb"font: ([\d.]+px) [^;\"]*", rb"font-size:\1"),
     (rb" ?\n([LCQz])", rb"\1"), (rb"([\d\"])([LCQ]) (?=[-\d])", rb"\1\2"), (rb">\n<", b"><"),
     (rb'(<use [^>]*) style="stroke: #\w+; stroke-width: [\d.]+"/>', rb"\1/>"))]  # a tick's path has the style

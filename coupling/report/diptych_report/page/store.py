@@ -34,7 +34,7 @@ class Store:
         scale = LARGEST / (high - low) if high > low else 0.0
         codes = np.where(np.isfinite(values), np.rint((np.nan_to_num(values) - low) * scale), LARGEST + 1).astype(np.uint16)
         data = base64.b64encode(packed(codes)).decode("ascii")
-        key = (low, high, data)
+        key = (low, high, len(values), data)
         if key not in self._known:
             self._known[key] = len(self.entries)
             self.entries.append({"low": low, "high": high, "size": len(values), "data": data})
