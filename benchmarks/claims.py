@@ -93,6 +93,12 @@ def between(strain, quantity, low, high):
     return quantity[(strain > low) & (strain <= high + 1e-9)].mean()
 
 
+def mean_and_error(values):
+    """(mean, standard error of the mean) over the first axis; an error of 0 for a single value."""
+    values = numpy.array(values)
+    return values.mean(axis=0), values.std(axis=0, ddof=1) / numpy.sqrt(len(values)) if len(values) > 1 else 0 * values[0]
+
+
 def platen_difference(columns):
     """|F_upper + F_lower| / mean size of the two, of the vertical platen forces of every step: zero in statics, at most 2."""
     lower, upper = columns["lower_fy"], columns["upper_fy"]

@@ -99,7 +99,7 @@ namespace diptych::benchmarks
     next.problem                             = make_problem(middle, sheared.setting, next.contacts, v,
                                                             {free_velocities(middle, v, force, sheared.setting), {}, {}});
     next.radius                              = middle.grains.radius;
-    next.guess                               = first_guess(middle.impulses, next.contacts);
+    next.guess                               = first_guess(middle.impulses, next.contacts).impulses;
     return next;
   }
 

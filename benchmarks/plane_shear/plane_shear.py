@@ -82,10 +82,6 @@ def measure(options):
     return found
 
 
-def mean_and_error(values):
-    return numpy.mean(values), numpy.std(values, ddof=1) / numpy.sqrt(len(values)) if len(values) > 1 else 0.
-
-
 def straight_line(found, friction, name, seeds):
     """((a, error), (b, error)) of name = a + b I, fitted seed by seed."""
     lines = []
@@ -93,13 +89,13 @@ def straight_line(found, friction, name, seeds):
         points = [results[k] for (mu, _), results in found.items() if mu == friction]
         slope, start = numpy.polyfit([p["I"] for p in points], [p[name] for p in points], 1)
         lines.append((start, slope))
-    return [mean_and_error(column) for column in zip(*lines)]
+    return [claims.mean_and_error(column) for column in zip(*lines)]
 
 
 def show(found, options):
     print("friction   I in the middle    mu*                 phi")
     for (friction, _), results in found.items():
-        columns = {name: mean_and_error([r[name] for r in results]) for name in ("I", "mu*", "phi")}
+        columns = {name: claims.mean_and_error([r[name] for r in results]) for name in ("I", "mu*", "phi")}
         print(f"{friction:8g}   {columns['I'][0]:15.4f}" + "".join(f"    {columns[n][0]:.4f} +- {columns[n][1]:.4f}" for n in ("mu*", "phi")))
     for friction in options.friction if len(options.numbers) > 2 else ():
         for name in ("mu*", "phi"):
@@ -116,7 +112,7 @@ def draw(found, options, path):
         for friction, colour, marker in zip(options.friction, ("tab:blue", "tab:red", "tab:green"), "osd"):
             points = [(results, key) for key, results in found.items() if key[0] == friction]
             x = [numpy.mean([r["I"] for r in results]) for results, _ in points]
-            y = [mean_and_error([r[name] for r in results]) for results, _ in points]
+            y = [claims.mean_and_error([r[name] for r in results]) for results, _ in points]
             axis.errorbar(x, [v[0] for v in y], [v[1] for v in y], fmt=marker, color=colour, capsize=3, label=f"friction {friction:g}")
         a, b = LITERATURE[name]
         span = numpy.array([0.005, 0.14])

@@ -6,19 +6,15 @@ import os
 import matplotlib
 import numpy
 
+import claims
+
 matplotlib.use("Agg")
 import matplotlib.pyplot as pyplot  # noqa: E402
 
 COLOURS = {"NSCD h =": "#0072B2", "NSCD accuracy": "#56B4E9", "penalty kn/P =": "#D55E00", "LAMMPS kn/P =": "#007A5E"}
 MARKS = {"NSCD h =": "o", "NSCD accuracy": "*", "penalty kn/P =": "s", "LAMMPS kn/P =": "^"}
 OTHERS = "#777777"  # another build
-JUDGED = (0.005, 0.04)
 QUANTITIES = (("t", "T/S, running over 0.3 %"), ("volumetric_strain", "dilation (%)"), ("kinetic_energy", "kinetic energy (P d²)"))
-
-
-def mean_and_error(values):
-    values = numpy.array(values)
-    return values.mean(axis=0), values.std(axis=0, ddof=1) / numpy.sqrt(len(values))
 
 
 def curve(columns, name):
@@ -45,7 +41,7 @@ def draw_curves(by_method, inertial, path):
             for axis, (name, label) in zip(axes, QUANTITIES):
                 curves = [curve(columns, name) for columns, _ in by_method[method].values()]
                 end = 100 * next(iter(by_method[method].values()))[0]["axial_strain"]
-                mean, error = mean_and_error(curves)
+                mean, error = claims.mean_and_error(curves)
                 axis.plot(end, mean, line, color=COLOURS[family], linewidth=1.4, label=method.name)
                 if line != ":":
                     axis.fill_between(end, mean - error, mean + error, color=COLOURS[family], alpha=0.12, linewidth=0)
@@ -61,14 +57,8 @@ def draw_curves(by_method, inertial, path):
     pyplot.close(figure)
 
 
-def strength(columns):
-    end = columns["axial_strain"]
-    k = (end > JUDGED[0] + 1e-9) & (end <= JUDGED[1] + 1e-9)
-    return columns["t"][k].mean() / columns["s"][k].mean()
-
-
-def draw_error(by_method, inertial, path):
-    """|T/S / reference - 1| against CPU seconds; the reference: the mean over all samples of the stiffest springs of both programs."""
+def draw_error(by_method, strength, inertial, path):
+    """strength(columns) / reference - 1 against CPU seconds; the reference, sample by sample: the mean of the stiffest springs of both programs."""
     stiffest = [[m for m in by_method if m.family == family][-1] for family in ("penalty kn/P =", "LAMMPS kn/P =")]
     seeds = list(by_method[stiffest[0]])
     reference = {seed: numpy.mean([strength(by_method[m][seed][0]) for m in stiffest]) for seed in seeds}
@@ -77,7 +67,7 @@ def draw_error(by_method, inertial, path):
     for method, by_seed in by_method.items():
         differences = [100 * (strength(by_seed[seed][0]) / reference[seed] - 1) for seed in seeds]
         seconds = numpy.mean([by_seed[seed][1] for seed in seeds])
-        families.setdefault(method.family, []).append((seconds, *mean_and_error(differences), method.value))
+        families.setdefault(method.family, []).append((seconds, *claims.mean_and_error(differences), method.value))
     for family, points in families.items():
         x, y, error, names = zip(*points)
         colour = COLOURS.get(family, OTHERS)
@@ -96,8 +86,8 @@ def draw_error(by_method, inertial, path):
     pyplot.close(figure)
 
 
-def draw(found, folder):
+def draw(found, strength, folder):
     os.makedirs(folder, exist_ok=True)
     for inertial, by_method in found.items():
         draw_curves(by_method, inertial, os.path.join(folder, f"curves_{inertial:g}.png"))
-        draw_error(by_method, inertial, os.path.join(folder, f"cost_{inertial:g}.png"))
+        draw_error(by_method, strength, inertial, os.path.join(folder, f"cost_{inertial:g}.png"))

@@ -139,22 +139,22 @@ def methods(options, inertial):
     return nscd + penalty + [Method("LAMMPS kn/P =", f"{k:g}", None) for k in STIFFNESSES[inertial]]
 
 
+def strength(columns, low, high):
+    """T/S: mean t over mean s of the bins with low < strain <= high."""
+    k = (columns["axial_strain"] > low + 1e-9) & (columns["axial_strain"] <= high + 1e-9)
+    return columns["t"][k].mean() / columns["s"][k].mean()
+
+
 def quantities(columns):
-    """{name: number} of one run: T/S and mean t/s of windows, volume [%], median kinetic energy."""
+    """{name: number} of one run: T/S of windows, volume [%], median kinetic energy."""
     found, end = {}, columns["axial_strain"]
     for low, high in WINDOWS:
-        k = (end > low + 1e-9) & (end <= high + 1e-9)
-        found[f"T/S {low:.2%}-{high:.2%}"] = columns["t"][k].mean() / columns["s"][k].mean()
+        found[f"T/S {low:.2%}-{high:.2%}"] = strength(columns, low, high)
     for strain in VOLUMES:
         found[f"volume at {strain:.1%}"] = -100 * columns["volumetric_strain"][numpy.argmin(abs(end - strain))]
     late = end > JUDGED[0] + 1e-9
     found["kinetic energy"] = numpy.median(columns["kinetic_energy"][late])
     return found
-
-
-def mean_and_error(values):
-    values = numpy.array(values)
-    return values.mean(), values.std(ddof=1) / numpy.sqrt(len(values)) if len(values) > 1 else numpy.nan
 
 
 def show(inertial, by_method, reference):
@@ -166,7 +166,7 @@ def show(inertial, by_method, reference):
         seconds = numpy.mean([by_method[method][seed][1] for seed in seeds])
         print(f"{method.name:24} {seconds:8.2f} s", end="")
         for name in names:
-            difference = mean_and_error([row[name] - base[name] for row, base in zip(rows, table[reference])])
+            difference = claims.mean_and_error([row[name] - base[name] for row, base in zip(rows, table[reference])])
             print(f"  {name} {numpy.mean([row[name] for row in rows]):.4f}", end="")
             if method is not reference:
                 print(f" ({difference[0]:+.4f} +- {difference[1]:.4f})", end="")
@@ -213,7 +213,7 @@ def main():
             store(found)
         if options.figures:
             import charts
-            charts.draw(found, options.figures)
+            charts.draw(found, lambda columns: strength(columns, *JUDGED), options.figures)
 
 
 if __name__ == "__main__":

@@ -231,6 +231,8 @@ namespace diptych::coupling
 
   void require_continuum(const Scene &scene)
   {
+    if (scene.sample.rough_platens)
+      refuse("sample/rough_platens", "true", "what grains hand to those that are part of a platen is not mapped");
     check_sides(scene);
     check_platen_drives(scene);
     check_side_drives(scene);

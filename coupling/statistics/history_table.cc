@@ -54,12 +54,13 @@ namespace diptych::coupling
                               &yy = column(table, "syy"), &yx = table.count("syx") > 0 ? column(table, "syx") : xy;
     if (!(to > from) || progress.empty() || is_beyond(to, progress.back()))
       return std::numeric_limits<double>::quiet_NaN();
-    HistoryTable stress{{"progress", progress}};
+    std::vector<double> t, s;
     for (std::size_t k = 0; k < progress.size(); ++k)
       {
-        stress["t"].push_back(std::hypot(0.5 * (xx[k] - yy[k]), 0.5 * (xy[k] + yx[k])));
-        stress["s"].push_back(0.5 * (xx[k] + yy[k]));
+        t.push_back(std::hypot(0.5 * (xx[k] - yy[k]), 0.5 * (xy[k] + yx[k])));
+        s.push_back(0.5 * (xx[k] + yy[k]));
       }
+    const HistoryTable stress{{"progress", progress}, {"t", std::move(t)}, {"s", std::move(s)}};
     return mean_over_progress(stress, "t", from, to) / mean_over_progress(stress, "s", from, to);
   }
 

@@ -34,17 +34,16 @@ namespace diptych::discrete
             continue;
           const Contact         c     = make_contact(state, result.contacts[k].i, result.contacts[k].j);
           const Eigen::Vector2d force = impulse_vector(result.contacts[k], result.impulses[k]) / step;
-          // From i the contact lies at -(r_i + gap/2) n, from j at +(r_j + gap/2) n.
-          if (const int platen = g.platen(c.i); platen >= 0)
-            on_platens -= (c.point.y() - state.walls[platen].point.y()) * force.transpose();
-          else
-            moment[c.i] += (g.radius[c.i] + 0.5 * c.gap) * c.normal * force.transpose();
-          if (std::size_t(c.j) >= g.size())
-            continue;
-          if (const int platen = g.platen(c.j); platen >= 0)
-            on_platens += (c.point.y() - state.walls[platen].point.y()) * force.transpose();
-          else
-            moment[c.j] += (g.radius[c.j] + 0.5 * c.gap) * c.normal * force.transpose();
+          // From i the contact lies at -(r_i + gap/2) n, from j at +(r_j + gap/2) n, with the opposite force.
+          const auto add = [&](const int body, const double sign) {
+            if (const int platen = g.platen(body); platen >= 0)
+              on_platens += sign * (c.point.y() - state.walls[platen].point.y()) * force.transpose();
+            else
+              moment[body] += (g.radius[body] + 0.5 * c.gap) * c.normal * force.transpose();
+          };
+          add(c.i, -1);
+          if (std::size_t(c.j) < g.size())
+            add(c.j, 1);
         }
       MomentSums sums;
       for (const Eigen::Matrix2d &m : moment)

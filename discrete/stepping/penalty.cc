@@ -114,7 +114,7 @@ namespace diptych::discrete
     StepResult result;
     result.applied_force = applied_forces(trial, setting);
     result.contacts      = penalty.neighbours.find_contacts(trial, std::vector<double>(trial.grains.size(), 0.));
-    result.impulses      = first_guess(trial.impulses, result.contacts);
+    result.impulses      = first_guess(trial.impulses, result.contacts).impulses;
 
     const std::vector<BodyVelocity> v       = body_velocities(trial);
     const ContactProblem            problem = make_problem(trial, setting, result.contacts, v,

@@ -70,13 +70,13 @@ namespace diptych::discrete
     result.applied_force              = applied_forces(trial, setting);
     const std::vector<BodyVelocity> v = body_velocities(trial);
     result.contacts = cache.neighbours.find_contacts(trial, detection_margins(trial, setting, v, result.applied_force));
-    result.largest_penetration          = largest_penetration(result.contacts);
-    cache.problem.free_velocity         = free_velocities(trial, v, result.applied_force, setting);
-    cache.problem                       = make_problem(trial, setting, result.contacts, v, std::move(cache.problem));
-    const ContactProblem      &problem  = cache.problem;
-    const std::vector<Impulse> previous = first_guess(state.impulses, result.contacts);
-    result.impulses                     = previous;
-    extrapolate(problem, last_changes(state.impulses, result.contacts), result.impulses);
+    result.largest_penetration     = largest_penetration(result.contacts);
+    cache.problem.free_velocity    = free_velocities(trial, v, result.applied_force, setting);
+    cache.problem                  = make_problem(trial, setting, result.contacts, v, std::move(cache.problem));
+    const ContactProblem &problem  = cache.problem;
+    const FirstGuess      previous = first_guess(state.impulses, result.contacts);
+    result.impulses                = previous.impulses;
+    extrapolate(problem, previous.changes, result.impulses);
     if (sample && sample->options.snapshot_max_sweeps > 0)
       result.solve = solve_sampled({problem, trial.grains.radius, result.contacts}, setting.solver, *sample, *cache.team,
                                    result.impulses, result.accuracy.emplace());
@@ -102,7 +102,7 @@ namespace diptych::discrete
     drift(trial, 0.5 * h);
     if (setting.time.penetration_correction == PenetrationCorrection::projection)
       correct_positions(trial, {problem, result.contacts, result.impulses, v_new, h}, 1e-4 * setting.mean_diameter, *cache.team);
-    keep_impulses(result.contacts, result.impulses, previous, acting, trial);
+    keep_impulses(result.contacts, result.impulses, previous.impulses, acting, trial);
     trial.time += h;
     state = std::move(trial);
     return result;

@@ -11,28 +11,6 @@ namespace diptych::discrete
 {
   namespace
   {
-    // value(pair) of each contact's pair; both lists ascend in (i, j).
-    template <class Value>
-    std::vector<Impulse> by_pair(const std::vector<PairImpulse> &previous, const std::vector<Contact> &contacts, Value &&value)
-    {
-      std::vector<Impulse> result(contacts.size());
-      auto                 pair = previous.begin();
-      for (std::size_t k = 0; k < contacts.size(); ++k)
-        {
-          const Contact &c = contacts[k];
-          while (pair != previous.end() && (pair->i < c.i || (pair->i == c.i && pair->j < c.j)))
-            ++pair;
-          if (pair == previous.end())
-            break;
-          // Which contacts were there before follows no pattern: a choice without a branch.
-          const PairImpulse none{c.i, c.j, 0, 0};
-          const bool        known = pair->i == c.i && pair->j == c.j;
-          result[k]               = value(*(known ? &*pair : &none));
-          pair += known;
-        }
-      return result;
-    }
-
     std::vector<BodyVelocity> at_rest(std::vector<BodyVelocity> bodies)
     {
       for (BodyVelocity &v : bodies)
@@ -41,14 +19,26 @@ namespace diptych::discrete
     }
   } // namespace
 
-  std::vector<Impulse> first_guess(const std::vector<PairImpulse> &previous, const std::vector<Contact> &contacts)
+  FirstGuess first_guess(const std::vector<PairImpulse> &previous, const std::vector<Contact> &contacts)
   {
-    return by_pair(previous, contacts, [](const PairImpulse &r) { return Impulse{r.normal, r.tangential}; });
-  }
-
-  std::vector<Impulse> last_changes(const std::vector<PairImpulse> &previous, const std::vector<Contact> &contacts)
-  {
-    return by_pair(previous, contacts, [](const PairImpulse &r) { return Impulse{r.normal_change, r.tangential_change}; });
+    FirstGuess result{std::vector<Impulse>(contacts.size()), std::vector<Impulse>(contacts.size())};
+    auto       pair = previous.begin(); // both lists ascend in (i, j)
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+      {
+        const Contact &c = contacts[k];
+        while (pair != previous.end() && (pair->i < c.i || (pair->i == c.i && pair->j < c.j)))
+          ++pair;
+        if (pair == previous.end())
+          break;
+        // Which contacts were there before follows no pattern: a choice without a branch.
+        const PairImpulse  none{c.i, c.j, 0, 0};
+        const bool         known = pair->i == c.i && pair->j == c.j;
+        const PairImpulse &r     = *(known ? &*pair : &none);
+        result.impulses[k]       = {r.normal, r.tangential};
+        result.changes[k]        = {r.normal_change, r.tangential_change};
+        pair += known;
+      }
+    return result;
   }
 
   void extrapolate(const ContactProblem &problem, const std::vector<Impulse> &changes, std::vector<Impulse> &impulses)

@@ -8,11 +8,12 @@
 
 namespace diptych::discrete
 {
-  // Impulses of the preceding step by body pair; new contacts start from zero.
-  std::vector<Impulse> first_guess(const std::vector<PairImpulse> &previous, const std::vector<Contact> &contacts);
-
-  // Likewise by how much they had changed in that step.
-  std::vector<Impulse> last_changes(const std::vector<PairImpulse> &previous, const std::vector<Contact> &contacts);
+  // Of the preceding step, one entry per contact: impulses, and by how much they had changed in it. Zero for new contacts.
+  struct FirstGuess
+  {
+    std::vector<Impulse> impulses, changes;
+  };
+  FirstGuess first_guess(const std::vector<PairImpulse> &previous, const std::vector<Contact> &contacts);
 
   // Adds a x changes to the impulses and clamps them to the Coulomb cone. The share a in [-1, 1] is that for which the violation
   // of the law does no work along the changes, sum change . (u + c) = 0 over what sticks or presses: a guess that runs ahead

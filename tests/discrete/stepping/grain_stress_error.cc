@@ -106,8 +106,9 @@ namespace
     const std::vector<BodyVelocity>    v     = body_velocities(step.state);
     step.contacts                            = find_contacts(step.state, std::vector<double>(now.grains.size(), 0.05));
     step.problem = make_problem(step.state, setting, step.contacts, v, {free_velocities(step.state, v, force, setting), {}, {}});
-    step.first   = first_guess(now.impulses, step.contacts);
-    extrapolate(step.problem, last_changes(now.impulses, step.contacts), step.first);
+    FirstGuess guess = first_guess(now.impulses, step.contacts);
+    step.first       = std::move(guess.impulses);
+    extrapolate(step.problem, guess.changes, step.first);
     return step;
   }
 
