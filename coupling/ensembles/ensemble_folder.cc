@@ -104,14 +104,4 @@ namespace diptych::coupling
         return false;
     return true;
   }
-
-  std::string last_words(const std::string &log)
-  {
-    std::ifstream file(log);
-    std::string   last;
-    for (std::string line; std::getline(file, line);)
-      if (line.find_first_not_of(" \t\r") != std::string::npos)
-        last = line;
-    return last;
-  }
 } // namespace diptych::coupling

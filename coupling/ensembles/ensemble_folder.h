@@ -26,7 +26,4 @@ namespace diptych::coupling
   // Whether a member of this scene ran to its end: both panels, a comparison whose mapping keeps the total, and the report where
   // one is asked for.
   [[nodiscard]] bool is_finished_member(const Scene &scene, int seed);
-
-  // Last line of a member's output that says something.
-  std::string last_words(const std::string &log);
 } // namespace diptych::coupling

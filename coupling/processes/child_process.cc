@@ -11,6 +11,7 @@
 #include <fcntl.h>
 #include <sched.h>
 #include <sys/prctl.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -38,26 +39,31 @@ namespace diptych::coupling
       return result;
     }
 
-    // After fork: only calls that are safe there. `log`: in the place of output and errors; -1: this process's own.
-    [[noreturn]] void become(char *const *words, char *const *environment, const int log, const pid_t parent)
+    // In the place of the standard ones; -1: nothing to read, this process's own output and errors.
+    struct Streams
     {
-      const int nothing = open("/dev/null", O_RDONLY);
+      int in = -1, out = -1, errors = -1;
+    };
+
+    // After fork: only calls that are safe there.
+    [[noreturn]] void become(char *const *words, char *const *environment, const Streams &streams, const pid_t parent)
+    {
+      const int input = streams.in >= 0 ? streams.in : open("/dev/null", O_RDONLY);
       setpgid(0, 0);
       prctl(PR_SET_PDEATHSIG, SIGTERM);
       if (getppid() != parent) // it ended before it could be asked to tell
         _exit(127);
-      dup2(nothing, STDIN_FILENO);
-      if (log >= 0)
-        {
-          dup2(log, STDOUT_FILENO);
-          dup2(log, STDERR_FILENO);
-        }
+      dup2(input, STDIN_FILENO);
+      if (streams.out >= 0)
+        dup2(streams.out, STDOUT_FILENO);
+      if (streams.errors >= 0)
+        dup2(streams.errors, STDERR_FILENO);
       close_range(3, ~0U, 0); // sockets of an MPI job among them
       execve(words[0], words, environment);
       _exit(127);
     }
 
-    pid_t launched(const std::vector<std::string> &words, const int log)
+    pid_t launched(const std::vector<std::string> &words, const Streams &streams)
     {
       std::vector<std::string> arguments = words, variables;
       for (char **variable = environ; *variable != nullptr; ++variable)
@@ -66,7 +72,7 @@ namespace diptych::coupling
       const std::vector<char *> argument_pointers = pointers(arguments), variable_pointers = pointers(variables);
       const pid_t               parent = getpid(), child = fork();
       if (child == 0)
-        become(argument_pointers.data(), variable_pointers.data(), log, parent);
+        become(argument_pointers.data(), variable_pointers.data(), streams, parent);
       if (child < 0)
         throw std::runtime_error("cannot start " + words[0] + ": " + std::strerror(errno));
       return child;
@@ -78,42 +84,35 @@ namespace diptych::coupling
     }
   } // namespace
 
-  pid_t start_program(const std::vector<std::string> &words, const std::string &log)
+  Answerer start_answerer(const std::vector<std::string> &words)
   {
-    const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-    if (file < 0)
-      throw std::runtime_error("cannot write " + log + ": " + std::strerror(errno));
+    int ends[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+      throw std::runtime_error("cannot start " + words[0] + ": " + std::strerror(errno));
     try
       {
-        const pid_t child = launched(words, file);
-        close(file);
-        return child;
+        const pid_t child = launched(words, {ends[1], ends[1]});
+        close(ends[1]);
+        return {child, ends[0]};
       }
     catch (const std::exception &)
       {
-        close(file);
+        close(ends[0]), close(ends[1]);
         throw;
       }
   }
 
   int run_program(const std::vector<std::string> &words)
   {
-    const pid_t child  = launched(words, -1);
-    int         status = 0;
-    while (waitpid(child, &status, 0) < 0)
-      if (errno != EINTR)
-        throw std::runtime_error("process " + std::to_string(child) + " is lost: " + std::strerror(errno));
-    return code_of_status(status);
+    return wait_for(launched(words, {}));
   }
 
-  std::optional<int> exit_code_of(const pid_t program)
+  int wait_for(const pid_t program)
   {
-    int         status = 0;
-    const pid_t ended  = waitpid(program, &status, WNOHANG);
-    if (ended == 0 || (ended < 0 && errno == EINTR))
-      return std::nullopt;
-    if (ended < 0)
-      throw std::runtime_error("process " + std::to_string(program) + " is lost: " + std::strerror(errno));
+    int status = 0;
+    while (waitpid(program, &status, 0) < 0)
+      if (errno != EINTR)
+        throw std::runtime_error("process " + std::to_string(program) + " is lost: " + std::strerror(errno));
     return code_of_status(status);
   }
 

@@ -9,11 +9,11 @@
 #include "coupling/ensembles/seed_list.h"
 #include "coupling/folders/result_folder.h"
 #include "coupling/panels/continuum_loading.h"
-#include "coupling/processes/child_process.h"
 #include "coupling/processes/processes.h"
 #include "coupling/program/compare_command.h"
 #include "coupling/program/ensemble_record.h"
 #include "coupling/program/report_command.h"
+#include "coupling/program/worker_command.h"
 #include "coupling/scene/scene_error.h"
 
 namespace diptych::coupling
@@ -46,20 +46,38 @@ namespace diptych::coupling
       return scene;
     }
 
-    MemberRuns runs_of(const CommandLine &line, const Scene &scene)
+    // Each seed is a run of its own in DIR/seed_K, its output in DIR/seed_K.log.
+    Task member_task(const CommandLine &line, const Scene &scene, const int seed)
     {
-      MemberRuns runs;
-      runs.command = {own_path(), "run", line.target, "--quiet", "--threads", std::to_string(line.threads)};
+      const std::string &directory = scene.output.directory;
+      Task               task{"seed " + std::to_string(seed), {"run", line.target, "--quiet"}, member_log(directory, seed)};
+      const auto         add = [&task](const std::string &option, const std::string &value) {
+        task.words.insert(task.words.end(), {option, value});
+      };
+      add("--threads", std::to_string(line.threads));
       for (const std::string &text : line.overrides)
-        runs.command.insert(runs.command.end(), {"--set", text});
+        add("--set", text);
+      add("--set", "sample/seed=" + std::to_string(seed));
+      add("--output", member_folder(directory, seed));
       if (line.resume)
-        runs.command.emplace_back("--resume");
-      runs.directory = scene.output.directory;
-      // mpirun starts a process for every core that is to work.
-      const int fitting = n_processes() > 1 ? 1 : std::max(1, n_usable_cores() / line.threads);
-      runs.jobs         = line.jobs > 0 ? line.jobs : fitting;
-      runs.quiet        = line.quiet;
-      return runs;
+        task.words.emplace_back("--resume");
+      return task;
+    }
+
+    TaskQueue queue_of(const CommandLine &line, const Scene &scene, const std::vector<int> &seeds)
+    {
+      TaskQueue queue = workers_for(line, "seeds");
+      for (const int seed : seeds)
+        queue.tasks.push_back(member_task(line, scene, seed));
+      return queue;
+    }
+
+    std::vector<MemberOutcome> outcomes_of(const std::vector<TaskOutcome> &tasks, const std::vector<int> &seeds)
+    {
+      std::vector<MemberOutcome> outcomes;
+      for (const TaskOutcome &task : tasks)
+        outcomes.push_back({seeds[task.task], task.exit_code, task.interrupted});
+      return outcomes;
     }
 
     std::string how_to_resume(const CommandLine &line, const Scene &scene)
@@ -109,10 +127,10 @@ namespace diptych::coupling
     const std::vector<int> seeds = read_seeds(line.seeds);
     const Scene            scene = ensemble_scene(line);
     const PhaseTimer       timer("ensemble");
-    MemberRuns             runs = runs_of(line, scene);
-    runs.seeds                  = prepared_seeds(line, scene, seeds);
-    runs.n_finished_before      = int(seeds.size() - runs.seeds.size());
-    const auto outcomes         = run_members(runs);
+    const std::vector<int> pending = prepared_seeds(line, scene, seeds);
+    TaskQueue              queue   = queue_of(line, scene, pending);
+    queue.n_finished_before        = int(seeds.size() - pending.size());
+    const auto outcomes            = outcomes_of(run_tasks(queue), pending);
     return on_first_process([&] {
       const EnsembleRecord record = record_of(scene, seeds, outcomes);
       write_record(line, scene, record, timer);

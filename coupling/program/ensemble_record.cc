@@ -11,6 +11,7 @@
 
 #include "coupling/ensembles/ensemble_curves.h"
 #include "coupling/ensembles/ensemble_folder.h"
+#include "coupling/processes/worker.h"
 #include "coupling/program/report_command.h"
 #include "coupling/scene/scene_file.h"
 

@@ -5,13 +5,20 @@
 #include <string>
 #include <vector>
 
-#include "coupling/ensembles/ensemble_members.h"
+#include "coupling/ensembles/ensemble.h"
 #include "coupling/ensembles/ensemble_output.h"
 #include "coupling/folders/provenance.h"
 #include "coupling/program/command_line.h"
 
 namespace diptych::coupling
 {
+  struct MemberOutcome
+  {
+    int  seed        = 0;
+    int  exit_code   = 0;
+    bool interrupted = false; // it was asked to stop, or never begun
+  };
+
   // Reads the members that finished and evaluates them. Throws std::invalid_argument naming a member's file that is broken.
   EnsembleRecord record_of(const Scene &scene, const std::vector<int> &seeds, const std::vector<MemberOutcome> &outcomes);
 

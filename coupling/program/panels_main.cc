@@ -7,9 +7,11 @@
 #include "coupling/processes/processes.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/program/continuum_command.h"
+#include "coupling/program/discrete_command.h"
 #include "coupling/program/ensemble_command.h"
 #include "coupling/program/material_point_command.h"
 #include "coupling/program/run_command.h"
+#include "coupling/program/worker_command.h"
 #include "coupling/scene/scene_error.h"
 
 namespace
@@ -25,6 +27,8 @@ namespace
       {
       case Command::run:
         return line.seeds.empty() ? run_both(line) : run_ensemble(line);
+      case Command::discrete: // as a task of a study
+        return run_discrete(line);
       case Command::continuum:
         return run_continuum(line);
       case Command::material_point:
@@ -37,6 +41,12 @@ namespace
 
 int main(int argc, char **argv)
 {
+  if (argc == 2 && std::string(argv[1]) == worker_word)
+    {
+      dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+      install_stop_signals();
+      return answer_for([] { return work_for_parent(execute); }, code_of);
+    }
   // Words of the command line, before there is any other process to answer to.
   ParsedLine parsed = parse_command_line({argv + 1, argv + argc});
   if (parsed.exit_code)
