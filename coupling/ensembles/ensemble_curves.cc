@@ -37,23 +37,6 @@ namespace diptych::coupling
         last = std::max(last, column(table, "progress").back());
       return last;
     }
-
-    // Along the broken line through known values; NaN beyond them.
-    std::vector<double> on_grid(const std::vector<double> &x, const std::vector<double> &y, const std::vector<double> &grid)
-    {
-      std::vector<double> values;
-      for (const double at : grid)
-        {
-          const std::size_t k = std::size_t(std::lower_bound(x.begin(), x.end(), at) - x.begin());
-          if (k < x.size() && x[k] == at)
-            values.push_back(y[k]);
-          else if (k == 0 || k == x.size())
-            values.push_back(NAN);
-          else
-            values.push_back(y[k - 1] + (y[k] - y[k - 1]) * (at - x[k - 1]) / (x[k] - x[k - 1]));
-        }
-      return values;
-    }
   } // namespace
 
   EnsembleCurves with_means(std::vector<std::vector<double>> members)
@@ -89,7 +72,7 @@ namespace diptych::coupling
           std::vector<std::vector<double>> members;
           for (const HistoryTable &table : *tables)
             members.push_back(
-              on_grid(column(table, "progress"), running_mean(table, quantity, grid.averaging_width), grid.progress));
+              resampled(column(table, "progress"), running_mean(table, quantity, grid.averaging_width), grid.progress));
           list_curve_arrays(with_means(std::move(members)), IntoGroup{file, std::string(panel) + "/" + quantity});
         }
     file.finish();

@@ -199,14 +199,31 @@ namespace diptych::coupling
         std::vector<Ended> ended = crew.ended();
         for (const Ended &other : outcomes_of_others())
           ended.push_back(other);
-        for (const Ended &one : ended)
+        for (Ended &one : ended)
           {
+            note_end(one.outcome);
             outcomes.push_back(one.outcome);
             if (!one.outcome.interrupted)
               progress.ended(one);
             tell(queue, one.outcome, progress);
           }
         return !ended.empty();
+      }
+
+      // A full disk must not end the others.
+      void note_end(TaskOutcome &outcome)
+      {
+        constexpr int system_failed = 4;
+        try
+          {
+            queue.on_ended(outcome);
+          }
+        catch (const std::exception &error)
+          {
+            progress.clear_line();
+            std::cerr << queue.tasks[outcome.task].name << ": " << error.what() << std::endl;
+            outcome.exit_code = system_failed;
+          }
       }
 
       void give_up_where_asked()

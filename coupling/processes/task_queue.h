@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,9 @@ namespace diptych::coupling
     int                      n_finished_before = 0;
     int                      jobs              = 1; // workers, on each process
     bool                     quiet             = false;
+
+    std::function<void(const TaskOutcome &)> on_ended = [](const TaskOutcome &) {}; // on the first process, as they end; where it
+                                                                                    // throws, the task has failed
   };
 
   // A worker is a process that does one task after the other; when one is killed, its task has failed and another takes its

@@ -36,6 +36,7 @@ namespace diptych::coupling
         app.footer(footer);
         app.set_version_flag("--version", std::string("diptych ") + version + " (" + git_revision + ")");
         add_run();
+        add_study();
         add_panels();
         add_solve();
         add_results();
@@ -76,6 +77,14 @@ namespace diptych::coupling
       void add_quiet(CLI::App *to) { to->add_flag("--quiet", line.quiet, "no progress"); }
       // clang-format on
 
+      CLI::Option *add_jobs(CLI::App *to, const std::string &when)
+      {
+        return to
+          ->add_option("--jobs", line.jobs,
+                       when + "how many at once, on each process (default: cores it may use / threads; under mpirun 1)")
+          ->check(CLI::Range(1, 4096));
+      }
+
       // A value of an enum that has a table of names.
       template <class Choice, class Take> void add_choice(CLI::App *to, const char *option, const char *meaning, const Take &take)
       {
@@ -95,13 +104,19 @@ namespace diptych::coupling
           "mpirun)");
         seeds->type_name("LIST")->check(
           [](const std::string &list) { return list.empty() ? "the list is empty; a list like 1-8" : ""; });
-        run
-          ->add_option(
-            "--jobs", line.jobs,
-            "with --seeds: how many of them at once, on each process (default: cores it may use / threads; under mpirun 1)")
-          ->check(CLI::Range(1, 4096))
-          ->needs(seeds);
+        add_jobs(run, "with --seeds: ")->needs(seeds);
         add_quiet(run);
+      }
+
+      void add_study()
+      {
+        CLI::App *study = add(Command::study,
+                              "many settings of a scene on many samples: errors against a reference, cost, classes");
+        study->add_option("STUDY", line.target, "study file, .json")->required();
+        study->add_option("--output", line.output, "folder of the study (default: results/<study name>_study)")->type_name("DIR");
+        add_set(study), add_threads(study), add_jobs(study, "");
+        study->add_flag("--resume", line.resume, "keep the runs that are finished in the folder, and run the others");
+        add_quiet(study);
       }
 
       void add_panels()
@@ -218,6 +233,8 @@ namespace diptych::coupling
       {
       case Command::run:
         return "run";
+      case Command::study:
+        return "study";
       case Command::discrete:
         return "discrete";
       case Command::continuum:

@@ -24,6 +24,7 @@ namespace diptych::coupling
   enum class Command
   {
     run,
+    study,
     discrete,
     continuum,
     material_point,
@@ -45,7 +46,7 @@ namespace diptych::coupling
     bool                                 resume        = false; // --resume
     bool                                 study_of_step = false; // --study step
     std::string                          seeds;                 // --seeds: "1-8", "1,3,5-7"
-    int                                  jobs   = 0;            // --jobs; 0: as many as fit
+    int                                  jobs   = 0;            // --jobs of run --seeds and study; 0: as many as fit
     discrete::ContactSolver              solver = discrete::ContactSolver::psor; // --solver, --tolerance, --max-sweeps: of solve
     double                               tolerance  = 1e-8;
     int                                  max_sweeps = 1000000;

@@ -9,6 +9,8 @@
 #include "coupling/ensembles/ensemble_curves.h"
 #include "coupling/ensembles/ensemble_numbers.h"
 #include "coupling/program/result_entries.h"
+#include "coupling/studies/study_curves.h"
+#include "coupling/studies/study_numbers.h"
 
 namespace diptych::coupling
 {
@@ -61,6 +63,18 @@ namespace diptych::coupling
       list_curve_arrays(EnsembleCurves(),
                         AddArrays{file + ", groups PANEL/stress_ratio and PANEL/volumetric_strain", "", result});
     }
+    void add_study(ResultList &result)
+    {
+      const Study                   study;
+      const std::vector<ScenePoint> points;
+      const StudyRecord             record;
+      add_record("study.json", StudyDocument{study, points, record, ""}, result);
+      add_record("study_cost.json", StudyCost(), result);
+      add_table("study.csv", study_columns(), result);
+      const std::string file = "study.h5, groups discrete, continuum and material_point";
+      list_grid(StudyGrid(), AddArrays{file, "", result});
+      list_curve_arrays(StudyCurves(), AddArrays{file, "", result});
+    }
   } // namespace
 
   ResultList comparison_result_entries()
@@ -73,6 +87,7 @@ namespace diptych::coupling
     add_table("comparison.csv", comparison_columns(), result);
     add_comparison_arrays(result);
     add_ensemble(result);
+    add_study(result);
     return result;
   }
 } // namespace diptych::coupling

@@ -105,6 +105,7 @@ namespace
     switch (line.command)
       {
       case Command::run:
+      case Command::study:
       case Command::continuum:
       case Command::material_point:
         become_the_panels(argv);
@@ -112,8 +113,9 @@ namespace
         break;
       }
     if (n_processes() > 1)
-      throw SceneError("mpirun: diptych " + name_of(line.command) +
-                       " runs on one process; several may run `diptych continuum` alone or `diptych run` with --seeds");
+      throw SceneError(
+        "mpirun: diptych " + name_of(line.command) +
+        " runs on one process; several may run `diptych continuum` alone, `diptych run` with --seeds or `diptych study`");
     install_stop_signals();
     switch (line.command)
       {

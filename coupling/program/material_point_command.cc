@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "continuum/laws/material_point.h"
+#include "coupling/folders/provenance.h"
 #include "coupling/folders/result_folder.h"
 #include "coupling/program/material_point_command.h"
 #include "coupling/scene/scene_error.h"
@@ -49,9 +50,11 @@ namespace diptych::coupling
       }
     return keeping(scene.output.directory, [&] {
       open_result_folder(scene, false);
+      const PhaseTimer                     timer("material_point");
       const continuum::MaterialPointReport report = continuum::drive_material_point(law, path);
       const std::string                    csv    = scene.output.directory + "/material_point.csv";
       write(report, csv);
+      record_phases(scene.output.directory, scene, line.text, {timer.stop()});
       std::cout << summary(report) << std::endl;
       say(line, "material point: " + csv);
       if (report.status == continuum::MaterialPointStatus::finished)

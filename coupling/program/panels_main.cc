@@ -11,6 +11,7 @@
 #include "coupling/program/ensemble_command.h"
 #include "coupling/program/material_point_command.h"
 #include "coupling/program/run_command.h"
+#include "coupling/program/study_command.h"
 #include "coupling/program/worker_command.h"
 #include "coupling/scene/scene_error.h"
 
@@ -20,13 +21,16 @@ namespace
 
   int execute(const CommandLine &line)
   {
-    if (n_processes() > 1 && line.command != Command::continuum && line.seeds.empty())
-      throw SceneError("mpirun: diptych " + name_of(line.command) +
-                       " runs on one process; several may run `diptych continuum` alone or `diptych run` with --seeds");
+    if (n_processes() > 1 && line.command != Command::continuum && line.command != Command::study && line.seeds.empty())
+      throw SceneError(
+        "mpirun: diptych " + name_of(line.command) +
+        " runs on one process; several may run `diptych continuum` alone, `diptych run` with --seeds or `diptych study`");
     switch (line.command)
       {
       case Command::run:
         return line.seeds.empty() ? run_both(line) : run_ensemble(line);
+      case Command::study:
+        return run_study(line);
       case Command::discrete: // as a task of a study
         return run_discrete(line);
       case Command::continuum:

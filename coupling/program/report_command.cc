@@ -10,6 +10,7 @@
 #include "coupling/processes/child_process.h"
 #include "coupling/processes/progress.h"
 #include "coupling/scene/scene_error.h"
+#include "coupling/studies/study_folder.h"
 #include "coupling/version.h"
 
 namespace diptych::coupling
@@ -32,7 +33,17 @@ namespace diptych::coupling
 
     const char *word_of(const Drawing drawing)
     {
-      return drawing == Drawing::page ? "page" : drawing == Drawing::ensemble ? "ensemble" : "step-study";
+      switch (drawing)
+        {
+        case Drawing::page:
+          return "page";
+        case Drawing::ensemble:
+          return "ensemble";
+        case Drawing::study:
+          return "study";
+        default:
+          return "step-study";
+        }
     }
   } // namespace
 
@@ -57,10 +68,11 @@ namespace diptych::coupling
   {
     if (!fs::is_directory(line.target))
       throw SceneError(line.target + ": no result folder");
-    if (!is_ensemble_folder(line.target) && !fs::exists(line.target + "/comparison.json"))
-      throw SceneError(line.target + ": holds no comparison.json, nor is it the folder of an ensemble");
+    const bool is_study = is_study_folder(line.target), is_ensemble = is_ensemble_folder(line.target);
+    if (!is_study && !is_ensemble && !fs::exists(line.target + "/comparison.json"))
+      throw SceneError(line.target + ": holds no comparison.json, nor is it the folder of an ensemble or a study");
     return keeping(line.target, [&] {
-      draw_page(line, is_ensemble_folder(line.target) ? Drawing::ensemble : Drawing::page, line.target);
+      draw_page(line, is_study ? Drawing::study : is_ensemble ? Drawing::ensemble : Drawing::page, line.target);
       return int(done);
     });
   }

@@ -12,6 +12,7 @@ namespace diptych::coupling
   {
     page,      // report.html of a result folder
     ensemble,  // report.html of an ensemble
+    study,     // report.html of a study
     step_study // study_step.png
   };
 
@@ -21,5 +22,5 @@ namespace diptych::coupling
   // The same with progress; then tells where the page is.
   void draw_page(const CommandLine &line, Drawing drawing, const std::string &directory);
 
-  int report_again(const CommandLine &line); // report DIR: of a comparison or of an ensemble
+  int report_again(const CommandLine &line); // report DIR: of a comparison, an ensemble or a study
 } // namespace diptych::coupling

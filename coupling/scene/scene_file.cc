@@ -52,6 +52,12 @@ namespace diptych::coupling
       refuse_key(entry);
     }
 
+    void demand_no_comment(const Entry &entry)
+    {
+      if (entry.value.find_first_of("#\n") != std::string::npos)
+        throw SceneError(entry.place + ": " + entry.section + "/" + entry.key + " holds a # or a line break; # begins a comment");
+    }
+
     void set(Scene &scene, const Entry &entry)
     {
       bool is_section = false;
@@ -86,7 +92,22 @@ namespace diptych::coupling
     return names;
   }
 
+  void check_entry(const Entry &entry)
+  {
+    demand_no_comment(entry);
+    Scene scratch;
+    set(scratch, entry);
+  }
+
   Scene read_scene(const std::string &file, const std::vector<std::string> &overrides, const bool compares)
+  {
+    std::vector<Entry> changes;
+    for (const std::string &text : overrides)
+      changes.push_back(entry_of_override(text));
+    return read_changed_scene(file, changes, compares);
+  }
+
+  Scene read_changed_scene(const std::string &file, const std::vector<Entry> &changes, const bool compares)
   {
     if (std::filesystem::is_directory(file))
       throw SceneError(file + ": is a folder; a scene file, .prm or .json, is needed");
@@ -98,14 +119,11 @@ namespace diptych::coupling
     if (is_echo(file))
       for (Entry &entry : entries)
         entry.of_echo = true;
-    for (const std::string &text : overrides)
-      entries.push_back(entry_of_override(text));
+    entries.insert(entries.end(), changes.begin(), changes.end());
     Scene scene;
     for (const Entry &entry : entries)
       {
-        if (entry.value.find_first_of("#\n") != std::string::npos)
-          throw SceneError(entry.place + ": " + entry.section + "/" + entry.key +
-                           " holds a # or a line break; # begins a comment");
+        demand_no_comment(entry);
         set(scene, entry);
       }
     scene.name = scene_name(file);

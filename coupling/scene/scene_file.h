@@ -8,6 +8,7 @@
 
 #include "coupling/scene/scene.h"
 #include "coupling/scene/scene_error.h"
+#include "coupling/scene/scene_text.h"
 
 namespace diptych::coupling
 {
@@ -15,6 +16,12 @@ namespace diptych::coupling
   // relative to the scene's own folder, those of overrides relative to the working directory. Throws SceneError. `compares`:
   // whether both panels will be compared, so that the windows must be stages.
   Scene read_scene(const std::string &file, const std::vector<std::string> &overrides, bool compares = true);
+
+  // The same with changes that say where they were made and where their files are.
+  Scene read_changed_scene(const std::string &file, const std::vector<Entry> &changes, bool compares);
+
+  // Throws SceneError naming the place where no scene has such a key or such a value of it.
+  void check_entry(const Entry &entry);
 
   // Stands in the first line of every echo, and so tells a result folder's scene.prm from one written by hand.
   inline constexpr char echo_title[] = "every parameter, as it was used";

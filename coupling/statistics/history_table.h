@@ -52,6 +52,9 @@ namespace diptych::coupling
   // At every row the mean over the `width` of progress that ends there; NaN before the first full width. O(rows).
   std::vector<double> running_mean(const HistoryTable &table, const std::string &name, double width);
 
+  // The broken line through (x, y), x ascending, at the points of a grid; NaN beyond its ends.
+  std::vector<double> resampled(const std::vector<double> &x, const std::vector<double> &y, const std::vector<double> &grid);
+
   // Largest of the running means, and the progress at which its range ends.
   struct Peak
   {

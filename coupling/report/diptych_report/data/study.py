@@ -1,0 +1,75 @@
+# diptych: a study read into plain values
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Reads study.json and study_cost.json; study.h5 if it is there."""
+
+import os
+from dataclasses import dataclass
+
+import h5py
+
+from diptych_report.data.files import InputError, read_json
+
+FORMAT = 1
+CURVES = ("stress_ratio", "volumetric_strain")
+
+
+@dataclass
+class Study:
+    """cost: of finished points, by their place in record["points"]; curves: {panel: (progress, {name: rows of points})}."""
+
+    folder: str
+    record: dict
+    bill: dict
+    cost: dict
+    curves: dict
+
+    @property
+    def quantities(self):
+        return self.record["quantities"]
+
+    @property
+    def points(self):
+        return self.record["points"]
+
+    def family(self, name):
+        return next(f for f in self.record["families"] if f["name"] == name)
+
+    def of_family(self, name):
+        """[(place in points, point)]."""
+        return [(k, point) for k, point in enumerate(self.points) if point["family"] == name and k > 0]
+
+    def name(self, place):
+        """"nscd: step 0.4, tolerance 1e-05"."""
+        point = self.points[place]
+        if place == 0:
+            return "reference"
+        axes = [axis["name"] for axis in self.family(point["family"])["axes"]]
+        words = ", ".join(f"{axis} {label}" for axis, label in zip(axes, point["labels"]))
+        return ": ".join(text for text in (point["family"], words) if text)
+
+    @property
+    def names_long(self):
+        return max(len(self.name(k)) for k in range(len(self.points)))
+
+
+def load(folder):
+    """Study of a folder. Raises InputError, naming the file, where one is missing, broken or of another format."""
+    record, bill = (_read(os.path.join(folder, name)) for name in ("study.json", "study_cost.json"))
+    return Study(folder, record, bill, {c["point"]: c for c in bill["points"]}, _curves(os.path.join(folder, "study.h5")))
+
+
+def _read(path):
+    value = read_json(path)
+    if value.get("format") != FORMAT:
+        raise InputError(f"{path}: format {value.get('format')!r}, but this report reads format {FORMAT}")
+    return value
+
+
+def _curves(path):
+    if not os.path.isfile(path):
+        return {}
+    try:
+        with h5py.File(path, "r") as file:
+            return {panel: (group["progress"][()], {name: group[name][()] for name in CURVES}) for panel, group in file.items()}
+    except (OSError, KeyError) as error:
+        raise InputError(f"{path}: {error}") from error

@@ -1,0 +1,42 @@
+# diptych: report.html of a study
+# SPDX-License-Identifier: LGPL-2.1-or-later
+
+import json
+
+import numpy as np
+
+from diptych_report.charts import study as figures
+from diptych_report.charts import style
+from diptych_report.data.study import load
+from diptych_report.page.writing import template, write
+from diptych_report.tables import study as tables
+
+CURVE_NAMES = {"stress_ratio": "stress ratio t/s", "volumetric_strain": "volumetric strain"}
+PANEL_WORDS = {"discrete": "grains", "continuum": "continuum", "material_point": "material point"}
+
+
+def draw(folder):
+    """Raises InputError where a file is missing, broken or of another format."""
+    study = load(folder)
+    style.set_up()
+    write(folder, page(study))
+
+
+def page(study):
+    charts = [(figures.error_against_cost(study, k), q["name"]) for k, q in enumerate(study.quantities)]
+    maps = [(family["name"], figures.class_maps(study, family)) for family in study.record["families"]]
+    return template("study.html").render(
+        record=study.record, counts=tables.counts(study), cheapest=tables.cheapest(study), disturbed=tables.disturbed(study),
+        charts=[chart for chart in charts if chart[0]], missing=[name for picture, name in charts if not picture],
+        maps=[one for one in maps if one[1]], classes=figures.CLASSES, orders=tables.orders(study), points=tables.points(study),
+        curves=json.dumps(curves(study)), curve_names=[f"{PANEL_WORDS[panel]}, {words}" for panel in study.curves
+                                                       for words in CURVE_NAMES.values()],
+        provenance=tables.provenance(study))
+
+
+def curves(study):
+    """For the script of the page: progress and rows of every curve, five digits, None where there is no value."""
+    def row(values):
+        return [None if not np.isfinite(v) else float(f"{v:.5g}") for v in values]
+    return [{"title": f"{PANEL_WORDS[panel]}, {CURVE_NAMES[name]}", "progress": row(progress), "rows": [row(r) for r in rows[name]]}
+            for panel, (progress, rows) in study.curves.items() for name in CURVE_NAMES]

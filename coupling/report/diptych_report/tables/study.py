@@ -1,0 +1,116 @@
+# diptych: what a study tells, as rows of text
+# SPDX-License-Identifier: LGPL-2.1-or-later
+
+import os
+
+from diptych_report.charts.study import CLASSES
+from diptych_report.tables.wording import number
+
+
+def share(value, relative, signed=True):
+    """"+3.4 %" of a relative error, three digits of another; an en dash where there is none."""
+    if value is None:
+        return "–"
+    text = f"{100 * value:+.1f}" if relative else f"{value:+.3g}"
+    text = text if signed else text.lstrip("+")
+    return text.replace("-", "−") + ("\u00a0%" if relative else "")
+
+
+def with_ends(error, relative):
+    """"+3.4 [+2.1, +4.7] %"."""
+    if error["value"] is None:
+        return "–"
+    unit = "\u00a0%" if relative else ""
+    text = share(error["value"], relative).removesuffix("\u00a0%")
+    if error["low"] is not None and error["high"] is not None:
+        text += " [" + ", ".join(share(error[end], relative).removesuffix("\u00a0%") for end in ("low", "high")) + "]"
+    return text + unit
+
+
+def seconds(value):
+    return "–" if value is None else f"{value:.3g}\u00a0s"
+
+
+def accuracy_of(study, row):
+    if not row["quantity"]:
+        return f"{row['accuracy']:g} × every limit"
+    relative = next(q["relative"] for q in study.quantities if q["name"] == row["quantity"])
+    return share(row["accuracy"], relative, signed=False)
+
+
+def cheapest(study):
+    """One row a quantity and accuracy: [words, accuracy, point, seconds, its errors, sure or by luck]."""
+    rows = []
+    for row in study.bill["cheapest"]:
+        known = row["point"] >= 0
+        errors = study.points[row["point"]]["quantities"] if known else []
+        text = "; ".join(f"{of['name']} {with_ends(q['error'], of['relative'])}" for q, of in zip(errors, study.quantities)
+                         if of["limit"] and row["quantity"] in ("", of["name"]))
+        sure = "–" if not known else "yes" if row["certain"] else "within the samples’ scatter"
+        rows.append([row["quantity"] or "all with a limit", accuracy_of(study, row), study.name(row["point"]) if known else "none of these",
+                     seconds(row["cpu_s"]), text or "–", sure])
+    return {"head": ["quantity", "error at most", "cheapest point", "CPU a sample", "error [95 %]", "sure"], "rows": rows}
+
+
+def points(study):
+    """One row a point: name, class, errors, cost, what the program said."""
+    rows = []
+    for k, point in enumerate(study.points):
+        cost = study.cost.get(k)
+        said = [point["words"]] if point["words"] else []
+        if point["warned"]:
+            said.append(f"warned in {point['warned']} of {len(point['folders'])}")
+        if point["halved_steps"]:
+            said.append(f"{point['halved_steps']} steps halved")
+        if point["cut_backs"]:
+            said.append(f"{point['cut_backs']:g} load steps halved")
+        rows.append({"place": k, "name": study.name(k), "kind": point["class"], "sure": point["certain"],
+                     "colour": CLASSES[point["class"]][0], "ink": CLASSES[point["class"]][1],
+                     "errors": [with_ends(q["error"], of["relative"]) for q, of in zip(point["quantities"], study.quantities)],
+                     "cost": seconds(cost["cpu_s"] if cost else None), "said": "; ".join(said),
+                     "log": point["folders"][0] + ".log" if os.path.isfile(os.path.join(study.folder, point["folders"][0] + ".log"))
+                     else ""})
+    return rows
+
+
+def orders(study):
+    rows = []
+    for row in study.record["orders"]:
+        others = ", ".join(f"{axis['name']} {label}" for axis, label in zip(study.family(row["family"])["axes"], row["labels"]) if label)
+        rows.append([row["quantity"], f"{row['family']}: {row['axis']}".lstrip(": "), others or "–", row["points"],
+                     _interval(row["order"], 2), _interval(row["limit"], 4)])
+    return {"head": ["quantity", "along", "at", "points", "order [95 %]", "limit [95 %]"], "rows": rows}
+
+
+def _interval(record, digits):
+    text = f"{record['value']:.{digits}g}"
+    if record["low"] is not None and record["high"] is not None:
+        text += f" [{record['low']:.{digits}g}, {record['high']:.{digits}g}]"
+    return text.replace("-", "−")
+
+
+def counts(study):
+    """"7 right, 3 silently wrong"."""
+    found = {}
+    for point in study.points[1:]:
+        found[point["class"]] = found.get(point["class"], 0) + 1
+    return ", ".join(f"{found[kind]} {kind}" for kind in CLASSES if kind in found)
+
+
+def disturbed(study):
+    """What to think of the seconds; empty where nothing else ran."""
+    if not study.bill["disturbed"]:
+        return ""
+    return (f"During {study.bill['disturbed']} of {study.bill['runs']} runs the machine had other work as well: "
+            "CPU seconds of those may be too large.")
+
+
+def provenance(study):
+    record, bill = study.record, study.bill
+    return {"head": ["", ""], "rows": [
+        ["scene", record["scene"]], ["command", "diptych " + record["command"]],
+        ["settings of all points", "; ".join(record["settings"]) or "those of the scene"],
+        ["reference", "; ".join(study.points[0]["settings"]) or "the scene as it is"],
+        ["samples", f"{len(record['seeds'])}: seeds {', '.join(map(str, record['seeds']))}" if record["seeds"] else "the one of the scene"],
+        ["program", record["revision"]], ["phases that count", ", ".join(bill["phases"])],
+        ["all runs", f"{bill['runs']} runs, {number(bill['total_cpu_s'])} CPU seconds"]]}

@@ -1,0 +1,93 @@
+// diptych: JSON that remembers where it was written
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/scene/json_text.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    using nlohmann::ordered_json;
+
+    // The parser keeps no lines: texts are found again in the order in which they stand.
+    struct FindLines
+    {
+      const std::string          &text;
+      std::map<std::string, int> &lines;
+      std::size_t                 at = 0;
+
+      void pass(const std::string &quoted)
+      {
+        if (const std::size_t found = text.find(quoted, at); found != std::string::npos)
+          at = found + quoted.size();
+      }
+      int line() const { return int(1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(at), '\n')); }
+
+      void walk(const ordered_json &value, const std::string &pointer)
+      {
+        if (value.is_string())
+          pass(value.dump());
+        if (value.is_object())
+          for (const auto &[key, member] : value.items())
+            {
+              pass(ordered_json(key).dump());
+              std::string name = key;
+              for (std::size_t slash = name.find('/'); slash != std::string::npos; slash = name.find('/', slash + 2))
+                name.replace(slash, 1, "~1");
+              lines[pointer + "/" + name] = line();
+              walk(member, pointer + "/" + name);
+            }
+        else if (value.is_array())
+          for (std::size_t k = 0; k < value.size(); ++k)
+            {
+              walk(value[k], pointer + "/" + std::to_string(k));
+              lines.emplace(pointer + "/" + std::to_string(k), line());
+            }
+      }
+    };
+  } // namespace
+
+  std::string JsonText::place(const std::string &pointer) const
+  {
+    // What has no line of its own stands on that of what holds it.
+    for (std::string name = pointer; !name.empty(); name.erase(name.rfind('/')))
+      if (const auto found = lines.find(name); found != lines.end())
+        return file + ", line " + std::to_string(found->second);
+    return file + ", line 1";
+  }
+
+  JsonText read_json_text(const std::string &file, std::istream &in)
+  {
+    std::ostringstream buffer;
+    buffer << in.rdbuf();
+    const std::string text = buffer.str();
+    JsonText          result{file, {}, {}};
+    try
+      {
+        result.root = ordered_json::parse(text, nullptr, true, /* comments */ true);
+      }
+    catch (const nlohmann::json::parse_error &error)
+      {
+        const auto line = 1 + std::count(text.begin(), text.begin() + std::min(text.size(), std::size_t(error.byte)), '\n');
+        throw SceneError(file + ", line " + std::to_string(line) + ": no JSON: " + error.what());
+      }
+    if (!result.root.is_object())
+      throw SceneError(file + ", line 1: an object is needed, { ... }");
+    FindLines{text, result.lines}.walk(result.root, "");
+    return result;
+  }
+
+  std::string value_text(const ordered_json &value)
+  {
+    if (value.is_string())
+      return value.get<std::string>();
+    if (!value.is_array())
+      return value.dump();
+    std::string list;
+    for (const ordered_json &item : value)
+      list += (list.empty() ? "" : ", ") + value_text(item);
+    return list;
+  }
+} // namespace diptych::coupling

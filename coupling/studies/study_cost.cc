@@ -1,0 +1,140 @@
+// diptych: what the points of a study cost, and which are worth it
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/studies/study_cost.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    constexpr double spare_process = 0.5;
+
+    bool counts(const Study &study, const std::string &phase)
+    {
+      return study.cost.empty() ? phase != "report" : std::find(study.cost.begin(), study.cost.end(), phase) != study.cost.end();
+    }
+
+    PointCost mean_cost(const Study &study, const std::vector<RunResult> &runs, const std::size_t point)
+    {
+      PointCost cost;
+      cost.point = int(point);
+      for (const RunResult &run : runs)
+        {
+          cost.disturbed += int(is_disturbed(run));
+          for (const PhaseCost &phase : run.phases)
+            {
+              const auto is_it = [&](const PhaseMean &mean) { return mean.name == phase.name; };
+              auto       found = std::find_if(cost.phases.begin(), cost.phases.end(), is_it);
+              if (found == cost.phases.end())
+                found = cost.phases.insert(cost.phases.end(), {phase.name});
+              found->cpu_s += phase.cpu_s / double(runs.size());
+              cost.peak_memory_mb = std::max(cost.peak_memory_mb, phase.peak_memory_mb);
+            }
+        }
+      for (const PhaseMean &phase : cost.phases)
+        cost.cpu_s += counts(study, phase.name) ? phase.cpu_s : 0;
+      return cost;
+    }
+
+    bool is_finished(const PointRecord &point)
+    {
+      return point.kind != PointClass::not_run && point.kind != PointClass::refused && point.kind != PointClass::stopped;
+    }
+
+    void mark_fronts(const Study &study, const StudyRecord &record, StudyCost &cost)
+    {
+      for (std::size_t q = 0; q < study.quantities.size(); ++q)
+        {
+          const auto error = [&](const PointCost &c) {
+            return std::abs(record.points[std::size_t(c.point)].quantities[q].error.value);
+          };
+          for (PointCost &one : cost.points)
+            if (one.point > 0 && std::isfinite(error(one)) &&
+                std::none_of(cost.points.begin(), cost.points.end(), [&](const PointCost &other) {
+                  return other.point > 0 && other.cpu_s < one.cpu_s && error(other) < error(one);
+                }))
+              one.front_of.push_back(study.quantities[q].name);
+        }
+    }
+
+    // How far a quantity's error at a point may lie from 0: as found, and with its interval.
+    struct Reach
+    {
+      double found, possible;
+    };
+
+    Reach reach_of(const PointRecord &point, const std::size_t quantity)
+    {
+      const Interval &e = point.quantities[quantity].error;
+      return {std::abs(e.value), std::max(std::abs(e.low), std::abs(e.high))};
+    }
+
+    // The cheapest point at which no reach is beyond its accuracy; reaches(point): pairs of both.
+    template <class Reaches> CheapestPoint cheapest(const StudyCost &cost, CheapestPoint wanted, Reaches &&reaches)
+    {
+      for (const PointCost &one : cost.points)
+        {
+          bool keeps = one.point > 0 && !(one.cpu_s >= wanted.cpu_s), certain = true;
+          for (const auto &[reach, accuracy] : reaches(std::size_t(one.point)))
+            keeps = keeps && reach.found <= accuracy, certain = certain && reach.possible <= accuracy;
+          if (keeps)
+            wanted.point = one.point, wanted.cpu_s = one.cpu_s, wanted.is_certain = certain;
+        }
+      return wanted;
+    }
+
+    void find_cheapest(const Study &study, const StudyRecord &record, StudyCost &cost)
+    {
+      using Pairs                      = std::vector<std::pair<Reach, double>>;
+      const std::vector<double> shares = {0.05, 0.02, 0.01}, multiples = {2.5, 1, 0.5};
+      for (std::size_t q = 0; q < study.quantities.size(); ++q)
+        if (const StudyQuantity &quantity = study.quantities[q]; quantity.limit)
+          for (std::size_t k = 0; k < shares.size(); ++k)
+            {
+              const double accuracy = quantity.is_relative ? shares[k] : multiples[k] * *quantity.limit;
+              cost.cheapest.push_back(cheapest(cost, {quantity.name, accuracy}, [&](const std::size_t point) {
+                return Pairs{{reach_of(record.points[point], q), accuracy}};
+              }));
+            }
+      for (const double multiple : multiples)
+        cost.cheapest.push_back(cheapest(cost, {"", multiple}, [&](const std::size_t point) {
+          Pairs pairs;
+          for (std::size_t q = 0; q < study.quantities.size(); ++q)
+            if (study.quantities[q].limit)
+              pairs.emplace_back(reach_of(record.points[point], q), multiple * *study.quantities[q].limit);
+          return pairs;
+        }));
+    }
+  } // namespace
+
+  bool is_disturbed(const RunResult &run)
+  {
+    return run.load > run.at_once + spare_process;
+  }
+
+  StudyCost cost_of(const Study &study, const StudyResults &results, const StudyRecord &record)
+  {
+    StudyCost             cost;
+    std::set<std::string> phases;
+    for (std::size_t k = 0; k < results.size(); ++k)
+      {
+        for (const RunResult &run : results[k])
+          {
+            cost.runs += int(run.is_known && !run.phases.empty());
+            cost.disturbed += int(is_disturbed(run));
+            for (const PhaseCost &phase : run.phases)
+              cost.total_cpu_s += phase.cpu_s, phases.insert(phase.name);
+          }
+        if (is_finished(record.points[k]))
+          cost.points.push_back(mean_cost(study, results[k], k));
+      }
+    std::copy_if(phases.begin(), phases.end(), std::back_inserter(cost.phases),
+                 [&](const std::string &phase) { return counts(study, phase); });
+    mark_fronts(study, record, cost);
+    find_cheapest(study, record, cost);
+    return cost;
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,53 @@
+// diptych: what the points of a study cost, and which are worth it
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "coupling/studies/study_evaluation.h"
+
+namespace diptych::coupling
+{
+  struct PhaseMean
+  {
+    std::string name;
+    double      cpu_s = 0; // over the samples
+  };
+
+  struct PointCost
+  {
+    int                      point = 0;
+    double                   cpu_s = 0, peak_memory_mb = 0;
+    int                      disturbed = 0;
+    std::vector<std::string> front_of;
+    std::vector<PhaseMean>   phases;
+  };
+
+  // The cheapest finished point whose mean error keeps to an accuracy.
+  struct CheapestPoint
+  {
+    std::string quantity; // empty: all that have a limit
+    double      accuracy   = 0;
+    int         point      = -1;
+    double      cpu_s      = NAN;
+    bool        is_certain = false; // the errors' intervals, too, keep to it: it is no stroke of luck
+  };
+
+  struct StudyCost
+  {
+    std::vector<std::string>   phases;
+    int                        disturbed = 0, runs = 0;
+    double                     total_cpu_s = 0;
+    std::vector<PointCost>     points;
+    std::vector<CheapestPoint> cheapest;
+  };
+
+  // Accuracies of the cheapest points: 5, 2 and 1 % for relative errors; 2.5, 1 and 0.5 times the limit for others, and for all
+  // quantities together. The reference itself does not compete.
+  StudyCost cost_of(const Study &study, const StudyResults &results, const StudyRecord &record);
+
+  // A run is disturbed where the machine had half a process more to do than this study had at work.
+  bool is_disturbed(const RunResult &run);
+} // namespace diptych::coupling

@@ -1,0 +1,111 @@
+// diptych: the folder of a study: what is in it, what of it may stay
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/studies/study_folder.h"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "coupling/folders/result_folder.h"
+#include "coupling/scene/scene_file.h"
+#include "coupling/version.h"
+#include "discrete/files/text_file.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    using nlohmann::json;
+    namespace fs = std::filesystem;
+
+    constexpr int last_exit_code_of_a_result = 3; // beyond it the system failed, or a signal came
+
+    std::string path_of(const std::string &directory, const StudyRun &run, const std::string &ending)
+    {
+      return directory + "/runs/" + run.name + ending;
+    }
+
+    double load_of_the_machine()
+    {
+      std::ifstream file("/proc/loadavg");
+      double        load = NAN;
+      file >> load;
+      return load;
+    }
+
+    std::string text_of_file(const std::string &path)
+    {
+      std::ifstream      file(path, std::ios::binary);
+      std::ostringstream text;
+      text << file.rdbuf();
+      return text.str();
+    }
+  } // namespace
+
+  std::string run_folder(const std::string &directory, const StudyRun &run)
+  {
+    return path_of(directory, run, "");
+  }
+
+  std::string run_scene(const std::string &directory, const StudyRun &run)
+  {
+    return path_of(directory, run, ".prm");
+  }
+
+  std::string run_log(const std::string &directory, const StudyRun &run)
+  {
+    return path_of(directory, run, ".log");
+  }
+
+  bool is_study_folder(const std::string &directory)
+  {
+    return fs::exists(directory + "/study_input.json");
+  }
+
+  void open_study_folder(const std::string &directory, const Study &study, const bool resume)
+  {
+    make_folder(directory);
+    if (!is_study_folder(directory) && !fs::is_empty(directory))
+      throw SceneError("--output " + directory + ": holds other files and no study of diptych; name a new or an empty folder");
+    // Killed before its end, this study must not leave the tables of an earlier one.
+    remove_results(directory, {"study.json", "study.csv", "study_cost.json", "report.html"});
+    if (!resume)
+      remove_results(directory, {"runs"});
+    discrete::write_text(directory + "/study_input.json", text_of_file(study.file));
+    make_folder(directory + "/runs");
+  }
+
+  void write_end(const std::string &directory, const StudyRun &run, const int exit_code, const int at_once)
+  {
+    const json end = {
+      {"exit_code", exit_code}, {"revision", git_revision}, {"load", load_of_the_machine()}, {"at_once", at_once}};
+    discrete::write_text(path_of(directory, run, ".json"), end.dump() + "\n");
+  }
+
+  std::optional<RunEnd> found_end(const std::string &directory, const StudyRun &run)
+  {
+    const json end = json::parse(text_of_file(path_of(directory, run, ".json")), nullptr, /* exceptions */ false);
+    if (!end.is_object() || !end.contains("exit_code"))
+      return std::nullopt;
+    RunEnd result{end.value("exit_code", 1), end.value("revision", ""), end["load"].is_number() ? double(end["load"]) : NAN,
+                  end.value("at_once", 1)};
+    if (result.exit_code > last_exit_code_of_a_result || result.revision != git_revision)
+      return std::nullopt;
+    return result;
+  }
+
+  bool prepare_run(const std::string &directory, const StudyRun &run)
+  {
+    const std::string end_file = path_of(directory, run, ".json");
+    const json        earlier  = json::parse(text_of_file(end_file), nullptr, /* exceptions */ false);
+    const bool was_begun = earlier.is_object() && !earlier.contains("exit_code") && earlier.value("begun", "") == git_revision;
+    if (!was_begun)
+      fs::remove_all(run_folder(directory, run));
+    fs::remove(run_log(directory, run));
+    discrete::write_text(run_scene(directory, run), echo(*run.scene));
+    discrete::write_text(end_file, json{{"begun", git_revision}}.dump() + "\n");
+    return fs::exists(run_folder(directory, run));
+  }
+} // namespace diptych::coupling

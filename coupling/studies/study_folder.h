@@ -1,0 +1,44 @@
+// diptych: the folder of a study: what is in it, what of it may stay
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coupling/scene/scene_error.h"
+#include "coupling/studies/study_points.h"
+
+namespace diptych::coupling
+{
+  // DIR/runs/NAME: the result folder of a run; beside it its scene NAME.prm, its output NAME.log and how it ended, NAME.json.
+  std::string run_folder(const std::string &directory, const StudyRun &run);
+  std::string run_scene(const std::string &directory, const StudyRun &run);
+  std::string run_log(const std::string &directory, const StudyRun &run);
+
+  // Whether a folder holds a study: study_input.json.
+  bool is_study_folder(const std::string &directory);
+
+  // Makes the folder and copies the study's file there. Without `resume` all runs are taken away; with it they stay. Throws
+  // SceneError, before anything is changed, where the folder holds foreign content, std::runtime_error where it cannot be made.
+  void open_study_folder(const std::string &directory, const Study &study, bool resume);
+
+  // How a run ended.
+  struct RunEnd
+  {
+    int         exit_code = 0;
+    std::string revision;      // of the program
+    double      load    = NAN; // processes ready to run on the machine, mean over the last minute before the end
+    int         at_once = 1;   // runs that this study had at work
+  };
+  void write_end(const std::string &directory, const StudyRun &run, int exit_code, int at_once);
+
+  // Nothing where the run has not ended, was ended by a signal or by the system (no room, no memory), or belongs to another
+  // revision of the program: then it is to be run.
+  [[nodiscard]] std::optional<RunEnd> found_end(const std::string &directory, const StudyRun &run);
+
+  // Makes a run ready: its scene is written, an old log is taken away. Its folder stays only where this revision of the program
+  // was interrupted in it; returns whether there is one to go on from.
+  [[nodiscard]] bool prepare_run(const std::string &directory, const StudyRun &run);
+} // namespace diptych::coupling

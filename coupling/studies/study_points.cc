@@ -1,0 +1,144 @@
+// diptych: the points of a study, each on every sample
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/studies/study_points.h"
+
+#include <cstdint>
+
+#include "coupling/scene/identity.h"
+#include "coupling/scene/scene_file.h"
+#include "coupling/studies/study_columns.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    constexpr std::size_t most_runs = 100000;
+
+    Identity identity_of(const Scene &scene, const StudyCommand command)
+    {
+      switch (command)
+        {
+        case StudyCommand::discrete:
+          return sample_identity(scene);
+          case StudyCommand::run: {
+            Identity identity       = member_identity(scene);
+            identity["sample/seed"] = std::to_string(scene.sample.seed);
+            return identity;
+          }
+        default:
+          return continuum_identity(scene);
+        }
+    }
+
+    // Sixteen hexadecimal digits, FNV-1a.
+    std::string digest_of(const std::string &text)
+    {
+      std::uint64_t hash = 14695981039346656037ull;
+      for (const char letter : text)
+        hash = (hash ^ std::uint8_t(letter)) * 1099511628211ull;
+      char digits[17];
+      std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
+      return digits;
+    }
+
+    bool names_the_seed(const Settings &settings)
+    {
+      for (const Entry &entry : settings)
+        if (entry.value.find(seed_word) != std::string::npos)
+          return true;
+      return false;
+    }
+
+    // The settings on one sample: its seed in the place of the word that stands for it, or else as the seed of its preparation.
+    Settings on_sample(Settings settings, const std::string &seed, const Study &study)
+    {
+      if (seed.empty())
+        return settings;
+      if (!names_the_seed(settings))
+        settings.push_back({"sample", "seed", seed, study.file + ": seeds", ""});
+      for (Entry &entry : settings)
+        entry = with_seed(entry, seed);
+      return settings;
+    }
+
+    StudyRun run_of(const Study &study, const Settings &settings)
+    {
+      StudyRun run;
+      try
+        {
+          Scene scene         = read_changed_scene(study.scene, settings, study.command == StudyCommand::run);
+          scene.output.report = false;
+          run.name            = digest_of(discrete::name_of(study.command) + "\n" + text_of(identity_of(scene, study.command)));
+          run.scene           = std::move(scene);
+        }
+      catch (const SceneError &error)
+        {
+          run.refusal = error.what();
+          std::string text;
+          for (const Entry &entry : settings)
+            text += entry.section + "/" + entry.key + " = " + entry.value + "\n";
+          run.name = "refused_" + digest_of(text);
+        }
+      return run;
+    }
+
+    Settings joined(Settings first, const Settings &second)
+    {
+      first.insert(first.end(), second.begin(), second.end());
+      return first;
+    }
+
+    void add_runs(const Study &study, const Settings &settings, ScenePoint &point)
+    {
+      for (const Entry &entry : settings)
+        point.settings.push_back(entry.section + "/" + entry.key + " = " + entry.value);
+      const Settings all = joined(study.settings, settings);
+      for (int k = 0; k < study.n_samples(); ++k)
+        point.runs.push_back(run_of(study, on_sample(all, study.seeds.empty() ? "" : std::to_string(study.seeds[k]), study)));
+    }
+
+    std::size_t n_points(const Family &family)
+    {
+      std::size_t n = family.is_grid || family.axes.empty() ? 1 : family.axes.front().points.size();
+      for (const Axis &axis : family.axes)
+        n *= family.is_grid ? axis.points.size() : 1;
+      return n;
+    }
+
+    ScenePoint point_of(const Study &study, const int family, std::size_t place)
+    {
+      const Family &of    = study.families[std::size_t(family)];
+      ScenePoint    point = {family, std::vector<std::size_t>(of.axes.size(), place), {}, {}, {}};
+      for (std::size_t k = of.axes.size(); of.is_grid && k-- > 0; place /= of.axes[k].points.size())
+        point.places[k] = place % of.axes[k].points.size();
+      Settings settings = of.settings;
+      for (std::size_t k = 0; k < of.axes.size(); ++k)
+        {
+          const AxisPoint &on_axis = of.axes[k].points[point.places[k]];
+          point.labels.push_back(on_axis.label);
+          settings = joined(settings, on_axis.settings);
+        }
+      add_runs(study, settings, point);
+      return point;
+    }
+  } // namespace
+
+  std::vector<ScenePoint> points_of(const Study &study)
+  {
+    std::size_t n = 1;
+    for (const Family &family : study.families)
+      n += n_points(family);
+    if (n * std::size_t(study.n_samples()) > most_runs)
+      throw SceneError(study.file + ": " + std::to_string(n) + " points on " + std::to_string(study.n_samples()) +
+                       " samples; at most " + std::to_string(most_runs) + " runs are allowed");
+    std::vector<ScenePoint> points(1);
+    add_runs(study, study.reference, points.front());
+    for (const StudyRun &run : points.front().runs)
+      if (!run.scene)
+        throw SceneError(study.file + ": the reference is refused: " + run.refusal);
+    for (std::size_t family = 0; family < study.families.size(); ++family)
+      for (std::size_t place = 0; place < n_points(study.families[family]); ++place)
+        points.push_back(point_of(study, int(family), place));
+    return points;
+  }
+} // namespace diptych::coupling
