@@ -1,0 +1,325 @@
+#!/usr/bin/env python3
+# diptych: studies: points, errors and classes; workers, processes, interruption, growth; what is refused; the page
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: study_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
+
+import csv
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import browser
+from running import bits, content, diptych, ENVIRONMENT, listing, main, PROGRAM, SOURCE, start, write
+
+# 150 grains between smooth rigid walls: a run takes a fifth of a second.
+STUDY = {
+    "title": "Steps of a small sample",
+    "scene": os.path.join(SOURCE, "benchmarks", "dense_biaxial", "scene.prm"),
+    "command": "discrete",
+    "set": {"sample/grains": 150, "loading/axial_strain": 0.01, "loading/stage_strain": 0.01},
+    "seeds": "1-2",
+    "reference": {"discrete/step": 0.05, "discrete/tolerance": 1e-4},
+    "axes": [{"key": "discrete/step", "values": [0.8, 0.2, 0.1], "converges": True},
+             {"key": "discrete/tolerance", "values": [0.5, 1e-4]}],
+    "quantities": [{"name": "strength", "strength": [0.002, 0.01], "limit": {"relative": 0.05}},
+                   {"column": "volumetric_strain", "at": 0.01}],
+}
+N_RUNS = 14
+# Long enough to be interrupted in.
+LONG = {**STUDY, "seeds": 1, "set": {**STUDY["set"], "sample/grains": 400, "loading/axial_strain": 0.05},
+        "axes": [{"key": "discrete/step", "values": [0.1, 0.07]}]}
+
+
+def read(*names):
+    with open(os.path.join(*names), encoding="utf-8") as file:
+        return json.load(file)
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        keep = tempfile.TemporaryDirectory()
+        self.addCleanup(keep.cleanup)
+        self.work, self.folder = keep.name, os.path.join(keep.name, "out")
+
+    def study_file(self, study):
+        return write(os.path.join(self.work, "steps.json"), json.dumps(study, indent=1))
+
+    def run_study(self, study, *words, code=0, folder=None):
+        result = diptych("study", self.study_file(study), "--output", folder or self.folder, *words)
+        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
+        if code == 0:
+            self.assertEqual([name for name in listing(folder or self.folder) if name.endswith(".part")], [])
+        return result
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def times(self):
+        """When each run's table was written."""
+        return {name: os.stat(self.path(name)).st_mtime_ns for name in listing(self.folder) if name.endswith("discrete.csv")}
+
+
+class Points(Folder):
+    """A study of seven points on two samples, run once."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.keep = tempfile.TemporaryDirectory()
+        cls.done = os.path.join(cls.keep.name, "done")
+        file = write(os.path.join(cls.keep.name, "steps.json"), json.dumps(STUDY, indent=1))
+        cls.process = diptych("study", file, "--output", cls.done, "--jobs", "1")
+        assert cls.process.returncode == 0, cls.process.stdout + cls.process.stderr
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.keep.cleanup()
+
+    def test_every_point_is_there_with_its_errors(self):
+        record = read(self.done, "study.json")
+        self.assertEqual([p["labels"] for p in record["points"]],
+                         [[]] + [[step, tolerance] for step in ("0.8", "0.2", "0.1") for tolerance in ("0.5", "0.0001")])
+        self.assertEqual(record["points"][0]["quantities"][0]["error"], {"value": 0, "low": 0, "high": 0})
+        by_labels = {tuple(p["labels"]): p for p in record["points"]}
+        # Unsolved contacts carry nothing: half the strength is gone, and the program had warned of the tolerance.
+        loose = by_labels["0.8", "0.5"]
+        self.assertLess(loose["quantities"][0]["error"]["value"], -0.3)
+        self.assertEqual(loose["class"], "wrong, warned")
+        # A means over pairs: what the table holds of both samples.
+        with open(os.path.join(self.done, "study.csv"), newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), N_RUNS)
+        fine = [float(r["strength"]) for r in rows if r["family"] == "reference"]
+        here = [float(r["strength"]) for r in rows if r["point"] == "5"]
+        error = record["points"][5]["quantities"][0]["error"]["value"]
+        self.assertAlmostEqual(error, sum(here) / sum(fine) - 1, places=12)
+        self.assertEqual({r["exit_code"] for r in rows}, {"0"})
+        self.assertTrue(all(float(r["cpu_s of discrete"]) > 0 for r in rows))
+
+    def test_a_point_gives_the_numbers_of_a_run_of_its_own(self):
+        record = read(self.done, "study.json")
+        folder = os.path.join(self.done, record["points"][4]["folders"][1])
+        alone = diptych("discrete", folder + ".prm", "--output", self.folder, "--quiet")
+        self.assertEqual(alone.returncode, 0, alone.stderr)
+        self.assertEqual(content(self.path("discrete.csv")), content(os.path.join(folder, "discrete.csv")))
+
+    def test_the_number_of_workers_does_not_change_a_bit(self):
+        self.run_study(STUDY, "--jobs", "2")
+        self.assertEqual(content(self.path("study.json")), content(os.path.join(self.done, "study.json")))
+        self.assertEqual(bits(self.path("study.h5")), bits(os.path.join(self.done, "study.h5")))
+
+    def test_several_processes_share_the_points(self):
+        words = ["mpirun", "--oversubscribe", "-np", "2", PROGRAM, "study", self.study_file(STUDY), "--output", self.folder]
+        result = subprocess.run(words, env=ENVIRONMENT, capture_output=True, text=True, check=False)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(content(self.path("study.json")), content(os.path.join(self.done, "study.json")))
+        self.assertEqual(result.stdout.count("7 points"), 1)  # only the first process speaks
+
+    def test_a_study_that_grows_runs_only_what_is_new(self):
+        shutil.copytree(self.done, self.folder)
+        before = self.times()
+        axes = [{**STUDY["axes"][0], "values": [0.8, 0.4, 0.2, 0.1]}, STUDY["axes"][1]]
+        result = self.run_study({**STUDY, "axes": axes}, "--resume")
+        self.assertIn(f"{N_RUNS} of {N_RUNS + 4} runs are finished", result.stdout)
+        after = self.times()
+        self.assertEqual(len(after), N_RUNS + 4)
+        self.assertEqual({name: after[name] for name in before}, before)
+        self.assertEqual(read(self.folder, "study.json")["points"][5]["quantities"],
+                         read(self.done, "study.json")["points"][3]["quantities"])
+
+    def test_runs_of_another_revision_are_run_again(self):
+        shutil.copytree(self.done, self.folder)
+        name = read(self.folder, "study.json")["points"][1]["folders"][0]
+        end = read(self.folder, name + ".json")
+        write(self.path(name + ".json"), json.dumps({**end, "revision": "another"}))
+        self.assertIn(f"{N_RUNS - 1} of {N_RUNS} runs are finished", self.run_study(STUDY, "--resume").stdout)
+        self.assertEqual(content(self.path("study.json")), content(os.path.join(self.done, "study.json")))
+
+    def test_other_limits_need_no_run(self):
+        shutil.copytree(self.done, self.folder)
+        before = self.times()
+        self.run_study({**STUDY, "quantities": [{**STUDY["quantities"][0], "limit": {"relative": 10}}]}, "--resume")
+        self.assertEqual(self.times(), before)
+        self.assertEqual({p["class"] for p in read(self.folder, "study.json")["points"]}, {"right"})
+
+    def test_costs_stand_apart(self):
+        bill = read(self.done, "study_cost.json")
+        self.assertEqual(bill["phases"], ["discrete", "preparation"])
+        self.assertEqual(bill["runs"], N_RUNS)
+        everything = [c for c in bill["cheapest"] if c["quantity"] == "" and c["accuracy"] == 1]
+        self.assertEqual(len(everything), 1)
+        self.assertNotIn("cpu_s", content(os.path.join(self.done, "study.json")).decode())
+
+    def test_the_page_draws_itself_again(self):
+        shutil.copytree(self.done, self.folder)
+        page = content(self.path("report.html"))
+        again = diptych("report", self.folder)
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertEqual(content(self.path("report.html")), page)
+        links = re.findall(r'(?:href|src)="([^"]+)"', page.decode())
+        self.assertEqual([link for link in links if not link.startswith(("data:", "runs/"))], [])
+
+    @unittest.skipUnless(browser.program(), "no chromium on the PATH: test.sh installs it")
+    def test_curves_appear_when_points_are_ticked(self):
+        with browser.Page(1200, 900) as page:
+            page.open(os.path.join(self.done, "report.html"))
+            shown = "[...document.querySelectorAll('#curves path')].map((p) => p.dataset.curve)"
+            self.assertEqual(page.run(shown), ["0"])
+            page.run("document.querySelector('input[data-point=\"3\"]').click()")
+            self.assertEqual(page.run(shown), ["0", "3"])
+            first = page.run("document.querySelector('#curves path').getAttribute('d')")
+            page.run("(() => { const s = document.querySelector('#which'); s.selectedIndex = 1;"
+                     "s.dispatchEvent(new Event('change')); })()")
+            self.assertNotEqual(page.run("document.querySelector('#curves path').getAttribute('d')"), first)
+            page.size(390, 844)  # a phone: nothing but tables in frames of their own is wider
+            self.assertLessEqual(page.run("document.documentElement.scrollWidth"), 390)
+            self.assertEqual(page.messages, [])
+
+
+class Failures(Folder):
+    def test_points_that_fail_are_kept_with_their_words(self):
+        """One that does not converge, one whose settings contradict each other; the third is right."""
+        study = {**STUDY, "seeds": 1, "axes": [{"name": "case", "points": [
+            {"label": "plain", "set": {}},
+            {"label": "no sweeps", "set": {"discrete/tolerance": 1e-13, "discrete/max_sweeps": 20}},
+            {"label": "half a stage", "set": {"loading/stage_strain": 0.004}}]}]}
+        result = self.run_study(study)
+        self.assertIn("failed with exit code 3", result.stderr)
+        points = read(self.folder, "study.json")["points"][1:]
+        self.assertEqual([p["class"] for p in points], ["right", "stopped", "refused"])
+        self.assertIn("did not converge", points[1]["words"])
+        self.assertNotIn(self.folder, points[1]["words"])
+        self.assertIn("loading/stage_strain = 0.004", points[2]["words"])
+        before = self.times()
+        self.run_study(study, "--resume")  # how a point failed is a result
+        self.assertEqual(self.times(), before)
+
+    def test_a_killed_worker_loses_its_run_alone(self):
+        process = start("study", self.study_file(LONG), "--output", self.folder, "--jobs", "1")
+        worker = None
+        while process.poll() is None and worker is None:
+            for number in filter(str.isdigit, os.listdir("/proc")):
+                try:
+                    words = content(f"/proc/{number}/cmdline").split(b"\0")
+                    parent = content(f"/proc/{number}/stat").rsplit(b")", 1)[1].split()[1]
+                except OSError:
+                    continue
+                if b"--worker" in words and int(parent) == process.pid and any(n.endswith("discrete.h5") for n in listing(self.folder)):
+                    worker = int(number)
+            time.sleep(0.002)
+        self.assertIsNone(process.poll(), "it ended before the signal")
+        os.kill(worker, signal.SIGKILL)
+        _, errors = process.communicate()
+        self.assertEqual(process.returncode, 3, errors)
+        self.assertIn("failed with exit code 137", errors)
+        record = read(self.folder, "study.json")
+        self.assertEqual(sum(p["class"] == "not run" for p in record["points"]), 1)
+        self.run_study(LONG, "--resume")
+        self.assertNotIn("not run", {p["class"] for p in read(self.folder, "study.json")["points"]})
+
+    def test_a_folder_that_is_no_study_is_left_alone(self):
+        os.mkdir(self.folder)
+        write(self.path("mine.txt"), "mine")
+        result = self.run_study(STUDY, code=2)
+        self.assertIn("no study of diptych", result.stderr)
+        self.assertEqual(listing(self.folder), ["mine.txt"])
+
+    def test_wrong_studies_are_refused_before_anything_is_written(self):
+        for study, words in [({**STUDY, "seedz": 3}, ["seedz", "'seeds'"]),
+                             ({**STUDY, "scene": "nowhere.prm"}, ["scene", "nowhere.prm"]),
+                             ({**STUDY, "set": {"sample/grians": 3}}, ["sample/grians", "sample/grains"]),
+                             ({**STUDY, "set": {"sample/grains": 0}}, ["sample/grains = '0'", "whole number"])]:
+            with self.subTest(words=words):
+                result = self.run_study(study, code=2)
+                for word in [*words, "steps.json, line "]:
+                    self.assertIn(word, result.stderr)
+        self.assertIn("no JSON", diptych("study", write(os.path.join(self.work, "broken.json"), "{")).stderr)
+        self.assertIn("--resume", diptych("study", self.study_file(STUDY), "--study", "step").stderr)
+        self.assertFalse(os.path.exists(self.folder))
+
+
+class Interruption(Folder):
+    @classmethod
+    def setUpClass(cls):
+        cls.keep = tempfile.TemporaryDirectory()
+        cls.alone = os.path.join(cls.keep.name, "alone")
+        file = write(os.path.join(cls.keep.name, "steps.json"), json.dumps(LONG, indent=1))
+        result = diptych("study", file, "--output", cls.alone, "--quiet")
+        assert result.returncode == 0, result.stderr
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.keep.cleanup()
+
+    def stop(self, signal_number):
+        """Sends a signal when the first run has its prepared sample."""
+        process = start("study", self.study_file(LONG), "--output", self.folder, "--jobs", "2")
+        while process.poll() is None and not any(name.endswith("discrete.h5") for name in listing(self.work)):
+            time.sleep(0.002)
+        self.assertIsNone(process.poll(), "it ended before the signal")
+        process.send_signal(signal_number)
+        _, errors = process.communicate()
+        return process.returncode, errors
+
+    def expect_the_rest(self):
+        self.run_study(LONG, "--resume")
+        self.assertEqual(content(self.path("study.json")), content(os.path.join(self.alone, "study.json")))
+        self.assertEqual(bits(self.path("study.h5")), bits(os.path.join(self.alone, "study.h5")))
+        self.assertEqual([name for name in listing(self.folder) if "checkpoint" in name], [])
+
+    def test_ctrl_c_keeps_what_is_done(self):
+        code, errors = self.stop(signal.SIGINT)
+        self.assertEqual(code, 3, errors)
+        for text in ("stopped on request", "runs are left", "--resume", self.folder):
+            self.assertIn(text, errors)
+        self.assertTrue(any(name.endswith("checkpoint.h5") for name in listing(self.folder)))
+        self.assertIn("not run", {p["class"] for p in read(self.folder, "study.json")["points"]})
+        self.expect_the_rest()
+
+    def test_a_kill(self):
+        code, _ = self.stop(signal.SIGKILL)
+        self.assertEqual(code, -signal.SIGKILL)
+        self.assertNotIn("study.json", listing(self.folder))
+        patience = time.monotonic() + 60  # workers notice, and write their checkpoints
+        while time.monotonic() < patience and not any(name.endswith("checkpoint.h5") for name in listing(self.folder)):
+            time.sleep(0.01)
+        self.expect_the_rest()
+
+
+class Commands(Folder):
+    """The other commands of a study."""
+
+    def test_laws_on_one_point(self):
+        study = {"scene": os.path.join(SOURCE, "benchmarks", "moreau_quick", "scene.prm"), "command": "material-point",
+                 "set": {"loading/axial_strain": 0.02}, "reference": {"continuum/initial_step": 1e-5},
+                 "axes": [{"key": "continuum/initial_step", "values": [4e-4, 2e-4, 1e-4], "converges": True}],
+                 "quantities": [{"column": "stress_ratio", "largest": True, "limit": {"relative": 0.01}},
+                                {"column": "dissipation", "last": True, "limit": {"relative": 0.01}}]}
+        self.run_study(study)
+        record = read(self.folder, "study.json")
+        self.assertIsNone(record["points"][1]["quantities"][0]["error"]["low"])  # one sample has no interval
+        self.assertTrue(all(p["certain"] for p in record["points"]))
+        self.assertGreater(read(self.folder, "study_cost.json")["total_cpu_s"], 0)
+
+    def test_both_panels_and_numbers_of_their_comparison(self):
+        study = {"scene": os.path.join(SOURCE, "benchmarks", "moreau_quick", "scene.prm"), "command": "run",
+                 "set": {"sample/grains": 150, "loading/inertial_number": 1e-3, "loading/axial_strain": 0.01,
+                         "comparison/window_edges": [0, 0.01], "discrete/step": 0.1, "discrete/tolerance": 1e-4,
+                         "continuum/element_size": 2.5, "comparison/coarse_element_size": 3},
+                 "reference": {}, "axes": [{"key": "continuum/friction_angle_peak", "values": [20]}],
+                 "quantities": [{"number": "continuum_summary peak_stress_ratio", "limit": {"relative": 0.01}},
+                                {"number": "discrete_summary peak_stress_ratio", "limit": {"absolute": 1e-9}}]}
+        self.run_study(study)
+        point = read(self.folder, "study.json")["points"][1]
+        self.assertEqual([q["verdict"] for q in point["quantities"]], ["beyond", "within"])
+        self.assertEqual(point["class"], "silently wrong")
+        self.assertNotIn("report.html", [os.path.basename(name) for name in listing(self.path("runs"))])
+
+
+if __name__ == "__main__":
+    main()
