@@ -126,7 +126,7 @@ namespace diptych::coupling
       const StudyTables tables{asked.study, asked.points, results, record};
       write_study_json(asked.directory, tables);
       write_study_csv(asked.directory, tables);
-      write_study_cost(asked.directory, cost_of(asked.study, results, record));
+      write_study_cost(asked.directory, cost_of(asked.study, asked.points, results, record));
       write_study_curves(asked.directory, tables);
     }
 

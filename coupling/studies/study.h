@@ -40,7 +40,8 @@ namespace diptych::coupling
   struct Axis
   {
     std::string            name;
-    bool                   converges = false; // results have a limit as its values go to 0: a step, the size of elements
+    bool                   converges     = false; // results have a limit as its values go to 0: a step, the size of elements
+    bool                   own_reference = false; // each of its points is held against the reference at that point
     std::vector<AxisPoint> points;
   };
 

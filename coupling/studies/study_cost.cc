@@ -44,19 +44,33 @@ namespace diptych::coupling
       return point.kind != PointClass::not_run && point.kind != PointClass::refused && point.kind != PointClass::stopped;
     }
 
-    void mark_fronts(const Study &study, const StudyRecord &record, StudyCost &cost)
+    // A finished point among those that are held against the same reference.
+    using Rivals = std::vector<PointCost *>;
+
+    std::vector<Rivals> by_reference(const std::vector<ScenePoint> &points, StudyCost &cost)
+    {
+      std::vector<Rivals> groups;
+      for (PointCost &one : cost.points)
+        if (const ScenePoint &point = points[std::size_t(one.point)]; point.family >= 0)
+          {
+            groups.resize(std::max(groups.size(), point.reference + 1));
+            groups[point.reference].push_back(&one);
+          }
+      return groups;
+    }
+
+    void mark_fronts(const Study &study, const StudyRecord &record, const Rivals &rivals)
     {
       for (std::size_t q = 0; q < study.quantities.size(); ++q)
         {
           const auto error = [&](const PointCost &c) {
             return std::abs(record.points[std::size_t(c.point)].quantities[q].error.value);
           };
-          for (PointCost &one : cost.points)
-            if (one.point > 0 && std::isfinite(error(one)) &&
-                std::none_of(cost.points.begin(), cost.points.end(), [&](const PointCost &other) {
-                  return other.point > 0 && other.cpu_s < one.cpu_s && error(other) < error(one);
+          for (PointCost *one : rivals)
+            if (std::isfinite(error(*one)) && std::none_of(rivals.begin(), rivals.end(), [&](const PointCost *other) {
+                  return other->cpu_s < one->cpu_s && error(*other) < error(*one);
                 }))
-              one.front_of.push_back(study.quantities[q].name);
+              one->front_of.push_back(study.quantities[q].name);
         }
     }
 
@@ -73,40 +87,45 @@ namespace diptych::coupling
     }
 
     // The cheapest point at which no reach is beyond its accuracy; reaches(point): pairs of both.
-    template <class Reaches> CheapestPoint cheapest(const StudyCost &cost, CheapestPoint wanted, Reaches &&reaches)
+    template <class Reaches> CheapestPoint cheapest(const Rivals &rivals, CheapestPoint wanted, Reaches &&reaches)
     {
-      for (const PointCost &one : cost.points)
+      for (const PointCost *one : rivals)
         {
-          bool keeps = one.point > 0 && !(one.cpu_s >= wanted.cpu_s), certain = true;
-          for (const auto &[reach, accuracy] : reaches(std::size_t(one.point)))
+          bool keeps = !(one->cpu_s >= wanted.cpu_s), certain = true;
+          for (const auto &[reach, accuracy] : reaches(std::size_t(one->point)))
             keeps = keeps && reach.found <= accuracy, certain = certain && reach.possible <= accuracy;
           if (keeps)
-            wanted.point = one.point, wanted.cpu_s = one.cpu_s, wanted.is_certain = certain;
+            wanted.point = one->point, wanted.cpu_s = one->cpu_s, wanted.is_certain = certain;
         }
       return wanted;
     }
 
-    void find_cheapest(const Study &study, const StudyRecord &record, StudyCost &cost)
+    std::vector<CheapestPoint> find_cheapest(const Study       &study,
+                                             const StudyRecord &record,
+                                             const Rivals      &rivals,
+                                             const int          reference)
     {
-      using Pairs                      = std::vector<std::pair<Reach, double>>;
-      const std::vector<double> shares = {0.05, 0.02, 0.01}, multiples = {2.5, 1, 0.5};
+      using Pairs                       = std::vector<std::pair<Reach, double>>;
+      const std::vector<double>  shares = {0.05, 0.02, 0.01}, multiples = {2.5, 1, 0.5};
+      std::vector<CheapestPoint> result;
       for (std::size_t q = 0; q < study.quantities.size(); ++q)
         if (const StudyQuantity &quantity = study.quantities[q]; quantity.limit)
           for (std::size_t k = 0; k < shares.size(); ++k)
             {
               const double accuracy = quantity.is_relative ? shares[k] : multiples[k] * *quantity.limit;
-              cost.cheapest.push_back(cheapest(cost, {quantity.name, accuracy}, [&](const std::size_t point) {
+              result.push_back(cheapest(rivals, {quantity.name, accuracy, reference}, [&](const std::size_t point) {
                 return Pairs{{reach_of(record.points[point], q), accuracy}};
               }));
             }
       for (const double multiple : multiples)
-        cost.cheapest.push_back(cheapest(cost, {"", multiple}, [&](const std::size_t point) {
+        result.push_back(cheapest(rivals, {"", multiple, reference}, [&](const std::size_t point) {
           Pairs pairs;
           for (std::size_t q = 0; q < study.quantities.size(); ++q)
             if (study.quantities[q].limit)
               pairs.emplace_back(reach_of(record.points[point], q), multiple * *study.quantities[q].limit);
           return pairs;
         }));
+      return result;
     }
   } // namespace
 
@@ -115,7 +134,10 @@ namespace diptych::coupling
     return run.load > run.at_once + spare_process;
   }
 
-  StudyCost cost_of(const Study &study, const StudyResults &results, const StudyRecord &record)
+  StudyCost cost_of(const Study                   &study,
+                    const std::vector<ScenePoint> &points,
+                    const StudyResults            &results,
+                    const StudyRecord             &record)
   {
     StudyCost             cost;
     std::set<std::string> phases;
@@ -133,8 +155,13 @@ namespace diptych::coupling
       }
     std::copy_if(phases.begin(), phases.end(), std::back_inserter(cost.phases),
                  [&](const std::string &phase) { return counts(study, phase); });
-    mark_fronts(study, record, cost);
-    find_cheapest(study, record, cost);
+    const std::vector<Rivals> groups = by_reference(points, cost);
+    for (std::size_t k = 0; k < groups.size(); ++k)
+      {
+        mark_fronts(study, record, groups[k]);
+        for (const CheapestPoint &one : find_cheapest(study, record, groups[k], int(k)))
+          cost.cheapest.push_back(one);
+      }
     return cost;
   }
 } // namespace diptych::coupling

@@ -30,6 +30,7 @@ namespace diptych::coupling
   {
     std::string quantity; // empty: all that have a limit
     double      accuracy   = 0;
+    int         reference  = 0; // of those that are held against it
     int         point      = -1;
     double      cpu_s      = NAN;
     bool        is_certain = false; // the errors' intervals, too, keep to it: it is no stroke of luck
@@ -45,8 +46,11 @@ namespace diptych::coupling
   };
 
   // Accuracies of the cheapest points: 5, 2 and 1 % for relative errors; 2.5, 1 and 0.5 times the limit for others, and for all
-  // quantities together. The reference itself does not compete.
-  StudyCost cost_of(const Study &study, const StudyResults &results, const StudyRecord &record);
+  // quantities together. References do not compete.
+  StudyCost cost_of(const Study                   &study,
+                    const std::vector<ScenePoint> &points,
+                    const StudyResults            &results,
+                    const StudyRecord             &record);
 
   // A run is disturbed where the machine had half a process more to do than this study had at work.
   bool is_disturbed(const RunResult &run);

@@ -70,6 +70,12 @@ namespace diptych::coupling
       return point.verdict == "beyond" || (point.verdict == "cannot tell" && !(std::abs(point.error.value) <= *quantity.limit));
     }
 
+    double scatter_of(const StudyQuantity &quantity, const std::vector<double> &reference)
+    {
+      const SampleStatistics s = statistics_of(quantity, reference);
+      return quantity.is_relative ? s.deviation / std::abs(s.mean) : s.deviation;
+    }
+
     PointQuantity quantity_at(const StudyQuantity       &quantity,
                               const std::vector<double> &reference,
                               const std::vector<double> &values)
@@ -80,6 +86,7 @@ namespace diptych::coupling
       result.statistics       = statistics_of(quantity, values);
       result.pairs            = found.n;
       result.error            = found.difference;
+      result.scatter          = scatter_of(quantity, reference);
       result.verdict          = verdict_of(quantity, result, !known(reference).empty());
       return result;
     }
@@ -127,12 +134,6 @@ namespace diptych::coupling
                                             : (struggled ? PointClass::struggled : PointClass::right);
           point.is_certain     = is_judged && (is_wrong ? is_sure_wrong : is_sure_right);
         }
-    }
-
-    double scatter_of(const StudyQuantity &quantity, const std::vector<double> &reference)
-    {
-      const SampleStatistics s = statistics_of(quantity, reference);
-      return quantity.is_relative ? s.deviation / std::abs(s.mean) : s.deviation;
     }
 
     // The points along one axis that have all else in common, by the labels of the others.
@@ -248,13 +249,12 @@ namespace diptych::coupling
       {
         PointRecord point;
         for (std::size_t q = 0; q < study.quantities.size(); ++q)
-          point.quantities.push_back(quantity_at(study.quantities[q], values_of(results.front(), q), values_of(results[k], q)));
+          point.quantities.push_back(
+            quantity_at(study.quantities[q], values_of(results[points[k].reference], q), values_of(results[k], q)));
         add_facts(results[k], point);
         classify(study, results[k], point);
         record.points.push_back(std::move(point));
       }
-    for (std::size_t q = 0; q < study.quantities.size(); ++q)
-      record.scatter.push_back(scatter_of(study.quantities[q], values_of(results.front(), q)));
     record.orders = orders_of(study, points, record);
     return record;
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -43,8 +44,9 @@ namespace diptych::coupling
     std::vector<double> values; // one a sample; NaN where it has none
     SampleStatistics    statistics;
     Interval            error; // 95 %; relative to the reference's mean where the quantity's errors are
-    int                 pairs = 0;
-    std::string         verdict; // against the limit: within, beyond, cannot tell; empty without a limit
+    int                 pairs   = 0;
+    double              scatter = NAN; // of one sample about the reference's mean, in the error's unit; NaN below two samples
+    std::string         verdict;       // against the limit: within, beyond, cannot tell; empty without a limit
   };
 
   struct PointRecord
@@ -70,7 +72,6 @@ namespace diptych::coupling
   struct StudyRecord
   {
     std::vector<PointRecord> points;
-    std::vector<double>      scatter; // of one sample about the mean of the reference, in the errors' unit; NaN below two
     std::vector<OrderRecord> orders;
   };
 

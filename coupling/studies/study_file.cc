@@ -27,9 +27,10 @@ namespace diptych::coupling
 
     Axis axis_of(const Part &part)
     {
-      part.allow({"name", "key", "values", "points", "converges"});
+      part.allow({"name", "key", "values", "points", "converges", "own_reference"});
       Axis axis;
-      axis.converges = part.flag("converges");
+      axis.converges     = part.flag("converges");
+      axis.own_reference = part.flag("own_reference");
       if (part.has("key") == part.has("points"))
         part.refuse("an axis has either key and values or points, each with a label and a set");
       if (part.has("key"))

@@ -38,6 +38,7 @@ namespace diptych::coupling
   {
     v({"name", "-", "of the axis", Kind::setting}, a.name);
     v({"converges", "-", "results have a limit as its values go to 0", Kind::setting}, a.converges);
+    v({"own_reference", "-", "each of its points is held against the reference at that point", Kind::setting}, a.own_reference);
     v.list("points", "of the axis", a.points);
   }
 
@@ -68,6 +69,7 @@ namespace diptych::coupling
     v({"error", "as the quantity says",
        "point minus reference, sample by sample; its 95 % interval is Student's, of ratios Fieller's"},
       q.error);
+    v({"scatter", "as errors", "of one sample about the reference's mean"}, q.scatter);
     v({"verdict", "-", "within or beyond the limit, or cannot tell"}, q.verdict);
   }
 
@@ -87,9 +89,10 @@ namespace diptych::coupling
     std::vector<std::string> folders;
     for (const StudyRun &run : point.runs)
       folders.push_back("runs/" + run.name);
-    v({"family", "-", "of the point; the reference stands alone", Kind::setting},
+    v({"family", "-", "of the point; references have none", Kind::setting},
       point.family < 0 ? std::string("reference") : p.study->families[std::size_t(point.family)].name);
-    v({"labels", "-", "of its places on the family's axes", Kind::setting}, point.labels);
+    v({"reference", "-", "place in this list of the point that it is held against", Kind::setting}, int(point.reference));
+    v({"labels", "-", "of its places on the family's axes; of references the axis, too", Kind::setting}, point.labels);
     v({"settings", "-", "beyond those of all points", Kind::setting}, point.settings);
     v({"folders", "-", "of its runs, one a sample", Kind::setting}, folders);
     v({"class", "-", "right; wrong, warned; silently wrong; struggled; stopped; refused; unjudged; not run"},
@@ -153,10 +156,9 @@ namespace diptych::coupling
     v({"student_t_95", "-", "half width of the intervals in standard errors; null for less than two samples"},
       n > 1 ? student_quantile(0.975, n - 1) : std::numeric_limits<double>::quiet_NaN());
     v.list("quantities", "that are measured", d.study.quantities);
-    v({"scatter", "as errors", "of one sample about the reference's mean, by quantity"}, d.record.scatter);
     v.list("families", "of points", d.study.families);
     v.list("borders", "where theory says that a method begins to fail", d.study.borders);
-    v.list("points", "the reference first", points);
+    v.list("points", "the references first", points);
     v.list("orders", "of convergence", orders);
   }
 
@@ -180,6 +182,7 @@ namespace diptych::coupling
   {
     v({"quantity", "-", "that is held to the accuracy; empty: all with a limit", Kind::setting}, c.quantity);
     v({"accuracy", "as errors", "asked for; for all: a multiple of their limits", Kind::setting}, c.accuracy);
+    v({"reference", "-", "of the points that compete, its place in study.json", Kind::setting}, c.reference);
     v({"point", "-", "the cheapest one that keeps to it, its place in study.json; -1: none does", Kind::clock}, c.point);
     v({"cpu_s", "s", "CPU seconds of it", Kind::clock}, c.cpu_s);
     v({"certain", "-", "the errors' 95 % intervals keep to it, too: it is no stroke of luck"}, c.is_certain);

@@ -81,7 +81,7 @@ namespace diptych::coupling
       for (std::size_t q = 0; q < t.study.quantities.size(); ++q)
         {
           line.push_back(cell(run.values[q]));
-          line.push_back(cell(difference(t.study.quantities[q], run.values[q], t.results[0][sample].values[q])));
+          line.push_back(cell(difference(t.study.quantities[q], run.values[q], t.results[of.reference][sample].values[q])));
         }
       for (const std::string &name : phases_of(t.results))
         {

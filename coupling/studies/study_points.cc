@@ -3,6 +3,7 @@
 #include "coupling/studies/study_points.h"
 
 #include <cstdint>
+#include <iterator>
 
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
@@ -105,10 +106,31 @@ namespace diptych::coupling
       return n;
     }
 
+    // The settings and labels that a point shares with its reference.
+    struct Shared
+    {
+      Settings                 settings;
+      std::vector<std::string> labels; // "axis label"
+    };
+
+    Shared shared_with_reference(const Family &family, const ScenePoint &point)
+    {
+      Shared shared;
+      for (std::size_t k = 0; k < family.axes.size(); ++k)
+        if (const AxisPoint &on_axis = family.axes[k].points[point.places[k]]; family.axes[k].own_reference)
+          {
+            shared.settings = joined(shared.settings, on_axis.settings);
+            shared.labels.push_back(family.axes[k].name + " " + on_axis.label);
+          }
+      return shared;
+    }
+
     ScenePoint point_of(const Study &study, const int family, std::size_t place)
     {
-      const Family &of    = study.families[std::size_t(family)];
-      ScenePoint    point = {family, std::vector<std::size_t>(of.axes.size(), place), {}, {}, {}};
+      const Family &of = study.families[std::size_t(family)];
+      ScenePoint    point;
+      point.family = family;
+      point.places.assign(of.axes.size(), place);
       for (std::size_t k = of.axes.size(); of.is_grid && k-- > 0; place /= of.axes[k].points.size())
         point.places[k] = place % of.axes[k].points.size();
       Settings settings = of.settings;
@@ -121,6 +143,23 @@ namespace diptych::coupling
       add_runs(study, settings, point);
       return point;
     }
+
+    // The place of the reference with these labels; made where there is none yet.
+    std::size_t reference_with(const Study &study, const Shared &shared, std::vector<ScenePoint> &references)
+    {
+      for (std::size_t k = 0; k < references.size(); ++k)
+        if (references[k].labels == shared.labels)
+          return k;
+      ScenePoint reference;
+      reference.reference = references.size();
+      reference.labels    = shared.labels;
+      add_runs(study, joined(study.reference, shared.settings), reference);
+      for (const StudyRun &run : reference.runs)
+        if (!run.scene)
+          throw SceneError(study.file + ": the reference is refused: " + run.refusal);
+      references.push_back(std::move(reference));
+      return references.size() - 1;
+    }
   } // namespace
 
   std::vector<ScenePoint> points_of(const Study &study)
@@ -131,14 +170,15 @@ namespace diptych::coupling
     if (n * std::size_t(study.n_samples()) > most_runs)
       throw SceneError(study.file + ": " + std::to_string(n) + " points on " + std::to_string(study.n_samples()) +
                        " samples; at most " + std::to_string(most_runs) + " runs are allowed");
-    std::vector<ScenePoint> points(1);
-    add_runs(study, study.reference, points.front());
-    for (const StudyRun &run : points.front().runs)
-      if (!run.scene)
-        throw SceneError(study.file + ": the reference is refused: " + run.refusal);
+    std::vector<ScenePoint> references, points;
     for (std::size_t family = 0; family < study.families.size(); ++family)
       for (std::size_t place = 0; place < n_points(study.families[family]); ++place)
-        points.push_back(point_of(study, int(family), place));
-    return points;
+        {
+          points.push_back(point_of(study, int(family), place));
+          const Shared shared     = shared_with_reference(study.families[family], points.back());
+          points.back().reference = reference_with(study, shared, references);
+        }
+    references.insert(references.end(), std::make_move_iterator(points.begin()), std::make_move_iterator(points.end()));
+    return references;
   }
 } // namespace diptych::coupling

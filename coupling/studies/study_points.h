@@ -22,14 +22,15 @@ namespace diptych::coupling
 
   struct ScenePoint
   {
-    int                      family = -1; // -1: the reference
-    std::vector<std::size_t> places;      // on the family's axes
-    std::vector<std::string> labels;      // of these places
-    std::vector<std::string> settings;    // "section/key = value" beyond those of all points
-    std::vector<StudyRun>    runs;        // one a sample
+    int                      family    = -1; // -1: a reference
+    std::size_t              reference = 0;  // the place of the one that it is held against; its own, where it is one
+    std::vector<std::size_t> places;         // on the family's axes
+    std::vector<std::string> labels;         // of these places
+    std::vector<std::string> settings;       // "section/key = value" beyond those of all points
+    std::vector<StudyRun>    runs;           // one a sample
   };
 
-  // The reference first, then every family's points, the last axis fastest. Throws SceneError where the reference itself is
-  // refused, or where there are more than 100000 runs.
+  // The references first: the study's, and it at every point of the axes that have their own. Then every family's points, the
+  // last axis fastest. Throws SceneError where the reference itself is refused, or where there are more than 100000 runs.
   std::vector<ScenePoint> points_of(const Study &study);
 } // namespace diptych::coupling

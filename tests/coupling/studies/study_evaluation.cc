@@ -22,7 +22,7 @@ namespace
     strength.limit = 0.02;
     study.quantities.push_back(strength);
     Family family;
-    family.axes.push_back({"step", true, {}});
+    family.axes.push_back({"step", true, false, {}});
     for (int k = 0; k < n; ++k)
       family.axes.front().points.push_back({std::to_string(k), {}, std::pow(2., k)});
     study.families.push_back(family);
@@ -33,7 +33,7 @@ namespace
   {
     std::vector<ScenePoint> points(1);
     for (int k = 0; k < n; ++k)
-      points.push_back({0, {std::size_t(k)}, {std::to_string(k)}, {}, {}});
+      points.push_back({0, 0, {std::size_t(k)}, {std::to_string(k)}, {}, {}});
     return points;
   }
 
@@ -145,14 +145,14 @@ namespace
   TEST(StudyEvaluation, ScatterIsThatOfOneSampleOverTheMean)
   {
     const StudyRecord record = evaluate(study_of(1), points_on(1), {runs(0), runs(0)});
-    EXPECT_NEAR(record.scatter[0], 0.020817 / 0.405, 1e-5);
+    EXPECT_NEAR(record.points[1].quantities[0].scatter, 0.020817 / 0.405, 1e-5);
   }
 
   TEST(StudyCost, TheCheapestRightPointIsFoundAndTheReferenceDoesNotCompete)
   {
     const Study        study   = study_of(3);
     const StudyResults results = {runs(0, 0.1), runs(0.005, 8), runs(-0.015, 2), runs(0.04, 1)};
-    const StudyCost    cost    = cost_of(study, results, evaluate(study, points_on(3), results));
+    const StudyCost    cost    = cost_of(study, points_on(3), results, evaluate(study, points_on(3), results));
     ASSERT_EQ(cost.points.size(), 4u);
     EXPECT_DOUBLE_EQ(cost.points[2].cpu_s, 2) << "the report does not count";
     const auto cheapest = [&](const std::string &quantity, const double accuracy) {
@@ -172,9 +172,25 @@ namespace
   {
     const Study        study   = study_of(2);
     const StudyResults results = {runs(0), runs(0.01, 1), runs(0.02, 2)};
-    const StudyCost    cost    = cost_of(study, results, evaluate(study, points_on(2), results));
+    const StudyCost    cost    = cost_of(study, points_on(2), results, evaluate(study, points_on(2), results));
     EXPECT_EQ(cost.points[1].front_of, std::vector<std::string>{"strength"});
     EXPECT_TRUE(cost.points[2].front_of.empty());
+  }
+
+  TEST(StudyCost, PointsCompeteOnlyWithThoseOfTheSameReference)
+  {
+    const Study             study  = study_of(2);
+    std::vector<ScenePoint> points = points_on(2);
+    points.insert(points.begin(), ScenePoint());
+    points[1].reference = points[3].reference = 1;
+    const StudyResults results                = {runs(0), runs(1), runs(0.01, 1), runs(1.01, 2)};
+    const StudyRecord  record                 = evaluate(study, points, results);
+    EXPECT_NEAR(record.points[3].quantities[0].error.value, 0.005, 1e-9) << "1.01 samples against 1 more of the same";
+    const StudyCost cost = cost_of(study, points, results, record);
+    EXPECT_EQ(cost.points[2].front_of.size(), 1u);
+    EXPECT_EQ(cost.points[3].front_of.size(), 1u) << "dearer, but there is no cheaper one against its reference";
+    EXPECT_EQ(cost.cheapest.size(), 12u);
+    EXPECT_EQ(cost.cheapest.back().point, 3);
   }
 
   TEST(StudyCost, OtherWorkOnTheMachineIsNoticed)

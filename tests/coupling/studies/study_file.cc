@@ -96,6 +96,23 @@ namespace
     EXPECT_NE(points[0].runs[0].name, points[2].runs[0].name);
   }
 
+  TEST(StudyFile, AnAxisMayHaveAReferenceOfItsOwnAtEachPoint)
+  {
+    const Folder folder;
+    const auto   points = points_of(
+        read_study(folder.study(head +
+                                "\"axes\": [{\"key\": \"discrete/friction\", \"values\": [0.3, 0.5], \"own_reference\": true},\n"
+                                  "{\"key\": \"discrete/step\", \"values\": [0.2, 0.4]}],\n" +
+                                tail),
+                   {}));
+    ASSERT_EQ(points.size(), 6u);
+    EXPECT_EQ(points[0].labels, std::vector<std::string>{"friction 0.3"});
+    EXPECT_DOUBLE_EQ(points[1].runs[0].scene->discrete.law.friction, 0.5);
+    EXPECT_DOUBLE_EQ(*points[1].runs[0].scene->discrete.time.step, 0.1) << "the reference's step";
+    EXPECT_EQ(points[2].reference, 0u);
+    EXPECT_EQ(points[5].reference, 1u);
+  }
+
   TEST(StudyFile, SeedsAreSamplesAndStandInFileNames)
   {
     const Folder folder;

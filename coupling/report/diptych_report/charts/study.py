@@ -23,13 +23,14 @@ def _mark(study, family):
     return FAMILY_COLOURS[k % len(FAMILY_COLOURS)], FAMILY_MARKS[k % len(FAMILY_MARKS)]
 
 
-def error_against_cost(study, place):
-    """|error| of a quantity over CPU seconds: every point, the front, the limit and the samples' scatter. None without a point."""
-    quantity, scatter = study.quantities[place], study.record["scatter"][place]
+def error_against_cost(study, place, reference):
+    """|error| of a quantity over CPU seconds of all that is held against a reference: every point, the front, the limit and the samples'
+    scatter. None without a point."""
+    quantity, scatter = study.quantities[place], study.points[reference]["quantities"][place]["scatter"]
     shown = []
     for k, cost in study.cost.items():
         error = study.points[k]["quantities"][place]["error"]
-        if k > 0 and error["value"] is not None and abs(error["value"]) > LEAST_ERROR and cost["cpu_s"] > 0:
+        if study.points[k]["reference"] == reference != k and error["value"] is not None and abs(error["value"]) > LEAST_ERROR and cost["cpu_s"] > 0:
             shown.append((k, cost, error))
     if not shown:
         return None

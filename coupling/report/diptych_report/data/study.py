@@ -36,20 +36,24 @@ class Study:
 
     def of_family(self, name):
         """[(place in points, point)]."""
-        return [(k, point) for k, point in enumerate(self.points) if point["family"] == name and k > 0]
+        return [(k, point) for k, point in enumerate(self.points) if point["family"] == name and not self.is_reference(k)]
+
+    def is_reference(self, place):
+        return self.points[place]["reference"] == place
+
+    @property
+    def references(self):
+        """Their places in points."""
+        return [k for k in range(len(self.points)) if self.is_reference(k)]
 
     def name(self, place):
         """"nscd: step 0.4, tolerance 1e-05"."""
         point = self.points[place]
-        if place == 0:
-            return "reference"
+        if self.is_reference(place):
+            return "reference" + (": " + ", ".join(point["labels"]) if point["labels"] else "")
         axes = [axis["name"] for axis in self.family(point["family"])["axes"]]
         words = ", ".join(f"{axis} {label}" for axis, label in zip(axes, point["labels"]))
         return ": ".join(text for text in (point["family"], words) if text)
-
-    @property
-    def names_long(self):
-        return max(len(self.name(k)) for k in range(len(self.points)))
 
 
 def load(folder):

@@ -23,10 +23,11 @@ def draw(folder):
 
 
 def page(study):
-    charts = [(figures.error_against_cost(study, k), q["name"]) for k, q in enumerate(study.quantities)]
+    charts = [(figures.error_against_cost(study, k, reference), ", ".join([q["name"], *study.points[reference]["labels"]]))
+              for reference in study.references for k, q in enumerate(study.quantities)]
     maps = [(family["name"], figures.class_maps(study, family)) for family in study.record["families"]]
     return template("study.html").render(
-        record=study.record, counts=tables.counts(study), cheapest=tables.cheapest(study), disturbed=tables.disturbed(study),
+        record=study.record, n_points=len(study.points) - len(study.references), counts=tables.counts(study), cheapest=tables.cheapest(study), disturbed=tables.disturbed(study),
         charts=[chart for chart in charts if chart[0]], missing=[name for picture, name in charts if not picture],
         maps=[one for one in maps if one[1]], classes=figures.CLASSES, orders=tables.orders(study), points=tables.points(study),
         curves=json.dumps(curves(study)), curve_names=[f"{PANEL_WORDS[panel]}, {words}" for panel in study.curves

@@ -47,7 +47,8 @@ def cheapest(study):
         text = "; ".join(f"{of['name']} {with_ends(q['error'], of['relative'])}" for q, of in zip(errors, study.quantities)
                          if of["limit"] and row["quantity"] in ("", of["name"]))
         sure = "–" if not known else "yes" if row["certain"] else "within the samples’ scatter"
-        rows.append([row["quantity"] or "all with a limit", accuracy_of(study, row), study.name(row["point"]) if known else "none of these",
+        held = ", ".join(study.points[row["reference"]]["labels"])
+        rows.append([(row["quantity"] or "all with a limit") + (f" ({held})" if held else ""), accuracy_of(study, row), study.name(row["point"]) if known else "none of these",
                      seconds(row["cpu_s"]), text or "–", sure])
     return {"head": ["quantity", "error at most", "cheapest point", "CPU a sample", "error [95 %]", "sure"], "rows": rows}
 
@@ -92,7 +93,9 @@ def _interval(record, digits):
 def counts(study):
     """"7 right, 3 silently wrong"."""
     found = {}
-    for point in study.points[1:]:
+    for k, point in enumerate(study.points):
+        if study.is_reference(k):
+            continue
         found[point["class"]] = found.get(point["class"], 0) + 1
     return ", ".join(f"{found[kind]} {kind}" for kind in CLASSES if kind in found)
 
