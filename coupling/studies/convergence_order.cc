@@ -11,7 +11,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    constexpr double least_order = 0.25, largest_order = 6, order_step = 0.01;
+    constexpr double least_order = 0.25, largest_order = 6, order_step = 0.01, largest_rest = 0.05;
 
     struct Line
     {
@@ -56,6 +56,8 @@ namespace diptych::coupling
       if (const Line line = line_at(least_order + k * order_step, scaled, values); line.squares < best.squares)
         best = line;
     if (best.fit.order < least_order + order_step / 2 || best.fit.order > largest_order - order_step / 2)
+      return std::nullopt;
+    if (std::sqrt(best.squares / double(h.size())) > largest_rest * (*largest - *least))
       return std::nullopt;
     best.fit.coefficient /= std::pow(unit, best.fit.order);
     return best.fit;

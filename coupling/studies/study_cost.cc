@@ -74,16 +74,17 @@ namespace diptych::coupling
         }
     }
 
-    // How far a quantity's error at a point may lie from 0: as found, and with its interval.
+    // How far a quantity's error at a point may lie from 0: as found, and with its interval; a single sample has none.
     struct Reach
     {
       double found, possible;
     };
 
-    Reach reach_of(const PointRecord &point, const std::size_t quantity)
+    Reach reach_of(const Study &study, const PointRecord &point, const std::size_t quantity)
     {
-      const Interval &e = point.quantities[quantity].error;
-      return {std::abs(e.value), std::max(std::abs(e.low), std::abs(e.high))};
+      const Interval &e     = point.quantities[quantity].error;
+      const double    found = std::abs(e.value);
+      return {found, study.seeds.empty() ? found : std::max(std::abs(e.low), std::abs(e.high))};
     }
 
     // The cheapest point at which no reach is beyond its accuracy; reaches(point): pairs of both.
@@ -114,7 +115,7 @@ namespace diptych::coupling
             {
               const double accuracy = quantity.is_relative ? shares[k] : multiples[k] * *quantity.limit;
               result.push_back(cheapest(rivals, {quantity.name, accuracy, reference}, [&](const std::size_t point) {
-                return Pairs{{reach_of(record.points[point], q), accuracy}};
+                return Pairs{{reach_of(study, record.points[point], q), accuracy}};
               }));
             }
       for (const double multiple : multiples)
@@ -122,7 +123,7 @@ namespace diptych::coupling
           Pairs pairs;
           for (std::size_t q = 0; q < study.quantities.size(); ++q)
             if (study.quantities[q].limit)
-              pairs.emplace_back(reach_of(record.points[point], q), multiple * *study.quantities[q].limit);
+              pairs.emplace_back(reach_of(study, record.points[point], q), multiple * *study.quantities[q].limit);
           return pairs;
         }));
       return result;

@@ -40,6 +40,7 @@ namespace
     EXPECT_FALSE(fit_convergence({1, 2}, {1, 2})) << "two points fit any order";
     EXPECT_FALSE(fit_convergence({1, 2, 2}, {1, 2, 2.1})) << "two different steps";
     EXPECT_FALSE(fit_convergence({1, 2, 4}, {5, 5, 5})) << "nothing changes";
+    EXPECT_FALSE(fit_convergence({6, 4, 3, 2, 1.5, 1}, {0.391, 0.399, 0.3995, 0.372, 0.376, 0.411})) << "scatter";
     EXPECT_FALSE(fit_convergence({1, 2, 4, 8}, {0, 10, 15, 17.5})) << "grows as h goes to 0: the least order is the best";
   }
 } // namespace
