@@ -51,8 +51,11 @@ namespace diptych::discrete
 
     constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    // Of the errors: strength over strain per step, tolerance x step / inertial number over accuracy.
-    constexpr double strength_budget = 1. / 100, noise_budget = 2.5;
+    // Relative errors as measured (benchmarks/studies): of the strength by the step in units of d sqrt(rho/s) and by the strain
+    // per step; of the dilation by tolerance x step / I, the more the longer the step.
+    constexpr double strength_of_step = 0.04, strength_of_strain = 40;
+    constexpr double dilation_of_noise = 0.2, dilation_of_noise_and_step = 0.8;
+    constexpr double dilation_share = 1.25; // of the accuracy
     // Residuals of looser solves mean nothing any more.
     constexpr double loosest_tolerance = 1e-2;
 
@@ -67,6 +70,24 @@ namespace diptych::discrete
       const bool   end_grains = std::holds_alternative<EndGrains>(setting.lateral);
       const double stress     = std::max(flow.mean_stress, end_grains ? setting.pressure : 0.);
       return stress > 0 ? setting.mean_diameter * std::sqrt(grain_density(state.grains) / stress) : infinity;
+    }
+
+    double strength_error(const double step, const double unit, const double rate)
+    {
+      return strength_of_step * step / unit + strength_of_strain * rate * step;
+    }
+
+    // step and tolerance x step / I in the unit of time
+    double dilation_error(const double step, const double noise)
+    {
+      return noise * (dilation_of_noise + dilation_of_noise_and_step * step);
+    }
+
+    // The step, in the unit of time, at which a tolerance makes the error that is allowed. per_step: noise over step.
+    double longest_step(const double allowed, const double per_step)
+    {
+      const double a = dilation_of_noise_and_step, b = dilation_of_noise;
+      return (std::sqrt(b * b + 4 * a * allowed / per_step) - b) / (2 * a);
     }
 
     double fastest(const State &state)
@@ -103,10 +124,10 @@ namespace diptych::discrete
     if (gravity > 0)
       bound(0.3 * std::sqrt(d / gravity), "gravity");
     if (flow.rate > 0)
-      bound(strength_budget * flow.accuracy.accuracy / flow.rate, "strain");
+      bound(flow.accuracy.accuracy / strength_error(1, unit, flow.rate), "strength");
     if (flow.rate > 0 && std::isfinite(unit))
-      bound(noise_budget * flow.accuracy.accuracy * flow.rate * unit * unit /
-              flow.accuracy.tolerance.value_or(least_tolerance(flow.accuracy)),
+      bound(unit * longest_step(dilation_share * flow.accuracy.accuracy,
+                                flow.accuracy.tolerance.value_or(least_tolerance(flow.accuracy)) / (flow.rate * unit)),
             "solver");
     return choice;
   }
@@ -118,7 +139,9 @@ namespace diptych::discrete
     const double unit = unit_of_time(state, setting, flow);
     if (!(flow.rate > 0) || !std::isfinite(unit))
       return least_tolerance(flow.accuracy);
-    return std::min(loosest_tolerance, noise_budget * flow.accuracy.accuracy * flow.rate * unit * unit / setting.step);
+    const double step = setting.step / unit;
+    return std::min(loosest_tolerance,
+                    dilation_share * flow.accuracy.accuracy * flow.rate * unit / (step * dilation_error(step, 1)));
   }
 
   ExpectedErrors expected_errors(const State &state, const StepSetting &setting, const FlowState &flow)
@@ -126,7 +149,8 @@ namespace diptych::discrete
     const double unit = unit_of_time(state, setting, flow);
     if (!(flow.rate > 0) || !std::isfinite(unit))
       return {};
-    return {flow.rate * setting.step / strength_budget,
-            std::min(1., 0.5 * setting.solver.tolerance * setting.step / (flow.rate * unit * unit))};
+    const double step = setting.step / unit;
+    return {strength_error(setting.step, unit, flow.rate),
+            std::min(1., dilation_error(step, setting.solver.tolerance * step / (flow.rate * unit)))};
   }
 } // namespace diptych::discrete

@@ -21,8 +21,8 @@ namespace diptych::discrete
             "half times as large (discrete/README.md: measured in biaxial compression)");
     visitor(
       "tolerance", o.tolerance, "-", {1e-14, 1.},
-      "stop of a step: natural map residual relative to |r|; auto: from accuracy, strain rate and step, so that tolerance x "
-      "step / inertial number is 2.5 accuracy");
+      "stop of a step: natural map residual relative to |r|; auto: from accuracy, strain rate and step, so that the dilation is "
+      "expected to err by 1.25 accuracy");
   }
 
   // What the sample feels, for the rules.
@@ -37,7 +37,7 @@ namespace diptych::discrete
   struct StepChoice
   {
     double      step;  // the smallest bound [time]
-    std::string bound; // which one: "forces", "motion", "drives", "gravity", "strain" or "solver"
+    std::string bound; // which one: "forces", "motion", "drives", "gravity", "strength" or "solver"
   };
 
   // step = auto (Moreau 1997: from the forces where grains are pressed together, from the speeds where they fly):
@@ -46,15 +46,16 @@ namespace diptych::discrete
   //   drives   0.1 of the shortest interval of a wall's table; sqrt(0.1 d M/F) of a wall of mass M under a force F; the largest
   //            speed of a table counts among the speeds of walls
   //   gravity  0.3 sqrt(d/g)
-  //   strain   1/100 accuracy / rate: long steps add about 100 x (strain per step) to the strength
-  //   solver   2.5 accuracy I / tolerance in units of d sqrt(rho/s), tolerance = auto: 1e-3 accuracy, below which sweeps wander
+  //   strength accuracy / (0.04 / (d sqrt(rho/s)) + 40 rate): what long steps add to the strength
+  //   solver   at which tolerance, if auto 1e-3 accuracy (below which sweeps wander), loses 1.25 accuracy of the dilation
   StepChoice choose_step(const State &state, const StepSetting &setting, const FlowState &flow);
 
-  // What was asked for; auto: 2.5 accuracy I / h in units of d sqrt(rho/s), 1e-3 accuracy where nothing strains or presses.
+  // What was asked for; auto: at which 1.25 accuracy of the dilation are lost; 1e-3 accuracy where nothing strains or presses.
   double choose_tolerance(const State &state, const StepSetting &setting, const FlowState &flow);
 
-  // What step and tolerance of the setting cost, relative, as measured in biaxial compression of 1000 discs: strength + 100 x
-  // (strain per step), dilation lost half of tolerance x step / I. 0 where nothing strains or presses.
+  // What step h and tolerance of the setting cost, relative, with time in units of d sqrt(rho/s): strength 0.04 h + 40 x (strain
+  // per step), dilation (0.2 + 0.8 h) x tolerance x h / I. Measured in biaxial compression of 1000 and 2000 discs, straight and
+  // oblique, at I of 1e-4 and 1e-3 (benchmarks/studies/step_tolerance). 0 where nothing strains or presses.
   struct ExpectedErrors
   {
     double strength = 0, dilation = 0;

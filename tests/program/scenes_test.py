@@ -121,7 +121,7 @@ class Scenes(unittest.TestCase):
     def test_an_automatic_step_keeps_to_its_bound(self):
         """d sqrt(rho/P) = 1 for forces; 0.1 d / speed; the solver's 0.6 I / tolerance = 6. Stages shorten it to fit."""
         folder, rows = self.run_small(*setting(discrete_step="auto"))
-        self.assertIn(facts(folder)["step_bound"], ["forces", "motion", "solver", "strain"])
+        self.assertIn(facts(folder)["step_bound"], ["forces", "motion", "solver", "strength"])
         self.assertLessEqual(facts(folder)["step"], 1)
         self.assertAlmostEqual(rows["axial_strain"][-1], 0.01, places=9)
 

@@ -26,6 +26,18 @@ def _mark(study, family):
 def error_against_cost(study, place, reference):
     """|error| of a quantity over CPU seconds of all that is held against a reference: every point, the front, the limit and the samples'
     scatter. None without a point."""
+    figure = Figure(figsize=(4.7, 3.5))
+    axes = figure.add_axes([0.16, 0.14, 0.815, 0.83])
+    place_labels(axes, 0.035, 0.055)
+    if not draw_error_against_cost(axes, study, place, reference):
+        return None
+    name = study.quantities[place]["name"]
+    return svg(figure, f"Error of {name} against CPU seconds of every finished point, with front, limit and scatter.")
+
+
+def draw_error_against_cost(axes, study, place, reference):
+    """The same into axes; False where there is no point."""
+    ruled(axes)
     quantity, scatter = study.quantities[place], study.points[reference]["quantities"][place]["scatter"]
     shown = []
     for k, cost in study.cost.items():
@@ -33,11 +45,8 @@ def error_against_cost(study, place, reference):
         if study.points[k]["reference"] == reference != k and error["value"] is not None and abs(error["value"]) > LEAST_ERROR and cost["cpu_s"] > 0:
             shown.append((k, cost, error))
     if not shown:
-        return None
+        return False
     factor = 100 if quantity["relative"] else 1
-    figure = Figure(figsize=(4.7, 3.5))
-    axes = ruled(figure.add_axes([0.16, 0.14, 0.815, 0.83]))
-    place_labels(axes, 0.035, 0.055)
     for k, cost, error in shown:
         family = study.points[k]["family"]
         colour, mark = _mark(study, family)
@@ -72,7 +81,7 @@ def error_against_cost(study, place, reference):
         axis.set_major_formatter("{x:g}")
         axis.set_minor_formatter("")
     axes.legend(loc="best", fontsize=7.5, handlelength=1.6)
-    return svg(figure, f"Error of {quantity['name']} against CPU seconds of every finished point, with front, limit and scatter.")
+    return True
 
 
 def _position(axis, value):
@@ -90,30 +99,43 @@ def _position(axis, value):
     return found
 
 
-def class_maps(study, family):
-    """A map of the classes over the first two axes of a family; one for every choice of the others. [(title, picture)]."""
+def parts_of(study, family):
+    """What the maps of a family show: [(title, axes (across, down or None), {labels: point})]; one for every choice of the axes beyond
+    two."""
     axes = family["axes"]
     if not axes or not family["grid"]:
         return []
-    rows, columns = axes[0], axes[1] if len(axes) > 1 else None
+    pair = axes[0], axes[1] if len(axes) > 1 else None
     by_labels = {tuple(point["labels"]): point for _, point in study.of_family(family["name"])}
-    maps = []
+    parts = []
     for others in itertools.product(*[[p["label"] for p in axis["points"]] for axis in axes[2:]]):
         title = ", ".join(f"{axis['name']} {label}" for axis, label in zip(axes[2:], others))
-        maps.append((title, _class_map(study, family, (rows, columns), {labels: point for labels, point in by_labels.items()
-                                                                        if labels[2:] == others})))
-    return maps
+        parts.append((title, pair, {labels: point for labels, point in by_labels.items() if labels[2:] == others}))
+    return parts
+
+
+def class_maps(study, family):
+    """[(title, picture)] of a family."""
+    return [(title, _class_map(study, family, pair, points)) for title, pair, points in parts_of(study, family)]
 
 
 def _class_map(study, family, pair, points):
     across, down = pair
     n, m = len(across["points"]), len(down["points"]) if down else 1
-    left, bottom = 0.35 + 0.075 * max([len(p["label"]) for p in down["points"]] if down else [0]), 0.55
-    turned = max(len(p["label"]) for p in across["points"]) > 8
-    bottom += 0.055 * max(len(p["label"]) for p in across["points"]) if turned else 0
-    figure = Figure(figsize=(left + 0.3 + 0.62 * n, bottom + 0.1 + 0.5 * m))
+    longest = max(len(p["label"]) for p in across["points"])
+    left = 0.55 + 0.075 * max([len(p["label"]) for p in down["points"]] if down else [0])
+    bottom = 0.55 + (0.055 * longest if longest > 8 else 0)
+    figure = Figure(figsize=(left + 0.1 + 0.62 * n, bottom + 0.1 + 0.5 * m))
     width, height = figure.get_size_inches()
-    axes = figure.add_axes([(left + 0.2) / width, bottom / height, 0.62 * n / width, 0.5 * m / height])
+    draw_classes(figure.add_axes([left / width, bottom / height, 0.62 * n / width, 0.5 * m / height]), study, family, pair, points)
+    return svg(figure, "Classes of the points: " + "; ".join(f"{', '.join(labels)}: {point['class']}" for labels, point in
+                                                             points.items()) + ".")
+
+
+def draw_classes(axes, study, family, pair, points):
+    """Class and worst error of every point, and the borders, into axes; pair and points as of parts_of()."""
+    across, down = pair
+    n, m = len(across["points"]), len(down["points"]) if down else 1
     for labels, point in points.items():
         i = [p["label"] for p in across["points"]].index(labels[0])
         j = [p["label"] for p in down["points"]].index(labels[1]) if down else 0
@@ -127,14 +149,13 @@ def _class_map(study, family, pair, points):
     for border in study.record["borders"]:
         if down and border["family"] == family["name"] and {border["x"], border["y"]} == {across["name"], down["name"]}:
             _draw_border(axes, border, across, down)
+    turned = max(len(p["label"]) for p in across["points"]) > 8
     axes.set(xlim=(-0.5, n - 0.5), ylim=(-0.5, m - 0.5), xticks=range(n), yticks=range(m) if down else [], xlabel=across["name"],
              ylabel=down["name"] if down else "")
     axes.set_xticklabels([p["label"] for p in across["points"]], rotation=45 if turned else 0, ha="right" if turned else "center")
     if down:
         axes.set_yticklabels([p["label"] for p in down["points"]])
     axes.tick_params(length=0)
-    return svg(figure, "Classes of the points: " + "; ".join(f"{', '.join(labels)}: {point['class']}" for labels, point in
-                                                             points.items()) + ".")
 
 
 def worst_error(study, point):

@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+# diptych: the figure of a study that ships
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""figure.py DIR FIGURE.png [--quantities strength,dilation] [--columns 3]
+
+DIR: folder of a study (`diptych study`). Left to right, row by row: error against CPU seconds of the quantities named (default: those
+with a limit), then the maps of classes. Drawn by the functions of the report. Needs h5py and matplotlib."""
+import argparse
+import math
+import os
+import sys
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(HERE, "../../coupling/report"))
+from diptych_report.charts import study as charts  # noqa: E402
+from diptych_report.charts import style  # noqa: E402
+from diptych_report.data.study import load  # noqa: E402
+
+from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: E402
+from matplotlib.figure import Figure  # noqa: E402
+
+
+def panels(study, names):
+    """[(title, function of axes)]"""
+    found = []
+    for reference in study.references:
+        held = ", ".join(study.points[reference]["labels"])
+        for k, quantity in enumerate(study.quantities):
+            if quantity["name"] in names:
+                found.append((", ".join(text for text in (quantity["name"], held) if text),
+                              lambda axes, k=k, reference=reference: charts.draw_error_against_cost(axes, study, k, reference)))
+    for family in study.record["families"]:
+        for title, pair, points in charts.parts_of(study, family):
+            found.append((": ".join(text for text in (family["name"], title) if text),
+                          lambda axes, family=family, pair=pair, points=points: charts.draw_classes(axes, study, family, pair, points)))
+    return found
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder")
+    parser.add_argument("figure")
+    parser.add_argument("--quantities", help="names, separated by commas; empty: none")
+    parser.add_argument("--columns", type=int, default=3)
+    options = parser.parse_args()
+    study = load(options.folder)
+    style.set_up()
+    names = [q["name"] for q in study.quantities if q["limit"]] if options.quantities is None else options.quantities.split(",")
+    parts = panels(study, names)
+    rows = math.ceil(len(parts) / options.columns)
+    figure = Figure(figsize=(4.6 * options.columns, 3.5 * rows), layout="constrained")
+    FigureCanvasAgg(figure)
+    for k, (title, draw) in enumerate(parts):
+        axes = figure.add_subplot(rows, options.columns, k + 1)
+        draw(axes)
+        axes.set_title(title, fontsize=9.5)
+    letters = "; ".join(f"{look[2]} {name}" for name, look in charts.CLASSES.items())
+    figure.suptitle(f"{study.record['title']}\n{letters}; below: the error that is largest against its limit; ?: the samples leave a doubt",
+                    fontsize=9)
+    figure.savefig(options.figure, dpi=80)
+
+
+if __name__ == "__main__":
+    main()
