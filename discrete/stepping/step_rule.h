@@ -33,7 +33,7 @@ namespace diptych::discrete
     AccuracyOptions accuracy    = {};
   };
 
-  // The bounds of the rule and what they gave. d: mean diameter, rho: grain density.
+  // The bounds of the rule and what they gave; an accuracy above 0.05 counts as 0.05. d: mean diameter, rho: grain density.
   struct StepChoice
   {
     double      step;  // the smallest bound [time]
@@ -46,14 +46,14 @@ namespace diptych::discrete
   //   drives   0.1 of the shortest interval of a wall's table; sqrt(0.1 d M/F) of a wall of mass M under a force F; the largest
   //            speed of a table counts among the speeds of walls
   //   gravity  0.3 sqrt(d/g)
-  //   strength accuracy / (0.04 / (d sqrt(rho/s)) + 40 rate): what long steps add to the strength
+  //   strength accuracy / (0.05 / (d sqrt(rho/s)) + 55 rate): what long steps add to the strength; at most 0.4 d sqrt(rho/s)
   //   solver   at which tolerance, if auto 1e-3 accuracy (below which sweeps wander), loses 1.25 accuracy of the dilation
   StepChoice choose_step(const State &state, const StepSetting &setting, const FlowState &flow);
 
   // What was asked for; auto: at which 1.25 accuracy of the dilation are lost; 1e-3 accuracy where nothing strains or presses.
   double choose_tolerance(const State &state, const StepSetting &setting, const FlowState &flow);
 
-  // What step h and tolerance of the setting cost, relative, with time in units of d sqrt(rho/s): strength 0.04 h + 40 x (strain
+  // What step h and tolerance of the setting cost, relative, with time in units of d sqrt(rho/s): strength 0.05 h + 55 x (strain
   // per step), dilation (0.2 + 0.8 h) x tolerance x h / I. Measured in biaxial compression of 1000 and 2000 discs, straight and
   // oblique, at I of 1e-4 and 1e-3 (benchmarks/studies/step_tolerance). 0 where nothing strains or presses.
   struct ExpectedErrors

@@ -88,10 +88,14 @@ namespace
     RuleScene s;
     s.accuracy.tolerance.reset();
     EXPECT_EQ(s.choose(9, 1e-2).bound, "strength");
-    EXPECT_NEAR(s.choose(9, 1e-2).step, 0.02 / (0.04 * 3 / 4 + 40 * 1e-2), 1e-14);
+    EXPECT_NEAR(s.choose(9, 1e-2).step, 0.02 / (0.05 * 3 / 4 + 55 * 1e-2), 1e-14);
     s.accuracy.accuracy = 0.01;
-    EXPECT_NEAR(s.choose(9, 1e-2).step, 0.01 / (0.04 * 3 / 4 + 40 * 1e-2), 1e-14);
-    EXPECT_NEAR(s.choose(0, 1e-2).step, 0.01 / (40 * 1e-2), 1e-14) << "nothing is pressed: the strain alone";
+    EXPECT_NEAR(s.choose(9, 1e-2).step, 0.01 / (0.05 * 3 / 4 + 55 * 1e-2), 1e-14);
+    EXPECT_NEAR(s.choose(0, 1e-2).step, 0.01 / (55 * 1e-2), 1e-14) << "nothing is pressed: the strain alone";
+    s.accuracy.accuracy = 0.3;
+    EXPECT_NEAR(s.choose(9, 1e-3).step, 0.4 * 4 / 3, 1e-14) << "beyond it the rule fails";
+    s.setting.step = 0.1;
+    EXPECT_LT(s.tolerance(9, 1e-3), 0.05 * 1.25 * 1e-3 * 4 / 3 / 0.1 / 0.75 / 0.2) << "accuracies above 0.05 count as 0.05";
   }
 
   TEST(StepRule, ToleranceAutoFollowsStepAndStrainRate)
@@ -116,7 +120,7 @@ namespace
     s.setting.solver.tolerance  = 1e-3;
     const double         h      = 0.5 * 3 / 4;
     const ExpectedErrors errors = expected_errors(s.state, s.setting, {9, 1e-3, s.accuracy});
-    EXPECT_NEAR(errors.strength, 0.04 * h + 40 * 1e-3 * 0.5, 1e-14);
+    EXPECT_NEAR(errors.strength, 0.05 * h + 55 * 1e-3 * 0.5, 1e-14);
     EXPECT_NEAR(errors.dilation, (0.2 + 0.8 * h) * 1e-3 * h / (1e-3 * 4 / 3), 1e-14);
     EXPECT_EQ(expected_errors(s.state, s.setting, {9, 0, s.accuracy}).strength, 0);
   }
