@@ -15,7 +15,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(HERE, "../../coupling/report"))
 from diptych_report.charts import study as charts  # noqa: E402
 from diptych_report.charts import style  # noqa: E402
-from diptych_report.data.study import load  # noqa: E402
+from diptych_report.data.study import CLASSES, load  # noqa: E402
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
@@ -55,7 +55,7 @@ def main():
         axes = figure.add_subplot(rows, options.columns, k + 1)
         draw(axes)
         axes.set_title(title, fontsize=9.5)
-    letters = "; ".join(f"{look[2]} {name}" for name, look in charts.CLASSES.items())
+    letters = "; ".join(f"{look[2]} {name}" for name, look in CLASSES.items())
     figure.suptitle(f"{study.record['title']}\n{letters}; below: the error that is largest against its limit; ?: the samples leave a doubt",
                     fontsize=9)
     figure.savefig(options.figure, dpi=80)

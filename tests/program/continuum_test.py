@@ -208,7 +208,7 @@ class MaterialPoint(Folder):
         self.assertEqual(float(rows[-1]["axial_strain"]), 0.04)
         self.assertIn("%.6g at 4 %% axial strain" % float(rows[-1]["stress_ratio"]), result.stdout)
         self.assertIn("peak stress ratio", result.stdout)
-        self.assertEqual(listing(self.folder), ["material_point.csv", "scene.prm"])
+        self.assertEqual(listing(self.folder), ["material_point.csv", "provenance.json", "scene.prm"])
 
     def test_a_path_that_ends_early_keeps_what_was_reached(self):
         """Stresses of 1e10 P x 1e-3 round to 1e-9 P: no lateral strain holds the pressure to 1e-10 of it."""

@@ -8,13 +8,10 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from diptych_report.charts.style import CONTINUUM, FAINT, GRAINS, INK, THIRD, place_labels, ruled, svg
+from diptych_report.data.study import CLASSES
 
 FAMILY_COLOURS = (GRAINS, CONTINUUM, THIRD, "#CC79A7", "#E69F00", "#56B4E9")
 FAMILY_MARKS = "osD^vP"
-# class: (colour, text colour, letter)
-CLASSES = {"right": ("#b7e1cd", INK, "R"), "struggled": ("#e3f0b5", INK, "S"), "wrong, warned": ("#f6c99b", INK, "W"),
-           "silently wrong": ("#d55e00", "white", "X"), "stopped": ("#8d8d8d", "white", "!"), "refused": ("#cfcfcf", INK, "–"),
-           "unjudged": ("#e8eef7", INK, "·"), "not run": ("white", INK, "?")}
 LEAST_ERROR = 1e-6  # below it a deterministic difference is none
 
 

@@ -11,6 +11,10 @@ from diptych_report.data.files import InputError, read_json
 
 FORMAT = 1
 CURVES = ("stress_ratio", "volumetric_strain")
+# class: (colour, text colour, letter) in maps and tables
+CLASSES = {"right": ("#b7e1cd", "#222222", "R"), "struggled": ("#e3f0b5", "#222222", "S"), "wrong, warned": ("#f6c99b", "#222222", "W"),
+           "silently wrong": ("#d55e00", "white", "X"), "stopped": ("#8d8d8d", "white", "!"), "refused": ("#cfcfcf", "#222222", "–"),
+           "unjudged": ("#e8eef7", "#222222", "·"), "not run": ("white", "#222222", "?")}
 
 
 @dataclass

@@ -7,7 +7,7 @@ import numpy as np
 
 from diptych_report.charts import study as figures
 from diptych_report.charts import style
-from diptych_report.data.study import load
+from diptych_report.data.study import CLASSES, load
 from diptych_report.page.writing import template, write
 from diptych_report.tables import study as tables
 
@@ -29,7 +29,7 @@ def page(study):
     return template("study.html").render(
         record=study.record, n_points=len(study.points) - len(study.references), counts=tables.counts(study), cheapest=tables.cheapest(study), disturbed=tables.disturbed(study),
         charts=[chart for chart in charts if chart[0]], missing=[name for picture, name in charts if not picture],
-        maps=[one for one in maps if one[1]], classes=figures.CLASSES, orders=tables.orders(study), points=tables.points(study),
+        maps=[one for one in maps if one[1]], classes=CLASSES, orders=tables.orders(study), points=tables.points(study),
         curves=json.dumps(curves(study)), curve_names=[f"{PANEL_WORDS[panel]}, {words}" for panel in study.curves
                                                        for words in CURVE_NAMES.values()],
         provenance=tables.provenance(study))

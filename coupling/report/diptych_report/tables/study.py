@@ -3,7 +3,7 @@
 
 import os
 
-from diptych_report.charts.study import CLASSES
+from diptych_report.data.study import CLASSES
 from diptych_report.tables.wording import number
 
 
