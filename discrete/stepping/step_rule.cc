@@ -56,6 +56,8 @@ namespace diptych::discrete
     constexpr double strength_of_step = 0.05, strength_of_strain = 55;
     constexpr double dilation_of_noise = 0.2, dilation_of_noise_and_step = 0.8;
     constexpr double dilation_share = 1.25; // of the accuracy
+    // Residuals add up along extended chains: larger samples lose more.
+    constexpr double grains_of_rule = 1000, power_of_grains = 0.75;
     // Beyond them the rule has been seen to fail: half of the dilation goes.
     constexpr double longest_loading_step = 0.4, coarsest_accuracy = 0.05;
     // Residuals of looser solves mean nothing any more.
@@ -84,7 +86,12 @@ namespace diptych::discrete
       return strength_of_step * step / unit + strength_of_strain * rate * step;
     }
 
-    // step and tolerance x step / I in the unit of time
+    double size_factor(const State &state)
+    {
+      return std::pow(std::max(1., double(state.grains.size()) / grains_of_rule), power_of_grains);
+    }
+
+    // Of 1000 grains; step and tolerance x step / I in the unit of time.
     double dilation_error(const double step, const double noise)
     {
       return noise * (dilation_of_noise + dilation_of_noise_and_step * step);
@@ -133,7 +140,7 @@ namespace diptych::discrete
     if (flow.rate > 0)
       bound(std::min(accuracy_of(flow) / strength_error(1, unit, flow.rate), longest_loading_step * unit), "strength");
     if (flow.rate > 0 && std::isfinite(unit))
-      bound(unit * longest_step(dilation_share * accuracy_of(flow),
+      bound(unit * longest_step(dilation_share * accuracy_of(flow) / size_factor(state),
                                 flow.accuracy.tolerance.value_or(least_tolerance(flow)) / (flow.rate * unit)),
             "solver");
     return choice;
@@ -147,7 +154,8 @@ namespace diptych::discrete
     if (!(flow.rate > 0) || !std::isfinite(unit))
       return least_tolerance(flow);
     const double step = setting.step / unit;
-    return std::min(loosest_tolerance, dilation_share * accuracy_of(flow) * flow.rate * unit / (step * dilation_error(step, 1)));
+    return std::min(loosest_tolerance, dilation_share * accuracy_of(flow) * flow.rate * unit /
+                                         (size_factor(state) * step * dilation_error(step, 1)));
   }
 
   ExpectedErrors expected_errors(const State &state, const StepSetting &setting, const FlowState &flow)
@@ -157,6 +165,6 @@ namespace diptych::discrete
       return {};
     const double step = setting.step / unit;
     return {strength_error(setting.step, unit, flow.rate),
-            std::min(1., dilation_error(step, setting.solver.tolerance * step / (flow.rate * unit)))};
+            std::min(1., size_factor(state) * dilation_error(step, setting.solver.tolerance * step / (flow.rate * unit)))};
   }
 } // namespace diptych::discrete

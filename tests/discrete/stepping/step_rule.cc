@@ -113,6 +113,19 @@ namespace
     EXPECT_NEAR(s.tolerance(9, 1e-5), 2e-5, 1e-17);
   }
 
+  TEST(StepRule, LargerSamplesAreSolvedFurther)
+  {
+    RuleScene s;
+    s.accuracy.tolerance.reset();
+    s.setting.step     = 0.5;
+    const double small = s.tolerance(9, 1e-3);
+    while (s.state.grains.size() < 4000)
+      add_grain(s.state.grains, {0, 1}, 1, 4.);
+    EXPECT_NEAR(s.tolerance(9, 1e-3), small / std::pow(4., 0.75), 1e-16);
+    s.setting.solver.tolerance = small;
+    EXPECT_NEAR(expected_errors(s.state, s.setting, {9, 1e-3, s.accuracy}).dilation, 1.25 * 0.02 * std::pow(4., 0.75), 1e-14);
+  }
+
   TEST(StepRule, SettingsOfTheUserAreToldWhatTheyCost)
   {
     RuleScene s;
