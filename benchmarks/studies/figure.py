@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # diptych: the figure of a study that ships
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""figure.py DIR FIGURE.png [--quantities strength,dilation] [--columns 3]
+"""figure.py DIR FIGURE.png [--quantities strength,dilation] [--columns 3] [--no-maps]
 
 DIR: folder of a study (`diptych study`). Left to right, row by row: error against CPU seconds of the quantities named (default: those
 with a limit), then the maps of classes. Drawn by the functions of the report. Needs h5py and matplotlib."""
@@ -9,6 +9,7 @@ import argparse
 import math
 import os
 import sys
+import textwrap
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.dont_write_bytecode = True
@@ -21,7 +22,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 
 
-def panels(study, names):
+def panels(study, names, with_maps):
     """[(title, function of axes)]"""
     found = []
     for reference in study.references:
@@ -30,7 +31,7 @@ def panels(study, names):
             if quantity["name"] in names:
                 found.append((", ".join(text for text in (quantity["name"], held) if text),
                               lambda axes, k=k, reference=reference: charts.draw_error_against_cost(axes, study, k, reference)))
-    for family in study.record["families"]:
+    for family in study.record["families"] if with_maps else []:
         for title, pair, points in charts.parts_of(study, family):
             found.append((": ".join(text for text in (family["name"], title) if text),
                           lambda axes, family=family, pair=pair, points=points: charts.draw_classes(axes, study, family, pair, points)))
@@ -43,11 +44,13 @@ def main():
     parser.add_argument("figure")
     parser.add_argument("--quantities", help="names, separated by commas; empty: none")
     parser.add_argument("--columns", type=int, default=3)
+    parser.add_argument("--no-maps", action="store_true", help="no maps of classes")
     options = parser.parse_args()
     study = load(options.folder)
     style.set_up()
     names = [q["name"] for q in study.quantities if q["limit"]] if options.quantities is None else options.quantities.split(",")
-    parts = panels(study, names)
+    parts = panels(study, names, not options.no_maps)
+    parts = [(title, draw) for title, draw in parts if draw(Figure().add_subplot()) is not False]  # no picture of what has no error
     rows = math.ceil(len(parts) / options.columns)
     figure = Figure(figsize=(4.6 * options.columns, 3.5 * rows), layout="constrained")
     FigureCanvasAgg(figure)
@@ -56,8 +59,9 @@ def main():
         draw(axes)
         axes.set_title(title, fontsize=9.5)
     letters = "; ".join(f"{look[2]} {name}" for name, look in CLASSES.items())
-    figure.suptitle(f"{study.record['title']}\n{letters}; below: the error that is largest against its limit; ?: the samples leave a doubt",
-                    fontsize=9)
+    words = f"{letters}; below: the error that is largest against its limit; ?: the samples leave a doubt"
+    lines = [study.record["title"], *(textwrap.wrap(words, 62 * options.columns) if not options.no_maps else [])]
+    figure.suptitle("\n".join(lines), fontsize=9)
     figure.savefig(options.figure, dpi=80)
 
 

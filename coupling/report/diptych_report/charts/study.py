@@ -6,12 +6,14 @@ import itertools
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
+from matplotlib.ticker import LogLocator
 
 from diptych_report.charts.style import CONTINUUM, FAINT, GRAINS, INK, THIRD, place_labels, ruled, svg
 from diptych_report.data.study import CLASSES
 
 FAMILY_COLOURS = (GRAINS, CONTINUUM, THIRD, "#CC79A7", "#E69F00", "#56B4E9")
 FAMILY_MARKS = "osD^vP"
+FEW = 50  # a range below this ratio has ticks between the decades
 LEAST_ERROR = 1e-6  # below it a deterministic difference is none
 
 
@@ -70,11 +72,12 @@ def draw_error_against_cost(axes, study, place, reference):
             axes.plot([], [], mark, color=colour, markersize=5, linestyle="", label=family["name"] or "points")
     values = factor * np.array([abs(error["value"]) for _, _, error in shown])
     axes.set(xscale="log", yscale="log", xlabel="CPU seconds a sample",
-             ylabel=f"|error| of {quantity['name']}" + (" (%)" if quantity["relative"] else ""))
+             ylabel="|error|" + (" (%)" if quantity["relative"] else ""))
     floor = [factor * scatter / np.sqrt(max(1, len(study.record["seeds"])))] if scatter else []
     limit = [factor * quantity["limit"]] if quantity["limit"] else []
     axes.set_ylim(0.5 * min([*values, *limit, *floor]), 2 * max([*values, *limit]))
-    for axis in (axes.xaxis, axes.yaxis):
+    for axis, ends in ((axes.xaxis, axes.get_xlim()), (axes.yaxis, axes.get_ylim())):
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5) if ends[1] < FEW * ends[0] else (1,)))
         axis.set_major_formatter("{x:g}")
         axis.set_minor_formatter("")
     axes.legend(loc="best", fontsize=7.5, handlelength=1.6)
