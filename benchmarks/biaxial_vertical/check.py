@@ -17,7 +17,7 @@ SCENE = os.path.join(HERE, "scene.prm")
 LATE = 2  # window from 2 to 3 % strain
 
 # Mean and four standard deviations over the fifteen seeds of the README, cut where the claim is stricter: two bands that
-# cross, in every window, each with more than a third of the platen's travel.
+# cross, in every window, each with more than a third of the platen's travel. Platen forces: of the eight with the present steps.
 CLAIMS = [("grains: windows of 3 with two bands", 3, 3), ("continuum: windows of 3 with two bands", 3, 3),
           ("grains, 2-3 %: bands that cross", 2, 2),
           ("grains, 2-3 %: rising, degrees", 22, 70), ("grains, 2-3 %: falling, degrees", -66, -24),
@@ -25,7 +25,7 @@ CLAIMS = [("grains: windows of 3 with two bands", 3, 3), ("continuum: windows of
           ("continuum, 2-3 %: bands that cross", 2, 2), ("continuum, 2-3 %: rising, degrees", 42.9, 47.6),
           ("continuum, 2-3 %: falling, degrees", -47.6, -42.9), ("continuum, 2-3 %: mean width, d", 20.1, 22.2),
           ("grains: mean |Fx / Fy| of the upper platen", 0, 0.031), ("grains: peak t/s", 0.312, 0.415),
-          ("continuum: peak t/s", 0.378, 0.3815), ("grains: steps with platen forces within 1 %", 0.68, 1)]
+          ("continuum: peak t/s", 0.378, 0.3815), ("grains: steps with platen forces within 1 %", 0.59, 1)]
 
 
 def crossing(panel, name):

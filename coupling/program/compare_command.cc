@@ -13,6 +13,7 @@
 #include "coupling/program/ensemble_record.h"
 #include "coupling/program/report_command.h"
 #include "coupling/scene/scene_file.h"
+#include "coupling/studies/study_folder.h"
 
 namespace diptych::coupling
 {
@@ -47,6 +48,8 @@ namespace diptych::coupling
     {
       if (!std::filesystem::is_directory(line.target))
         throw SceneError(line.target + ": no result folder");
+      if (is_study_folder(line.target))
+        throw SceneError(line.target + ": holds a study; diptych study with its file and --resume evaluates it again");
       for (const std::string &text : line.overrides)
         if (text.rfind("comparison/", 0) != 0 && text.rfind("output/", 0) != 0)
           throw SceneError("--set " + text + ": only comparison/ and output/ can be changed without running the panels again");

@@ -265,7 +265,10 @@ namespace diptych::coupling
       root.refuse("scene", " = '" + study.scene + "': there is no such file");
     study.settings = root.settings("set");
     for (const std::string &text_of_override : overrides)
-      study.settings.push_back(entry_of_override(text_of_override));
+      {
+        study.settings.push_back(entry_of_override(text_of_override));
+        check_entry(with_seed(study.settings.back(), "1"));
+      }
     study.seeds = seeds_of(root);
     root.at("reference");
     study.reference = root.settings("reference");
