@@ -131,22 +131,37 @@ namespace diptych::coupling
     }
 
     // "12 points: 7 right, 3 silently wrong, 2 stopped"
-    std::string summary(const StudyRecord &record)
+    std::string summary(const Asked &asked, const StudyRecord &record)
     {
       std::map<PointClass, int> counts;
-      for (const PointRecord &point : record.points)
-        ++counts[point.kind];
+      int                       n = 0;
+      for (std::size_t k = 0; k < record.points.size(); ++k)
+        if (asked.points[k].family >= 0)
+          ++counts[record.points[k].kind], ++n;
       std::ostringstream text;
-      text << record.points.size() << " points";
+      text << n << " points";
       const char *mark = ": ";
       for (const auto &[kind, count] : counts)
         text << mark << count << ' ' << discrete::name_of(kind), mark = ", ";
       return text.str();
     }
 
+    // A window that the loading does not reach, a number that no comparison has.
+    void warn_of_missing(const Asked &asked, const StudyRecord &record)
+    {
+      const PointRecord &reference = record.points.front();
+      const bool         finished  = reference.kind != PointClass::not_run && reference.kind != PointClass::stopped &&
+                            reference.kind != PointClass::refused;
+      for (std::size_t q = 0; finished && q < asked.study.quantities.size(); ++q)
+        if (reference.quantities[q].statistics.n == 0)
+          std::cerr << "diptych: warning: the reference has no value of '" << asked.study.quantities[q].name
+                    << "': a window beyond the end of the loading, or a number that no comparison has" << std::endl;
+    }
+
     int conclude(const CommandLine &line, const Asked &asked, const std::vector<TaskOutcome> &outcomes, const StudyRecord &record)
     {
-      say(line, summary(record) + "; tables: " + asked.directory + "/study.json, study.csv");
+      warn_of_missing(asked, record);
+      say(line, summary(asked, record) + "; tables: " + asked.directory + "/study.json, study.csv");
       const auto interrupted = std::count_if(outcomes.begin(), outcomes.end(),
                                              [](const TaskOutcome &outcome) { return outcome.interrupted; });
       const auto lost        = std::count_if(record.points.begin(), record.points.end(),

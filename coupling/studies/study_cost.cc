@@ -47,11 +47,19 @@ namespace diptych::coupling
     // A finished point among those that are held against the same reference.
     using Rivals = std::vector<PointCost *>;
 
+    // The same runs: a point that is its own reference is right at no merit.
+    bool is_same(const ScenePoint &a, const ScenePoint &b)
+    {
+      return !a.runs.empty() && std::equal(a.runs.begin(), a.runs.end(), b.runs.begin(), b.runs.end(),
+                                           [](const StudyRun &one, const StudyRun &other) { return one.name == other.name; });
+    }
+
     std::vector<Rivals> by_reference(const std::vector<ScenePoint> &points, StudyCost &cost)
     {
       std::vector<Rivals> groups;
       for (PointCost &one : cost.points)
-        if (const ScenePoint &point = points[std::size_t(one.point)]; point.family >= 0)
+        if (const ScenePoint &point = points[std::size_t(one.point)];
+            point.family >= 0 && !is_same(point, points[point.reference]))
           {
             groups.resize(std::max(groups.size(), point.reference + 1));
             groups[point.reference].push_back(&one);
@@ -141,11 +149,15 @@ namespace diptych::coupling
                     const StudyRecord             &record)
   {
     StudyCost             cost;
-    std::set<std::string> phases;
+    std::set<std::string> phases, counted;
     for (std::size_t k = 0; k < results.size(); ++k)
       {
-        for (const RunResult &run : results[k])
+        for (std::size_t sample = 0; sample < results[k].size(); ++sample)
           {
+            const RunResult &run = results[k][sample];
+            // Points may share runs.
+            if (sample < points[k].runs.size() && !counted.insert(points[k].runs[sample].name).second)
+              continue;
             cost.runs += int(run.is_known && !run.phases.empty());
             cost.disturbed += int(is_disturbed(run));
             for (const PhaseCost &phase : run.phases)

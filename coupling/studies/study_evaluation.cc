@@ -49,7 +49,8 @@ namespace diptych::coupling
       return quantity.is_line ? compare_turns(turn, margin) : compare_differences(difference, margin);
     }
 
-    // A value that the reference has and the point has not is beyond any limit.
+    // A value that the reference has and the point has not is beyond any limit. One sample alone has no interval: it is what it
+    // is; of several, an interval that is not known leaves a doubt.
     std::string verdict_of(const StudyQuantity &quantity, const PointQuantity &point, const bool reference_has_it)
     {
       if (!quantity.limit)
@@ -58,7 +59,7 @@ namespace diptych::coupling
         return reference_has_it ? "beyond" : "cannot tell";
       const double   limit = *quantity.limit;
       const Interval e     = point.error;
-      if (!std::isfinite(e.low) || !std::isfinite(e.high))
+      if (point.is_alone)
         return std::abs(e.value) <= limit ? "within" : "beyond";
       if (e.low > -limit && e.high < limit)
         return "within";
@@ -67,7 +68,7 @@ namespace diptych::coupling
 
     bool is_beyond_limit(const StudyQuantity &quantity, const PointQuantity &point)
     {
-      return point.verdict == "beyond" || (point.verdict == "cannot tell" && !(std::abs(point.error.value) <= *quantity.limit));
+      return point.verdict == "beyond" || (point.verdict == "cannot tell" && std::abs(point.error.value) > *quantity.limit);
     }
 
     double scatter_of(const StudyQuantity &quantity, const std::vector<double> &reference)
@@ -78,10 +79,12 @@ namespace diptych::coupling
 
     PointQuantity quantity_at(const StudyQuantity       &quantity,
                               const std::vector<double> &reference,
-                              const std::vector<double> &values)
+                              const std::vector<double> &values,
+                              const bool                 is_alone)
     {
       PointQuantity     result;
       const Equivalence found = compare(quantity, reference, values);
+      result.is_alone         = is_alone;
       result.values           = values;
       result.statistics       = statistics_of(quantity, values);
       result.pairs            = found.n;
@@ -123,7 +126,7 @@ namespace diptych::coupling
           for (std::size_t k = 0; k < study.quantities.size(); ++k)
             if (const PointQuantity &quantity = point.quantities[k]; study.quantities[k].limit)
               {
-                is_judged     = true;
+                is_judged     = is_judged || quantity.pairs > 0 || quantity.verdict == "beyond";
                 is_wrong      = is_wrong || is_beyond_limit(study.quantities[k], quantity);
                 is_sure_wrong = is_sure_wrong || quantity.verdict == "beyond";
                 is_sure_right = is_sure_right && quantity.verdict == "within";
@@ -249,8 +252,8 @@ namespace diptych::coupling
       {
         PointRecord point;
         for (std::size_t q = 0; q < study.quantities.size(); ++q)
-          point.quantities.push_back(
-            quantity_at(study.quantities[q], values_of(results[points[k].reference], q), values_of(results[k], q)));
+          point.quantities.push_back(quantity_at(study.quantities[q], values_of(results[points[k].reference], q),
+                                                 values_of(results[k], q), study.seeds.empty()));
         add_facts(results[k], point);
         classify(study, results[k], point);
         record.points.push_back(std::move(point));

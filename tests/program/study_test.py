@@ -118,7 +118,7 @@ class Points(Folder):
         result = subprocess.run(words, env=ENVIRONMENT, capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(content(self.path("study.json")), content(os.path.join(self.done, "study.json")))
-        self.assertEqual(result.stdout.count("7 points"), 1)  # only the first process speaks
+        self.assertEqual(result.stdout.count("6 points"), 1)  # only the first process speaks
 
     def test_a_study_that_grows_runs_only_what_is_new(self):
         shutil.copytree(self.done, self.folder)
@@ -221,6 +221,12 @@ class Failures(Folder):
         self.assertEqual(sum(p["class"] == "not run" for p in record["points"]), 1)
         self.run_study(LONG, "--resume")
         self.assertNotIn("not run", {p["class"] for p in read(self.folder, "study.json")["points"]})
+
+    def test_a_window_beyond_the_loading_is_pointed_out_and_not_judged(self):
+        study = {**STUDY, "seeds": 1, "axes": [{"key": "discrete/step", "values": [0.2]}],
+                 "quantities": [{"name": "far", "strength": [0.5, 0.9], "limit": {"relative": 0.05}}]}
+        self.assertIn("no value of 'far'", self.run_study(study).stderr)
+        self.assertEqual({p["class"] for p in read(self.folder, "study.json")["points"]}, {"unjudged"})
 
     def test_a_folder_that_is_no_study_is_left_alone(self):
         os.mkdir(self.folder)

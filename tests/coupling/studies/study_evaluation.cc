@@ -110,6 +110,25 @@ namespace
     EXPECT_EQ(point_of(none).kind, PointClass::silently_wrong);
   }
 
+  TEST(StudyEvaluation, WhatTheReferenceHasNotIsNotJudged)
+  {
+    std::vector<RunResult> none = runs(0);
+    for (RunResult &run : none)
+      run.values = {NAN};
+    EXPECT_EQ(evaluate(study_of(1), points_on(1), {none, none}).points[1].kind, PointClass::unjudged);
+  }
+
+  TEST(StudyEvaluation, AnIntervalThatIsNotKnownLeavesADoubtUnlessThereIsOneSample)
+  {
+    Study      study = study_of(1);
+    const auto one   = [](const double share) { return std::vector<RunResult>(1, runs(share).front()); };
+    study.seeds      = {1};
+    EXPECT_FALSE(evaluate(study, points_on(1), {one(0), one(0.05)}).points[1].is_certain);
+    EXPECT_EQ(evaluate(study, points_on(1), {one(0), one(0.05)}).points[1].kind, PointClass::silently_wrong);
+    study.seeds.clear();
+    EXPECT_TRUE(evaluate(study, points_on(1), {one(0), one(0.05)}).points[1].is_certain);
+  }
+
   TEST(StudyEvaluation, WithoutLimitsNothingIsJudged)
   {
     Study study = study_of(1);
