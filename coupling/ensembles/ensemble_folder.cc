@@ -3,8 +3,6 @@
 #include "coupling/ensembles/ensemble_folder.h"
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -21,14 +19,6 @@ namespace diptych::coupling
     namespace fs = std::filesystem;
 
     constexpr double largest_error_of_the_total = 1e-12; // beyond it `diptych run` ends with exit code 1
-
-    std::string text_of_file(const std::string &path)
-    {
-      std::ifstream      file(path);
-      std::ostringstream text;
-      text << file.rdbuf();
-      return text.str();
-    }
 
     // Names the first key with two values.
     void demand_same_scene(const Scene &scene)
@@ -96,7 +86,7 @@ namespace diptych::coupling
       return false;
     if (scene.output.report && !fs::exists(folder + "/report.html"))
       return false;
-    const json comparison = json::parse(text_of_file(folder + "/comparison.json"), nullptr, /* exceptions */ false);
+    const json comparison = json::parse(discrete::read_text(folder + "/comparison.json"), nullptr, /* exceptions */ false);
     if (!comparison.is_object() || comparison.value("seed", -1) != seed)
       return false;
     for (const json &stage : comparison.value("stages", json::array()))

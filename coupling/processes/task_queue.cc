@@ -213,7 +213,6 @@ namespace diptych::coupling
       // A full disk must not end the others.
       void note_end(TaskOutcome &outcome)
       {
-        constexpr int system_failed = 4;
         try
           {
             queue.on_ended(outcome);
@@ -222,7 +221,7 @@ namespace diptych::coupling
           {
             progress.clear_line();
             std::cerr << queue.tasks[outcome.task].name << ": " << error.what() << std::endl;
-            outcome.exit_code = system_failed;
+            outcome.exit_code = system_ended_task;
           }
       }
 

@@ -14,11 +14,6 @@
 
 namespace diptych::coupling
 {
-  namespace
-  {
-    constexpr int lost_without_a_word = 4; // a worker that ends by itself with code 0 before it has answered
-  }
-
   std::string text_of(const WorkerTask &task)
   {
     return nlohmann::json{{"words", task.words}, {"log", task.log}}.dump() + "\n";
@@ -103,7 +98,7 @@ namespace diptych::coupling
       {
         works          = false;
         const int code = bury();
-        return code == 0 ? lost_without_a_word : code;
+        return code == 0 ? system_ended_task : code; // it ended by itself, without an answer
       }
     answer.append(part, std::size_t(n));
     if (answer.back() != '\n')

@@ -12,6 +12,9 @@
 
 namespace diptych::coupling
 {
+  // Exit code of a task that the system ended: no room, no memory, a worker that is lost.
+  inline constexpr int system_ended_task = 4;
+
   // What a worker is asked, one line of JSON, and what it answers: the exit code on a line.
   struct WorkerTask
   {

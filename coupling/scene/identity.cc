@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/scene/identity.h"
 
-#include <cstdint>
-#include <fstream>
+#include <filesystem>
 #include <iterator>
 #include <set>
 #include <vector>
 
 #include "coupling/scene/keys.h"
+#include "discrete/files/text_file.h"
 
 namespace diptych::coupling
 {
@@ -17,18 +17,13 @@ namespace diptych::coupling
     const std::set<std::string> without_effect = {"discrete/checkpoint_minutes", "discrete/store_problems",
                                                   "continuum/checkpoint_minutes"};
 
-    // FNV-1a, 64 bits, of a file's content.
     std::string digest(const std::string &path)
     {
       if (path.empty())
         return "";
-      std::ifstream file(path, std::ios::binary);
-      if (!file)
+      if (!std::filesystem::exists(path))
         return "no file";
-      std::uint64_t hash = 14695981039346656037ull;
-      for (std::istreambuf_iterator<char> byte(file), end; byte != end; ++byte)
-        hash = (hash ^ std::uint8_t(*byte)) * 1099511628211ull;
-      return "content " + std::to_string(hash);
+      return "content " + std::to_string(digest_of(discrete::read_text(path)));
     }
 
     // Every value in the place of its text.
@@ -80,6 +75,14 @@ namespace diptych::coupling
       return identity;
     }
   } // namespace
+
+  std::uint64_t digest_of(const std::string &bytes)
+  {
+    std::uint64_t hash = 14695981039346656037ull;
+    for (const char byte : bytes)
+      hash = (hash ^ std::uint8_t(byte)) * 1099511628211ull;
+    return hash;
+  }
 
   Identity sample_identity(const Scene &scene)
   {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 
@@ -16,6 +17,9 @@ namespace diptych::coupling
   Identity sample_identity(const Scene &scene);    // which sample both panels show, and how the grains are loaded
   Identity continuum_identity(const Scene &scene); // that, and what the continuum shows of it
   Identity member_identity(const Scene &scene);    // all that members of an ensemble have in common: not seed and margins
+
+  // FNV-1a, 64 bits, of bytes.
+  std::uint64_t digest_of(const std::string &bytes);
 
   // One line a value, for files.
   std::string text_of(const Identity &identity);

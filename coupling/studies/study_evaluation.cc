@@ -51,7 +51,10 @@ namespace diptych::coupling
 
     // A value that the reference has and the point has not is beyond any limit. One sample alone has no interval: it is what it
     // is; of several, an interval that is not known leaves a doubt.
-    std::string verdict_of(const StudyQuantity &quantity, const PointQuantity &point, const bool reference_has_it)
+    std::string verdict_of(const StudyQuantity &quantity,
+                           const PointQuantity &point,
+                           const bool           reference_has_it,
+                           const bool           is_alone)
     {
       if (!quantity.limit)
         return "";
@@ -59,7 +62,7 @@ namespace diptych::coupling
         return reference_has_it ? "beyond" : "cannot tell";
       const double   limit = *quantity.limit;
       const Interval e     = point.error;
-      if (point.is_alone)
+      if (is_alone)
         return std::abs(e.value) <= limit ? "within" : "beyond";
       if (e.low > -limit && e.high < limit)
         return "within";
@@ -84,13 +87,12 @@ namespace diptych::coupling
     {
       PointQuantity     result;
       const Equivalence found = compare(quantity, reference, values);
-      result.is_alone         = is_alone;
       result.values           = values;
       result.statistics       = statistics_of(quantity, values);
       result.pairs            = found.n;
       result.error            = found.difference;
       result.scatter          = scatter_of(quantity, reference);
-      result.verdict          = verdict_of(quantity, result, !known(reference).empty());
+      result.verdict          = verdict_of(quantity, result, !known(reference).empty(), is_alone);
       return result;
     }
 

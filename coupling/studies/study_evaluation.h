@@ -44,10 +44,9 @@ namespace diptych::coupling
     std::vector<double> values; // one a sample; NaN where it has none
     SampleStatistics    statistics;
     Interval            error; // 95 %; relative to the reference's mean where the quantity's errors are
-    int                 pairs    = 0;
-    bool                is_alone = false; // the study has one sample: no intervals
-    double              scatter  = NAN;   // of one sample about the reference's mean, in the error's unit; NaN below two samples
-    std::string         verdict;          // against the limit: within, beyond, cannot tell; empty without a limit
+    int                 pairs   = 0;
+    double              scatter = NAN; // of one sample about the reference's mean, in the error's unit; NaN below two samples
+    std::string         verdict;       // against the limit: within, beyond, cannot tell; empty without a limit
   };
 
   struct PointRecord

@@ -210,6 +210,17 @@ namespace diptych::coupling
       return border;
     }
 
+    // Another name would cost nothing.
+    std::string phase_of(const Part &part)
+    {
+      const std::vector<std::string> phases = {"preparation", "discrete", "continuum",     "continuum_coarse",
+                                               "comparison",  "report",   "material_point"};
+      const std::string              name   = value_text(part.json());
+      if (std::find(phases.begin(), phases.end(), name) == phases.end())
+        part.refuse("cost: '" + name + "' is no phase; the nearest is '" + discrete::nearest_name(name, phases) + "'");
+      return name;
+    }
+
     std::vector<int> seeds_of(const Part &root)
     {
       try
@@ -278,7 +289,7 @@ namespace diptych::coupling
     if (study.quantities.empty())
       root.refuse("quantities", " is missing or empty: what is to be measured?");
     for (const Part &phase : root.list("cost"))
-      study.cost.push_back(value_text(phase.json()));
+      study.cost.push_back(phase_of(phase));
     for (const Part &part : root.list("borders"))
       study.borders.push_back(border_of(part, study.families));
     demand_distinct_names(root, study);

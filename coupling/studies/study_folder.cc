@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -33,14 +32,6 @@ namespace diptych::coupling
       double        load = NAN;
       file >> load;
       return load;
-    }
-
-    std::string text_of_file(const std::string &path)
-    {
-      std::ifstream      file(path, std::ios::binary);
-      std::ostringstream text;
-      text << file.rdbuf();
-      return text.str();
     }
   } // namespace
 
@@ -73,7 +64,7 @@ namespace diptych::coupling
     remove_results(directory, {"study.json", "study.csv", "study_cost.json", "report.html"});
     if (!resume)
       remove_results(directory, {"runs"});
-    discrete::write_text(directory + "/study_input.json", text_of_file(study.file));
+    discrete::write_text(directory + "/study_input.json", discrete::read_text(study.file));
     make_folder(directory + "/runs");
   }
 
@@ -86,7 +77,7 @@ namespace diptych::coupling
 
   std::optional<RunEnd> found_end(const std::string &directory, const StudyRun &run)
   {
-    const json end = json::parse(text_of_file(path_of(directory, run, ".json")), nullptr, /* exceptions */ false);
+    const json end = json::parse(discrete::read_text(path_of(directory, run, ".json")), nullptr, /* exceptions */ false);
     if (!end.is_object() || !end.contains("exit_code"))
       return std::nullopt;
     RunEnd result{end.value("exit_code", 1), end.value("revision", ""), end["load"].is_number() ? double(end["load"]) : NAN,
@@ -99,7 +90,7 @@ namespace diptych::coupling
   bool prepare_run(const std::string &directory, const StudyRun &run)
   {
     const std::string end_file = path_of(directory, run, ".json");
-    const json        earlier  = json::parse(text_of_file(end_file), nullptr, /* exceptions */ false);
+    const json        earlier  = json::parse(discrete::read_text(end_file), nullptr, /* exceptions */ false);
     const bool was_begun = earlier.is_object() && !earlier.contains("exit_code") && earlier.value("begun", "") == git_revision;
     if (!was_begun)
       fs::remove_all(run_folder(directory, run));

@@ -31,14 +31,10 @@ namespace diptych::coupling
         }
     }
 
-    // Sixteen hexadecimal digits, FNV-1a.
-    std::string digest_of(const std::string &text)
+    std::string hexadecimal(const std::uint64_t number)
     {
-      std::uint64_t hash = 14695981039346656037ull;
-      for (const char letter : text)
-        hash = (hash ^ std::uint8_t(letter)) * 1099511628211ull;
       char digits[17];
-      std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
+      std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(number));
       return digits;
     }
 
@@ -69,8 +65,8 @@ namespace diptych::coupling
         {
           Scene scene         = read_changed_scene(study.scene, settings, study.command == StudyCommand::run);
           scene.output.report = false;
-          run.name            = digest_of(discrete::name_of(study.command) + "\n" + text_of(identity_of(scene, study.command)));
-          run.scene           = std::move(scene);
+          run.name = hexadecimal(digest_of(discrete::name_of(study.command) + "\n" + text_of(identity_of(scene, study.command))));
+          run.scene = std::move(scene);
         }
       catch (const SceneError &error)
         {
@@ -78,7 +74,7 @@ namespace diptych::coupling
           std::string text;
           for (const Entry &entry : settings)
             text += entry.section + "/" + entry.key + " = " + entry.value + "\n";
-          run.name = "refused_" + digest_of(text);
+          run.name = "refused_" + hexadecimal(digest_of(text));
         }
       return run;
     }

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 
 #include <fcntl.h>
@@ -33,6 +34,12 @@ namespace diptych::discrete
       throw std::runtime_error("cannot write " + path + ": " + std::strerror(error));
     }
   } // namespace
+
+  std::string read_text(const std::string &path)
+  {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
 
   void write_text(const std::string &path, const std::string &text)
   {

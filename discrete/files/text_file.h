@@ -10,6 +10,9 @@ namespace diptych::discrete
   // name stays as it was.
   void write_text(const std::string &path, const std::string &text);
 
+  // The whole file, byte by byte; empty where it cannot be read.
+  std::string read_text(const std::string &path);
+
   // Adds whole lines to the end of a file, in one write; no earlier byte is touched. Throws std::runtime_error naming the file;
   // what was written of the lines is cut off again.
   void append_text(const std::string &path, const std::string &lines);

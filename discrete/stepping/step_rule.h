@@ -55,7 +55,8 @@ namespace diptych::discrete
 
   // What step h and tolerance of the setting cost, relative, with time in units of d sqrt(rho/s): strength 0.05 h + 55 x (strain
   // per step), dilation (0.2 + 0.8 h) x tolerance x h / I x (grains / 1000)^0.75 from 1000 grains on. Measured in biaxial
-  // compression of 1000 and 2000 discs, straight and oblique, at I of 1e-4 and 1e-3 (benchmarks/studies/step_tolerance). 0 where
+  // compression of 1000 and 2000 discs, straight and oblique, at I of 1e-4 and 1e-3
+  // (benchmarks/studies/step_tolerance), the size at 4000 and 8000. 0 where
   // nothing strains or presses.
   struct ExpectedErrors
   {

@@ -169,6 +169,7 @@ namespace
     expect_refused("{\n\"scene\": \"scene.prm\",\n" + axes +
                      "\"reference\": {},\n\"quantities\": [{\"number\": \"window 0-0.01 discrete band width\"}]}",
                    {"line 6", "'width'", "nearest"});
+    expect_refused(head + "\"cost\": [\"discret\"],\n" + axes + tail, {"line 4", "'discret'", "'discrete'"});
     expect_refused("{\n\"scene\": 3\n", {"no JSON"});
   }
 } // namespace
