@@ -37,6 +37,7 @@ namespace diptych::coupling
         app.set_version_flag("--version", std::string("diptych ") + version + " (" + git_revision + ")");
         add_run();
         add_study();
+        add_plan();
         add_panels();
         add_solve();
         add_results();
@@ -119,6 +120,25 @@ namespace diptych::coupling
         add_quiet(study);
       }
 
+      void add_plan()
+      {
+        CLI::App *plan = add(Command::plan, "what a scene needs for an accuracy, by pilot runs: step, tolerance, elements, load "
+                                            "steps, law, samples; with the budget of errors and the cost");
+        add_scene(plan), add_output(plan), add_set(plan), add_threads(plan), add_jobs(plan, "");
+        plan
+          ->add_option("--accuracy", line.accuracy,
+                       "of the means, relative: 2 % or 0.02; errors of the method and 95 % interval together")
+          ->required();
+        plan
+          ->add_option("--for", line.wanted,
+                       "quantities, separated by commas: peak_stress_ratio, strength (both by default), final_volumetric_strain, "
+                       "width_10_90, angle, or a number of comparison.json; discrete. or continuum. before it: of one panel")
+          ->type_name("NAMES");
+        plan->add_flag("--run", line.runs_the_plan, "run the planned samples, too");
+        plan->add_flag("--resume", line.resume, "keep the runs that are finished in the folder");
+        add_quiet(plan);
+      }
+
       void add_panels()
       {
         CLI::App *grains = add(Command::discrete, "the grains alone");
@@ -182,6 +202,18 @@ namespace diptych::coupling
       std::map<CLI::App *, Command> by_parser;
     };
 
+    // "--accuracy 2 %": the sign may stand by itself.
+    std::vector<std::string> with_joined_per_cent(const std::vector<std::string> &words)
+    {
+      std::vector<std::string> joined_words;
+      for (const std::string &word : words)
+        if (word == "%" && joined_words.size() > 1)
+          joined_words.back() += " %";
+        else
+          joined_words.push_back(word);
+      return joined_words;
+    }
+
     std::vector<std::string> command_names(CLI::App &app)
     {
       std::vector<std::string> names;
@@ -235,6 +267,8 @@ namespace diptych::coupling
         return "run";
       case Command::study:
         return "study";
+      case Command::plan:
+        return "plan";
       case Command::discrete:
         return "discrete";
       case Command::continuum:
@@ -271,7 +305,8 @@ namespace diptych::coupling
       }
     try
       {
-        app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+        const std::vector<std::string> joined_words = with_joined_per_cent(words);
+        app.parse(std::vector<std::string>(joined_words.rbegin(), joined_words.rend()));
         parsed.line.command = commands.chosen();
         if (parsed.line.command == Command::completion)
           {

@@ -25,6 +25,7 @@ namespace diptych::coupling
   {
     run,
     study,
+    plan,
     discrete,
     continuum,
     material_point,
@@ -46,7 +47,10 @@ namespace diptych::coupling
     bool                                 resume        = false; // --resume
     bool                                 study_of_step = false; // --study step
     std::string                          seeds;                 // --seeds: "1-8", "1,3,5-7"
-    int                                  jobs   = 0;            // --jobs of run --seeds and study; 0: as many as fit
+    int                                  jobs = 0;              // --jobs of run --seeds, study and plan; 0: as many as fit
+    std::string                          accuracy;              // --accuracy, --for, --run of plan
+    std::string                          wanted;
+    bool                                 runs_the_plan = false;
     discrete::ContactSolver              solver = discrete::ContactSolver::psor; // --solver, --tolerance, --max-sweeps: of solve
     double                               tolerance  = 1e-8;
     int                                  max_sweeps = 1000000;

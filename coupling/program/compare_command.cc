@@ -63,8 +63,6 @@ namespace diptych::coupling
 
   void check_comparable(const Scene &scene)
   {
-    if (scene.comparison.coarse_element_size == 0)
-      throw SceneError("comparison/coarse_element_size = 0: `diptych run` compares with that run; a number from 0.1 on");
     if (scene.continuum.mesh.kind != continuum::MeshOption::Kind::outline)
       throw SceneError("continuum/mesh = " + text_of(scene.continuum.mesh) +
                        ": `diptych run` compares both panels on one sample and needs outline; the continuum alone runs with "

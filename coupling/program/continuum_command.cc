@@ -74,7 +74,11 @@ namespace diptych::coupling
       if (with_grains && task.grains_from_file)
         grains.snapshot = discrete::read_snapshots(scene.output.directory + "/discrete.h5").front();
       else if (with_grains)
-        grains.snapshot = prepared_grains(scene, line.quiet);
+        {
+          const PhaseTimer timer("preparation");
+          grains.snapshot = prepared_grains(scene, line.quiet);
+          record_phases(scene.output.directory, scene, line.text, {timer.stop()});
+        }
       if (with_grains && !grains.snapshot)
         return not_converged;
       grains.solid_fraction = with_grains ? solid_fraction(*grains.snapshot) : scene.sample.solid_fraction;

@@ -9,6 +9,7 @@
 #include "coupling/ensembles/ensemble_curves.h"
 #include "coupling/ensembles/ensemble_numbers.h"
 #include "coupling/program/result_entries.h"
+#include "coupling/plans/plan_numbers.h"
 #include "coupling/studies/study_curves.h"
 #include "coupling/studies/study_numbers.h"
 
@@ -63,6 +64,11 @@ namespace diptych::coupling
       list_curve_arrays(EnsembleCurves(),
                         AddArrays{file + ", groups PANEL/stress_ratio and PANEL/volumetric_strain", "", result});
     }
+    void add_plan(ResultList &result)
+    {
+      add_record("plan.json", Plan(), result);
+    }
+
     void add_study(ResultList &result)
     {
       const Study                   study;
@@ -88,6 +94,7 @@ namespace diptych::coupling
     add_comparison_arrays(result);
     add_ensemble(result);
     add_study(result);
+    add_plan(result);
     return result;
   }
 } // namespace diptych::coupling

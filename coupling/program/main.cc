@@ -106,6 +106,7 @@ namespace
       {
       case Command::run:
       case Command::study:
+      case Command::plan:
       case Command::continuum:
       case Command::material_point:
         become_the_panels(argv);

@@ -10,6 +10,7 @@
 #include "coupling/program/discrete_command.h"
 #include "coupling/program/ensemble_command.h"
 #include "coupling/program/material_point_command.h"
+#include "coupling/program/plan_command.h"
 #include "coupling/program/run_command.h"
 #include "coupling/program/study_command.h"
 #include "coupling/program/worker_command.h"
@@ -31,6 +32,8 @@ namespace
         return line.seeds.empty() ? run_both(line) : run_ensemble(line);
       case Command::study:
         return run_study(line);
+      case Command::plan:
+        return make_plan(line);
       case Command::discrete: // as a task of a study
         return run_discrete(line);
       case Command::continuum:

@@ -3,17 +3,14 @@
 #include "coupling/program/study_command.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <map>
-#include <set>
 #include <sstream>
 
 #include "coupling/folders/result_folder.h"
-#include "coupling/panels/continuum_loading.h"
 #include "coupling/processes/processes.h"
 #include "coupling/program/report_command.h"
-#include "coupling/program/worker_command.h"
+#include "coupling/program/study_runs.h"
 #include "coupling/studies/study_curves.h"
 #include "coupling/studies/study_file.h"
 #include "coupling/studies/study_folder.h"
@@ -23,105 +20,16 @@ namespace diptych::coupling
 {
   namespace
   {
-    // A study with its points and its folder.
-    struct Asked
+    StudyPoints asked_by(const CommandLine &line)
     {
-      Study                   study;
-      std::vector<ScenePoint> points;
-      std::string             directory;
-    };
-
-    Asked asked_by(const CommandLine &line)
-    {
-      Asked asked{read_study(line.target, line.overrides), {}, line.output};
+      StudyPoints asked{read_study(line.target, line.overrides), {}, line.output};
       asked.points = points_of(asked.study);
       if (asked.directory.empty())
         asked.directory = "results/" + asked.study.name + "_study";
       return asked;
     }
 
-    // Different runs, in the order of the points: two points may be the same scene.
-    std::vector<const StudyRun *> runs_of(const std::vector<ScenePoint> &points)
-    {
-      std::vector<const StudyRun *> runs;
-      std::set<std::string>         names;
-      for (const ScenePoint &point : points)
-        for (const StudyRun &run : point.runs)
-          if (run.scene && names.insert(run.name).second)
-            runs.push_back(&run);
-      return runs;
-    }
-
-    // A run that is to be done.
-    struct Pending
-    {
-      std::size_t run     = 0; // its place
-      bool        resumes = false;
-    };
-
-    // Makes the folder ready; the runs that are not finished in it.
-    std::vector<Pending> pending_runs(const CommandLine &line, const Asked &asked, const std::vector<const StudyRun *> &runs)
-    {
-      std::vector<double> numbers; // as processes tell each other: place, resumes, place, ...
-      on_first_process([&] {
-        open_study_folder(asked.directory, asked.study, line.resume);
-        for (std::size_t k = 0; k < runs.size(); ++k)
-          if (!found_end(asked.directory, *runs[k]))
-            numbers.insert(numbers.end(), {double(k), double(prepare_run(asked.directory, *runs[k]))});
-        if (numbers.size() < 2 * runs.size())
-          say(line, std::to_string(runs.size() - numbers.size() / 2) + " of " + std::to_string(runs.size()) +
-                      " runs are finished in " + asked.directory + ": not run again");
-        return 0;
-      });
-      numbers = from_first_process(numbers);
-      std::vector<Pending> pending;
-      for (std::size_t k = 0; k < numbers.size(); k += 2)
-        pending.push_back({std::size_t(numbers[k]), numbers[k + 1] != 0});
-      return pending;
-    }
-
-    Task task_of(const CommandLine &line, const Asked &asked, const StudyRun &run, const bool resumes)
-    {
-      const StudyCommand command = asked.study.command;
-      Task               task{
-        "run " + run.name,
-        {discrete::name_of(command), run_scene(asked.directory, run), "--quiet", "--output", run_folder(asked.directory, run)},
-        run_log(asked.directory, run)};
-      if (command == StudyCommand::discrete || command == StudyCommand::run)
-        task.words.insert(task.words.end(), {"--threads", std::to_string(line.threads)});
-      if (resumes && command != StudyCommand::material_point)
-        task.words.emplace_back("--resume");
-      return task;
-    }
-
-    std::vector<TaskOutcome> do_runs(const CommandLine &line, const Asked &asked, const std::vector<const StudyRun *> &runs)
-    {
-      const std::vector<Pending> pending = pending_runs(line, asked, runs);
-      TaskQueue                  queue   = workers_for(line, "runs");
-      for (const Pending &one : pending)
-        queue.tasks.push_back(task_of(line, asked, *runs[one.run], one.resumes));
-      queue.n_finished_before = int(runs.size() - pending.size());
-      const int at_once       = queue.jobs * int(n_processes());
-      queue.on_ended          = [&](const TaskOutcome &outcome) {
-        if (!outcome.interrupted)
-          write_end(asked.directory, *runs[pending[outcome.task].run], outcome.exit_code, at_once);
-      };
-      return run_tasks(queue);
-    }
-
-    StudyResults results_of(const Asked &asked)
-    {
-      StudyResults results;
-      for (const ScenePoint &point : asked.points)
-        {
-          results.emplace_back();
-          for (const StudyRun &run : point.runs)
-            results.back().push_back(result_of(asked.directory, asked.study, run));
-        }
-      return results;
-    }
-
-    void write_tables(const Asked &asked, const StudyResults &results, const StudyRecord &record)
+    void write_tables(const StudyPoints &asked, const StudyResults &results, const StudyRecord &record)
     {
       const StudyTables tables{asked.study, asked.points, results, record};
       write_study_json(asked.directory, tables);
@@ -131,7 +39,7 @@ namespace diptych::coupling
     }
 
     // "12 points: 7 right, 3 silently wrong, 2 stopped"
-    std::string summary(const Asked &asked, const StudyRecord &record)
+    std::string summary(const StudyPoints &asked, const StudyRecord &record)
     {
       std::map<PointClass, int> counts;
       int                       n = 0;
@@ -147,7 +55,7 @@ namespace diptych::coupling
     }
 
     // A window that the loading does not reach, a number that no comparison has.
-    void warn_of_missing(const Asked &asked, const StudyRecord &record)
+    void warn_of_missing(const StudyPoints &asked, const StudyRecord &record)
     {
       const PointRecord &reference = record.points.front();
       const bool         finished  = reference.kind != PointClass::not_run && reference.kind != PointClass::stopped &&
@@ -158,7 +66,10 @@ namespace diptych::coupling
                     << "': a window beyond the end of the loading, or a number that no comparison has" << std::endl;
     }
 
-    int conclude(const CommandLine &line, const Asked &asked, const std::vector<TaskOutcome> &outcomes, const StudyRecord &record)
+    int conclude(const CommandLine              &line,
+                 const StudyPoints              &asked,
+                 const std::vector<TaskOutcome> &outcomes,
+                 const StudyRecord              &record)
     {
       warn_of_missing(asked, record);
       say(line, summary(asked, record) + "; tables: " + asked.directory + "/study.json, study.csv");
@@ -179,9 +90,12 @@ namespace diptych::coupling
 
   int run_study(const CommandLine &line)
   {
-    const Asked asked    = asked_by(line);
-    const auto  runs     = runs_of(asked.points);
-    const auto  outcomes = do_runs(line, asked, runs);
+    const StudyPoints asked = asked_by(line);
+    on_first_process([&] {
+      open_runs_folder(asked.directory, folder_of_a_study, asked.study.file, line.resume);
+      return 0;
+    });
+    const auto outcomes = do_runs(line, asked);
     return on_first_process([&] {
       return keeping(asked.directory, [&] {
         const StudyResults results = results_of(asked);

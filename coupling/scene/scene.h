@@ -74,10 +74,8 @@ namespace diptych::coupling
     visitor(
       "window_edges", o.window_edges, "strain (mode time: time)", {0., 1e12},
       "edges of the windows over which displacement increments are compared; each must be a stage (mode time: a time) or 0");
-    visitor(
-      "coarse_element_size", o.coarse_element_size, "mean diameters", {0., 100.},
-      "element size of the second continuum run that shows what the mesh does to the band, from 0.1 on; 0: no such run (`diptych "
-      "run` needs one)");
+    visitor("coarse_element_size", o.coarse_element_size, "mean diameters", {0., 100.},
+            "element size of the second continuum run that shows what the mesh does to the band, from 0.1 on; 0: no such run");
     visitor("averaging_strain", o.averaging_strain, "strain", {1e-9, 0.5},
             "last part of a stage over which stress ratio and platen forces are averaged, in both panels; mode time: the whole "
             "stage");

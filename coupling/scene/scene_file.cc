@@ -82,6 +82,11 @@ namespace diptych::coupling
       const std::filesystem::path path = std::filesystem::absolute(file);
       return path.stem() == "scene" ? path.parent_path().filename().string() : path.stem().string();
     }
+    std::vector<Entry> entries_of(const std::string &file, std::istream &in)
+    {
+      const bool json = std::filesystem::path(file).extension() == ".json";
+      return json ? entries_of_json(file, in) : entries_of_prm(file, in);
+    }
   } // namespace
 
   std::vector<std::string> section_names()
@@ -99,6 +104,16 @@ namespace diptych::coupling
     set(scratch, entry);
   }
 
+  std::vector<std::string> sections_set_in(const std::string &file)
+  {
+    std::ifstream            in(file);
+    std::vector<std::string> sections;
+    for (const Entry &entry : entries_of(file, in))
+      if (std::find(sections.begin(), sections.end(), entry.section) == sections.end())
+        sections.push_back(entry.section);
+    return sections;
+  }
+
   Scene read_scene(const std::string &file, const std::vector<std::string> &overrides, const bool compares)
   {
     std::vector<Entry> changes;
@@ -114,8 +129,7 @@ namespace diptych::coupling
     std::ifstream in(file);
     if (!in)
       throw SceneError(file + ": cannot be read");
-    const bool         json    = std::filesystem::path(file).extension() == ".json";
-    std::vector<Entry> entries = json ? entries_of_json(file, in) : entries_of_prm(file, in);
+    std::vector<Entry> entries = entries_of(file, in);
     if (is_echo(file))
       for (Entry &entry : entries)
         entry.of_echo = true;

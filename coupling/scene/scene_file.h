@@ -29,6 +29,9 @@ namespace diptych::coupling
   // The whole scene with every default, in .prm format, each key with its meaning; files by their absolute paths.
   std::string echo(const Scene &scene);
 
+  // Names of the sections of which a scene file sets a key, each once. Throws SceneError where it is no scene file.
+  std::vector<std::string> sections_set_in(const std::string &file);
+
   // Whether a file is the echo of a scene, of any version.
   bool is_echo(const std::string &file);
 

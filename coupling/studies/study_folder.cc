@@ -52,19 +52,20 @@ namespace diptych::coupling
 
   bool is_study_folder(const std::string &directory)
   {
-    return fs::exists(directory + "/study_input.json");
+    return fs::exists(directory + "/" + folder_of_a_study.input);
   }
 
-  void open_study_folder(const std::string &directory, const Study &study, const bool resume)
+  void open_runs_folder(const std::string &directory, const RunsFolder &kind, const std::string &file, const bool resume)
   {
     make_folder(directory);
-    if (!is_study_folder(directory) && !fs::is_empty(directory))
-      throw SceneError("--output " + directory + ": holds other files and no study of diptych; name a new or an empty folder");
-    // Killed before its end, this study must not leave the tables of an earlier one.
-    remove_results(directory, {"study.json", "study.csv", "study_cost.json", "report.html"});
+    if (!fs::exists(directory + "/" + kind.input) && !fs::is_empty(directory))
+      throw SceneError("--output " + directory + ": holds other files and no " + kind.noun +
+                       " of diptych; name a new or an empty folder");
+    // Killed before its end, this one must not leave the tables of an earlier one.
+    remove_results(directory, kind.tables);
     if (!resume)
       remove_results(directory, {"runs"});
-    discrete::write_text(directory + "/study_input.json", discrete::read_text(study.file));
+    discrete::write_text(directory + "/" + kind.input, discrete::read_text(file));
     make_folder(directory + "/runs");
   }
 

@@ -17,12 +17,22 @@ namespace diptych::coupling
   std::string run_scene(const std::string &directory, const StudyRun &run);
   std::string run_log(const std::string &directory, const StudyRun &run);
 
-  // Whether a folder holds a study: study_input.json.
+  // Folders that hold runs: what they are of, the copy of the file that asked for it, tables that are made of the runs.
+  struct RunsFolder
+  {
+    std::string              noun, input;
+    std::vector<std::string> tables;
+  };
+  inline const RunsFolder folder_of_a_study = {"study",
+                                               "study_input.json",
+                                               {"study.json", "study.csv", "study_cost.json", "report.html"}};
+
   bool is_study_folder(const std::string &directory);
 
-  // Makes the folder and copies the study's file there. Without `resume` all runs are taken away; with it they stay. Throws
-  // SceneError, before anything is changed, where the folder holds foreign content, std::runtime_error where it cannot be made.
-  void open_study_folder(const std::string &directory, const Study &study, bool resume);
+  // Makes the folder and copies the file that asked for it there. Without `resume` all runs are taken away; with it they stay.
+  // Throws SceneError, before anything is changed, where the folder holds foreign content, std::runtime_error where it cannot be
+  // made.
+  void open_runs_folder(const std::string &directory, const RunsFolder &kind, const std::string &file, bool resume);
 
   // How a run ended.
   struct RunEnd

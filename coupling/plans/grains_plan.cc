@@ -1,0 +1,371 @@
+// diptych: step, tolerance, snapshots and number of samples that the grains need
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/plans/grains_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupling/plans/pilot_values.h"
+#include "coupling/plans/plan_question.h"
+#include "coupling/plans/plan_text.h"
+#include "coupling/scene/keys.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    constexpr int      pilot_samples = 8, paired_samples = 4;
+    constexpr double   coarsest = 0.05, finest = 0.001, finer = 0.5; // discrete/accuracy; the second level of the pilot
+    constexpr Estimate rule = {1, 0.5}, no_rule = {0, 1};
+    // A knob is turned down where that saves more than the first and moves no quantity by more than the second share of the
+    // accuracy.
+    constexpr double worth_trying = 0.1, share_of_a_knob = 0.25;
+    constexpr double far_from_the_pilot = 1.5, furthest_ahead = 4; // a choice beyond the first is run, at most so far ahead
+
+    struct Level
+    {
+      double     accuracy;
+      PilotPoint point;
+    };
+
+    // A cheaper setting that was taken, and how far it moves each quantity.
+    struct TurnedDown
+    {
+      std::string         what;
+      std::vector<double> shifts;
+    };
+
+    // The pilot of one question.
+    class Grains
+    {
+    public:
+      Grains(const PlanQuestion &question, const Scene &scene, const RunPilot &run)
+          : question(question),
+            run(run)
+      {
+        plan.panel   = "discrete";
+        plan.command = StudyCommand::discrete;
+        for (const PlanQuantity &quantity : question.grains)
+          {
+            quantities.push_back(quantity.quantity);
+            if (quantity.quantity.source == Source::comparison)
+              plan.command = StudyCommand::run;
+          }
+        if (scene.sample.file.empty())
+          for (int k = 0; k < pilot_samples; ++k)
+            seeds.push_back(scene.sample.seed + k);
+        common = {planned("discrete", "step", "auto"), planned("discrete", "tolerance", "auto")};
+        if (scene.discrete.time.step || scene.discrete.accuracy.tolerance)
+          plan.decisions.emplace_back(
+            "step and tolerance: auto in the place of the scene's, so that discrete/accuracy says both");
+        if (scene.discrete.sampling.snapshot_max_sweeps > 0)
+          {
+            common.push_back(planned("discrete", "snapshot_max_sweeps", "0"));
+            plan.decisions.emplace_back("sampled snapshots: off, no quantity needs single grains");
+          }
+        if (plan.command == StudyCommand::run)
+          for (const char *key : {"coarse_element_size", "band_resamples", "probe_resamples"})
+            common.push_back(planned("comparison", key, "0"));
+        penetration_correction = text_of(scene.discrete.time.penetration_correction);
+        preparation_steps      = scene.sample.preparation_steps;
+      }
+
+      PanelPlan plan_it()
+      {
+        levels.push_back({coarsest, run_at(coarsest, {}, seeds)});
+        if (!finished(levels.back()))
+          return plan;
+        levels.push_back({finer * coarsest, run_at(finer * coarsest, {}, few())});
+        if (!finished(levels.back()))
+          return plan;
+        if (!seeds.empty())
+          try_less_preparation(), try_without_correction();
+        GrainChoice choice = choose();
+        while (choice.samples > 0 && choice.accuracy * far_from_the_pilot < levels.back().accuracy)
+          {
+            const double next = std::max(choice.accuracy, rounded_to_two_digits(levels.back().accuracy / furthest_ahead));
+            levels.push_back({next, run_at(next, {}, few())});
+            if (!finished(levels.back()))
+              return plan;
+            choice = choose();
+          }
+        conclude(choice);
+        return plan;
+      }
+
+    private:
+      std::vector<int> few() const
+      {
+        return {seeds.begin(), seeds.begin() + std::ptrdiff_t(std::min(seeds.size(), std::size_t(paired_samples)))};
+      }
+
+      SampleStatistics difference(const PilotPoint &one, const PilotPoint &other, const std::size_t q) const
+      {
+        return relative_difference(quantities[q], one.values[q], other.values[q]);
+      }
+
+      PilotPoint run_at(const double accuracy, Settings settings, const std::vector<int> &on) const
+      {
+        settings.insert(settings.begin(), planned("discrete", "accuracy", accuracy));
+        Settings all = question.changes;
+        all.insert(all.end(), common.begin(), common.end());
+        return run({plan.command, all, {settings}, on, quantities}).front();
+      }
+
+      bool finished(const Level &level)
+      {
+        if (level.point.words.empty())
+          return true;
+        plan.reaches = false;
+        plan.decisions.push_back("discrete/accuracy = " + text_of(level.accuracy) + ": " + level.point.words);
+        return false;
+      }
+
+      // Both upwards: long steps add to the strength, and take from the dilation, which is negative.
+      double expected(const Level &level, const std::size_t q) const
+      {
+        const double dilation = level.point.dilation_error, strength = level.point.strength_error;
+        return question.grains[q].step_error == StepError::dilation ? dilation : strength;
+      }
+
+      GrainErrors errors_of(const std::size_t q) const
+      {
+        const Level          &first = levels.front(), &last = levels.back();
+        const bool            is_known = question.grains[q].step_error != StepError::unknown;
+        std::vector<Evidence> evidence;
+        for (std::size_t k = 1; k < levels.size() && !seeds.empty(); ++k)
+          {
+            const SampleStatistics d = difference(levels[k - 1].point, levels[k].point, q);
+            evidence.push_back(
+              {expected(levels[k - 1], q) - expected(levels[k], q), d.mean, d.deviation / std::sqrt(double(d.n))});
+          }
+        const Estimate factor  = improved(is_known ? rule : no_rule, evidence);
+        const double   slope   = expected(last, q) / last.accuracy;
+        const double   scatter = summary_of(quantities[q], first.point.values[q]).scatter;
+        return {{factor.mean * slope, factor.deviation * slope}, seeds.empty() ? 0. : scatter, is_known};
+      }
+
+      std::vector<GrainErrors> all_errors() const
+      {
+        std::vector<GrainErrors> errors;
+        for (std::size_t q = 0; q < quantities.size(); ++q)
+          errors.push_back(errors_of(q));
+        return errors;
+      }
+
+      std::vector<CostPoint> cost() const
+      {
+        std::vector<CostPoint> points;
+        for (const Level &level : levels)
+          points.push_back({level.accuracy, level.point.cpu_s});
+        return points;
+      }
+
+      // What knobs that were turned down add to a quantity's error.
+      double of_knobs(const std::size_t q) const
+      {
+        double sum = 0;
+        for (const TurnedDown &knob : turned_down)
+          sum += knob.shifts[q];
+        return sum;
+      }
+
+      GrainChoice choose() const
+      {
+        double most = 0;
+        for (std::size_t q = 0; q < quantities.size(); ++q)
+          most = std::max(most, of_knobs(q));
+        return cheapest_choice(all_errors(), cost(), question.accuracy - most, seeds.empty() ? 1 : 0);
+      }
+
+      void conclude(GrainChoice choice)
+      {
+        plan.reaches = choice.samples > 0;
+        if (!plan.reaches)
+          choice = {seeds.empty() ? finest : question.accuracy / 2, seeds.empty() ? 1 : pilot_samples};
+        plan.settings = common;
+        plan.settings.push_back(planned("discrete", "accuracy", choice.accuracy));
+        if (!seeds.empty())
+          for (int k = 0; k < choice.samples; ++k)
+            plan.seeds.push_back(seeds.front() + k);
+        plan.cpu_s                            = cost_at(cost(), choice.accuracy);
+        plan.peak_memory_mb                   = levels.back().point.peak_memory_mb;
+        const std::vector<GrainErrors> errors = all_errors();
+        for (std::size_t q = 0; q < quantities.size(); ++q)
+          plan.quantities.push_back(budget(q, errors[q], choice));
+        tell_levels();
+        advise();
+      }
+
+      QuantityBudget budget(const std::size_t q, const GrainErrors &errors, const GrainChoice &choice) const
+      {
+        QuantityBudget result;
+        result.name    = quantities[q].name;
+        result.mean    = summary_of(quantities[q], levels.front().point.values[q]).statistics.mean;
+        result.scatter = seeds.empty() ? NAN : errors.scatter;
+        result.parts.push_back({"step, tolerance", errors.at(choice.accuracy), errors.step.deviation * choice.accuracy});
+        if (!seeds.empty())
+          result.parts.push_back({"samples", half_interval(errors.scatter, choice.samples), NAN});
+        for (const TurnedDown &knob : turned_down)
+          result.parts.push_back({knob.what, knob.shifts[q], NAN});
+        return result;
+      }
+
+      void tell_levels()
+      {
+        for (const Level &level : levels)
+          plan.decisions.push_back("discrete/accuracy = " + text_of(level.accuracy) + ": " + rounded(level.point.cpu_s) +
+                                   " CPU s a sample");
+        for (std::size_t q = 0; q < quantities.size() && !seeds.empty(); ++q)
+          {
+            const SampleStatistics d = difference(levels[0].point, levels[1].point, q);
+            plan.decisions.push_back("  " + quantities[q].name + ": " + percent(d.mean) + " +- " +
+                                     percent(half_interval(d.deviation, d.n)) + " from " + text_of(levels[0].accuracy) + " to " +
+                                     text_of(levels[1].accuracy) + " on " + std::to_string(d.n) + " samples");
+          }
+      }
+
+      // Runs a cheaper setting where it is worth it and where eight samples can tell, and keeps it where it moves nothing much.
+      // deviations: expected of the differences, one a quantity.
+      void try_knob(const std::string &what, const Entry &cheaper, const double saving, const std::vector<double> &deviations)
+      {
+        const double most     = share_of_a_knob * question.accuracy;
+        const double interval = half_interval(*std::max_element(deviations.begin(), deviations.end()), int(seeds.size()));
+        std::string  verdict;
+        if (saving < worth_trying)
+          verdict = "would save " + percent(std::max(0., saving)) + " of the time: not worth a trial";
+        else if (interval > most)
+          verdict = "would save " + percent(saving) + ", but " + std::to_string(seeds.size()) + " samples tell its error to " +
+                    percent(interval) + " only: kept";
+        else
+          verdict = judged(what, cheaper, saving);
+        plan.decisions.push_back(what + ": " + verdict);
+      }
+
+      std::string judged(const std::string &what, const Entry &cheaper, const double saving)
+      {
+        const PilotPoint point = run_at(coarsest, {cheaper}, seeds);
+        if (!point.words.empty())
+          return point.words;
+        TurnedDown knob{what, {}};
+        double     reach = 0;
+        for (std::size_t q = 0; q < quantities.size(); ++q)
+          {
+            const SampleStatistics d = difference(point, levels.front().point, q);
+            knob.shifts.push_back(std::abs(d.mean));
+            reach = std::max(reach, std::abs(d.mean) + half_interval(d.deviation, d.n));
+          }
+        if (reach > share_of_a_knob * question.accuracy)
+          return "kept, what is cheaper moves a quantity by up to " + percent(reach);
+        turned_down.push_back(knob);
+        common.push_back(cheaper);
+        for (Level &level : levels)
+          level.point.cpu_s *= 1 - saving;
+        return "taken, saves " + percent(saving);
+      }
+
+      // Another preparation makes other samples: pairs are pairs in name only.
+      void try_less_preparation()
+      {
+        const int           less = preparation_steps / 3;
+        std::vector<double> deviations;
+        for (std::size_t q = 0; q < quantities.size(); ++q)
+          deviations.push_back(std::sqrt(2.) * all_errors()[q].scatter);
+        if (less > 0)
+          try_knob("preparation of " + std::to_string(less) + " steps",
+                   planned("sample", "preparation_steps", std::to_string(less)),
+                   2. / 3 * levels.back().point.preparation_cpu_s / levels.back().point.cpu_s, deviations);
+      }
+
+      // One sample tells the cost; grains part as much as they do between two steps.
+      void try_without_correction()
+      {
+        if (penetration_correction == "none")
+          return;
+        const Entry            none    = planned("discrete", "penetration_correction", "none");
+        const std::vector<int> one     = {seeds.front()};
+        const PilotPoint       without = run_at(coarsest, {none}, one), with = run_at(coarsest, {}, one);
+        std::vector<double>    deviations;
+        for (std::size_t q = 0; q < quantities.size(); ++q)
+          deviations.push_back(difference(levels[0].point, levels[1].point, q).deviation);
+        if (without.words.empty() && with.words.empty())
+          try_knob("no penetration correction", none, 1 - without.cpu_s / with.cpu_s, deviations);
+        else
+          plan.decisions.push_back("no penetration correction: " + without.words);
+      }
+
+      void advise()
+      {
+        if (seeds.empty())
+          {
+            plan.decisions.emplace_back("the sample is one from a file: how samples scatter is not known, and not in the budget");
+            return;
+          }
+        const auto larger   = [](const QuantityBudget &a, const QuantityBudget &b) { return a.scatter < b.scatter; };
+        const auto deciding = std::max_element(plan.quantities.begin(), plan.quantities.end(), larger);
+        plan.decisions.push_back(deciding->name + " decides the number of samples: one scatters by " +
+                                 percent(deciding->scatter) +
+                                 "; larger samples scatter less, by about the square root of their number of grains");
+      }
+
+      const PlanQuestion        &question;
+      const RunPilot            &run;
+      PanelPlan                  plan;
+      std::vector<StudyQuantity> quantities;
+      std::vector<int>           seeds;
+      Settings                   common;
+      std::string                penetration_correction;
+      int                        preparation_steps = 0;
+      std::vector<Level>         levels; // of the pilot, ever finer
+      std::vector<TurnedDown>    turned_down;
+    };
+  } // namespace
+
+  PanelPlan plan_grains(const PlanQuestion &question, const Scene &scene, const RunPilot &run)
+  {
+    return Grains(question, scene, run).plan_it();
+  }
+
+  double cost_at(const std::vector<CostPoint> &measured, const double accuracy)
+  {
+    std::size_t k = 1; // the pair about it, or the last one
+    while (k + 1 < measured.size() && accuracy < measured[k].accuracy)
+      ++k;
+    const CostPoint &a = measured[k - 1], &b = measured[k];
+    const double     order = std::log(b.cpu_s / a.cpu_s) / std::log(a.accuracy / b.accuracy);
+    return b.cpu_s * std::pow(b.accuracy / accuracy, order);
+  }
+
+  double GrainErrors::at(const double accuracy) const
+  {
+    return accuracy * (from_a_rule ? std::abs(step.mean) : std::hypot(step.mean, step.deviation));
+  }
+
+  GrainChoice cheapest_choice(const std::vector<GrainErrors> &errors,
+                              const std::vector<CostPoint>   &cost,
+                              const double                    target,
+                              const int                       samples)
+  {
+    constexpr int steps_per_halving = 4;
+    GrainChoice   best;
+    double        least = std::numeric_limits<double>::infinity();
+    for (int k = 0;; ++k)
+      {
+        const double accuracy = rounded_to_two_digits(coarsest * std::exp2(-double(k) / steps_per_halving));
+        if (accuracy < finest)
+          return best;
+        int  n        = std::max(1, samples);
+        bool suffices = true;
+        for (const GrainErrors &one : errors)
+          {
+            const double left = target - one.at(accuracy);
+            suffices          = suffices && left > 0;
+            const int needed  = samples > 0 ? samples : samples_for(one.scatter, left);
+            suffices          = suffices && needed > 0;
+            n                 = std::max(n, needed);
+          }
+        if (suffices && n * cost_at(cost, accuracy) < least)
+          best = {accuracy, n}, least = n * cost_at(cost, accuracy);
+      }
+  }
+} // namespace diptych::coupling

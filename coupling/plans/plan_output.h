@@ -1,0 +1,14 @@
+// diptych: a plan as files
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+
+#include "coupling/plans/plan.h"
+
+namespace diptych::coupling
+{
+  // plan.json, planned.prm: the scene with the settings of all panels. Throws SceneError where they contradict each other,
+  // std::runtime_error where a file cannot be written.
+  void write_plan(const std::string &directory, const PlanQuestion &question, const Plan &plan);
+} // namespace diptych::coupling

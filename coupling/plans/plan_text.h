@@ -1,0 +1,17 @@
+// diptych: numbers of a plan in words
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+
+#include "coupling/plans/plan.h"
+
+namespace diptych::coupling
+{
+  std::string percent(double share);  // "1.2 %"
+  std::string rounded(double number); // to three digits
+  double      rounded_to_two_digits(double number);
+
+  // Budget, decisions and cost of every panel, for people.
+  std::string text_of(const Plan &plan);
+} // namespace diptych::coupling

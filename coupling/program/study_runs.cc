@@ -1,0 +1,99 @@
+// diptych: the runs of a study's points, on workers, and what they gave
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/program/study_runs.h"
+
+#include <set>
+
+#include "coupling/processes/processes.h"
+#include "coupling/program/worker_command.h"
+#include "coupling/studies/study_folder.h"
+#include "discrete/choices.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    // Different runs, in the order of the points: two points may be the same scene.
+    std::vector<const StudyRun *> runs_of(const std::vector<ScenePoint> &points)
+    {
+      std::vector<const StudyRun *> runs;
+      std::set<std::string>         names;
+      for (const ScenePoint &point : points)
+        for (const StudyRun &run : point.runs)
+          if (run.scene && names.insert(run.name).second)
+            runs.push_back(&run);
+      return runs;
+    }
+
+    // A run that is to be done.
+    struct Pending
+    {
+      std::size_t run     = 0; // its place
+      bool        resumes = false;
+    };
+
+    // Makes the folder ready; the runs that are not finished in it.
+    std::vector<Pending> pending_runs(const CommandLine                   &line,
+                                      const StudyPoints                   &asked,
+                                      const std::vector<const StudyRun *> &runs)
+    {
+      std::vector<double> numbers; // as processes tell each other: place, resumes, place, ...
+      on_first_process([&] {
+        for (std::size_t k = 0; k < runs.size(); ++k)
+          if (!found_end(asked.directory, *runs[k]))
+            numbers.insert(numbers.end(), {double(k), double(prepare_run(asked.directory, *runs[k]))});
+        if (line.resume && numbers.size() < 2 * runs.size())
+          say(line, std::to_string(runs.size() - numbers.size() / 2) + " of " + std::to_string(runs.size()) +
+                      " runs are finished in " + asked.directory + ": not run again");
+        return 0;
+      });
+      numbers = from_first_process(numbers);
+      std::vector<Pending> pending;
+      for (std::size_t k = 0; k < numbers.size(); k += 2)
+        pending.push_back({std::size_t(numbers[k]), numbers[k + 1] != 0});
+      return pending;
+    }
+
+    Task task_of(const CommandLine &line, const StudyPoints &asked, const StudyRun &run, const bool resumes)
+    {
+      const StudyCommand command = asked.study.command;
+      Task               task{
+        "run " + run.name,
+        {discrete::name_of(command), run_scene(asked.directory, run), "--quiet", "--output", run_folder(asked.directory, run)},
+        run_log(asked.directory, run)};
+      if (command == StudyCommand::discrete || command == StudyCommand::run)
+        task.words.insert(task.words.end(), {"--threads", std::to_string(line.threads)});
+      if (resumes && command != StudyCommand::material_point)
+        task.words.emplace_back("--resume");
+      return task;
+    }
+  } // namespace
+
+  std::vector<TaskOutcome> do_runs(const CommandLine &line, const StudyPoints &asked)
+  {
+    const std::vector<const StudyRun *> runs    = runs_of(asked.points);
+    const std::vector<Pending>          pending = pending_runs(line, asked, runs);
+    TaskQueue                           queue   = workers_for(line, "runs");
+    for (const Pending &one : pending)
+      queue.tasks.push_back(task_of(line, asked, *runs[one.run], one.resumes));
+    queue.n_finished_before = int(runs.size() - pending.size());
+    const int at_once       = queue.jobs * int(n_processes());
+    queue.on_ended          = [&](const TaskOutcome &outcome) {
+      if (!outcome.interrupted)
+        write_end(asked.directory, *runs[pending[outcome.task].run], outcome.exit_code, at_once);
+    };
+    return run_tasks(queue);
+  }
+
+  StudyResults results_of(const StudyPoints &asked)
+  {
+    StudyResults results;
+    for (const ScenePoint &point : asked.points)
+      {
+        results.emplace_back();
+        for (const StudyRun &run : point.runs)
+          results.back().push_back(result_of(asked.directory, asked.study, run));
+      }
+    return results;
+  }
+} // namespace diptych::coupling
