@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # diptych: the stored contact problems with Siconos' 2D NSGS and with ours, in the same run
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""siconos_fc2d.py PROGRAM [--limit SECONDS] [--repeats N]
+"""siconos_fc2d.py PROGRAM [--limit SECONDS] [--repeats N] [--figure FILE.png]
 
 PROGRAM: diptych. Needs python3 with siconos, h5py, numpy and scipy (Debian: python3-siconos, which is no dependency of this
 project); says so and ends with 0 where they are missing. Siconos stops on its own residual, which is scaled by
-max(|r|, |u|, |q|): the natural map relative to |r| of what it returns stands beside it."""
+max(|r|, |u|, |q|): the natural map relative to |r| of what it returns stands beside it. --figure: that against CPU seconds, for
+tolerances of 1e-3 to 1e-8 (needs matplotlib)."""
 import argparse
 import os
 import statistics
@@ -13,6 +14,7 @@ import subprocess
 import sys
 import time
 
+TOLERANCES, CHARTED = (1e-4, 1e-8), (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 PROBLEMS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../tests/discrete/contact_problems")
 
 
@@ -77,7 +79,8 @@ def own_solve(program, path, tolerance, form):
 
 
 def print_problem(options, name, tolerance):
-    path = os.path.join(PROBLEMS, name + ".h5")
+    """{solver: (seconds, natural map relative to |r|)}"""
+    found, path = {}, os.path.join(PROBLEMS, name + ".h5")
     runs = []
     while len(runs) < options.repeats and (not runs or runs[-1] is not None and runs[-1][1] < 5):
         runs.append(siconos_solve(path, tolerance, options.limit))
@@ -86,6 +89,7 @@ def print_problem(options, name, tolerance):
         print(f"{name:7} {tolerance:7.0e}  siconos          -  > {options.limit:g} s")
     else:
         sweeps, _, residual, natural, info = runs[0]
+        found["Siconos"] = theirs, natural
         print(f"{name:7} {tolerance:7.0e}  siconos  {sweeps:9.0f} {theirs:9.4f}  {residual:8.1e} {natural:8.1e}"
               + ("" if info == 0 else "  NOT converged"))
     for form in ("body", "local"):
@@ -94,6 +98,27 @@ def print_problem(options, name, tolerance):
         ratio = f"> {options.limit / seconds:.0f}" if theirs is None else f"{theirs / seconds:.1f}"
         print(f"{name:7} {tolerance:7.0e}  {form:7}  {ours[0][0]:9d} {seconds:9.4f}  {ours[0][2]:8.1e} <={tolerance:7.0e}"
               f"  siconos / this: {ratio}", flush=True)
+        found[f"psor, {form} form"] = seconds, tolerance
+    return found
+
+
+def draw(by_problem, path):
+    """by_problem: {name: [{solver: (seconds, natural map)}]}, from loose to tight."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+    figure = Figure(figsize=(4.4 * len(by_problem), 3.6), layout="constrained")
+    FigureCanvasAgg(figure)
+    looks = {"Siconos": ("*-", "#8a1c7c"), "psor, body form": ("o-", "#0072b2"), "psor, local form": ("s-", "#d55e00")}
+    for place, (name, rows) in enumerate(by_problem.items()):
+        axes = figure.add_subplot(1, len(by_problem), place + 1)
+        for solver, (mark, colour) in looks.items():
+            points = [row[solver] for row in rows if solver in row]
+            axes.plot(*zip(*points), mark, color=colour, markersize=5, linewidth=1, label=solver)
+        axes.set(xscale="log", yscale="log", xlabel="CPU seconds", ylabel="|r − P(r)| / |r|", title=f"{name}.h5")
+        axes.grid(alpha=0.3)
+        axes.legend(fontsize=8)
+    figure.savefig(path, dpi=90)
+
 
 
 def main():
@@ -103,6 +128,7 @@ def main():
     parser.add_argument("program")
     parser.add_argument("--limit", type=float, default=120, help="seconds for one solve of Siconos")
     parser.add_argument("--repeats", type=int, default=5)
+    parser.add_argument("--figure")
     options = parser.parse_args()
     try:
         import h5py, numpy, scipy.sparse, siconos.numerics  # noqa: F401, E401
@@ -112,9 +138,10 @@ def main():
         return None
     print("from zero impulses, CPU seconds, median of", options.repeats)
     print("problem     tol  solver      sweeps   seconds  its test  nat / |r|")
-    for name in ("small", "medium"):
-        for tolerance in (1e-4, 1e-8):
-            print_problem(options, name, tolerance)
+    by_problem = {name: [print_problem(options, name, tolerance) for tolerance in (CHARTED if options.figure else TOLERANCES)]
+                  for name in ("small", "medium")}
+    if options.figure:
+        draw(by_problem, options.figure)
     return None
 
 

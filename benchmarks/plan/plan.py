@@ -18,7 +18,7 @@ FINER = 4
 
 # name: scene, accuracy, further settings
 SCENES = {
-    "moreau_quick": ("moreau_quick/scene.prm", "3 %", {}),
+    "moreau_quick": ("moreau_quick/scene.prm", "5 %", {}),
     "dense_biaxial": ("dense_biaxial/scene.prm", "2 %", {"loading/axial_strain": 0.04}),
     "oblique": ("cosserat_band/oblique.prm", "2 %", {}),
     "slippery": ("plan/slippery.prm", "3 %", {}),

@@ -131,13 +131,16 @@ namespace diptych::coupling
           }
     }
 
-    CoarseRun coarse_run(const Scene &scene, const Results &results, const std::size_t n, const std::vector<Increment> &windows)
+    std::optional<CoarseRun> coarse_run(const Scene                  &scene,
+                                        const Results                &results,
+                                        const std::size_t             n,
+                                        const std::vector<Increment> &windows)
     {
       const std::vector<continuum::Snapshot> &nodes = results.coarse.snapshots;
       CoarseRun                               result;
       result.element_size = scene.comparison.coarse_element_size;
       if (nodes.empty())
-        return result;
+        return std::nullopt;
       result.peak = peak_of_running_mean(history_table(results.coarse.rows), "stress_ratio", averaging_width(scene));
       for (const Increment &window : windows)
         {

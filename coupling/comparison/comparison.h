@@ -27,7 +27,7 @@ namespace diptych::coupling
   {
     std::vector<StageRecord>   stages; // stage k of both panels' snapshots, from the first on
     std::vector<Increment>     windows;
-    CoarseRun                  coarse;
+    std::optional<CoarseRun>   coarse;     // none where there was no such run
     ResolutionStudy            resolution; // of the last stage's grain stress
     std::optional<TheoryLines> theory;     // of the continuum's peak angles; none for an elastic law
     HistoryTable               discrete_history, continuum_history;

@@ -90,7 +90,8 @@ namespace diptych::coupling
       CsvLines lines;
       lines.add_increments(comparison["stages"], "stages", "");
       lines.add_increments(comparison["windows"], "windows", "");
-      lines.add_increments(comparison["continuum_coarse"]["windows"], "continuum_coarse/windows", "coarse_");
+      if (const json &coarse = comparison["continuum_coarse"]; coarse.is_object())
+        lines.add_increments(coarse["windows"], "continuum_coarse/windows", "coarse_");
       for (const char *part : {"discrete_summary", "continuum_summary", "resolution_study", "theory", "cost"})
         lines.add(comparison[part], std::string(",,") + part + ',', part, "");
       return lines.finished();

@@ -40,8 +40,8 @@ def diptych(*words, **options):
     return subprocess.run([PROGRAM, *words], env=ENVIRONMENT, capture_output=True, text=True, **options)
 
 
-def start(*words):
-    return subprocess.Popen([PROGRAM, *words], env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+def start(*words, **options):
+    return subprocess.Popen([PROGRAM, *words], env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
 
 
 def listing(folder):

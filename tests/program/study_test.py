@@ -7,6 +7,7 @@ import csv
 import json
 import os
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -31,6 +32,7 @@ STUDY = {
                    {"column": "volumetric_strain", "at": 0.01}],
 }
 N_RUNS = 14
+ROOM = 60000  # bytes that a file may have: what a full disk does
 # Long enough to be interrupted in.
 LONG = {**STUDY, "seeds": 1, "set": {**STUDY["set"], "sample/grains": 400, "loading/axial_strain": 0.05},
         "axes": [{"key": "discrete/step", "values": [0.1, 0.07]}]}
@@ -199,28 +201,43 @@ class Failures(Folder):
         self.run_study(study, "--resume")  # how a point failed is a result
         self.assertEqual(self.times(), before)
 
-    def test_a_killed_worker_loses_its_run_alone(self):
-        process = start("study", self.study_file(LONG), "--output", self.folder, "--jobs", "1")
-        worker = None
-        while process.poll() is None and worker is None:
+    def worker_at_work(self, process):
+        """Process number of a study's worker, once a run of it has a sample."""
+        while process.poll() is None:
             for number in filter(str.isdigit, os.listdir("/proc")):
                 try:
                     words = content(f"/proc/{number}/cmdline").split(b"\0")
                     parent = content(f"/proc/{number}/stat").rsplit(b")", 1)[1].split()[1]
                 except OSError:
                     continue
-                if b"--worker" in words and int(parent) == process.pid and any(n.endswith("discrete.h5") for n in listing(self.folder)):
-                    worker = int(number)
+                begun = [name for name in listing(self.folder) if name.endswith("stage_0000.h5")]
+                if b"--worker" in words and int(parent) == process.pid and begun:
+                    return int(number)
             time.sleep(0.002)
-        self.assertIsNone(process.poll(), "it ended before the signal")
-        os.kill(worker, signal.SIGKILL)
+        return self.fail("it ended before its worker was found")
+
+    def expect_few_lost_and_run_again(self, process, most, words):
         _, errors = process.communicate()
         self.assertEqual(process.returncode, 3, errors)
-        self.assertIn("failed with exit code 137", errors)
-        record = read(self.folder, "study.json")
-        self.assertEqual(sum(p["class"] == "not run" for p in record["points"]), 1)
+        self.assertIn(words, errors)
+        self.assertIn(sum(p["class"] == "not run" for p in read(self.folder, "study.json")["points"]), range(1, most + 1))
         self.run_study(LONG, "--resume")
         self.assertNotIn("not run", {p["class"] for p in read(self.folder, "study.json")["points"]})
+
+    def test_a_killed_worker_loses_its_run_alone(self):
+        process = start("study", self.study_file(LONG), "--output", self.folder, "--jobs", "1")
+        os.kill(self.worker_at_work(process), signal.SIGKILL)
+        self.expect_few_lost_and_run_again(process, 1, "failed with exit code 137")
+
+    def test_a_full_disk_under_a_worker_loses_what_it_ran_alone(self):
+        process = start("study", self.study_file(LONG), "--output", self.folder, "--jobs", "1",
+                        preexec_fn=lambda: signal.signal(signal.SIGXFSZ, signal.SIG_IGN))
+        worker = self.worker_at_work(process)
+        resource.prlimit(worker, resource.RLIMIT_FSIZE, (ROOM, resource.RLIM_INFINITY))
+        while process.poll() is None and len([n for n in listing(self.folder) if n.endswith(".log")]) < 2:
+            time.sleep(0.002)
+        resource.prlimit(worker, resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))  # somebody made room
+        self.expect_few_lost_and_run_again(process, 2, "failed with exit code 4")  # the next may begin before there is room
 
     def test_a_window_beyond_the_loading_is_pointed_out_and_not_judged(self):
         study = {**STUDY, "seeds": 1, "axes": [{"key": "discrete/step", "values": [0.2]}],

@@ -139,13 +139,14 @@ namespace
 
   TEST(Compare, NothingIsMadeOfACoarseRunThatDidNotTakePlace)
   {
-    EXPECT_TRUE(example().coarse.windows.empty());
+    EXPECT_FALSE(example().coarse);
     Results results    = example_results();
     results.coarse     = results.continuum;
     const Comparison c = compare(example_scene(), results);
-    ASSERT_EQ(c.coarse.windows.size(), 1u);
-    EXPECT_EQ(c.coarse.windows[0].continuum.band.bands[0].angle_deg, c.windows[0].continuum.band.bands[0].angle_deg);
-    EXPECT_EQ(c.coarse.peak.value, c.continuum.peak.value);
+    ASSERT_TRUE(c.coarse);
+    ASSERT_EQ(c.coarse->windows.size(), 1u);
+    EXPECT_EQ(c.coarse->windows[0].continuum.band.bands[0].angle_deg, c.windows[0].continuum.band.bands[0].angle_deg);
+    EXPECT_EQ(c.coarse->peak.value, c.continuum.peak.value);
   }
 
   TEST(Compare, AnElasticLawHasNoTheoryLines)
