@@ -31,7 +31,8 @@ namespace diptych::coupling
       std::string name;
       double      coarsest = 1, share = 0;
       Settings (*settings)(double size) = nullptr;
-      bool may_have_no_limit            = false;
+      std::size_t least_points          = 2; // of which an error is believed
+      bool        may_have_no_limit     = false;
     };
 
     Settings of_element_size(const double size)
@@ -95,8 +96,8 @@ namespace diptych::coupling
           plan.decisions.emplace_back("elements: those of the mesh file; their error is not known, and not in the budget");
         else if (!settle_elements())
           return plan;
-        if (!settle(
-              {"continuum/max_step", std::min(longest_load_step, scene.loading.stage_strain), share_of_load_steps, of_load_step}))
+        if (!settle({"continuum/max_step", std::min(longest_load_step, scene.loading.stage_strain), share_of_load_steps,
+                     of_load_step, 3}))
           return plan;
         settle_tolerance();
         try_models();
@@ -164,8 +165,8 @@ namespace diptych::coupling
             settled.sizes.push_back(size);
             settled.points.push_back(point);
             settled.laws = laws_of(settled);
-            // The last change has to be within the share, not only what an order makes of it.
-            settled.reached = settled.points.size() > 1 &&
+            // By what the order of the last changes makes of them.
+            settled.reached = settled.points.size() >= knob.least_points &&
                               std::all_of(settled.laws.begin(), settled.laws.end(), [&](const Refinement &law) {
                                 return law.error <= knob.share * question.accuracy && law.converges;
                               });
@@ -239,21 +240,26 @@ namespace diptych::coupling
 
       bool settle_elements()
       {
-        const continuum::LawKind law = scene.continuum.law;
-        Knob    knob    = {"continuum/element_size", first_elements(continuum::traits(law).is_cosserat), share_of_elements,
-                           of_element_size, with_length(law).has_value()};
-        Settled settled = refine(knob);
+        const continuum::LawKind         law   = scene.continuum.law;
         const std::optional<std::string> other = with_length(law);
-        if (!settled.reached && other && (goes_on(settled, knob) || !settled.words.empty()))
+        Knob                             knob  = {"continuum/element_size", 0, share_of_elements, of_element_size};
+        knob.coarsest                          = first_elements(continuum::traits(law).is_cosserat);
+        knob.may_have_no_limit                 = other.has_value();
+        knob.least_points                      = other ? 3 : 2; // one small change of a law without a length may be chance
+        Settled settled                        = refine(knob);
+        if (!settled.reached && other)
           {
             plan.decisions.push_back("continuum/law = " + text_of(law) + ": " +
-                                     (settled.words.empty() ? "results go on changing with the elements" : settled.words) +
+                                     (settled.words.empty()
+                                        ? "results go on changing with the elements, or elements small enough are too dear"
+                                        : settled.words) +
                                      "; the law has no length; taken: " + *other +
                                      " with continuum/internal_length = " + text_of(scene.continuum.material.internal_length));
             chosen.push_back(planned("continuum", "law", *other));
             has_changed_law        = true;
             knob.coarsest          = first_elements(true);
             knob.may_have_no_limit = false;
+            knob.least_points      = 2;
             settled                = refine(knob);
           }
         if (settled.points.size() >= 2)

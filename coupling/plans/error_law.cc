@@ -66,7 +66,7 @@ namespace diptych::coupling
 
   int samples_for(const double deviation, const double half)
   {
-    if (!(half > 0))
+    if (!(half > 0 && deviation >= 0))
       return 0;
     if (half_interval(deviation, 1) <= half)
       return 1;

@@ -43,6 +43,6 @@ namespace diptych::coupling
   // Half the 95 % Student interval of the mean of n samples with this deviation; twice the deviation for a single one.
   [[nodiscard]] double half_interval(double deviation, int n);
 
-  // The least number of samples that brings it below `half`; 0 where a million do not.
+  // The least number of samples that brings it below `half`; 0 where a million do not, or where the deviation is not known.
   [[nodiscard]] int samples_for(double deviation, double half);
 } // namespace diptych::coupling

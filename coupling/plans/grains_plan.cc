@@ -15,12 +15,15 @@ namespace diptych::coupling
   namespace
   {
     constexpr int      pilot_samples = 8, paired_samples = 4;
+    constexpr int      largest_first_seed = 2140000000;              // room for more
     constexpr double   coarsest = 0.05, finest = 0.001, finer = 0.5; // discrete/accuracy; the second level of the pilot
     constexpr Estimate rule = {1, 0.5}, no_rule = {0, 1};
     // A knob is turned down where that saves more than the first and moves no quantity by more than the second share of the
     // accuracy.
     constexpr double worth_trying = 0.1, share_of_a_knob = 0.25;
     constexpr double far_from_the_pilot = 1.5, furthest_ahead = 4; // a choice beyond the first is run, at most so far ahead
+
+    constexpr double normal_quantile = 1.96; // few samples know their deviation badly: their intervals are Student's
 
     struct Level
     {
@@ -53,7 +56,7 @@ namespace diptych::coupling
           }
         if (scene.sample.file.empty())
           for (int k = 0; k < pilot_samples; ++k)
-            seeds.push_back(scene.sample.seed + k);
+            seeds.push_back(std::min(scene.sample.seed, largest_first_seed) + k);
         common = {planned("discrete", "step", "auto"), planned("discrete", "tolerance", "auto")};
         if (scene.discrete.time.step || scene.discrete.accuracy.tolerance)
           plan.decisions.emplace_back(
@@ -137,7 +140,7 @@ namespace diptych::coupling
           {
             const SampleStatistics d = difference(levels[k - 1].point, levels[k].point, q);
             evidence.push_back(
-              {expected(levels[k - 1], q) - expected(levels[k], q), d.mean, d.deviation / std::sqrt(double(d.n))});
+              {expected(levels[k - 1], q) - expected(levels[k], q), d.mean, half_interval(d.deviation, d.n) / normal_quantile});
           }
         const Estimate factor  = improved(is_known ? rule : no_rule, evidence);
         const double   slope   = expected(last, q) / last.accuracy;
@@ -234,7 +237,7 @@ namespace diptych::coupling
         std::string  verdict;
         if (saving < worth_trying)
           verdict = "would save " + percent(std::max(0., saving)) + " of the time: not worth a trial";
-        else if (interval > most)
+        else if (!(interval <= most))
           verdict = "would save " + percent(saving) + ", but " + std::to_string(seeds.size()) + " samples tell its error to " +
                     percent(interval) + " only: kept";
         else
@@ -255,7 +258,7 @@ namespace diptych::coupling
             knob.shifts.push_back(std::abs(d.mean));
             reach = std::max(reach, std::abs(d.mean) + half_interval(d.deviation, d.n));
           }
-        if (reach > share_of_a_knob * question.accuracy)
+        if (!(reach <= share_of_a_knob * question.accuracy))
           return "kept, what is cheaper moves a quantity by up to " + percent(reach);
         turned_down.push_back(knob);
         common.push_back(cheaper);

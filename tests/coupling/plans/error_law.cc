@@ -66,5 +66,6 @@ namespace
     EXPECT_EQ(samples_for(1, 1e-6), 0);
     EXPECT_EQ(samples_for(1, 0), 0);
     EXPECT_EQ(samples_for(1, -1), 0);
+    EXPECT_EQ(samples_for(NAN, 1), 0) << "a scatter that is not known";
   }
 } // namespace
