@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupling/plans/continuum_knobs.h"
 #include "coupling/plans/error_law.h"
 #include "coupling/plans/pilot_values.h"
 #include "coupling/plans/plan_question.h"
@@ -24,46 +25,6 @@ namespace diptych::coupling
     constexpr double worth_saving         = 0.05;
     constexpr double elements_over_length = 2, elements_across = 12; // where refining begins
     constexpr double longest_load_step = 0.01, coarsest_tolerance = 1e-3;
-
-    // A size that is halved.
-    struct Knob
-    {
-      std::string name;
-      double      coarsest = 1, share = 0;
-      Settings (*settings)(double size) = nullptr;
-      std::size_t least_points          = 2; // of which an error is believed
-      bool        may_have_no_limit     = false;
-    };
-
-    Settings of_element_size(const double size)
-    {
-      return {planned("continuum", "element_size", size)};
-    }
-
-    Settings of_load_step(const double size)
-    {
-      return {planned("continuum", "max_step", size), planned("continuum", "initial_step", std::min(size, 0.001))};
-    }
-
-    void append(Settings &to, const Settings &more)
-    {
-      to.insert(to.end(), more.begin(), more.end());
-    }
-
-    const char *without_length(const continuum::LawKind law)
-    {
-      return law == continuum::LawKind::cosserat_mohr_coulomb ? "mohr_coulomb" : "drucker_prager";
-    }
-
-    // None for a law that does not yield.
-    std::optional<std::string> with_length(const continuum::LawKind law)
-    {
-      if (law == continuum::LawKind::mohr_coulomb)
-        return "cosserat_mohr_coulomb";
-      if (law == continuum::LawKind::drucker_prager)
-        return "cosserat_drucker_prager";
-      return std::nullopt;
-    }
 
     class Continuum
     {
