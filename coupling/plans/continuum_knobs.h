@@ -19,6 +19,7 @@ namespace diptych::coupling
     Settings (*settings)(double size) = nullptr;
     std::size_t least_points          = 2; // of which an error is believed
     bool        may_have_no_limit     = false;
+    double      dearer_per_halving    = 8;
   };
 
   Settings of_element_size(double size);

@@ -21,7 +21,6 @@ namespace diptych::coupling
                      share_of_samples = 0.2;
     constexpr int    most_sizes = 6, scatter_samples = 4;
     constexpr double longest_pilot        = 120; // CPU s of one run
-    constexpr double dearer_per_halving   = 8;
     constexpr double worth_saving         = 0.05;
     constexpr double elements_over_length = 2, elements_across = 12; // where refining begins
     constexpr double longest_load_step = 0.01, coarsest_tolerance = 1e-3;
@@ -57,8 +56,11 @@ namespace diptych::coupling
           plan.decisions.emplace_back("elements: those of the mesh file; their error is not known, and not in the budget");
         else if (!settle_elements())
           return plan;
-        if (!settle({"continuum/max_step", std::min(longest_load_step, scene.loading.stage_strain), share_of_load_steps,
-                     of_load_step, 3}))
+        Knob load_step = {"continuum/max_step", std::min(longest_load_step, scene.loading.stage_strain), share_of_load_steps,
+                          of_load_step};
+        load_step.least_points       = 3;
+        load_step.dearer_per_halving = 2;
+        if (!settle(load_step))
           return plan;
         settle_tolerance();
         try_models();
@@ -79,10 +81,11 @@ namespace diptych::coupling
       }
 
       // Between two points on one sample, relative to the second.
-      double difference(const PilotPoint &a, const PilotPoint &b, const std::size_t q) const
+      double shift(const PilotPoint &a, const PilotPoint &b, const std::size_t q) const
       {
-        return std::abs(relative_difference(quantities[q], a.values[q], b.values[q]).mean);
+        return relative_difference(quantities[q], a.values[q], b.values[q]).mean;
       }
+      double difference(const PilotPoint &a, const PilotPoint &b, const std::size_t q) const { return std::abs(shift(a, b, q)); }
 
       struct Settled
       {
@@ -131,7 +134,7 @@ namespace diptych::coupling
                               std::all_of(settled.laws.begin(), settled.laws.end(), [&](const Refinement &law) {
                                 return law.error <= knob.share * question.accuracy && law.converges;
                               });
-            if (dearer_per_halving * point.cpu_s > longest_pilot || (knob.may_have_no_limit && goes_on(settled, knob)))
+            if (knob.dearer_per_halving * point.cpu_s > longest_pilot || (knob.may_have_no_limit && goes_on(settled, knob)))
               break;
           }
         return settled;
@@ -148,7 +151,7 @@ namespace diptych::coupling
       {
         std::string text = knob.name + " = " + text_of(size) + ":";
         for (std::size_t q = 0; q < quantities.size(); ++q)
-          text += (q > 0 ? ", " : " ") + quantities[q].name + " " + rounded(point.values[q].front());
+          text += (q > 0 ? ", " : " ") + quantities[q].name + " " + to_four_digits(point.values[q].front());
         plan.decisions.push_back(text + "; " + rounded(point.cpu_s) + " CPU s");
       }
 
@@ -169,11 +172,18 @@ namespace diptych::coupling
         std::string text = "  taken: " + knob.name + " = " + text_of(size);
         for (std::size_t q = 0; q < quantities.size(); ++q)
           {
-            parts[q].push_back({knob.name, error_at(settled.laws[q], size), NAN});
+            const double error = error_at(settled.laws[q], size);
+            parts[q].push_back({knob.name, error, settled.laws[q].sign * error, NAN});
             text += (q > 0 ? ", " : "; error ") + percent(parts[q].back().error);
           }
         plan.decisions.push_back(text + (settled.reached ? "" : "; its share of the accuracy is not reached"));
         plan.reaches = plan.reaches && settled.reached;
+      }
+
+      static std::string why_unsettled(const Knob &knob, const Settled &settled)
+      {
+        return settled.words.empty() ? knob.name + ": a second size would take more than " + rounded(longest_pilot) + " CPU s"
+                                     : settled.words;
       }
 
       bool settle(const Knob &knob)
@@ -182,7 +192,7 @@ namespace diptych::coupling
         if (settled.points.size() < 2)
           {
             plan.reaches = false;
-            plan.decisions.push_back(settled.words);
+            plan.decisions.push_back(why_unsettled(knob, settled));
             return false;
           }
         take(knob, settled);
@@ -229,7 +239,7 @@ namespace diptych::coupling
             return true;
           }
         plan.reaches = false;
-        plan.decisions.push_back(settled.words);
+        plan.decisions.push_back(why_unsettled(knob, settled));
         return false;
       }
 
@@ -248,7 +258,7 @@ namespace diptych::coupling
               continue;
             chosen.push_back(planned("continuum", "tolerance", tolerance));
             for (std::size_t q = 0; q < quantities.size(); ++q)
-              parts[q].push_back({"continuum/tolerance", difference(point, reference, q), NAN});
+              parts[q].push_back({"continuum/tolerance", difference(point, reference, q), shift(point, reference, q), NAN});
             plan.decisions.push_back("taken: continuum/tolerance = " + text_of(tolerance) + "; error " + percent(worst));
             now = point;
             return;
@@ -277,7 +287,7 @@ namespace diptych::coupling
             return;
           }
         for (std::size_t q = 0; q < quantities.size(); ++q)
-          parts[q].push_back({what, difference(point, now, q), NAN});
+          parts[q].push_back({what, difference(point, now, q), shift(point, now, q), NAN});
         append(chosen, settings);
         left_for_models -= worst;
         now = point;
@@ -332,7 +342,7 @@ namespace diptych::coupling
             for (int k = 0; k < n; ++k)
               plan.seeds.push_back(scene.sample.seed + k);
             for (std::size_t q = 0; q < quantities.size(); ++q)
-              parts[q].push_back({"samples", half_interval(scatter[q], n), NAN});
+              parts[q].push_back({"samples", half_interval(scatter[q], n), 0, NAN});
           }
       }
 

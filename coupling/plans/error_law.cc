@@ -12,7 +12,8 @@ namespace diptych::coupling
   namespace
   {
     constexpr double least_order = 0.5, largest_order = 2, least_share_of_earlier_change = 0.25;
-    constexpr double still_converging = 0.8; // of the change before: slower than that, there may be no limit
+    constexpr double of_one_sample    = 3.18; // Student's, of a deviation that four samples told
+    constexpr double still_converging = 0.8;  // of the change before: slower than that, there may be no limit
     constexpr int    most_samples     = 1000000;
   } // namespace
 
@@ -36,7 +37,8 @@ namespace diptych::coupling
     if (n < 2)
       return result;
     const double ratio = sizes[n - 2] / sizes[n - 1];
-    double       last  = std::abs(values[n - 1] - values[n - 2]);
+    result.sign        = values[n - 2] == values[n - 1] ? 0 : std::copysign(1., values[n - 2] - values[n - 1]);
+    double last        = std::abs(values[n - 1] - values[n - 2]);
     if (n > 2)
       {
         const double earlier = std::abs(values[n - 2] - values[n - 3]);
@@ -61,7 +63,7 @@ namespace diptych::coupling
 
   double half_interval(const double deviation, const int n)
   {
-    return n < 2 ? 2 * deviation : student_quantile(0.975, n - 1) * deviation / std::sqrt(double(n));
+    return n < 2 ? of_one_sample * deviation : student_quantile(0.975, n - 1) * deviation / std::sqrt(double(n));
   }
 
   int samples_for(const double deviation, const double half)

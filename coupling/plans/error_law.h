@@ -29,6 +29,7 @@ namespace diptych::coupling
     double finest_size = 0,
            error       = std::numeric_limits<double>::quiet_NaN(); // at the finest size, >= 0, in the unit of the values
     double order       = 1;
+    double sign        = 0;    // +1: coarse values lie above the limit
     bool   converges   = true; // the last change is smaller than the one before
   };
 
@@ -40,7 +41,8 @@ namespace diptych::coupling
   [[nodiscard]] double error_at(const Refinement &refinement, double size);
   [[nodiscard]] double size_for(const Refinement &refinement, double error); // infinity where nothing changes
 
-  // Half the 95 % Student interval of the mean of n samples with this deviation; twice the deviation for a single one.
+  // Half the 95 % Student interval of the mean of n samples with this deviation; for a single one of a deviation that four
+  // samples told.
   [[nodiscard]] double half_interval(double deviation, int n);
 
   // The least number of samples that brings it below `half`; 0 where a million do not, or where the deviation is not known.

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "coupling/plans/grain_choice.h"
 #include "coupling/plans/pilot_values.h"
 #include "coupling/plans/plan_question.h"
 #include "coupling/plans/plan_text.h"
@@ -15,8 +17,8 @@ namespace diptych::coupling
   namespace
   {
     constexpr int      pilot_samples = 8, paired_samples = 4;
-    constexpr int      largest_first_seed = 2140000000;              // room for more
-    constexpr double   coarsest = 0.05, finest = 0.001, finer = 0.5; // discrete/accuracy; the second level of the pilot
+    constexpr int      largest_first_seed = 2140000000; // room for more
+    constexpr double   finer              = 0.5;        // the second level of the pilot, of the first
     constexpr Estimate rule = {1, 0.5}, no_rule = {0, 1};
     // A knob is turned down where that saves more than the first and moves no quantity by more than the second share of the
     // accuracy.
@@ -35,7 +37,7 @@ namespace diptych::coupling
     struct TurnedDown
     {
       std::string         what;
-      std::vector<double> shifts;
+      std::vector<double> shifts; // with their sign
     };
 
     // The pilot of one question.
@@ -75,13 +77,15 @@ namespace diptych::coupling
 
       PanelPlan plan_it()
       {
-        levels.push_back({coarsest, run_at(coarsest, {}, seeds)});
+        levels.push_back({coarsest_accuracy, run_at(coarsest_accuracy, {}, seeds)});
         if (!finished(levels.back()))
           return plan;
-        levels.push_back({finer * coarsest, run_at(finer * coarsest, {}, few())});
+        levels.push_back({finer * coarsest_accuracy, run_at(finer * coarsest_accuracy, {}, few())});
         if (!finished(levels.back()))
           return plan;
-        if (!seeds.empty())
+        if (seeds.empty())
+          find_repeatability();
+        else
           try_less_preparation(), try_without_correction();
         GrainChoice choice = choose();
         while (choice.samples > 0 && choice.accuracy * far_from_the_pilot < levels.back().accuracy)
@@ -117,6 +121,9 @@ namespace diptych::coupling
 
       bool finished(const Level &level)
       {
+        if (!level.point.remark.empty())
+          plan.decisions.push_back("discrete/accuracy = " + text_of(level.accuracy) +
+                                   ": samples are left out: " + level.point.remark);
         if (level.point.words.empty())
           return true;
         plan.reaches = false;
@@ -156,11 +163,20 @@ namespace diptych::coupling
         return errors;
       }
 
+      // Of the first samples, which all levels have.
+      static double cost_of(const PilotPoint &point)
+      {
+        const std::size_t n = std::min(point.sample_cpu_s.size(), std::size_t(paired_samples));
+        return n == 0
+                 ? point.cpu_s
+                 : std::accumulate(point.sample_cpu_s.begin(), point.sample_cpu_s.begin() + std::ptrdiff_t(n), 0.) / double(n);
+      }
+
       std::vector<CostPoint> cost() const
       {
         std::vector<CostPoint> points;
         for (const Level &level : levels)
-          points.push_back({level.accuracy, level.point.cpu_s});
+          points.push_back({level.accuracy, cost_of(level.point)});
         return points;
       }
 
@@ -169,7 +185,7 @@ namespace diptych::coupling
       {
         double sum = 0;
         for (const TurnedDown &knob : turned_down)
-          sum += knob.shifts[q];
+          sum += std::abs(knob.shifts[q]);
         return sum;
       }
 
@@ -177,7 +193,7 @@ namespace diptych::coupling
       {
         double most = 0;
         for (std::size_t q = 0; q < quantities.size(); ++q)
-          most = std::max(most, of_knobs(q));
+          most = std::max(most, of_knobs(q) + (one_run.empty() ? 0. : one_run[q]));
         return cheapest_choice(all_errors(), cost(), question.accuracy - most, seeds.empty() ? 1 : 0);
       }
 
@@ -185,7 +201,7 @@ namespace diptych::coupling
       {
         plan.reaches = choice.samples > 0;
         if (!plan.reaches)
-          choice = {seeds.empty() ? finest : question.accuracy / 2, seeds.empty() ? 1 : pilot_samples};
+          choice = {std::clamp(question.accuracy / 2, finest_accuracy, coarsest_accuracy), seeds.empty() ? 1 : pilot_samples};
         plan.settings = common;
         plan.settings.push_back(planned("discrete", "accuracy", choice.accuracy));
         if (!seeds.empty())
@@ -206,12 +222,29 @@ namespace diptych::coupling
         result.name    = quantities[q].name;
         result.mean    = summary_of(quantities[q], levels.front().point.values[q]).statistics.mean;
         result.scatter = seeds.empty() ? NAN : errors.scatter;
-        result.parts.push_back({"step, tolerance", errors.at(choice.accuracy), errors.step.deviation * choice.accuracy});
+        result.parts.push_back({"step, tolerance", errors.at(choice.accuracy), errors.step.mean * choice.accuracy,
+                                errors.step.deviation * choice.accuracy});
         if (!seeds.empty())
-          result.parts.push_back({"samples", half_interval(errors.scatter, choice.samples), NAN});
+          result.parts.push_back({"samples", half_interval(errors.scatter, choice.samples), 0, NAN});
+        else
+          result.parts.push_back({"one run", one_run[q], 0, NAN});
         for (const TurnedDown &knob : turned_down)
-          result.parts.push_back({knob.what, knob.shifts[q], NAN});
+          result.parts.push_back({knob.what, std::abs(knob.shifts[q]), knob.shifts[q], NAN});
         return result;
+      }
+
+      // Grains part from the last digit on: runs with almost the same accuracy say how far one run may lie from their mean.
+      void find_repeatability()
+      {
+        std::vector<std::vector<double>> values(quantities.size());
+        for (const double share : {1., 0.98, 0.96, 0.94})
+          {
+            const PilotPoint point = run_at(share * levels.back().accuracy, {}, seeds);
+            for (std::size_t q = 0; q < quantities.size() && point.words.empty(); ++q)
+              values[q].push_back(point.values[q].front());
+          }
+        for (std::size_t q = 0; q < quantities.size(); ++q)
+          one_run.push_back(half_interval(summary_of(quantities[q], values[q]).scatter, 1));
       }
 
       void tell_levels()
@@ -247,7 +280,7 @@ namespace diptych::coupling
 
       std::string judged(const std::string &what, const Entry &cheaper, const double saving)
       {
-        const PilotPoint point = run_at(coarsest, {cheaper}, seeds);
+        const PilotPoint point = run_at(coarsest_accuracy, {cheaper}, seeds);
         if (!point.words.empty())
           return point.words;
         TurnedDown knob{what, {}};
@@ -255,15 +288,21 @@ namespace diptych::coupling
         for (std::size_t q = 0; q < quantities.size(); ++q)
           {
             const SampleStatistics d = difference(point, levels.front().point, q);
-            knob.shifts.push_back(std::abs(d.mean));
+            knob.shifts.push_back(d.mean);
             reach = std::max(reach, std::abs(d.mean) + half_interval(d.deviation, d.n));
           }
         if (!(reach <= share_of_a_knob * question.accuracy))
           return "kept, what is cheaper moves a quantity by up to " + percent(reach);
-        turned_down.push_back(knob);
+        const Settings before = common;
         common.push_back(cheaper);
-        for (Level &level : levels)
-          level.point.cpu_s *= 1 - saving;
+        const PilotPoint second = run_at(levels[1].accuracy, {}, few());
+        if (!second.words.empty())
+          {
+            common = before;
+            return second.words;
+          }
+        turned_down.push_back(knob);
+        levels[0].point = point, levels[1].point = second; // the samples are others now
         return "taken, saves " + percent(saving);
       }
 
@@ -287,7 +326,7 @@ namespace diptych::coupling
           return;
         const Entry            none    = planned("discrete", "penetration_correction", "none");
         const std::vector<int> one     = {seeds.front()};
-        const PilotPoint       without = run_at(coarsest, {none}, one), with = run_at(coarsest, {}, one);
+        const PilotPoint       without = run_at(coarsest_accuracy, {none}, one), with = run_at(coarsest_accuracy, {}, one);
         std::vector<double>    deviations;
         for (std::size_t q = 0; q < quantities.size(); ++q)
           deviations.push_back(difference(levels[0].point, levels[1].point, q).deviation);
@@ -304,8 +343,13 @@ namespace diptych::coupling
             plan.decisions.emplace_back("the sample is one from a file: how samples scatter is not known, and not in the budget");
             return;
           }
-        const auto larger   = [](const QuantityBudget &a, const QuantityBudget &b) { return a.scatter < b.scatter; };
-        const auto deciding = std::max_element(plan.quantities.begin(), plan.quantities.end(), larger);
+        const auto   larger   = [](const QuantityBudget &a, const QuantityBudget &b) { return a.scatter < b.scatter; };
+        const auto   deciding = std::max_element(plan.quantities.begin(), plan.quantities.end(), larger);
+        const double left     = question.accuracy - (deciding->total() - half_interval(deciding->scatter, plan.n_samples()));
+        const auto   text     = [&](const int n) { return n > 0 ? std::to_string(n) : std::string("more than a million"); };
+        plan.decisions.push_back(
+          "eight samples know a scatter to a factor of 0.66 to 2.0: " + text(samples_for(0.66 * deciding->scatter, left)) +
+          " to " + text(samples_for(2.0 * deciding->scatter, left)) + " samples may be needed");
         plan.decisions.push_back(deciding->name + " decides the number of samples: one scatters by " +
                                  percent(deciding->scatter) +
                                  "; larger samples scatter less, by about the square root of their number of grains");
@@ -321,54 +365,12 @@ namespace diptych::coupling
       int                        preparation_steps = 0;
       std::vector<Level>         levels; // of the pilot, ever finer
       std::vector<TurnedDown>    turned_down;
+      std::vector<double>        one_run; // of a single sample: half an interval of its quantities
     };
   } // namespace
 
   PanelPlan plan_grains(const PlanQuestion &question, const Scene &scene, const RunPilot &run)
   {
     return Grains(question, scene, run).plan_it();
-  }
-
-  double cost_at(const std::vector<CostPoint> &measured, const double accuracy)
-  {
-    std::size_t k = 1; // the pair about it, or the last one
-    while (k + 1 < measured.size() && accuracy < measured[k].accuracy)
-      ++k;
-    const CostPoint &a = measured[k - 1], &b = measured[k];
-    const double     order = std::log(b.cpu_s / a.cpu_s) / std::log(a.accuracy / b.accuracy);
-    return b.cpu_s * std::pow(b.accuracy / accuracy, order);
-  }
-
-  double GrainErrors::at(const double accuracy) const
-  {
-    return accuracy * (from_a_rule ? std::abs(step.mean) : std::hypot(step.mean, step.deviation));
-  }
-
-  GrainChoice cheapest_choice(const std::vector<GrainErrors> &errors,
-                              const std::vector<CostPoint>   &cost,
-                              const double                    target,
-                              const int                       samples)
-  {
-    constexpr int steps_per_halving = 4;
-    GrainChoice   best;
-    double        least = std::numeric_limits<double>::infinity();
-    for (int k = 0;; ++k)
-      {
-        const double accuracy = rounded_to_two_digits(coarsest * std::exp2(-double(k) / steps_per_halving));
-        if (accuracy < finest)
-          return best;
-        int  n        = std::max(1, samples);
-        bool suffices = true;
-        for (const GrainErrors &one : errors)
-          {
-            const double left = target - one.at(accuracy);
-            suffices          = suffices && left > 0;
-            const int needed  = samples > 0 ? samples : samples_for(one.scatter, left);
-            suffices          = suffices && needed > 0;
-            n                 = std::max(n, needed);
-          }
-        if (suffices && n * cost_at(cost, accuracy) < least)
-          best = {accuracy, n}, least = n * cost_at(cost, accuracy);
-      }
   }
 } // namespace diptych::coupling

@@ -49,8 +49,10 @@ namespace diptych::coupling
 
   struct PilotPoint
   {
-    std::string                      words;  // why a run did not finish; empty where all did
-    std::vector<std::vector<double>> values; // [quantity][sample]; NaN where there is none
+    std::string                      remark;       // why a few samples are left out; empty where all finished
+    std::vector<double>              sample_cpu_s; // of those that finished
+    std::string                      words;        // why a run did not finish; empty where all did
+    std::vector<std::vector<double>> values;       // [quantity][sample]; NaN where there is none
     double                           cpu_s = NAN, preparation_cpu_s = 0, peak_memory_mb = 0; // a sample: mean, mean, largest
     double                           strength_error = NAN, dilation_error = NAN;             // that the rule of the step expects
   };
@@ -64,7 +66,8 @@ namespace diptych::coupling
   struct ErrorPart
   {
     std::string cause;
-    double      error     = 0;                                        // relative
+    double      error     = 0;                                        // relative, at most about
+    double      bias      = 0;                                        // expected, with its sign; 0: only chance
     double      deviation = std::numeric_limits<double>::quiet_NaN(); // of that estimate, where it is known
   };
 
@@ -79,6 +82,13 @@ namespace diptych::coupling
       double sum = 0;
       for (const ErrorPart &part : parts)
         sum += part.error;
+      return sum;
+    }
+    double bias() const
+    {
+      double sum = 0;
+      for (const ErrorPart &part : parts)
+        sum += part.bias;
       return sum;
     }
   };
@@ -118,6 +128,9 @@ namespace diptych::coupling
     // Both panels come from the same runs.
     bool shares_samples() const
     {
+      for (const PanelPlan &panel : panels)
+        if (panel.quantities.empty())
+          return false;
       return panels.size() > 1 && panels.front().command == StudyCommand::run && panels.back().command == StudyCommand::run;
     }
     double total_cpu_s() const

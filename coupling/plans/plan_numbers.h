@@ -11,7 +11,8 @@ namespace diptych::coupling
   template <class Visitor> void list_numbers(const ErrorPart &p, Visitor &v)
   {
     v({"cause", "-", "of this part of the error", Kind::setting}, p.cause);
-    v({"error", "-", "relative"}, p.error);
+    v({"error", "-", "relative, at most about"}, p.error);
+    v({"bias", "-", "expected, relative, positive: too large; 0: only chance"}, p.bias);
     v({"deviation", "-", "standard deviation of that estimate; null: not known"}, p.deviation);
   }
 
@@ -21,6 +22,7 @@ namespace diptych::coupling
     v({"mean", "as the quantity says", "in the pilot"}, q.mean);
     v({"scatter", "-", "standard deviation of one sample, relative; of angles to 45 degrees"}, q.scatter);
     v({"total", "-", "sum of the parts: what the mean is expected to err by at most, relative"}, q.total());
+    v({"bias", "-", "expected of the method: the parts with their signs, relative"}, q.bias());
     v.list("parts", "of the error; that of the samples is half a 95 % interval", q.parts);
   }
 

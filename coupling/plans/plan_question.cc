@@ -205,6 +205,9 @@ namespace diptych::coupling
             continue;
           }
         const bool names_one = wanted.grains != wanted.continuum;
+        if (names_one && ((wanted.grains && !panels.grains) || (wanted.continuum && !panels.continuum)))
+          throw SceneError("--for '" + whole + "': " + question.scene + " sets no key of " +
+                           (wanted.grains ? "sample or discrete" : "continuum"));
         if (wanted.grains && (panels.grains || names_one))
           add(question, {word, discrete_panel_name}, scene);
         if (wanted.continuum && (panels.continuum || names_one))

@@ -32,7 +32,8 @@ namespace diptych::coupling
     {
       for (const QuantityBudget &quantity : panel.quantities)
         {
-          out << "  " << padded(quantity.name, name_width) << "error at most " << percent(quantity.total());
+          out << "  " << padded(quantity.name, name_width) << "error at most about " << percent(quantity.total()) << ", bias "
+              << percent(quantity.bias());
           if (std::isfinite(quantity.scatter))
             out << "; one sample scatters by " << percent(quantity.scatter);
           out << '\n';
@@ -63,7 +64,12 @@ namespace diptych::coupling
 
   std::string percent(const double share)
   {
-    return with_digits(100 * share, 2) + " %";
+    return with_digits(100 * share, std::abs(share) < 0.995 ? 2 : 3) + " %";
+  }
+
+  std::string to_four_digits(const double number)
+  {
+    return with_digits(number, 4);
   }
 
   std::string rounded(const double number)
@@ -79,7 +85,7 @@ namespace diptych::coupling
   std::string text_of(const Plan &plan)
   {
     std::ostringstream out;
-    out << plan.scene << " to " << percent(plan.accuracy) << '\n';
+    out << plan.scene << " to " << with_digits(100 * plan.accuracy, 4) << " %" << '\n';
     for (const PanelPlan &panel : plan.panels)
       {
         out << '\n' << panel.panel << '\n';
@@ -95,7 +101,7 @@ namespace diptych::coupling
           out << "  set " << entry.section << '/' << entry.key << " = " << entry.value << '\n';
         if (!panel.reaches)
           out << "  the accuracy is NOT reached by this plan\n";
-        out << "  diptych " << discrete::name_of(panel.command) << " on " << panel.n_samples()
+        out << "  " << discrete::name_of(panel.command) << " on " << panel.n_samples()
             << (panel.n_samples() > 1 ? " samples" : " sample");
         if (panel.seeds.size() > 1)
           out << " (seeds " << panel.seeds.front() << '-' << panel.seeds.back() << ')';

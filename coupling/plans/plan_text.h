@@ -10,6 +10,7 @@ namespace diptych::coupling
 {
   std::string percent(double share);  // "1.2 %"
   std::string rounded(double number); // to three digits
+  std::string to_four_digits(double number);
   double      rounded_to_two_digits(double number);
 
   // Budget, decisions and cost of every panel, for people.

@@ -124,11 +124,12 @@ namespace diptych::coupling
       {
         CLI::App *plan = add(Command::plan, "what a scene needs for an accuracy, by pilot runs: step, tolerance, elements, load "
                                             "steps, law, samples; with the budget of errors and the cost");
-        add_scene(plan), add_output(plan), add_set(plan), add_threads(plan), add_jobs(plan, "");
+        add_scene(plan), add_set(plan), add_threads(plan), add_jobs(plan, "");
         plan
           ->add_option("--accuracy", line.accuracy,
                        "of the means, relative: 2 % or 0.02; errors of the method and 95 % interval together")
           ->required();
+        plan->add_option("--output", line.output, "folder of the plan (default: results/<scene name>_plan)")->type_name("DIR");
         plan
           ->add_option("--for", line.wanted,
                        "quantities, separated by commas: peak_stress_ratio, strength (both by default), final_volumetric_strain, "

@@ -10,6 +10,7 @@
 #include "coupling/folders/provenance.h"
 #include "coupling/panels/continuum_loading.h"
 #include "coupling/plans/continuum_plan.h"
+#include "coupling/plans/error_law.h"
 #include "coupling/plans/grains_plan.h"
 #include "coupling/plans/pilot_values.h"
 #include "coupling/plans/plan_output.h"
@@ -24,6 +25,9 @@ namespace diptych::coupling
 {
   namespace
   {
+    // A sample that does not come to its end is left out, as long as they are few.
+    constexpr double least_share_that_finishes = 0.75;
+
     const RunsFolder folder_of_a_plan = {"plan", "plan_input", {"plan.json", "planned.prm"}};
 
     Study study_of(const PlanQuestion &question, const PilotTask &task)
@@ -93,26 +97,33 @@ namespace diptych::coupling
       PilotPoint point_of(const ScenePoint &point, const std::vector<RunResult> &results, const PilotTask &task)
       {
         PilotPoint        made;
-        const double      n            = double(results.size());
         const std::size_t n_quantities = task.quantities.size();
         made.values.resize(n_quantities);
         made.cpu_s = made.strength_error = made.dilation_error = 0;
+        double n_finished                                      = 0;
+        for (const RunResult &result : results)
+          n_finished += result.is_known && result.exit_code == 0;
+        const bool is_usable = n_finished > 0 && n_finished >= least_share_that_finishes * double(results.size());
         for (std::size_t k = 0; k < results.size(); ++k)
           {
-            const RunResult &result = results[k];
-            if (result.exit_code != 0 || !result.is_known)
-              made.words = !result.words.empty() ? result.words : "the run was lost";
+            const RunResult &result   = results[k];
+            const bool       finished = result.is_known && result.exit_code == 0;
+            if (!finished)
+              (is_usable ? made.remark : made.words) = !result.words.empty() ? result.words : "the run was lost";
+            if (counted.insert(point.runs[k].name).second)
+              spent += cpu_of(result, false);
             for (std::size_t q = 0; q < n_quantities; ++q)
               made.values[q].push_back(result.values[q]);
             for (const PhaseCost &phase : result.phases)
               made.peak_memory_mb = std::max(made.peak_memory_mb, phase.peak_memory_mb);
-            made.cpu_s += cpu_of(result, false) / n;
-            made.preparation_cpu_s += cpu_of(result, true) / n;
+            if (!finished)
+              continue;
+            made.sample_cpu_s.push_back(cpu_of(result, false));
+            made.cpu_s += cpu_of(result, false) / n_finished;
+            made.preparation_cpu_s += cpu_of(result, true) / n_finished;
             const DiscreteFacts facts = read_run_facts(run_folder(directory, point.runs[k])).discrete;
-            made.strength_error += facts.expected_strength_error / n;
-            made.dilation_error += facts.expected_dilation_error / n;
-            if (counted.insert(point.runs[k].name).second)
-              spent += cpu_of(result, false);
+            made.strength_error += facts.expected_strength_error / n_finished;
+            made.dilation_error += facts.expected_dilation_error / n_finished;
           }
         for (std::size_t q = 0; made.words.empty() && q < n_quantities; ++q)
           if (const auto &v = made.values[q];
@@ -186,7 +197,7 @@ namespace diptych::coupling
           }
       }
 
-      // How many samples more the intervals need.
+      // How many samples more the intervals need: of those that have a value (a band, for one) only some may be among them.
       int samples_missing(const PanelPlan &panel, const int n) const
       {
         int missing = 0;
@@ -195,8 +206,12 @@ namespace diptych::coupling
             double method = 0;
             for (const ErrorPart &part : panel.quantities[q].parts)
               method += part.cause == "samples" ? 0 : part.error;
-            const int needed = samples_for(panel.outcomes[q].scatter, question.accuracy - method);
-            missing          = std::max(missing, needed == 0 ? n : needed - n);
+            const QuantityOutcome &outcome = panel.outcomes[q];
+            if (outcome.half_interval + method <= question.accuracy)
+              continue;
+            const double share  = double(outcome.statistics.n) / n;
+            const int    needed = samples_for(outcome.scatter, question.accuracy - method);
+            missing             = std::max(missing, needed == 0 || share == 0 ? n : std::max(1, int(needed / share) - n));
           }
         return missing;
       }
@@ -205,6 +220,24 @@ namespace diptych::coupling
       Pilot              &pilot;
       Settings            settings;
     };
+
+    // What `diptych run` costs with the settings of both panels; the plan's first samples tell.
+    void find_shared_cost(const PlanQuestion &question, Plan &plan, Pilot &pilot)
+    {
+      constexpr std::size_t most = 4;
+      PilotTask             task{StudyCommand::run, question.changes, {{}}, {}, {}};
+      for (const PanelPlan &panel : plan.panels)
+        {
+          task.common.insert(task.common.end(), panel.settings.begin(), panel.settings.end());
+          if (panel.seeds.size() > task.seeds.size())
+            task.seeds = panel.seeds;
+        }
+      task.seeds.resize(std::min(task.seeds.size(), most));
+      const PilotPoint point = pilot.run(task).front();
+      for (PanelPlan &panel : plan.panels)
+        if (point.words.empty())
+          panel.cpu_s = point.cpu_s, panel.peak_memory_mb = point.peak_memory_mb;
+    }
 
     Plan plan_of(const PlanQuestion &question, const Scene &scene, Pilot &pilot)
     {
@@ -217,6 +250,8 @@ namespace diptych::coupling
         plan.panels.push_back(plan_grains(question, scene, run));
       if (!question.continuum.empty())
         plan.panels.push_back(plan_continuum(question, scene, run));
+      if (plan.shares_samples())
+        find_shared_cost(question, plan, pilot);
       plan.pilot_cpu_s = pilot.cpu_s();
       return plan;
     }
@@ -232,11 +267,12 @@ namespace diptych::coupling
       Plan  plan = plan_of(question, scene, pilot);
       write_plan(directory, question, plan);
       bool is_reached = reaches(plan);
-      if (line.runs_the_plan && is_reached)
+      if (line.runs_the_plan)
         {
           Execution execution(question, plan, pilot);
           for (PanelPlan &panel : plan.panels)
-            is_reached = execution.run(panel) && is_reached;
+            if (panel.reaches)
+              is_reached = execution.run(panel) && is_reached;
           write_plan(directory, question, plan);
         }
       std::cout << text_of(plan) << directory << "/planned.prm, plan.json" << std::endl;

@@ -89,7 +89,11 @@ def main():
         sys.exit("lmp is not installed (Debian package lammps); without --run its stored results are taken")
     study = load(options.folder)
     style.set_up()
-    inertial = 1.13e-4 if "1.13e-4" in study.record["title"] else 1.13e-3
+    known = [value for value in rigid_limit.STIFFNESSES if f"{value:.2e}".replace("e-0", "e-") in study.record["title"]]
+    if len(known) != 1 or len(study.record["seeds"]) not in STUDENT:
+        sys.exit(f"{options.folder}: no study of step_tolerance: its title names no inertial number of {list(rigid_limit.STIFFNESSES)}, "
+                 f"or it has other samples")
+    inertial = known[0]
     table = {k: errors(study, options.folder, inertial, k, options.run) for k in rigid_limit.STIFFNESSES[inertial]}
     shown = [(k, q) for k, q in enumerate(study.quantities) if q["limit"]]
     figure = Figure(figsize=(4.6 * len(shown), 3.9), layout="constrained")

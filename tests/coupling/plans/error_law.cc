@@ -49,6 +49,9 @@ namespace
     // 1, 1.1, 1.1: the last change is no measure of the error.
     EXPECT_GT(refinement({4, 2, 1}, {1, 1.1, 1.1 + 1e-9}).error, 0.25 * 0.1 / 3 - 1e-9);
     EXPECT_EQ(refinement({4, 2, 1}, {1, 1, 1}).error, 0);
+    EXPECT_EQ(refinement({4, 2, 1}, {1, 1, 1}).sign, 0);
+    EXPECT_EQ(refinement({2, 1}, {5, 5.3}).sign, -1) << "coarse values lie below the limit";
+    EXPECT_EQ(refinement({2, 1}, {5, 4.9}).sign, 1);
     EXPECT_EQ(size_for(refinement({4, 2, 1}, {1, 1, 1}), 0.01), std::numeric_limits<double>::infinity());
   }
 
@@ -62,7 +65,7 @@ namespace
         EXPECT_LE(half_interval(1, n), half);
         EXPECT_TRUE(n == 1 || half_interval(1, n - 1) > half);
       }
-    EXPECT_EQ(samples_for(1, 2.5), 1);
+    EXPECT_EQ(samples_for(1, 3.2), 1);
     EXPECT_EQ(samples_for(1, 1e-6), 0);
     EXPECT_EQ(samples_for(1, 0), 0);
     EXPECT_EQ(samples_for(1, -1), 0);
