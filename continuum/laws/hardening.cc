@@ -20,6 +20,11 @@ namespace diptych::continuum
     residual           = {0, o.friction_angle_residual * degree, o.dilatancy_angle_residual * degree,
                           o.cohesion_residual.value_or(o.cohesion)};
     softening_strain   = o.softening_strain;
+    if (o.hardening == HardeningKind::mobilisation)
+      {
+        unmobilised         = (o.friction_angle_peak - o.friction_angle_start) * degree;
+        mobilisation_strain = o.mobilisation_strain;
+      }
     if (o.hardening == HardeningKind::constant)
       table = {peak};
     if (o.hardening == HardeningKind::table)
@@ -33,14 +38,16 @@ namespace diptych::continuum
     return table.empty() ? decayed(equivalent_plastic_strain) : interpolated(equivalent_plastic_strain);
   }
 
-  // v(kappa) = v_r + (v_p - v_r) exp(-kappa/kappa_s).
+  // v(kappa) = v_r + (v_p - v_r) exp(-kappa/kappa_s); friction less (phi_p - phi_0) exp(-kappa/kappa_m) where it is mobilised.
   Strength Hardening::decayed(const double equivalent_plastic_strain) const
   {
     const double decay = std::exp(-equivalent_plastic_strain / softening_strain), rate = -decay / softening_strain;
     const double friction = peak.friction - residual.friction, dilatancy = peak.dilatancy - residual.dilatancy;
     const double cohesion = peak.cohesion - residual.cohesion;
-    return {residual.friction + friction * decay, friction * rate, residual.dilatancy + dilatancy * decay, dilatancy * rate,
-            residual.cohesion + cohesion * decay, cohesion * rate};
+    const double lacks    = unmobilised == 0 ? 0 : unmobilised * std::exp(-equivalent_plastic_strain / mobilisation_strain);
+    return {residual.friction + friction * decay - lacks, friction * rate + lacks / mobilisation_strain,
+            residual.dilatancy + dilatancy * decay,       dilatancy * rate,
+            residual.cohesion + cohesion * decay,         cohesion * rate};
   }
 
   Strength Hardening::interpolated(const double equivalent_plastic_strain) const

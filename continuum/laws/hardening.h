@@ -36,6 +36,7 @@ namespace diptych::continuum
 
     Point              peak, residual; // strain: none
     double             softening_strain = 0;
-    std::vector<Point> table; // empty: exponential; one point: constant
+    double             unmobilised = 0, mobilisation_strain = 1; // what friction lacks at the start [radians]; by 1/e
+    std::vector<Point> table;                                    // empty: exponential or mobilisation; one point: constant
   };
 } // namespace diptych::continuum

@@ -51,6 +51,29 @@ namespace diptych::continuum
                    o.friction_angle_residual, o.dilatancy_angle_residual, cohesion);
     }
 
+    // phi - psi is a + b exp(-k/k_s) - c exp(-k/k_m), which has one stationary point at most: that and both ends decide.
+    void check_mobilisation(const LawOptions &o)
+    {
+      require_range("friction_angle_start", o.friction_angle_start, 0, steepest);
+      require_range("mobilisation_strain", o.mobilisation_strain, 1e-6, 1e6);
+      require(o.friction_angle_start <= o.friction_angle_peak, "friction_angle_start = ", o.friction_angle_start,
+              " must not exceed friction_angle_peak = ", o.friction_angle_peak);
+      check_values("at the start (dilatancy_angle_peak, friction_angle_start, cohesion)", o.friction_angle_start,
+                   o.dilatancy_angle_peak, o.cohesion);
+      const double b = o.friction_angle_peak - o.friction_angle_residual - o.dilatancy_angle_peak + o.dilatancy_angle_residual;
+      const double c = o.friction_angle_peak - o.friction_angle_start;
+      const double decay  = 1 / o.mobilisation_strain - 1 / o.softening_strain;
+      const double strain = std::log(c * o.softening_strain / (b * o.mobilisation_strain)) / decay;
+      if (!(b > 0 && c > 0 && std::isfinite(strain) && strain > 0))
+        return;
+      const double       softened = std::exp(-strain / o.softening_strain), lacks = c * std::exp(-strain / o.mobilisation_strain);
+      std::ostringstream place;
+      place << "at a hardening variable of " << strain << " (friction_angle_*, dilatancy_angle_*, mobilisation_strain)";
+      check_values(place.str(),
+                   o.friction_angle_residual + (o.friction_angle_peak - o.friction_angle_residual) * softened - lacks,
+                   o.dilatancy_angle_residual + (o.dilatancy_angle_peak - o.dilatancy_angle_residual) * softened, 1);
+    }
+
     // Linear between the points, so that the points decide.
     void check_table(const LawOptions &o)
     {
@@ -101,14 +124,17 @@ namespace diptych::continuum
     const std::vector<const char *> peak     = {"friction_angle_peak", "dilatancy_angle_peak", "cohesion"};
     const std::vector<const char *> residual = {"friction_angle_residual", "dilatancy_angle_residual", "cohesion_residual",
                                                 "softening_strain"};
+    const std::vector<const char *> start    = {"friction_angle_start", "mobilisation_strain"};
     const std::vector<const char *> table = {"table_strain", "table_friction_angle", "table_dilatancy_angle", "table_cohesion"};
     unless(is.is_cosserat, of_law, {"internal_length", "couple_shear_ratio"});
     unless(is.is_plastic, of_law, {"hardening", "viscosity"});
-    unless(is.is_plastic, of_law, peak), unless(is.is_plastic, of_law, residual), unless(is.is_plastic, of_law, table);
+    unless(is.is_plastic, of_law, peak), unless(is.is_plastic, of_law, residual), unless(is.is_plastic, of_law, start);
+    unless(is.is_plastic, of_law, table);
     if (is.is_plastic)
       {
         unless(o.hardening != HardeningKind::table, of_hardening, peak);
-        unless(o.hardening == HardeningKind::exponential, of_hardening, residual);
+        unless(o.hardening == HardeningKind::exponential || o.hardening == HardeningKind::mobilisation, of_hardening, residual);
+        unless(o.hardening == HardeningKind::mobilisation, of_hardening, start);
         unless(o.hardening == HardeningKind::table, of_hardening, table);
       }
     return unused;
@@ -127,8 +153,10 @@ namespace diptych::continuum
       check_table(o);
     else
       check_peak(o);
-    if (o.hardening == HardeningKind::exponential)
+    if (o.hardening == HardeningKind::exponential || o.hardening == HardeningKind::mobilisation)
       check_residual(o);
+    if (o.hardening == HardeningKind::mobilisation)
+      check_mobilisation(o);
     require_range("viscosity", o.viscosity, 0, greatest);
     require_range("internal_length", o.internal_length, 1e-6, 1e6);
     require_range("couple_shear_ratio", o.couple_shear_ratio, 1e-6, 1e6);

@@ -54,13 +54,15 @@ namespace diptych::continuum
   enum class HardeningKind
   {
     exponential,
+    mobilisation, // exponential, but friction begins below and rises first
     table,
     constant
   };
 
   constexpr auto choices(HardeningKind)
   {
-    return std::array{std::pair{HardeningKind::exponential, "exponential"}, std::pair{HardeningKind::table, "table"},
+    return std::array{std::pair{HardeningKind::exponential, "exponential"},
+                      std::pair{HardeningKind::mobilisation, "mobilisation"}, std::pair{HardeningKind::table, "table"},
                       std::pair{HardeningKind::constant, "constant"}};
   }
 
@@ -95,11 +97,13 @@ namespace diptych::continuum
     HardeningKind         hardening                = HardeningKind::exponential;
     double                friction_angle_peak      = 20.5; // [degrees]
     double                friction_angle_residual  = 13.5; // [degrees]
+    double                friction_angle_start     = 12;   // [degrees]; hardening = mobilisation
     double                dilatancy_angle_peak     = 12;   // [degrees]
     double                dilatancy_angle_residual = 0;    // [degrees]; a constant positive value inflates the band for ever
     double                cohesion                 = 0.01; // [Units::stress]; keeps free corners from losing all stiffness
     std::optional<double> cohesion_residual;               // [Units::stress]; none: = cohesion
-    double                softening_strain = 0.075;        // hardening variable of a decay by 1/e [-]
+    double                softening_strain    = 0.075;     // hardening variable of a decay by 1/e [-]
+    double                mobilisation_strain = 0.005;     // hardening = mobilisation: of a rise by 1 - 1/e [-]
     std::vector<double>   table_strain;                    // hardening = table: values of the hardening variable [-]
     std::vector<double>   table_friction_angle;            // [degrees]
     std::vector<double>   table_dilatancy_angle;           // [degrees]
@@ -112,10 +116,17 @@ namespace diptych::continuum
   template <class Visitor> void visit_parameters(LawOptions &o, Visitor &&visitor)
   {
     visit_parameters(o.elastic, visitor);
-    visitor("hardening", o.hardening, "-",
-            "exponential: from the peak to the residual values with the factor exp(-strain / softening_strain); table: the four "
-            "lists, linear between their points and constant beyond them; constant: the peak values");
-    visitor("friction_angle_peak", o.friction_angle_peak, "degrees", {0., 60.}, "friction angle before any plastic strain");
+    visitor(
+      "hardening", o.hardening, "-",
+      "exponential: from the peak to the residual values with the factor exp(-strain / softening_strain); mobilisation: the "
+      "same, but friction begins at friction_angle_start and lacks (peak - start) exp(-strain / mobilisation_strain); "
+      "table: the four lists, linear between their points and constant beyond them; constant: the peak values");
+    visitor("friction_angle_peak", o.friction_angle_peak, "degrees", {0., 60.},
+            "friction angle before any plastic strain; hardening = mobilisation: what it would be there, were all mobilised");
+    visitor("friction_angle_start", o.friction_angle_start, "degrees", {0., 60.},
+            "hardening = mobilisation: friction angle before any plastic strain; at most the peak angle");
+    visitor("mobilisation_strain", o.mobilisation_strain, "-", {1e-6, 1e6},
+            "hardening = mobilisation: equivalent plastic strain over which what friction lacks decays by 1/e");
     visitor("friction_angle_residual", o.friction_angle_residual, "degrees", {0., 60.},
             "friction angle after long shear; at most the peak angle");
     visitor("dilatancy_angle_peak", o.dilatancy_angle_peak, "degrees", {0., 60.},

@@ -42,7 +42,24 @@ namespace
     EXPECT_NEAR(table.at(7).friction / degree, 22, 1e-12);
     EXPECT_NEAR(decay.at(0.075).friction / degree, 13.5 + 7 * std::exp(-1), 1e-12);
     EXPECT_NEAR(decay.at(5).cohesion, 0.01, 1e-15) << "no residual means constant";
+    // 13.5 + 7 exp(-k/0.05) - 7.5 exp(-k/0.01): 13 at the start, the exponential's later; dilatancy the exponential's everywhere.
+    const Hardening rising(hardenings()["mobilisation"]), falling(hardenings()["exponential"]);
+    EXPECT_NEAR(rising.at(0).friction / degree, 13, 1e-12);
+    EXPECT_NEAR(rising.at(0.01).friction / degree, 13.5 + 7 * std::exp(-0.2) - 7.5 * std::exp(-1), 1e-12);
+    EXPECT_NEAR(rising.at(0.3).friction, falling.at(0.3).friction, 1e-12);
+    EXPECT_EQ(rising.at(0.01).dilatancy, falling.at(0.01).dilatancy);
     EXPECT_NEAR(constant_.at(9).friction / degree, 20.5, 1e-12);
+  }
+
+  // Softens to below its dilatancy before it is mobilised.
+  void slow_mobilisation(LawOptions &o)
+  {
+    o                          = hardenings()["mobilisation"];
+    o.dilatancy_angle_peak     = 12.9;
+    o.dilatancy_angle_residual = 12.9;
+    o.friction_angle_residual  = 13;
+    o.softening_strain         = 0.02;
+    o.mobilisation_strain      = 0.2;
   }
 
   TEST(Hardening, ContradictoryOptionsAreRefusedByName)
@@ -62,6 +79,10 @@ namespace
       {[](auto &o) { o.viscosity = -1; }, "viscosity"},
       {[](auto &o) { o.internal_length = 0; }, "internal_length"},
       {[](auto &o) { o.couple_shear_ratio = 0; }, "couple_shear_ratio"},
+      {[](auto &o) { o = hardenings()["mobilisation"], o.friction_angle_start = 21; }, "friction_angle_start"},
+      {[](auto &o) { o = hardenings()["mobilisation"], o.friction_angle_start = 11; }, "dilatancy_angle_peak"},
+      {[](auto &o) { o = hardenings()["mobilisation"], o.mobilisation_strain = 0; }, "mobilisation_strain"},
+      {[](auto &o) { slow_mobilisation(o); }, "mobilisation_strain"},
       {[](auto &o) { o = constant(0, 0, 0); }, "friction_angle_peak"},
       {[](auto &o) { o.hardening = HardeningKind::table; }, "table_strain"},
       {[](auto &o) { o = hardenings()["table"], o.table_cohesion.pop_back(); }, "table_cohesion"},

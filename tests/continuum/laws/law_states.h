@@ -56,14 +56,17 @@ namespace diptych::continuum::tests
     all["constant"] = constant(20.5, 12, 0.1);
     LawOptions o;
     o.cohesion = 0.1, o.cohesion_residual = 0.02, o.softening_strain = 0.05;
-    all["exponential"]      = o;
+    all["exponential"]     = o;
+    o.hardening            = HardeningKind::mobilisation;
+    o.friction_angle_start = 13, o.mobilisation_strain = 0.01;
+    all["mobilisation"]     = o;
     o.hardening             = HardeningKind::table;
     o.table_strain          = {0, 0.02, 0.1};
     o.table_friction_angle  = {15, 30, 22};
     o.table_dilatancy_angle = {0, 12, 2};
     o.table_cohesion        = {0.1, 0.08, 0.02};
     all["table"]            = o;
-    for (const std::string name : {"constant", "exponential", "table"})
+    for (const std::string name : {"constant", "exponential", "mobilisation", "table"})
       {
         all[name + ", viscous"]           = all[name];
         all[name + ", viscous"].viscosity = 0.05;

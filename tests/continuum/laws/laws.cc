@@ -42,7 +42,7 @@ namespace
           const Law             law = make_law(name, options);
           std::map<Regime, int> seen;
           for (const Start &start : starts())
-            for (const Strain &e : random_strains(40, start.size))
+            for (const Strain &e : random_strains(80, start.size))
               if (const auto error = tangent_error(law, start.state, e))
                 {
                   const MaterialUpdate answer = update(law, start.state, e);
