@@ -11,21 +11,6 @@ namespace diptych::coupling
 {
   namespace
   {
-    SampleFrame make_frame(const discrete::Snapshot &from, const discrete::Snapshot &to)
-    {
-      Eigen::Vector2d low = to.outline.left.front(), high = to.outline.right.front();
-      for (const auto *side : {&to.outline.left, &to.outline.right})
-        for (const Eigen::Vector2d &x : *side)
-          low = low.cwiseMin(x), high = high.cwiseMax(x);
-      SampleFrame frame;
-      frame.centre           = 0.5 * (low + high);
-      frame.width            = high.x() - low.x();
-      frame.height           = high.y() - low.y();
-      frame.mean_diameter    = to.mean_diameter;
-      frame.platen_increment = to.upper_platen_displacement - from.upper_platen_displacement;
-      return frame;
-    }
-
     double displacement_unit(const SampleFrame &frame, const DisplacementField &grains)
     {
       if (const double platen = frame.platen_increment.norm(); platen > 1e-9 * frame.mean_diameter)
@@ -54,6 +39,21 @@ namespace diptych::coupling
     }
   } // namespace
 
+  SampleFrame sample_frame(const discrete::Snapshot &from, const discrete::Snapshot &to)
+  {
+    Eigen::Vector2d low = to.outline.left.front(), high = to.outline.right.front();
+    for (const auto *side : {&to.outline.left, &to.outline.right})
+      for (const Eigen::Vector2d &x : *side)
+        low = low.cwiseMin(x), high = high.cwiseMax(x);
+    SampleFrame frame;
+    frame.centre           = 0.5 * (low + high);
+    frame.width            = high.x() - low.x();
+    frame.height           = high.y() - low.y();
+    frame.mean_diameter    = to.mean_diameter;
+    frame.platen_increment = to.upper_platen_displacement - from.upper_platen_displacement;
+    return frame;
+  }
+
   Increment make_increment(const StagePair &pair, const BandOptions &options, std::uint64_t seed)
   {
     const double radius = strain_radius(pair.grains_to.mean_diameter);
@@ -61,7 +61,7 @@ namespace diptych::coupling
     result.from              = pair.grains_from.progress;
     result.to                = pair.grains_to.progress;
     result.duration          = pair.grains_to.time - pair.grains_from.time;
-    result.frame             = make_frame(pair.grains_from, pair.grains_to);
+    result.frame             = sample_frame(pair.grains_from, pair.grains_to);
     result.mesh              = quad_mesh(pair.nodes_to);
     result.discrete.field    = displacement_field(pair.grains_from, pair.grains_to);
     result.continuum.field   = displacement_field(pair.nodes_from, pair.nodes_to);

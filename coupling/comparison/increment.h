@@ -37,6 +37,9 @@ namespace diptych::coupling
     std::vector<double> grain_shear; // shear strain increment at the grains
   };
 
+  // Box of the sample at `to`, by the outline of its grains, and how far the upper platen went.
+  SampleFrame sample_frame(const discrete::Snapshot &from, const discrete::Snapshot &to);
+
   // seed: of the resamples that give the bands' intervals.
   Increment make_increment(const StagePair &pair, const BandOptions &options, std::uint64_t seed);
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/program/command_line.h"
 
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <map>
 #include <stdexcept>
@@ -38,6 +40,7 @@ namespace diptych::coupling
         add_run();
         add_study();
         add_plan();
+        add_calibrate();
         add_panels();
         add_solve();
         add_results();
@@ -69,6 +72,8 @@ namespace diptych::coupling
       {
         to->add_option("--set", line.overrides, "section/key=value: change one key of the scene; may be repeated")
           ->allow_extra_args(false)->type_name("KEY=VALUE");
+        to->add_option("--set-file", line.set_files, "file of keys as calibrate writes it (.prm); --set goes before it")
+          ->allow_extra_args(false)->type_name("FILE");
       }
       void add_threads(CLI::App *to)
       {
@@ -118,6 +123,19 @@ namespace diptych::coupling
         add_set(study), add_threads(study), add_jobs(study, "");
         study->add_flag("--resume", line.resume, "keep the runs that are finished in the folder, and run the others");
         add_quiet(study);
+      }
+
+      void add_calibrate()
+      {
+        CLI::App *calibrate = add(Command::calibrate,
+                                  "parameters of the continuum from the grains' curves: fitted, with what the "
+                                  "data do not tell, and predictions of what was not fitted");
+        calibrate->add_option("CALIBRATION", line.target, "calibration file, .json")->required();
+        calibrate->add_option("--output", line.output, "folder of the calibration (default: results/<its name>_calibration)")
+          ->type_name("DIR");
+        add_threads(calibrate), add_jobs(calibrate, "");
+        calibrate->add_flag("--resume", line.resume, "keep the runs that are finished in the folder");
+        add_quiet(calibrate);
       }
 
       void add_plan()
@@ -260,6 +278,27 @@ namespace diptych::coupling
     }
   } // namespace
 
+  namespace
+  {
+    // Their keys, before those of --set.
+    void take_set_files(CommandLine &line)
+    {
+      std::vector<std::string> overrides;
+      for (const std::string &file : line.set_files)
+        {
+          std::ifstream in(file);
+          if (!in || std::filesystem::is_directory(file))
+            throw SceneError("--set-file: " + file + " cannot be read");
+          for (const Entry &entry : entries_of_prm(file, in))
+            {
+              check_entry(entry);
+              overrides.push_back(entry.section + "/" + entry.key + "=" + entry.value);
+            }
+        }
+      line.overrides.insert(line.overrides.begin(), overrides.begin(), overrides.end());
+    }
+  } // namespace
+
   std::string name_of(const Command command)
   {
     switch (command)
@@ -270,6 +309,8 @@ namespace diptych::coupling
         return "study";
       case Command::plan:
         return "plan";
+      case Command::calibrate:
+        return "calibrate";
       case Command::discrete:
         return "discrete";
       case Command::continuum:
@@ -309,6 +350,7 @@ namespace diptych::coupling
         const std::vector<std::string> joined_words = with_joined_per_cent(words);
         app.parse(std::vector<std::string>(joined_words.rbegin(), joined_words.rend()));
         parsed.line.command = commands.chosen();
+        take_set_files(parsed.line);
         if (parsed.line.command == Command::completion)
           {
             std::cout << completion_script(app, parsed.line.target);
@@ -322,6 +364,11 @@ namespace diptych::coupling
     catch (const CLI::ParseError &error)
       {
         std::cerr << refusal(app, words, error) << std::endl;
+        parsed.exit_code = wrong_input;
+      }
+    catch (const SceneError &error)
+      {
+        std::cerr << "diptych: " << error.what() << std::endl;
         parsed.exit_code = wrong_input;
       }
     return parsed;

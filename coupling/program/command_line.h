@@ -26,6 +26,7 @@ namespace diptych::coupling
     run,
     study,
     plan,
+    calibrate,
     discrete,
     continuum,
     material_point,
@@ -42,7 +43,8 @@ namespace diptych::coupling
     Command                              command = Command::explain;
     std::string                          target;                // scene or problem file, result folder, section or shell
     std::string                          output;                // --output
-    std::vector<std::string>             overrides;             // --set section/key=value
+    std::vector<std::string>             overrides;             // --set section/key=value, after the keys of --set-file
+    std::vector<std::string>             set_files;             // --set-file
     int                                  threads       = 1;     // --threads
     bool                                 resume        = false; // --resume
     bool                                 study_of_step = false; // --study step

@@ -107,6 +107,7 @@ namespace
       case Command::run:
       case Command::study:
       case Command::plan:
+      case Command::calibrate:
       case Command::continuum:
       case Command::material_point:
         become_the_panels(argv);
@@ -116,7 +117,8 @@ namespace
     if (n_processes() > 1)
       throw SceneError(
         "mpirun: diptych " + name_of(line.command) +
-        " runs on one process; several may run `diptych continuum` alone, `diptych run` with --seeds or `diptych study`");
+        " runs on one process; several may run `diptych continuum` alone, `diptych run` with --seeds, `diptych study` or "
+        "`diptych calibrate`");
     install_stop_signals();
     switch (line.command)
       {

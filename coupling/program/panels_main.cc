@@ -6,6 +6,7 @@
 
 #include "coupling/processes/processes.h"
 #include "coupling/processes/stop_signal.h"
+#include "coupling/program/calibrate_command.h"
 #include "coupling/program/continuum_command.h"
 #include "coupling/program/discrete_command.h"
 #include "coupling/program/ensemble_command.h"
@@ -22,10 +23,12 @@ namespace
 
   int execute(const CommandLine &line)
   {
-    if (n_processes() > 1 && line.command != Command::continuum && line.command != Command::study && line.seeds.empty())
+    if (n_processes() > 1 && line.command != Command::continuum && line.command != Command::study &&
+        line.command != Command::calibrate && line.seeds.empty())
       throw SceneError(
         "mpirun: diptych " + name_of(line.command) +
-        " runs on one process; several may run `diptych continuum` alone, `diptych run` with --seeds or `diptych study`");
+        " runs on one process; several may run `diptych continuum` alone, `diptych run` with --seeds, `diptych study` or "
+        "`diptych calibrate`");
     switch (line.command)
       {
       case Command::run:
@@ -34,6 +37,8 @@ namespace
         return run_study(line);
       case Command::plan:
         return make_plan(line);
+      case Command::calibrate:
+        return run_calibration(line);
       case Command::discrete: // as a task of a study
         return run_discrete(line);
       case Command::continuum:

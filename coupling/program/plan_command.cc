@@ -8,6 +8,7 @@
 #include <set>
 
 #include "coupling/folders/provenance.h"
+#include "coupling/folders/result_folder.h"
 #include "coupling/panels/continuum_loading.h"
 #include "coupling/plans/continuum_plan.h"
 #include "coupling/plans/error_law.h"

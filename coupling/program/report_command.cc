@@ -41,6 +41,8 @@ namespace diptych::coupling
           return "ensemble";
         case Drawing::study:
           return "study";
+        case Drawing::calibration:
+          return "calibration";
         default:
           return "step-study";
         }
@@ -68,11 +70,14 @@ namespace diptych::coupling
   {
     if (!fs::is_directory(line.target))
       throw SceneError(line.target + ": no result folder");
-    const bool is_study = is_study_folder(line.target), is_ensemble = is_ensemble_folder(line.target);
-    if (!is_study && !is_ensemble && !fs::exists(line.target + "/comparison.json"))
-      throw SceneError(line.target + ": holds no comparison.json, nor is it the folder of an ensemble or a study");
+    const Drawing drawing = is_study_folder(line.target)         ? Drawing::study
+                            : is_calibration_folder(line.target) ? Drawing::calibration
+                            : is_ensemble_folder(line.target)    ? Drawing::ensemble
+                                                                 : Drawing::page;
+    if (drawing == Drawing::page && !fs::exists(line.target + "/comparison.json"))
+      throw SceneError(line.target + ": holds no comparison.json, nor is it the folder of an ensemble, a study or a calibration");
     return keeping(line.target, [&] {
-      draw_page(line, is_study ? Drawing::study : is_ensemble ? Drawing::ensemble : Drawing::page, line.target);
+      draw_page(line, drawing, line.target);
       return int(done);
     });
   }

@@ -10,10 +10,11 @@ namespace diptych::coupling
 {
   enum class Drawing
   {
-    page,      // report.html of a result folder
-    ensemble,  // report.html of an ensemble
-    study,     // report.html of a study
-    step_study // study_step.png
+    page,        // report.html of a result folder
+    ensemble,    // report.html of an ensemble
+    study,       // report.html of a study
+    calibration, // report.html of a calibration
+    step_study   // study_step.png
   };
 
   // Runs the package on a folder as a child of its own. Throws std::runtime_error where it fails.

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# diptych: pages and pictures of results; usage: draw.py page|ensemble|study|step-study DIR
+# diptych: pages and pictures of results; usage: draw.py page|ensemble|study|calibration|step-study DIR
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Exit codes: 0 done, 2 wrong input (usage, missing or broken file, another format). What is drawn replaces an older one when
 it is whole."""
@@ -13,7 +13,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 from diptych_report.data.files import InputError  # noqa: E402
 
-WORDS = ("page", "ensemble", "study", "step-study")
+WORDS = ("page", "ensemble", "study", "calibration", "step-study")
 
 
 def draw(what, folder):
@@ -27,6 +27,9 @@ def draw(what, folder):
     elif what == "study":
         from diptych_report.page import study_page
         study_page.draw(folder)
+    elif what == "calibration":
+        from diptych_report.page import calibration_page
+        calibration_page.draw(folder)
     else:
         from diptych_report.charts import step_study
         from diptych_report.data.step_study import load

@@ -50,6 +50,11 @@ namespace diptych::coupling
     return path_of(directory, run, ".log");
   }
 
+  bool is_calibration_folder(const std::string &directory)
+  {
+    return fs::exists(directory + "/" + folder_of_a_calibration.input);
+  }
+
   bool is_study_folder(const std::string &directory)
   {
     return fs::exists(directory + "/" + folder_of_a_study.input);

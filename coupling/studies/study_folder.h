@@ -27,6 +27,12 @@ namespace diptych::coupling
                                                "study_input.json",
                                                {"study.json", "study.csv", "study_cost.json", "report.html"}};
 
+  inline const RunsFolder folder_of_a_calibration = {
+    "calibration",
+    "calibration_input.json",
+    {"calibration.json", "calibration.csv", "calibration_cost.json", "calibrated.prm", "report.html", "meshes"}};
+
+  bool is_calibration_folder(const std::string &directory);
   bool is_study_folder(const std::string &directory);
 
   // Makes the folder and copies the file that asked for it there. Without `resume` all runs are taken away; with it they stay.

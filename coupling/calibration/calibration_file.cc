@@ -1,0 +1,260 @@
+// diptych: calibrations read and checked
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/calibration/calibration_file.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "coupling/calibration/coordinates.h"
+#include "coupling/ensembles/seed_list.h"
+#include "coupling/scene/keys.h"
+#include "coupling/scene/scene_file.h"
+#include "coupling/studies/study_part.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    constexpr double far = 1e12;
+
+    std::string folder_of(const std::string &file)
+    {
+      return std::filesystem::path(file).parent_path().string();
+    }
+
+    void read_scene_and_seeds(const Part &part, const std::string &file, CalibrationTarget &target)
+    {
+      part.at("scene"), part.at("seeds");
+      target.scene = resolved(part.word("scene"), folder_of(file));
+      if (!std::filesystem::is_regular_file(target.scene))
+        part.refuse("scene", " = '" + target.scene + "': there is no such file");
+      try
+        {
+          target.seeds = read_seeds(value_text(part.json()["seeds"]));
+        }
+      catch (const std::invalid_argument &error)
+        {
+          part.refuse("seeds", std::string(error.what()).substr(std::string("--seeds").size()));
+        }
+    }
+
+    // Finished result folders; their first scene is the continuum's.
+    void read_results(const Part &part, const std::string &file, CalibrationTarget &target)
+    {
+      if (part.has("scene") || part.has("seeds"))
+        part.refuse("results", " stand in the place of scene and seeds");
+      for (const Part &one : part.list("results"))
+        {
+          const std::string          folder = resolved(value_text(one.json()), folder_of(file));
+          const std::optional<Scene> scene  = echoed_scene(folder + "/scene.prm");
+          if (!scene || !std::filesystem::exists(folder + "/discrete.csv") || !std::filesystem::exists(folder + "/discrete.h5"))
+            one.refuse("results: '" + folder + "' is no result folder with scene.prm, discrete.csv and discrete.h5");
+          target.results.push_back(folder);
+          target.seeds.push_back(scene->sample.seed);
+        }
+      if (target.results.empty())
+        part.refuse("results", " is empty");
+      target.scene = target.results.front() + "/scene.prm";
+    }
+
+    CalibrationTarget target_of(const Part &part, const std::string &file)
+    {
+      part.allow({"name", "scene", "set", "seeds", "results", "use"});
+      part.at("name");
+      CalibrationTarget target;
+      target.name     = part.word("name");
+      target.settings = part.settings("set");
+      if (part.has("results"))
+        read_results(part, file, target);
+      else
+        read_scene_and_seeds(part, file, target);
+      const std::string use = part.word("use", "fit");
+      if (use != "fit" && use != "predict")
+        part.refuse("use", " = '" + use + "' is not allowed: fit or predict is");
+      target.is_fitted = use == "fit";
+      return target;
+    }
+
+    // What a key is searched for in where the file does not say.
+    Coordinate usual_coordinate(const std::string &key)
+    {
+      if (key == "friction_angle_residual")
+        return Coordinate::drop_from;
+      if (key == "dilatancy_angle_peak" || key == "friction_angle_start")
+        return Coordinate::share_of;
+      return key == "poisson_ratio" ? Coordinate::value : Coordinate::logarithm;
+    }
+
+    void check_numbers(const Part &part, const CalibrationParameter &p)
+    {
+      const bool   is_ratio = p.coordinate == Coordinate::share_of || p.coordinate == Coordinate::drop_from;
+      const double low = is_ratio ? 0 : -far, high = is_ratio ? 1 : far;
+      if (!(p.low < p.high))
+        part.refuse("low", " = " + text_of(p.low) + " and high = " + text_of(p.high) + ": bounds must ascend");
+      if (!(p.start >= p.low && p.start <= p.high))
+        part.refuse("start",
+                    " = " + text_of(p.start) + " lies outside its bounds [" + text_of(p.low) + ", " + text_of(p.high) + "]");
+      if (!(p.low >= low && p.high <= high))
+        part.refuse("low", " = " + text_of(p.low) + " and high = " + text_of(p.high) + ": a share or drop lies in [0, 1]");
+      if (p.coordinate == Coordinate::logarithm && !(p.low > 0))
+        part.refuse("low", " = " + text_of(p.low) + ": a logarithm needs bounds above 0");
+      if (!is_ratio) // the key's own range
+        for (const char *name : {"low", "high"})
+          part.setting(name, "continuum/" + p.key, part.json()[name]);
+    }
+
+    CalibrationParameter parameter_of(const Part &part)
+    {
+      part.allow({"key", "coordinate", "of", "start", "low", "high"});
+      for (const char *key : {"key", "start", "low", "high"})
+        part.at(key);
+      CalibrationParameter p;
+      p.key        = part.word("key");
+      p.coordinate = part.choice("coordinate", usual_coordinate(p.key));
+      p.start = part.number("start", -far, far), p.low = part.number("low", -far, far), p.high = part.number("high", -far, far);
+      const bool is_ratio = p.coordinate == Coordinate::share_of || p.coordinate == Coordinate::drop_from;
+      if (!is_ratio && part.has("of"))
+        part.refuse("of", " belongs to coordinate = share_of or drop_from");
+      p.other = is_ratio ? part.word("of", "friction_angle_peak") : "";
+      part.setting("key", "continuum/" + p.key, 0.3); // whether there is such a key
+      check_numbers(part, p);
+      return p;
+    }
+
+    NoiseOptions noise_options_of(const Part &root)
+    {
+      NoiseOptions o;
+      if (!root.has("noise"))
+        return o;
+      const Part                                                         part = root.at("noise");
+      const std::vector<std::pair<std::string, double *>>                set  = {{"correlation_strain", &o.correlation_strain},
+                                                                                 {"stress_discrepancy", &o.stress_discrepancy},
+                                                                                 {"early_stress_discrepancy", &o.early_stress_discrepancy},
+                                                                                 {"early_strain", &o.early_strain},
+                                                                                 {"volume_discrepancy", &o.volume_discrepancy},
+                                                                                 {"width_discrepancy", &o.width_discrepancy}};
+      const std::vector<std::pair<std::string, std::optional<double> *>> told = {{"stress_level", &o.stress_level},
+                                                                                 {"stress_shape", &o.stress_shape},
+                                                                                 {"volume_start", &o.volume_start},
+                                                                                 {"volume_growth", &o.volume_growth},
+                                                                                 {"ln_width", &o.ln_width}};
+      std::vector<std::string>                                           keys;
+      for (const auto &[key, value] : set)
+        keys.push_back(key);
+      for (const auto &[key, value] : told)
+        keys.push_back(key);
+      part.allow(keys);
+      const auto is_length = [](const std::string &key) { return key == "correlation_strain" || key == "early_strain"; };
+      for (const auto &[key, value] : set)
+        if (part.has(key))
+          *value = part.number(key, is_length(key) ? 1e-9 : 0, far);
+      for (const auto &[key, value] : told)
+        if (part.has(key))
+          *value = part.number(key, 0, far);
+      return o;
+    }
+
+    std::vector<ObservableKind> kinds_of(const Part &root)
+    {
+      std::vector<ObservableKind> kinds;
+      for (const Part &part : root.list("quantities"))
+        {
+          const std::string word = value_text(part.json());
+          const auto        kind = discrete::value_of<ObservableKind>(word);
+          if (!kind)
+            part.refuse("quantities: '" + word + "' is not allowed: some of " + listed(names_of(ObservableKind())) + " are");
+          if (std::find(kinds.begin(), kinds.end(), *kind) != kinds.end())
+            part.refuse("quantities: '" + word + "' stands there twice");
+          kinds.push_back(*kind);
+        }
+      if (kinds.empty())
+        root.refuse("quantities", " is missing or empty: some of " + listed(names_of(ObservableKind())) + " are needed");
+      return kinds;
+    }
+
+    std::vector<double> bins_of(const Part &root)
+    {
+      std::vector<double> bins;
+      for (const Part &part : root.list("bins"))
+        {
+          if (!part.json().is_number() || !(part.json().get<double>() >= 0) || (!bins.empty() && !(part.json() > bins.back())))
+            part.refuse("bins: " + part.json().dump() + " is not allowed: edges ascend from 0 or above");
+          bins.push_back(part.json());
+        }
+      if (bins.size() < 2)
+        root.refuse("bins", " needs two edges or more");
+      return bins;
+    }
+
+    template <class List, class NameOf>
+    void demand_distinct(const Part &root, const char *key, const List &list, const NameOf &name)
+    {
+      for (std::size_t k = 0; k < list.size(); ++k)
+        for (std::size_t j = 0; j < k; ++j)
+          if (name(list[j]) == name(list[k]))
+            root.refuse(key, ": two are called '" + name(list[k]) + "'");
+    }
+
+    void read_targets(const Part &root, Calibration &c)
+    {
+      for (const Part &part : root.list("targets"))
+        c.targets.push_back(target_of(part, c.file));
+      if (std::none_of(c.targets.begin(), c.targets.end(), [](const CalibrationTarget &t) { return t.is_fitted; }))
+        root.refuse("targets", " is missing or holds none that is fitted");
+      demand_distinct(root, "targets", c.targets, [](const CalibrationTarget &t) { return t.name; });
+    }
+
+    void read_parameters(const Part &root, Calibration &c)
+    {
+      for (const Part &part : root.list("parameters"))
+        c.parameters.push_back(parameter_of(part));
+      if (c.parameters.empty())
+        root.refuse("parameters", " is missing or empty: what is to be found?");
+      demand_distinct(root, "parameters", c.parameters, [](const CalibrationParameter &p) { return p.key; });
+      c.fixed = root.settings("set");
+      for (const Entry &entry : c.fixed)
+        {
+          if (entry.section != "continuum")
+            root.refuse("set", ": " + entry.section + "/" + entry.key +
+                                 " is no key of the continuum; what grains need is set with the targets");
+          for (const CalibrationParameter &p : c.parameters)
+            if (p.key == entry.key)
+              root.refuse("set", ": continuum/" + entry.key + " is one of the parameters");
+        }
+    }
+  } // namespace
+
+  Calibration read_calibration(const std::string &file)
+  {
+    std::ifstream in(file);
+    if (!in || std::filesystem::is_directory(file))
+      throw SceneError(file + ": cannot be read; a calibration is a .json file");
+    const JsonText text = read_json_text(file, in);
+    const Part     root(text, text.root, "");
+    root.allow({"title", "targets", "quantities", "bins", "set", "parameters", "noise", "starts", "load_step",
+                "coarse_element_size", "check_samples", "seed"});
+    const std::filesystem::path path = std::filesystem::absolute(file);
+    Calibration                 c;
+    c.file  = file;
+    c.name  = path.stem() == "calibration" ? path.parent_path().filename().string() : path.stem().string();
+    c.title = root.word("title", c.name);
+    read_targets(root, c);
+    c.kinds = kinds_of(root);
+    if (c.kinds != std::vector{ObservableKind::ln_width})
+      c.bins = bins_of(root);
+    read_parameters(root, c);
+    c.noise = noise_options_of(root);
+    if (root.has("starts"))
+      c.starts = int(root.number("starts", 1, 20));
+    if (root.has("load_step"))
+      c.load_step = root.number("load_step", 1e-9, 1);
+    if (root.has("coarse_element_size"))
+      c.coarse_element_size = root.number("coarse_element_size", 0.01, 1e3);
+    if (root.has("check_samples"))
+      c.check_samples = int(root.number("check_samples", 0, 1000));
+    if (root.has("seed"))
+      c.seed = int(root.number("seed", 0, 1e6));
+    return c;
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,117 @@
+// diptych: values of a scene's keys as points of the unit cube, in which they are searched for
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/calibration/coordinates.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "coupling/scene/keys.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    const std::string section = "continuum";
+
+    double scale(const CalibrationParameter &p, const double number)
+    {
+      return p.coordinate == Coordinate::logarithm ? std::log(number) : number;
+    }
+  } // namespace
+
+  Coordinates::Coordinates(std::vector<CalibrationParameter> given, std::map<std::string, double> given_others)
+      : parameters(std::move(given)),
+        others(std::move(given_others))
+  {
+    std::vector<double> numbers;
+    for (const CalibrationParameter &p : parameters)
+      numbers.push_back(p.start);
+    for (const CalibrationParameter &p : parameters)
+      value_of(p.key, numbers, 0);
+  }
+
+  Eigen::VectorXd Coordinates::start() const
+  {
+    Eigen::VectorXd point = Eigen::VectorXd::Zero(Eigen::Index(size()));
+    for (std::size_t k = 0; k < size(); ++k)
+      {
+        const CalibrationParameter &p   = parameters[k];
+        const double                low = scale(p, p.low);
+        point[Eigen::Index(k)]          = (scale(p, p.start) - low) / (scale(p, p.high) - low);
+      }
+    return point;
+  }
+
+  std::vector<double> Coordinates::numbers(const Eigen::VectorXd &point) const
+  {
+    std::vector<double> result;
+    for (std::size_t k = 0; k < size(); ++k)
+      {
+        const CalibrationParameter &p    = parameters[k];
+        const double                low  = scale(p, p.low);
+        const double                here = low + point[Eigen::Index(k)] * (scale(p, p.high) - low);
+        result.push_back(p.coordinate == Coordinate::logarithm ? std::exp(here) : here);
+      }
+    return result;
+  }
+
+  std::vector<double> Coordinates::number_rates(const Eigen::VectorXd &point) const
+  {
+    const std::vector<double> here = numbers(point);
+    std::vector<double>       rates;
+    for (std::size_t k = 0; k < size(); ++k)
+      {
+        const CalibrationParameter &p     = parameters[k];
+        const double                width = scale(p, p.high) - scale(p, p.low);
+        rates.push_back(p.coordinate == Coordinate::logarithm ? here[k] * width : width);
+      }
+    return rates;
+  }
+
+  double Coordinates::value_of(const std::string &key, const std::vector<double> &numbers, const std::size_t depth) const
+  {
+    if (depth > size())
+      throw std::invalid_argument(key + " refers to itself in a circle");
+    for (std::size_t k = 0; k < size(); ++k)
+      if (parameters[k].key == key)
+        {
+          const CalibrationParameter &p = parameters[k];
+          switch (p.coordinate)
+            {
+            case Coordinate::share_of:
+              return numbers[k] * value_of(p.other, numbers, depth + 1);
+            case Coordinate::drop_from:
+              return (1 - numbers[k]) * value_of(p.other, numbers, depth + 1);
+            default:
+              return numbers[k];
+            }
+        }
+    const auto found = others.find(key);
+    if (found == others.end())
+      throw std::invalid_argument(key + " has no value to refer to");
+    return found->second;
+  }
+
+  std::vector<double> Coordinates::values(const Eigen::VectorXd &point) const
+  {
+    const std::vector<double> here = numbers(point);
+    std::vector<double>       result;
+    for (const CalibrationParameter &p : parameters)
+      result.push_back(value_of(p.key, here, 0));
+    return result;
+  }
+
+  Settings Coordinates::settings(const Eigen::VectorXd &point) const
+  {
+    const std::vector<double> here = values(point);
+    Settings                  result;
+    for (std::size_t k = 0; k < size(); ++k)
+      {
+        Entry entry;
+        entry.section = section, entry.key = parameters[k].key, entry.value = text_of(here[k]);
+        entry.place = "a point of the calibration";
+        result.push_back(entry);
+      }
+    return result;
+  }
+} // namespace diptych::coupling

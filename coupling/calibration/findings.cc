@@ -1,0 +1,205 @@
+// diptych: the findings of a calibration, put down
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/calibration/findings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupling/scene/keys.h"
+#include "coupling/statistics/equivalence.h"
+#include "discrete/choices.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    ParameterRecord parameter_record(const Coordinates     &coordinates,
+                                     const Identification  &knowledge,
+                                     const Eigen::VectorXd &point,
+                                     const std::size_t      k)
+    {
+      constexpr double            normal_quantile = 1.96, close = 1e-3;
+      const CalibrationParameter &p     = coordinates.parameter(k);
+      const Eigen::Index          place = Eigen::Index(k);
+      const double                here = point[place], deviation = knowledge.deviation[place];
+      const auto                  number_at = [&](const double x) {
+        Eigen::VectorXd moved = point;
+        moved[place]          = std::clamp(x, 0., 1.);
+        return coordinates.numbers(moved)[k];
+      };
+      ParameterRecord result;
+      result.key = p.key, result.coordinate = discrete::name_of(p.coordinate), result.other = p.other;
+      result.low = p.low, result.high = p.high, result.start = p.start;
+      result.number        = number_at(here);
+      result.value         = coordinates.values(point)[k];
+      result.number_low    = number_at(here - normal_quantile * deviation);
+      result.number_high   = number_at(here + normal_quantile * deviation);
+      result.share_known   = knowledge.share_known[place];
+      result.is_identified = knowledge.is_identified[k];
+      result.at_bound      = here < close || here > 1 - close;
+      return result;
+    }
+
+    Interval interval_of(const Equivalence &e)
+    {
+      return e.difference;
+    }
+
+    // One number of a path, sample by sample.
+    struct Held
+    {
+      std::vector<double> grains;
+      double              before = NAN, after = NAN;
+    };
+
+    PredictionRecord prediction(const std::string &quantity, const Held &held, const double margin, const bool is_relative)
+    {
+      PredictionRecord    record;
+      std::vector<double> grains;
+      std::copy_if(held.grains.begin(), held.grains.end(), std::back_inserter(grains),
+                   [](const double x) { return std::isfinite(x); });
+      record.quantity = quantity, record.margin = margin, record.before = held.before, record.after = held.after;
+      record.data = statistics(grains).mean;
+      Equivalence test;
+      if (std::isfinite(held.after) && is_relative)
+        test = compare_relative(grains, std::vector<double>(grains.size(), held.after), margin);
+      else if (std::isfinite(held.after))
+        {
+          std::vector<double> differences;
+          for (const double x : grains)
+            differences.push_back(held.after - x);
+          test = compare_differences(differences, margin);
+        }
+      record.difference = interval_of(test), record.verdict = text_of(test.verdict);
+      return record;
+    }
+
+    // The last observable of a kind, if there is one.
+    std::optional<std::size_t> last_of(const std::vector<Observable> &observables, const ObservableKind kind)
+    {
+      for (std::size_t k = observables.size(); k-- > 0;)
+        if (observables[k].kind == kind)
+          return k;
+      return {};
+    }
+
+    Held held_of(const CalibrationPath &path, const PathRuns &runs, const std::size_t k, const bool is_logarithm)
+    {
+      const auto value = [&](const Observation &o) {
+        const double x = o.values.size() > 0 ? o.values[Eigen::Index(k)] : NAN;
+        return is_logarithm ? std::exp(x) : x;
+      };
+      Held held{{}, value(runs.before.observation), value(runs.after.observation)};
+      for (const Observation &sample : path.samples)
+        held.grains.push_back(value(sample));
+      return held;
+    }
+
+    void add_predictions(const CalibrationPath &path, const PathRuns &runs, PathRecord &record)
+    {
+      const EquivalenceMargins &margins = path.scene.comparison.margins;
+      Held                      peak{{}, runs.before.observation.peak_stress_ratio, runs.after.observation.peak_stress_ratio};
+      std::vector<double>       turns;
+      for (const Observation &sample : path.samples)
+        {
+          peak.grains.push_back(sample.peak_stress_ratio);
+          const double turn = runs.after.observation.angle_deg - sample.angle_deg;
+          if (std::isfinite(turn))
+            turns.push_back(turn);
+        }
+      record.predictions.push_back(prediction("peak_stress_ratio", peak, margins.peak_stress_ratio, true));
+      if (const auto k = last_of(path.data.observables, ObservableKind::volumetric_strain))
+        record.predictions.push_back(
+          prediction("volumetric_strain", held_of(path, runs, *k, false), margins.volumetric_strain, false));
+      if (const auto k = last_of(path.data.observables, ObservableKind::ln_width))
+        {
+          record.predictions.push_back(prediction("width_10_90", held_of(path, runs, *k, true), margins.thickness, true));
+          const Equivalence test = compare_turns(turns, margins.angle);
+          PredictionRecord  angle;
+          angle.quantity = "angle_deg", angle.before = runs.before.observation.angle_deg,
+          angle.after = runs.after.observation.angle_deg;
+          std::vector<double> of_grains;
+          for (const Observation &sample : path.samples)
+            if (std::isfinite(sample.angle_deg))
+              of_grains.push_back(sample.angle_deg);
+          angle.data = line_statistics(of_grains).mean, angle.margin = margins.angle;
+          angle.difference = interval_of(test), angle.verdict = text_of(test.verdict);
+          record.predictions.push_back(angle);
+        }
+    }
+
+    // Mean of the samples with the 95 % band of one of them, and both curves of the continuum.
+    void add_curves(const CalibrationPath &path, const PathRuns &runs, PathRecord &record)
+    {
+      const auto &first = path.samples.front();
+      record.progress   = first.progress;
+      for (std::size_t k = 0; k < first.progress.size(); ++k)
+        {
+          std::vector<double> t, v;
+          for (const Observation &sample : path.samples)
+            t.push_back(sample.stress_ratio[k]), v.push_back(sample.volumetric_strain[k]);
+          const SampleStatistics stress = statistics(t), volume = statistics(v);
+          record.stress_ratio.push_back(stress.mean), record.volume.push_back(volume.mean);
+          record.stress_ratio_low.push_back(stress.mean - 2 * stress.deviation);
+          record.stress_ratio_high.push_back(stress.mean + 2 * stress.deviation);
+          record.volume_low.push_back(volume.mean - 2 * volume.deviation);
+          record.volume_high.push_back(volume.mean + 2 * volume.deviation);
+        }
+      record.stress_ratio_before = runs.before.observation.stress_ratio,
+      record.volume_before       = runs.before.observation.volumetric_strain;
+      record.stress_ratio_after  = runs.after.observation.stress_ratio,
+      record.volume_after        = runs.after.observation.volumetric_strain;
+    }
+  } // namespace
+
+  void tell_parameters(const Coordinates     &coordinates,
+                       const Identification  &knowledge,
+                       const Eigen::VectorXd &point,
+                       CalibrationRecord     &record)
+  {
+    for (std::size_t k = 0; k < coordinates.size(); ++k)
+      record.parameters.push_back(parameter_record(coordinates, knowledge, point, k));
+    for (Eigen::Index i = 0; i < knowledge.correlation.rows(); ++i)
+      {
+        record.correlation.emplace_back();
+        for (Eigen::Index j = 0; j < knowledge.correlation.cols(); ++j)
+          record.correlation.back().push_back(knowledge.correlation(i, j));
+      }
+    for (const ParameterRecord &p : record.parameters)
+      {
+        if (!p.is_identified)
+          record.words.push_back(p.key + " is not identified: the data leave " + text_of(std::round(100 * p.share_known)) +
+                                 " % of what was unknown before them");
+        if (p.at_bound)
+          record.words.push_back(p.key + " lies at its bound");
+      }
+  }
+
+  PathRecord path_record(const CalibrationPath &path, const PathRuns &runs)
+  {
+    PathRecord record;
+    record.name = path.target.name, record.use = path.target.is_fitted ? "fit" : "predict", record.seeds = path.target.seeds;
+    record.failed                  = runs.after.words;
+    const Eigen::VectorXd variance = covariance(runs.noise, path.data.observables).diagonal();
+    const auto            value    = [](const ModelRun &run, const std::size_t k) {
+      return run.words.empty() && run.observation.values.size() > 0 ? run.observation.values[Eigen::Index(k)] : NAN;
+    };
+    for (std::size_t k = 0; k < path.data.observables.size(); ++k)
+      {
+        const Observable  &one = path.data.observables[k];
+        const Eigen::Index at  = Eigen::Index(k);
+        ObservableRecord   entry;
+        entry.kind = discrete::name_of(one.kind), entry.from = one.from, entry.to = one.to;
+        entry.count = path.data.count[at], entry.mean = path.data.mean[at];
+        entry.deviation         = std::sqrt(variance[at]);
+        entry.deviation_of_mean = entry.deviation / std::sqrt(double(std::max(1, entry.count)));
+        entry.before = value(runs.before, k), entry.after = value(runs.after, k);
+        entry.half_step = value(runs.halved, k) - entry.after;
+        entry.left_out  = path.left_out.empty() ? "" : path.left_out[k];
+        record.observables.push_back(entry);
+      }
+    add_predictions(path, runs, record);
+    add_curves(path, runs, record);
+    return record;
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,25 @@
+// diptych: the findings of a calibration, put down
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "coupling/calibration/calibration_record.h"
+#include "coupling/calibration/coordinates.h"
+#include "coupling/calibration/identification.h"
+#include "coupling/calibration/model_runs.h"
+
+namespace diptych::coupling
+{
+  // Values with their intervals, correlations, and in words what is not identified or lies at its bound.
+  void tell_parameters(const Coordinates     &coordinates,
+                       const Identification  &knowledge,
+                       const Eigen::VectorXd &point,
+                       CalibrationRecord     &record);
+
+  // The continuum on one path: with the scene's own parameters, with the calibrated ones, and these with load steps half as long.
+  struct PathRuns
+  {
+    const NoiseModel &noise;
+    const ModelRun   &before, &after, &halved;
+  };
+  PathRecord path_record(const CalibrationPath &path, const PathRuns &runs);
+} // namespace diptych::coupling

@@ -1,0 +1,44 @@
+// diptych: the data of all fitted paths, one after the other, with the weights of the fit
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "coupling/calibration/noise.h"
+
+namespace diptych::coupling
+{
+  class FittedData
+  {
+  public:
+    FittedData(const NoiseModel &noise, const NoiseOptions &options)
+        : noise(noise),
+          options(options)
+    {}
+
+    // left_out: one entry an observable; where it is not empty the observable has no weight.
+    void add(const TargetData &path, const std::vector<std::string> &left_out);
+
+    Eigen::Index           size() const { return weight.size(); }
+    const Eigen::VectorXd &weights() const { return weight; }
+    int                    n_counting() const { return int((weight.array() > 0).count()); }
+
+    // sqrt(weight) (values - mean); empty where a value that counts is not finite, or there are no values.
+    [[nodiscard]] Eigen::VectorXd residual(const Eigen::VectorXd &values) const;
+
+    // The Jacobian of the observables from that of the residuals.
+    [[nodiscard]] Eigen::MatrixXd unweighted(const Eigen::MatrixXd &jacobian) const;
+
+    // Covariance of the means with what the law is granted, size() squared; samples of different paths have nothing in common.
+    [[nodiscard]] Eigen::MatrixXd noise_of_means() const;
+
+  private:
+    const NoiseModel       &noise;
+    const NoiseOptions     &options;
+    std::vector<TargetData> paths;
+    Eigen::VectorXd         weight, mean;
+  };
+} // namespace diptych::coupling

@@ -1,0 +1,93 @@
+# diptych: pictures of a calibration: curves before and after, residuals, correlation, profiles
+# SPDX-License-Identifier: LGPL-2.1-or-later
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from diptych_report.charts.style import CONTINUUM, FAINT, GRAINS, INK, ruled, svg
+from diptych_report.data.calibration import numbers
+
+CURVES = {"stress_ratio": ("stress_ratio", "stress ratio t/s", 1), "volumetric_strain": ("volume", "volumetric strain, %", 100)}
+KINDS = {"stress_ratio": "t/s", "volumetric_strain": "volume", "ln_width": "ln width"}
+MARKS = {"stress_ratio": "o", "volumetric_strain": "s", "ln_width": "D"}
+
+
+def curve(path, kind):
+    """Mean of the grains with the band of two deviations of one sample, the continuum before and after."""
+    name, label, scale = CURVES[kind]
+    x = 100 * numbers(path["progress"])
+    figure = Figure(figsize=(4.5, 3.1))
+    axes = ruled(figure.add_axes([0.15, 0.16, 0.825, 0.8]))
+    low, high = scale * numbers(path[name + "_low"]), scale * numbers(path[name + "_high"])
+    if np.isfinite(low).any():
+        axes.fill_between(x, low, high, color=GRAINS, alpha=0.18, linewidth=0, label="grains, two deviations of a sample")
+    axes.plot(x, scale * numbers(path[name]), color=GRAINS, label="grains, mean")
+    for when, look in (("before", dict(color=FAINT, linestyle=(0, (2, 1.5)))), ("after", dict(color=CONTINUUM, linestyle=(0, (5, 1.5))))):
+        y = scale * numbers(path[f"{name}_{when}"])
+        if len(y) == len(x):
+            axes.plot(x, y, label="continuum, the scene's own" if when == "before" else "continuum, calibrated", **look)
+    axes.set(xlabel="axial strain, %", ylabel=label, xlim=(0, x[-1]))
+    inside = high[np.isfinite(high)]
+    if kind == "stress_ratio" and len(inside):
+        axes.set_ylim(0, 1.25 * np.nanmax(scale * numbers(path[name])))
+    axes.legend(loc="lower right" if kind == "stress_ratio" else "best")
+    return svg(figure, f"{label} of {path['name']}: grains with their scatter, continuum before and after calibration.")
+
+
+def residuals(path):
+    """(continuum - grains) / deviation of the mean of the samples."""
+    entries = [o for o in path["observables"] if o["after"] is not None and o["mean"] is not None and o["deviation_of_mean"]]
+    if not entries:
+        return None
+    figure = Figure(figsize=(4.5, 3.1))
+    axes = ruled(figure.add_axes([0.13, 0.16, 0.845, 0.8]))
+    axes.axhspan(-2, 2, color="#e3eef5", linewidth=0)
+    axes.axhline(0, color=FAINT, linewidth=0.8)
+    for kind, mark in MARKS.items():
+        of_kind = [o for o in entries if o["kind"] == kind]
+        for counts in (True, False):
+            points = [(50 * (o["from"] + o["to"]), (o["after"] - o["mean"]) / o["deviation_of_mean"]) for o in of_kind if o["counts"] == counts]
+            if points:
+                axes.plot(*zip(*points), mark, color=INK, markersize=5, markerfacecolor=INK if counts else "white",
+                          label=KINDS[kind] + ("" if counts else ", not fitted"))
+    axes.set(xlabel="axial strain, %", ylabel="difference / deviation")
+    axes.legend(loc="best")
+    return svg(figure, f"Residuals of {path['name']} in deviations of the samples' mean, bin by bin.")
+
+
+def correlation(calibration):
+    names, matrix = calibration.names(), np.array(calibration.record["correlation"], dtype=float)
+    n = len(names)
+    figure = Figure(figsize=(3.2 + 0.42 * n, 1.5 + 0.42 * n))
+    width, height = figure.get_size_inches()
+    axes = figure.add_axes([2.1 / width, 1.45 / height, 0.42 * n / width, 0.42 * n / height])
+    axes.imshow(matrix, cmap="RdBu_r", vmin=-1, vmax=1)
+    for i in range(n):
+        for j in range(n):
+            axes.text(j, i, f"{matrix[i, j]:.1f}".replace("-", "−"), ha="center", va="center", fontsize=7,
+                      color="white" if abs(matrix[i, j]) > 0.6 else INK)
+    axes.set(xticks=range(n), yticks=range(n), yticklabels=names)
+    axes.set_xticklabels(names, rotation=50, ha="right")
+    axes.tick_params(length=0)
+    return svg(figure, "Correlation of the parameters in the coordinates of the search.")
+
+
+def profiles(calibration):
+    """chi^2 one and a half deviations to either side of the minimum, as run and as the linear model expects."""
+    entries = [p for p in calibration.parameters if None not in p["profile_number"]]
+    columns = 3
+    rows = -(-len(entries) // columns)
+    figure = Figure(figsize=(7.6, 2.1 * rows + 0.2))
+    for k, p in enumerate(entries):
+        axes = ruled(figure.add_subplot(rows, columns, k + 1))
+        x = numbers(p["profile_number"])
+        axes.plot(x, numbers(p["profile_expected"]), color=FAINT, linestyle=(0, (2, 1.5)), label="linear model")
+        axes.plot(x, numbers(p["profile_chi2"]), "o-", color=CONTINUUM, markersize=4, label="as run")
+        axes.set_xlabel(p["key"] + {"share_of": ", share", "drop_from": ", drop"}.get(p["coordinate"], ""))
+        axes.locator_params(nbins=4)
+        if k % columns == 0:
+            axes.set_ylabel("χ²")
+        if k == 0:
+            axes.legend(loc="upper center")
+    figure.tight_layout()
+    return svg(figure, "Profiles of chi squared over every parameter, the others moved along.")

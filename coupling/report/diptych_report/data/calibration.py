@@ -1,0 +1,45 @@
+# diptych: a calibration read into plain values
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Reads calibration.json and calibration_cost.json."""
+
+import os
+
+import numpy as np
+
+from diptych_report.data.files import InputError, read_json
+
+FORMAT = 1
+
+
+class Calibration:
+    """record: calibration.json; cost: calibration_cost.json."""
+
+    def __init__(self, record, cost):
+        self.record, self.cost = record, cost
+
+    @property
+    def paths(self):
+        return self.record["paths"]
+
+    @property
+    def parameters(self):
+        return self.record["parameters"]
+
+    def names(self):
+        return [p["key"] for p in self.parameters]
+
+
+def load(folder):
+    """Raises InputError where a file is missing, broken, of another format, or of a calibration that did not come to its end."""
+    path = os.path.join(folder, "calibration.json")
+    record = read_json(path)
+    if record.get("format") != FORMAT:
+        raise InputError(f"{path}: format {record.get('format')!r}; this report reads {FORMAT}")
+    if record["status"] != "finished":
+        raise InputError(f"{path}: the calibration is not finished ({record['status']})")
+    return Calibration(record, read_json(os.path.join(folder, "calibration_cost.json")))
+
+
+def numbers(values):
+    """As an array, NaN where a value is not known."""
+    return np.array([np.nan if value is None else value for value in values], dtype=float)

@@ -1,0 +1,26 @@
+# diptych: report.html of a calibration
+# SPDX-License-Identifier: LGPL-2.1-or-later
+
+from diptych_report.charts import calibration as figures
+from diptych_report.charts import style
+from diptych_report.data.calibration import load
+from diptych_report.page.writing import template, write
+from diptych_report.tables import calibration as tables
+
+
+def draw(folder):
+    """Raises InputError where a file is missing, broken or of another format."""
+    calibration = load(folder)
+    style.set_up()
+    write(folder, page(calibration))
+
+
+def page(calibration):
+    paths = []
+    for path in calibration.paths:
+        shown = [figures.curve(path, kind) for kind in figures.CURVES if any(o["kind"] == kind for o in path["observables"])]
+        paths.append((path, shown + [figures.residuals(path)]))
+    return template("calibration.html").render(
+        record=calibration.record, paths=paths, parameters=tables.parameters(calibration), predictions=tables.predictions(calibration),
+        misfits=tables.misfits(calibration), minima=tables.minima(calibration), cost=tables.cost(calibration),
+        correlation=figures.correlation(calibration), profiles=figures.profiles(calibration))

@@ -1,0 +1,68 @@
+# diptych: tables of a calibration
+# SPDX-License-Identifier: LGPL-2.1-or-later
+
+import numpy as np
+
+from diptych_report.charts.style import signed
+from diptych_report.data.calibration import numbers
+
+QUANTITIES = {"peak_stress_ratio": "peak t/s", "volumetric_strain": "volumetric strain, last bin", "width_10_90": "width 10–90, last window, d",
+              "angle_deg": "inclination, last window, degrees"}
+COORDINATES = {"value": "", "logarithm": "", "share_of": "share of ", "drop_from": "drop from "}
+KINDS = {"stress_ratio": "rms of t/s", "volumetric_strain": "rms of volume", "ln_width": "rms of ln width"}
+
+
+def text(value, digits=4):
+    return "–" if value is None or not np.isfinite(value) else signed(f"{value:.{digits}g}")
+
+
+def parameters(calibration):
+    rows = []
+    for p in calibration.parameters:
+        ratio = COORDINATES[p["coordinate"]]
+        number = text(p["number"], 3) if ratio else ""
+        rows.append([p["key"], text(p["value"]), f"{ratio}{p['of']}: {number}" if ratio else "", f"{text(p['number_low'], 3)} … {text(p['number_high'], 3)}",
+                     f"{text(p['low'], 3)} … {text(p['high'], 3)}", f"{100 * p['share_known']:.0f} %",
+                     ("yes" if p["is_identified"] else "not identified") + (", at its bound" if p["at_bound"] else "")])
+    return {"head": ["continuum/", "value", "searched for as", "95 %", "bounds", "deviation left", "identified"], "rows": rows}
+
+
+def predictions(calibration):
+    rows = []
+    for path in calibration.paths:
+        for one in path["predictions"]:
+            difference = one["difference"]
+            ends = "–" if difference["low"] is None else f"{text(difference['value'], 2)} [{text(difference['low'], 2)}, {text(difference['high'], 2)}]"
+            rows.append([f"{path['name']} ({'fitted' if path['use'] == 'fit' else 'predicted'})", QUANTITIES[one["quantity"]], text(one["data"]),
+                         text(one["before"]), text(one["after"]), ends, text(one["margin"], 2), one["verdict"]])
+    return {"head": ["path", "", "grains", "before", "calibrated", "difference [95 %]", "margin", "verdict"], "rows": rows}
+
+
+def misfits(calibration):
+    """Root mean squares over the bins, before and after, and what the parameters' own deviation makes of them."""
+    rows = []
+    for path in calibration.paths:
+        for kind, label in KINDS.items():
+            entries = [o for o in path["observables"] if o["kind"] == kind and o["mean"] is not None]
+            if entries:
+                mean, deviation = numbers([o["mean"] for o in entries]), numbers([o["parameter_deviation"] for o in entries])
+                rms = [text(np.sqrt(np.nanmean((numbers([o[when] for o in entries]) - mean) ** 2)), 2) for when in ("before", "after")]
+                steps = numbers([o["half_step"] for o in entries])
+                rows.append([path["name"], label, *rms, text(np.sqrt(np.nanmean(numbers([o["deviation_of_mean"] for o in entries]) ** 2)), 2),
+                             text(np.sqrt(np.nanmean(deviation ** 2)), 2), text(np.sqrt(np.nanmean(steps ** 2)), 2)])
+    return {"head": ["path", "", "before", "calibrated", "deviation of the samples’ mean", "by the parameters’ deviation", "half the load step moves"],
+            "rows": rows}
+
+
+def minima(calibration):
+    names = calibration.names()
+    rows = [[f"start {k + 1}" + (" (best)" if m["is_best"] else ""), text(m["chi2"], 3), str(m["runs"]), *[text(n, 3) for n in m["numbers"]], m["words"] or ""]
+            for k, m in enumerate(calibration.record["minima"])]
+    return {"head": ["", "χ²", "runs", *names, ""], "rows": rows}
+
+
+def cost(calibration):
+    r = calibration.record
+    return {"head": ["", ""], "rows": [["coarse runs (search and profiles)", str(r["coarse_runs"])], ["runs on the samples’ own mesh", str(r["fine_runs"])],
+                                       ["runs of predictions", str(r["other_runs"])], ["CPU time of the continuum, s", text(calibration.cost["continuum_cpu_s"], 3)],
+                                       ["CPU time of the grains, s", text(calibration.cost["grains_cpu_s"], 3)]]}

@@ -1,0 +1,207 @@
+#!/usr/bin/env python3
+# diptych: calibrations: what is found, kept, resumed, taken by a scene and refused
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: calibrate_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
+
+import csv
+import json
+import os
+import signal
+import tempfile
+import time
+import unittest
+
+from running import content, diptych, listing, main, QUICK, start, write
+
+TINY = {"sample/grains": 250, "loading/axial_strain": 0.02, "loading/stage_strain": 0.01, "loading/inertial_number": 1e-3,
+        "comparison/window_edges": "0, 0.01, 0.02"}
+TABLES = ("calibration.json", "calibration.csv", "calibrated.prm")
+
+
+def calibration(**changes):
+    """A file that a test can afford: two parameters, two samples, one start."""
+    asked = {
+        "targets": [{"name": "fitted", "scene": QUICK, "set": TINY, "seeds": "1-2"},
+                    {"name": "unseen", "scene": QUICK, "set": TINY, "seeds": "3", "use": "predict"}],
+        "quantities": ["stress_ratio", "volumetric_strain"], "bins": [0.002, 0.005, 0.01, 0.015, 0.02],
+        "parameters": [{"key": "friction_angle_peak", "start": 20, "low": 14, "high": 40},
+                       {"key": "dilatancy_angle_peak", "start": 0.4, "low": 0, "high": 1}],
+        "starts": 1, "load_step": 0.002, "check_samples": 1}
+    return {**asked, **changes}
+
+
+class Calibrate(unittest.TestCase):
+    def setUp(self):
+        keep = tempfile.TemporaryDirectory()
+        self.addCleanup(keep.cleanup)
+        self.work, self.folder = keep.name, os.path.join(keep.name, "out")
+
+    def file(self, asked):
+        path = os.path.join(self.work, "one.json")
+        write(path, json.dumps(asked, indent=1))
+        return path
+
+    def calibrate(self, asked, *words, code=0, folder=None):
+        result = diptych("calibrate", self.file(asked), "--output", folder or self.folder, "--quiet", *words)
+        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
+        return result
+
+    def record(self):
+        with open(os.path.join(self.folder, "calibration.json"), encoding="utf-8") as file:
+            return json.load(file)
+
+
+class Results(Calibrate):
+    def test_parameters_are_found_and_taken_by_a_scene(self):
+        self.calibrate(calibration())
+        record = self.record()
+        self.assertEqual(record["status"], "finished")
+        self.assertLess(record["chi2"], record["chi2_before"])
+        friction, dilatancy = record["parameters"]
+        self.assertTrue(friction["number_low"] < friction["value"] < friction["number_high"], friction)
+        self.assertAlmostEqual(dilatancy["value"], dilatancy["number"] * friction["value"], places=6)
+        fitted, unseen = record["paths"]
+        self.assertEqual((fitted["use"], unseen["use"]), ("fit", "predict"))
+        self.assertTrue(any(o["counts"] for o in fitted["observables"]))
+        self.assertFalse(any(o["counts"] for o in unseen["observables"]))
+        for path in record["paths"]:  # halving the load step moves less than the samples scatter
+            for o in path["observables"]:
+                self.assertLess(abs(o["half_step"]), o["deviation"], o)
+            self.assertEqual([p["quantity"] for p in path["predictions"]], ["peak_stress_ratio", "volumetric_strain"])
+        with open(os.path.join(self.folder, "calibration.csv"), encoding="utf-8") as file:
+            self.assertEqual(len(list(csv.DictReader(file))), 16)
+        # The fragment is what a scene takes, before what --set says.
+        fragment = os.path.join(self.folder, "calibrated.prm")
+        words = [word for key, value in TINY.items() for word in ("--set", f"{key}={value}")]
+        mesh = ["--set", "continuum/mesh=rectangle", "--set", "continuum/rectangle_width=15", "--set", "continuum/rectangle_height=20",
+                "--set", "comparison/coarse_element_size=0"]
+        again = os.path.join(self.work, "again")
+        result = diptych("continuum", QUICK, *words, *mesh, "--set-file", fragment, "--set", "continuum/internal_length=2.5", "--output",
+                         again, "--quiet")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(os.path.join(again, "scene.prm"), encoding="utf-8") as file:
+            echo = file.read()
+        for text in (f"= {friction['value']!r}", "= 2.5"):
+            self.assertIn(text, echo)
+        with open(os.path.join(self.folder, "report.html"), encoding="utf-8") as file:
+            page = file.read()
+        for text in ("friction_angle_peak", "cannot tell", "not identified", "<img"):
+            self.assertIn(text, page)
+        result = diptych("report", self.folder, "--quiet")
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_result_folders_stand_in_the_place_of_runs(self):
+        words = [word for key, value in TINY.items() for word in ("--set", f"{key}={value}")]
+        folders = []
+        for seed in (1, 2):
+            folders.append(os.path.join(self.work, f"grains_{seed}"))
+            result = diptych("discrete", QUICK, *words, "--set", f"sample/seed={seed}", "--output", folders[-1], "--quiet")
+            self.assertEqual(result.returncode, 0, result.stderr)
+        self.calibrate(calibration(targets=[{"name": "read", "results": folders}], check_samples=0))
+        record = self.record()
+        self.assertEqual(record["paths"][0]["seeds"], [1, 2])
+        self.assertTrue(any("was not checked" in words for words in record["words"]), record["words"])
+        # A result that stopped early.
+        with open(os.path.join(folders[1], "discrete.csv"), encoding="utf-8") as file:
+            lines = file.read().splitlines(keepends=True)
+        write(os.path.join(folders[1], "discrete.csv"), "".join(lines[:len(lines) // 2]))
+        result = self.calibrate(calibration(targets=[{"name": "read", "results": folders}]), code=2, folder=os.path.join(self.work, "b"))
+        for text in ("target 'read'", "grains_2", "before the end of its loading"):
+            self.assertIn(text, result.stderr)
+
+
+class Interruption(Calibrate):
+    def finished_runs(self):
+        """Names of the runs that came to their end."""
+        runs, found = os.path.join(self.folder, "runs"), []
+        for name in os.listdir(runs) if os.path.isdir(runs) else []:
+            if name.endswith(".json"):
+                with open(os.path.join(runs, name), encoding="utf-8") as file:
+                    found += [name] if "exit_code" in file.read() else []
+        return found
+
+    def stop_after(self, runs, with_signal):
+        process = start("calibrate", self.file(calibration()), "--output", self.folder, "--resume", "--quiet")
+        while process.poll() is None and len(self.finished_runs()) < runs:
+            time.sleep(0.002)
+        self.assertIsNone(process.poll(), "it ended before the signal")
+        process.send_signal(with_signal)
+        _, errors = process.communicate()
+        return process.returncode, errors
+
+    def test_killed_and_stopped_ones_go_on_to_the_same_bits(self):
+        code, _ = self.stop_after(1, signal.SIGKILL)
+        self.assertEqual(code, -signal.SIGKILL)
+        kept = {name: content(os.path.join(self.folder, "runs", name)) for name in self.finished_runs()}
+        code, errors = self.stop_after(len(kept) + 5, signal.SIGINT)
+        self.assertEqual(code, 3, errors)
+        for text in ("stopped on request", "--resume", self.folder):
+            self.assertIn(text, errors)
+        self.assertEqual(self.record()["status"], "stopped on request")
+        self.assertIn("stopped on request", open(os.path.join(self.folder, "calibrated.prm"), encoding="utf-8").read())
+        self.calibrate(calibration(), "--resume")
+        for name, bit in kept.items():
+            self.assertEqual(content(os.path.join(self.folder, "runs", name)), bit, "run again")
+        alone = os.path.join(self.work, "alone")
+        self.calibrate(calibration(), "--jobs", "1", folder=alone)
+        for name in TABLES:
+            self.assertEqual(content(os.path.join(self.folder, name)), content(os.path.join(alone, name)), name)
+
+
+class Refused(Calibrate):
+    def test_a_wrong_file_is_told_where_it_is_wrong(self):
+        parameter = {"key": "friction_angle_peak", "start": 20, "low": 14, "high": 40}
+        target = {"name": "fitted", "scene": QUICK, "seeds": "1-2"}
+        for changes, words in [
+                ({"taget": 1}, ["taget"]),
+                ({"targets": []}, ["targets", "fitted"]),
+                ({"targets": [{**target, "use": "predict"}]}, ["targets", "fitted"]),
+                ({"targets": [{**target, "seeds": ""}]}, ["seeds"]),
+                ({"targets": [{**target, "scene": "no.prm"}]}, ["scene", "no.prm"]),
+                ({"targets": [target, target]}, ["'fitted'"]),
+                ({"targets": [{"name": "read", "results": ["nowhere"]}]}, ["nowhere", "discrete.csv"]),
+                ({"targets": [{"name": "read", "results": []}]}, ["results"]),
+                ({"quantities": []}, ["quantities", "stress_ratio"]),
+                ({"quantities": ["stress"]}, ["'stress'", "stress_ratio"]),
+                ({"bins": [0.01]}, ["bins"]),
+                ({"bins": [0.01, 0.005]}, ["bins", "0.005"]),
+                ({"bins": [0.5, 0.6]}, ["no bin"]),
+                ({"parameters": []}, ["parameters"]),
+                ({"parameters": [{**parameter, "key": "friction"}]}, ["continuum/friction", "nearest"]),
+                ({"parameters": [{**parameter, "low": 30}]}, ["start", "30"]),
+                ({"parameters": [{**parameter, "high": 70}]}, ["friction_angle_peak", "70"]),
+                ({"parameters": [{**parameter, "low": 0}]}, ["low", "logarithm"]),
+                ({"parameters": [parameter, parameter]}, ["'friction_angle_peak'"]),
+                ({"parameters": [{"key": "dilatancy_angle_peak", "start": 0.5, "low": 0, "high": 2}]}, ["[0, 1]"]),
+                ({"parameters": [{**parameter, "of": "cohesion"}]}, ["of", "share_of"]),
+                ({"set": {"discrete/friction": 0.5}}, ["discrete/friction"]),
+                ({"set": {"continuum/friction_angle_peak": 20}}, ["friction_angle_peak", "parameters"]),
+                ({"noise": {"level": 1}}, ["level"]),
+                ({"starts": 0}, ["starts"])]:
+            with self.subTest(changes=changes):
+                result = self.calibrate(calibration(**changes), code=2)
+                for text in [*words, "one.json"]:
+                    self.assertIn(text, result.stderr)
+                self.assertFalse(os.path.exists(self.folder), "something was made")
+        result = diptych("calibrate", QUICK, "--output", self.folder)
+        self.assertEqual(result.returncode, 2, result.stderr)
+
+    def test_a_folder_with_other_files_is_left_alone(self):
+        os.mkdir(self.folder)
+        write(os.path.join(self.folder, "mine.txt"), "mine")
+        result = self.calibrate(calibration(), code=2)
+        self.assertIn("holds other files", result.stderr)
+        self.assertEqual(listing(self.folder), ["mine.txt"])
+
+    def test_a_fragment_is_checked(self):
+        fragment = os.path.join(self.work, "f.prm")
+        write(fragment, "subsection continuum\n  set friction_angle_pek = 20\nend\n")
+        for file, words in ((fragment, ["friction_angle_pek", "f.prm", "line 2"]), ("no.prm", ["--set-file", "no.prm"])):
+            result = diptych("continuum", QUICK, "--set-file", file, "--output", self.folder)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            for text in words:
+                self.assertIn(text, result.stderr)
+
+
+if __name__ == "__main__":
+    main()
