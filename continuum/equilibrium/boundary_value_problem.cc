@@ -3,6 +3,7 @@
 #include "continuum/equilibrium/boundary_value_problem.h"
 
 #include <algorithm>
+#include <optional>
 #include <cmath>
 #include <ctime>
 #include <type_traits>
@@ -10,6 +11,7 @@
 #include "continuum/elements/element_kernels.h"
 #include "continuum/equilibrium/point_operations.h"
 #include "continuum/equilibrium/stopwatch.h"
+#include "continuum/laws/hardening.h"
 #include "continuum/laws/plastic_flow.h"
 #include "continuum/equilibrium/loads.h"
 
@@ -114,7 +116,10 @@ namespace diptych::continuum
   {
     const Eigen::Vector2d spot = mesh.origin +
                                  Eigen::Vector2d(options.weak_spot_x, options.weak_spot_y).cwiseProduct(mesh.extent);
-    const double radius = options.weak_spot_radius * units.length;
+    const double             radius = options.weak_spot_radius * units.length;
+    std::optional<Hardening> hardening;
+    if (traits(options.law).is_plastic)
+      hardening.emplace(options.material, units);
     for (std::size_t i = 0; i < state.points.size(); ++i)
       {
         auto &point          = state.points[i];
@@ -125,8 +130,20 @@ namespace diptych::continuum
         Eigen::Vector2d at   = Eigen::Vector2d::Zero();
         for (unsigned int node = 0; node < mesh.reference.n_nodes; ++node)
           at += mesh.reference.shape[i % mesh.reference.n_points][node] * mesh.nodes[cell.nodes[node]].initial;
-        point.equivalent_plastic_strain = options.weak_spot_strain * std::exp(-(at - spot).squaredNorm() / (2 * radius * radius));
+        const double         strain     = options.weak_spot_strain * std::exp(-(at - spot).squaredNorm() / (2 * radius * radius));
+        const HardeningState weakened   = hardening ? hardening->after({}, strain) : HardeningState{strain};
+        point.equivalent_plastic_strain = weakened.equivalent_plastic_strain;
+        point.stress_ratio_gain         = weakened.stress_ratio_gain;
+        point.densification             = weakened.densification;
       }
+  }
+
+  void BoundaryValueProblem::set_initial_solid_fraction(const std::vector<double> &solid_fraction)
+  {
+    const LawOptions &law   = options.material;
+    const double      start = law.solid_fraction_start.value_or(law.critical_solid_fraction);
+    for (std::size_t i = 0; i < state.points.size(); ++i)
+      state.points[i].densification += std::log(solid_fraction[i / mesh.reference.n_points] / start);
   }
 
   void BoundaryValueProblem::set_initial_stress(const std::vector<Eigen::Matrix2d> &stress)

@@ -58,6 +58,9 @@ namespace diptych::continuum
     // In the place of the isotropic stress, one tensor per cell of this process, compression positive.
     void set_initial_stress(const std::vector<Eigen::Matrix2d> &stress);
 
+    // Of a critical-state law, one number per cell of this process.
+    void set_initial_solid_fraction(const std::vector<double> &solid_fraction);
+
     DistributedVector zero_vector() const;
 
     // Loads and platen motion of the step from the committed progress to `to`. `share` < 1 mixes the loads with those that the

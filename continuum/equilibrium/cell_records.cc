@@ -12,15 +12,16 @@ namespace diptych::continuum
 
   namespace
   {
-    constexpr unsigned int n_state = n_components + 8;
+    constexpr unsigned int n_state = n_components + 10;
 
     std::array<double, n_state> packed(const MaterialState &s)
     {
       std::array<double, n_state> values{};
       for (unsigned int k = 0; k < n_components; ++k)
         values[k] = s.stress[k];
-      const double rest[] = {s.stress_zz,         s.equivalent_plastic_strain, s.overstress,        s.plastic_strain.xx,
-                             s.plastic_strain.yy, s.plastic_strain.zz,         s.plastic_strain.xy, s.dissipation};
+      const double rest[] = {
+        s.stress_zz,         s.equivalent_plastic_strain, s.overstress,  s.plastic_strain.xx, s.plastic_strain.yy,
+        s.plastic_strain.zz, s.plastic_strain.xy,         s.dissipation, s.stress_ratio_gain, s.densification};
       std::copy(std::begin(rest), std::end(rest), values.begin() + n_components);
       return values;
     }
@@ -36,6 +37,8 @@ namespace diptych::continuum
       s.overstress                = rest[2];
       s.plastic_strain            = {rest[3], rest[4], rest[5], rest[6]};
       s.dissipation               = rest[7];
+      s.stress_ratio_gain         = rest[8];
+      s.densification             = rest[9];
       return s;
     }
 

@@ -80,14 +80,14 @@ namespace diptych::continuum
 
   double ConeLaw::shear_strength(const MaterialState &state) const
   {
-    const Cone c = cone.at(state.equivalent_plastic_strain);
+    const Cone c = cone.at(hardening_state(state));
     return pressure(state) * c.slope + c.intercept;
   }
 
   MaterialUpdate ConeLaw::update(const MaterialState &s0, const Strain &d_strain, const double d_time) const
   {
     const Trial  trial = elastic_trial(s0, d_strain);
-    const Cone   c     = cone.at(s0.equivalent_plastic_strain);
+    const Cone   c     = cone.at(hardening_state(s0));
     const double yield = trial.shear - trial.pressure * c.slope - c.intercept;
     if (yield <= 1e-12 * (trial.shear + std::abs(trial.pressure) + c.intercept))
       return elastic_answer(trial);
@@ -115,7 +115,7 @@ namespace diptych::continuum
     path.pressure                  = trial.pressure;
     path.shear_loss                = moduli_.shear;
     path.pressure_gain_by_dilation = pressure_modulus;
-    return return_to_cone(cone, trial.state.equivalent_plastic_strain, path, viscous_modulus(d_time), moduli_.shear);
+    return return_to_cone(cone, hardening_state(trial.state), path, viscous_modulus(d_time), moduli_.shear);
   }
 
   MaterialUpdate ConeLaw::elastic_answer(const Trial &trial) const
@@ -143,8 +143,11 @@ namespace diptych::continuum
     state.stress_zz += cone.shape == ConeShape::mohr_coulomb
                          ? -moduli_.lateral / B * (end.pressure - trial.pressure)
                          : trial.pressure - end.pressure + 2 / sqrt3 * (end.shear - trial.shear) * trial.direction[out_of_plane];
-    state.equivalent_plastic_strain += end.multiplier;
-    state.overstress = end.overstress;
+    const HardeningState hardened   = cone.hardening.after(hardening_state(trial.state), end.multiplier);
+    state.equivalent_plastic_strain = hardened.equivalent_plastic_strain;
+    state.stress_ratio_gain         = hardened.stress_ratio_gain;
+    state.densification             = hardened.densification;
+    state.overstress                = end.overstress;
 
     answer.tangent = ratio * G * metric + G * (end.shear_by_shear - ratio) * outer_product(n, n) -
                      B * end.shear_by_pressure * outer_product(n, one) - G * end.pressure_by_shear * outer_product(one, n) +

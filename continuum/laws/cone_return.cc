@@ -22,9 +22,9 @@ namespace diptych::continuum
     class Path
     {
     public:
-      Path(const YieldCone &cone, const double kappa_0, const ReturnPath &path, const double viscous_modulus)
+      Path(const YieldCone &cone, const HardeningState &start, const ReturnPath &path, const double viscous_modulus)
           : cone(cone),
-            kappa_0(kappa_0),
+            start(start),
             path(path),
             viscous_modulus(viscous_modulus)
       {}
@@ -32,7 +32,7 @@ namespace diptych::continuum
       PathPoint at(const double lambda) const
       {
         PathPoint    p;
-        const Cone  &c = p.cone = cone.at(kappa_0 + lambda);
+        const Cone  &c = p.cone = cone.at(cone.hardening.after(start, lambda));
         const double loss       = path.shear_loss + path.shear_loss_by_dilation * c.dilation;
         const double gain       = path.pressure_gain + path.pressure_gain_by_dilation * c.dilation;
         p.shear                 = path.shear - loss * lambda;
@@ -45,10 +45,10 @@ namespace diptych::continuum
       }
 
     private:
-      const YieldCone  &cone;
-      const double      kappa_0;
-      const ReturnPath &path;
-      const double      viscous_modulus;
+      const YieldCone      &cone;
+      const HardeningState &start;
+      const ReturnPath     &path;
+      const double          viscous_modulus;
     };
 
     struct Root
@@ -77,12 +77,12 @@ namespace diptych::continuum
       return {};
     }
 
-    // Where t(lambda) = 0. The dilation is below one, so that the loss lies between its values for zero and one.
+    // Where t(lambda) = 0. The dilation lies between minus and plus one, and the loss between its values there.
     Root tip_multiplier(const Path &points, const ReturnPath &path, const double tolerance)
     {
       if (path.shear_loss_by_dilation == 0)
         return {path.shear / path.shear_loss, true};
-      const double high = path.shear / std::min(path.shear_loss, path.shear_loss + path.shear_loss_by_dilation);
+      const double high = path.shear / (path.shear_loss - std::abs(path.shear_loss_by_dilation));
       return bracketed_newton(
         [&](const double lambda) {
           const PathPoint p = points.at(lambda);
@@ -123,15 +123,15 @@ namespace diptych::continuum
     }
   } // namespace
 
-  ConeReturn return_to_cone(const YieldCone  &cone,
-                            const double      kappa_0,
-                            const ReturnPath &path,
-                            const double      viscous_modulus,
-                            const double      reference_modulus)
+  ConeReturn return_to_cone(const YieldCone      &cone,
+                            const HardeningState &start_state,
+                            const ReturnPath     &path,
+                            const double          viscous_modulus,
+                            const double          reference_modulus)
   {
     ConeReturn failed;
     failed.verdict = Verdict::failed;
-    const Path      points(cone, kappa_0, path, viscous_modulus);
+    const Path      points(cone, start_state, path, viscous_modulus);
     const PathPoint start = points.at(0);
     // The scale is the trial stress: an absolute tolerance would be met at once in a nearly unloaded corner.
     const double tolerance = 1e-13 * (path.shear + std::abs(path.pressure) + start.cone.intercept);

@@ -3,6 +3,7 @@
 #include "continuum/laws/hardening.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace diptych::continuum
@@ -25,6 +26,17 @@ namespace diptych::continuum
         unmobilised         = (o.friction_angle_peak - o.friction_angle_start) * degree;
         mobilisation_strain = o.mobilisation_strain;
       }
+    if (o.hardening == HardeningKind::critical_state)
+      {
+        const double start = o.solid_fraction_start.value_or(o.critical_solid_fraction);
+        critical_state     = {true,
+                              o.critical_stress_ratio,
+                              o.stress_ratio_start - o.critical_stress_ratio,
+                              o.strength_by_density * o.critical_solid_fraction * std::log(start / o.critical_solid_fraction),
+                              o.strength_by_density * o.critical_solid_fraction,
+                              o.dilatancy_ratio,
+                              o.mobilisation_strain};
+      }
     if (o.hardening == HardeningKind::constant)
       table = {peak};
     if (o.hardening == HardeningKind::table)
@@ -33,9 +45,62 @@ namespace diptych::continuum
           {o.table_strain[k], o.table_friction_angle[k] * degree, o.table_dilatancy_angle[k] * degree, o.table_cohesion[k]});
   }
 
-  Strength Hardening::at(const double equivalent_plastic_strain) const
+  Strength Hardening::at(const HardeningState &state) const
   {
-    return table.empty() ? decayed(equivalent_plastic_strain) : interpolated(equivalent_plastic_strain);
+    if (critical_state.is_on)
+      return critical(state);
+    return table.empty() ? decayed(state.equivalent_plastic_strain) : interpolated(state.equivalent_plastic_strain);
+  }
+
+  Hardening::Excess Hardening::excess(const HardeningState &state) const
+  {
+    return {critical_state.start_excess + state.stress_ratio_gain,
+            critical_state.start_possible + critical_state.by_density * state.densification};
+  }
+
+  // sin phi = eta, sin psi = (eta - eta_c)/beta, cut off short of upright.
+  Strength Hardening::critical(const HardeningState &state) const
+  {
+    constexpr double most  = 0.95;
+    const Excess     e     = excess(state);
+    const double     rate  = (e.possible - e.mobilised) / critical_state.mobilisation_strain;
+    const auto       angle = [&](const double sine, const double sine_rate) {
+      const bool   is_cut = std::abs(sine) > most;
+      const double kept   = std::clamp(sine, -most, most);
+      return std::array<double, 2>{std::asin(kept), is_cut ? 0 : sine_rate / std::sqrt(1 - kept * kept)};
+    };
+    const auto friction  = angle(std::max(0., critical_state.stress_ratio + e.mobilised),
+                                critical_state.stress_ratio + e.mobilised > 0 ? rate : 0);
+    const auto dilatancy = angle(e.mobilised / critical_state.dilatancy_ratio, rate / critical_state.dilatancy_ratio);
+    return {friction[0], friction[1], dilatancy[0], dilatancy[1], peak.cohesion, 0};
+  }
+
+  // y = eta - eta_c and z = eta_p - eta_c obey y' = (z - y)/g, z' = -w y with w = A nu_c / beta: with a = 1/(2 g) and q^2 = a^2 -
+  // w/g the matrix exponential is e^(-a l) (cosh(q l) 1 + sinh(q l)/q (M + a 1)), of cosine and sine where q^2 < 0.
+  HardeningState Hardening::after(const HardeningState &state, const double multiplier) const
+  {
+    HardeningState end = state;
+    end.equivalent_plastic_strain += multiplier;
+    if (!critical_state.is_on)
+      return end;
+    const Excess e = excess(state);
+    const double l = multiplier, g = critical_state.mobilisation_strain, a = 0.5 / g;
+    const double w = critical_state.by_density / critical_state.dilatancy_ratio, square = a * a - w / g;
+    const double q = std::sqrt(std::abs(square)), ql = q * l;
+    // Both with the decay, which may be strong where cosh is large.
+    double even = std::exp(-a * l), odd = l * even;
+    if (ql > 1e-6 && square > 0)
+      {
+        const double slow = std::exp((q - a) * l), fast = std::exp(-(q + a) * l);
+        even = 0.5 * (slow + fast), odd = 0.5 * (slow - fast) / q;
+      }
+    else if (ql > 1e-6)
+      odd = even * std::sin(ql) / q, even *= std::cos(ql);
+    const double y = even * e.mobilised + odd * ((e.possible - e.mobilised) / g + a * e.mobilised);
+    const double z = even * e.possible + odd * (a * e.possible - w * e.mobilised);
+    end.stress_ratio_gain += y - e.mobilised;
+    end.densification += (z - e.possible) / critical_state.by_density;
+    return end;
   }
 
   // v(kappa) = v_r + (v_p - v_r) exp(-kappa/kappa_s); friction less (phi_p - phi_0) exp(-kappa/kappa_m) where it is mobilised.

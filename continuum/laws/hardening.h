@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "continuum/laws/law.h"
 #include "continuum/laws/options.h"
 
 namespace diptych::continuum
@@ -16,15 +17,37 @@ namespace diptych::continuum
     double cohesion = 0, cohesion_rate = 0;   // c [pressure]
   };
 
+  // What strength depends on; the rest of a MaterialState takes no part.
+  struct HardeningState
+  {
+    double equivalent_plastic_strain = 0;
+    double stress_ratio_gain = 0, densification = 0; // critical state: since the start
+  };
+  inline HardeningState hardening_state(const MaterialState &state)
+  {
+    return {state.equivalent_plastic_strain, state.stress_ratio_gain, state.densification};
+  }
+
+  // hardening = critical_state (after Taylor 1948; Roux and Radjai 1998): the mobilised stress ratio eta = t/s tends to what the
+  // solid fraction nu allows, and dilation follows what it exceeds the critical one by. By the plastic shear strain g
+  // (compression positive, d eps_v plastic):
+  //   d eta / dg = (eta_p(nu) - eta) / g_r,   eta_p = eta_c + A nu_c ln(nu / nu_c),
+  //   d eps_v / dg = -sin psi = -(eta - eta_c) / beta,   d ln nu = d eps_v.
+  // With the logarithm, which is nu - nu_c to first order, both equations are linear and are solved exactly, so that steps of any
+  // length conserve mass and give the same.
   class Hardening
   {
   public:
     // Throws std::invalid_argument as validate(options) does.
     explicit Hardening(const LawOptions &options, const Units &units = {});
 
-    // At the hardening variable `equivalent_plastic_strain` >= 0. At a point of the table the rate is that of the interval
-    // which begins there.
-    Strength at(double equivalent_plastic_strain) const;
+    // At a state, with an equivalent plastic strain >= 0. At a point of the table the rate is that of the interval which begins
+    // there.
+    Strength at(const HardeningState &state) const;
+    Strength at(const double equivalent_plastic_strain) const { return at(HardeningState{equivalent_plastic_strain}); }
+
+    // The state after plastic shear strain `multiplier` >= 0.
+    HardeningState after(const HardeningState &state, double multiplier) const;
 
   private:
     struct Point
@@ -33,6 +56,22 @@ namespace diptych::continuum
     };
     Strength decayed(double equivalent_plastic_strain) const;
     Strength interpolated(double equivalent_plastic_strain) const;
+    Strength critical(const HardeningState &state) const;
+
+    // What eta and eta_p have above eta_c.
+    struct Excess
+    {
+      double mobilised, possible;
+    };
+    Excess excess(const HardeningState &state) const;
+
+    struct Critical
+    {
+      bool   is_on        = false;
+      double stress_ratio = 0, start_excess = 0, start_possible = 0;       // eta_c; eta_0 - eta_c; eta_p(nu_0) - eta_c
+      double by_density = 0, dilatancy_ratio = 1, mobilisation_strain = 1; // A nu_c, beta, g_r
+    };
+    Critical critical_state;
 
     Point              peak, residual; // strain: none
     double             softening_strain = 0;

@@ -50,6 +50,8 @@ namespace diptych::continuum
     Stress        stress;
     double        stress_zz                 = 0; // [pressure]
     double        equivalent_plastic_strain = 0; // hardening variable: integral of d(eps_1 - eps_3) plastic [-]
+    double        stress_ratio_gain         = 0; // critical state: mobilised t/s less that of the start [-]
+    double        densification             = 0; // critical state: ln(solid fraction / that of the start), by plastic strain [-]
     double        overstress                = 0; // excess of the yield function that viscosity carries [pressure]
     PlasticStrain plastic_strain;                // kept by add_plastic_flow(), not by update()
     double        dissipation = 0;               // plastic work per initial area [pressure]; by add_plastic_flow()

@@ -47,7 +47,7 @@ namespace diptych::continuum
 
   double MohrCoulomb::shear_strength(const MaterialState &state) const
   {
-    const Cone c = cone.at(state.equivalent_plastic_strain);
+    const Cone c = cone.at(hardening_state(state));
     return outer(state).pressure() * c.slope + c.intercept;
   }
 
@@ -60,7 +60,7 @@ namespace diptych::continuum
   {
     const Trial  trial = elastic_trial(s0, d_strain);
     const Outer  o     = outer(trial.state);
-    const double scale = o.shear() + std::abs(o.pressure()) + cone.at(s0.equivalent_plastic_strain).intercept;
+    const double scale = o.shear() + std::abs(o.pressure()) + cone.at(hardening_state(s0)).intercept;
     if (!std::isfinite(scale) || yield_function(trial.state) <= 1e-12 * scale)
       return elastic_answer(trial);
 
@@ -81,8 +81,7 @@ namespace diptych::continuum
     sorted[p.major]          = trial.shear - trial.pressure;
     sorted[p.minor]          = -trial.shear - trial.pressure;
     sorted[p.zz]             = zz;
-    const auto     principal = return_in_principal_space(cone, moduli_, s0.equivalent_plastic_strain, sorted,
-                                                         viscous_modulus(d_time));
+    const auto     principal = return_in_principal_space(cone, moduli_, hardening_state(s0), sorted, viscous_modulus(d_time));
     MaterialUpdate answer    = plastic_answer(trial, plane_part(trial, principal));
     answer.state.stress_zz   = principal.stress[p.zz];
     return answer;

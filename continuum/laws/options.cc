@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/laws/options.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "continuum/require.h"
@@ -74,6 +75,29 @@ namespace diptych::continuum
                    o.dilatancy_angle_residual + (o.dilatancy_angle_peak - o.dilatancy_angle_residual) * softened, 1);
     }
 
+    // The densest and most mobilised state is that of the start, or what its density allows.
+    void check_critical_state(const LawOptions &o)
+    {
+      require_range("critical_stress_ratio", o.critical_stress_ratio, 0.01, 0.9);
+      require_range("critical_solid_fraction", o.critical_solid_fraction, 0.1, 1);
+      require_range("strength_by_density", o.strength_by_density, 1e-6, 1e3);
+      require_range("dilatancy_ratio", o.dilatancy_ratio, 0.05, 20);
+      require_range("stress_ratio_start", o.stress_ratio_start, 0, 0.9);
+      require_range("mobilisation_strain", o.mobilisation_strain, 1e-6, 1e6);
+      require_range("cohesion", o.cohesion, 0, greatest);
+      const double start = o.solid_fraction_start.value_or(o.critical_solid_fraction);
+      require_range("solid_fraction_start", start, 0.1, 1);
+      const double possible = o.critical_stress_ratio +
+                              o.strength_by_density * o.critical_solid_fraction * std::log(start / o.critical_solid_fraction);
+      for (const double ratio : {o.stress_ratio_start, possible})
+        {
+          const double sine = (ratio - o.critical_stress_ratio) / o.dilatancy_ratio;
+          require(sine <= std::max(ratio, 0.), "solid_fraction_start = ", start, ", stress_ratio_start = ", o.stress_ratio_start,
+                  ": at t/s = ", ratio, " the sine of the dilatancy angle, ", sine,
+                  ", must not exceed it (plastic work would be negative); dilatancy_ratio or critical_stress_ratio is too small");
+        }
+    }
+
     // Linear between the points, so that the points decide.
     void check_table(const LawOptions &o)
     {
@@ -121,20 +145,28 @@ namespace diptych::continuum
           unused.push_back({key, because});
     };
     const std::string               of_law = "law = " + name_of(law), of_hardening = "hardening = " + name_of(o.hardening);
-    const std::vector<const char *> peak     = {"friction_angle_peak", "dilatancy_angle_peak", "cohesion"};
-    const std::vector<const char *> residual = {"friction_angle_residual", "dilatancy_angle_residual", "cohesion_residual",
-                                                "softening_strain"};
-    const std::vector<const char *> start    = {"friction_angle_start", "mobilisation_strain"};
+    const std::vector<const char *> peak      = {"friction_angle_peak", "dilatancy_angle_peak", "cohesion"};
+    const std::vector<const char *> residual  = {"friction_angle_residual", "dilatancy_angle_residual", "cohesion_residual",
+                                                 "softening_strain"};
+    const std::vector<const char *> start     = {"friction_angle_start"};
+    const std::vector<const char *> mobilised = {"mobilisation_strain"};
+    const std::vector<const char *> critical  = {"critical_stress_ratio", "critical_solid_fraction", "strength_by_density",
+                                                 "dilatancy_ratio",       "stress_ratio_start",      "solid_fraction_start"};
     const std::vector<const char *> table = {"table_strain", "table_friction_angle", "table_dilatancy_angle", "table_cohesion"};
     unless(is.is_cosserat, of_law, {"internal_length", "couple_shear_ratio"});
     unless(is.is_plastic, of_law, {"hardening", "viscosity"});
-    unless(is.is_plastic, of_law, peak), unless(is.is_plastic, of_law, residual), unless(is.is_plastic, of_law, start);
+    unless(is.is_plastic, of_law, peak), unless(is.is_plastic, of_law, residual), unless(is.is_plastic, of_law, start),
+      unless(is.is_plastic, of_law, mobilised), unless(is.is_plastic, of_law, critical);
     unless(is.is_plastic, of_law, table);
     if (is.is_plastic)
       {
-        unless(o.hardening != HardeningKind::table, of_hardening, peak);
+        const bool has_state = o.hardening == HardeningKind::critical_state;
+        unless(o.hardening != HardeningKind::table && !has_state, of_hardening, {"friction_angle_peak", "dilatancy_angle_peak"});
+        unless(o.hardening != HardeningKind::table, of_hardening, {"cohesion"});
         unless(o.hardening == HardeningKind::exponential || o.hardening == HardeningKind::mobilisation, of_hardening, residual);
         unless(o.hardening == HardeningKind::mobilisation, of_hardening, start);
+        unless(o.hardening == HardeningKind::mobilisation || has_state, of_hardening, mobilised);
+        unless(has_state, of_hardening, critical);
         unless(o.hardening == HardeningKind::table, of_hardening, table);
       }
     return unused;
@@ -151,6 +183,8 @@ namespace diptych::continuum
     validate(o.elastic);
     if (o.hardening == HardeningKind::table)
       check_table(o);
+    else if (o.hardening == HardeningKind::critical_state)
+      check_critical_state(o);
     else
       check_peak(o);
     if (o.hardening == HardeningKind::exponential || o.hardening == HardeningKind::mobilisation)

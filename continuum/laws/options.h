@@ -56,6 +56,7 @@ namespace diptych::continuum
     exponential,
     mobilisation, // exponential, but friction begins below and rises first
     table,
+    critical_state, // strength and dilatancy from solid fraction and mobilisation (hardening.h)
     constant
   };
 
@@ -63,7 +64,7 @@ namespace diptych::continuum
   {
     return std::array{std::pair{HardeningKind::exponential, "exponential"},
                       std::pair{HardeningKind::mobilisation, "mobilisation"}, std::pair{HardeningKind::table, "table"},
-                      std::pair{HardeningKind::constant, "constant"}};
+                      std::pair{HardeningKind::critical_state, "critical_state"}, std::pair{HardeningKind::constant, "constant"}};
   }
 
   // In what the parameters of a law count: stresses and moduli in the lateral pressure of the loading, lengths in the mean grain
@@ -108,6 +109,12 @@ namespace diptych::continuum
     std::vector<double>   table_friction_angle;            // [degrees]
     std::vector<double>   table_dilatancy_angle;           // [degrees]
     std::vector<double>   table_cohesion;                  // [Units::stress]
+    double                critical_stress_ratio   = 0.26;  // hardening = critical_state: t/s of steady flow [-]
+    double                critical_solid_fraction = 0.82;  // of steady flow [-]
+    double                strength_by_density     = 5.5;   // d(t/s) / d(solid fraction) of what can be mobilised [-]
+    double                dilatancy_ratio         = 0.55;  // (t/s - that of steady flow) / sin(dilatancy angle) [-]
+    double                stress_ratio_start      = 0.1;   // mobilised t/s of the prepared sample [-]
+    std::optional<double> solid_fraction_start;            // of the prepared sample [-]; none: mapped from the grains
     double                viscosity          = 0;          // [Units::stress x progress]; above zero where onset needs easing
     double                internal_length    = 1;          // Cosserat laws [Units::length]
     double                couple_shear_ratio = 0.5;        // Cosserat laws: skew modulus / shear modulus [-]
@@ -120,13 +127,14 @@ namespace diptych::continuum
       "hardening", o.hardening, "-",
       "exponential: from the peak to the residual values with the factor exp(-strain / softening_strain); mobilisation: the "
       "same, but friction begins at friction_angle_start and lacks (peak - start) exp(-strain / mobilisation_strain); "
-      "table: the four lists, linear between their points and constant beyond them; constant: the peak values");
+      "table: the four lists, linear between their points and constant beyond them; critical_state: both angles follow "
+      "solid fraction and mobilisation; constant: the peak values");
     visitor("friction_angle_peak", o.friction_angle_peak, "degrees", {0., 60.},
             "friction angle before any plastic strain; hardening = mobilisation: what it would be there, were all mobilised");
     visitor("friction_angle_start", o.friction_angle_start, "degrees", {0., 60.},
             "hardening = mobilisation: friction angle before any plastic strain; at most the peak angle");
     visitor("mobilisation_strain", o.mobilisation_strain, "-", {1e-6, 1e6},
-            "hardening = mobilisation: equivalent plastic strain over which what friction lacks decays by 1/e");
+            "hardening = mobilisation, critical_state: equivalent plastic strain over which what friction lacks decays by 1/e");
     visitor("friction_angle_residual", o.friction_angle_residual, "degrees", {0., 60.},
             "friction angle after long shear; at most the peak angle");
     visitor("dilatancy_angle_peak", o.dilatancy_angle_peak, "degrees", {0., 60.},
@@ -138,6 +146,17 @@ namespace diptych::continuum
             "cohesion after long shear; auto: stays as it is");
     visitor("softening_strain", o.softening_strain, "-", {1e-6, 1e6},
             "equivalent plastic strain over which angles and cohesion decay by 1/e");
+    visitor("critical_stress_ratio", o.critical_stress_ratio, "-", {0.01, 0.9}, "hardening = critical_state: t/s of steady flow");
+    visitor("critical_solid_fraction", o.critical_solid_fraction, "-", {0.1, 1.},
+            "hardening = critical_state: solid fraction of steady flow");
+    visitor("strength_by_density", o.strength_by_density, "-", {1e-6, 1e3},
+            "hardening = critical_state: t/s that can be mobilised, by solid fraction");
+    visitor("dilatancy_ratio", o.dilatancy_ratio, "-", {0.05, 20.},
+            "hardening = critical_state: what t/s has above that of steady flow, over the sine of the dilatancy angle");
+    visitor("stress_ratio_start", o.stress_ratio_start, "-", {0., 0.9},
+            "hardening = critical_state: t/s that the prepared sample has mobilised");
+    visitor("solid_fraction_start", o.solid_fraction_start, "-", {0.1, 1.},
+            "hardening = critical_state: solid fraction of the prepared sample; auto: of its grains, cell by cell");
     visitor("table_strain", o.table_strain, "-", {0., 1e6}, "hardening = table: equivalent plastic strains, ascending from 0");
     visitor("table_friction_angle", o.table_friction_angle, "degrees", {0., 60.}, "hardening = table: friction angles there");
     visitor("table_dilatancy_angle", o.table_dilatancy_angle, "degrees", {0., 60.},

@@ -95,15 +95,15 @@ namespace diptych::continuum
 
     struct Problem
     {
-      const YieldCone     &cone;
-      const ElasticModuli &moduli;
-      double               kappa_0;
-      const Principal     &trial;
-      double               viscous_modulus;
+      const YieldCone      &cone;
+      const ElasticModuli  &moduli;
+      const HardeningState &start;
+      const Principal      &trial;
+      double                viscous_modulus;
 
       ConeReturn solve(const Branch branch) const
       {
-        return return_to_cone(cone, kappa_0, path_of(branch, moduli, trial), viscous_modulus, moduli.shear);
+        return return_to_cone(cone, start, path_of(branch, moduli, trial), viscous_modulus, moduli.shear);
       }
     };
 
@@ -114,7 +114,7 @@ namespace diptych::continuum
       if (r.verdict == Verdict::failed || r.regime == Regime::apex)
         return {};
       PrincipalReturn answer = assemble(Branch::plane, r);
-      const Cone      c      = problem.cone.at(problem.kappa_0 + r.multiplier);
+      const Cone      c      = problem.cone.at(problem.cone.hardening.after(problem.start, r.multiplier));
       const double    loss   = problem.moduli.lateral * (c.dilation + c.dilation_rate * r.multiplier);
       answer.stress[1]       = problem.trial[1] - problem.moduli.lateral * c.dilation * r.multiplier;
       answer.jacobian[1]     = gradient(weights(Branch::plane), -loss * r.multiplier_by_shear, -loss * r.multiplier_by_pressure);
@@ -132,7 +132,7 @@ namespace diptych::continuum
       if (r.verdict == Verdict::failed)
         return {};
       const bool   right      = branch == Branch::right_edge;
-      const double dilation   = problem.cone.at(problem.kappa_0 + r.multiplier).dilation;
+      const double dilation   = problem.cone.at(problem.cone.hardening.after(problem.start, r.multiplier)).dilation;
       const double difference = right ? problem.trial[1] - problem.trial[2] : problem.trial[0] - problem.trial[1];
       if (difference > problem.moduli.shear * (1 + (right ? -dilation : dilation)) * r.multiplier * (1 + 1e-10))
         return {};
@@ -140,13 +140,13 @@ namespace diptych::continuum
     }
   } // namespace
 
-  PrincipalReturn return_in_principal_space(const YieldCone     &cone,
-                                            const ElasticModuli &moduli,
-                                            const double         kappa_0,
-                                            const Principal     &trial,
-                                            const double         viscous_modulus)
+  PrincipalReturn return_in_principal_space(const YieldCone      &cone,
+                                            const ElasticModuli  &moduli,
+                                            const HardeningState &start,
+                                            const Principal      &trial,
+                                            const double          viscous_modulus)
   {
-    const Problem problem{cone, moduli, kappa_0, trial, viscous_modulus};
+    const Problem problem{cone, moduli, start, trial, viscous_modulus};
     if (const auto answer = return_to_plane(problem))
       return *answer;
     for (const Branch edge : {Branch::right_edge, Branch::left_edge})

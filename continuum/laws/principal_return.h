@@ -26,9 +26,9 @@ namespace diptych::continuum
   // which grows by the sum of their multipliers, and one viscous overstress, viscous_modulus times that sum. Opening at the apex
   // does not harden. Method: de Souza Neto, Peric, Owen, Computational Methods for Plasticity (2008), chapter 8; since the two
   // multipliers of an edge differ by what makes two trial stresses meet, only their sum is left to be solved for.
-  PrincipalReturn return_in_principal_space(const YieldCone     &cone,
-                                            const ElasticModuli &moduli,
-                                            double               kappa_0,
-                                            const Principal     &trial,
-                                            double               viscous_modulus);
+  PrincipalReturn return_in_principal_space(const YieldCone      &cone,
+                                            const ElasticModuli  &moduli,
+                                            const HardeningState &start,
+                                            const Principal      &trial,
+                                            double                viscous_modulus);
 } // namespace diptych::continuum

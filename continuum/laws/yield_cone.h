@@ -35,9 +35,10 @@ namespace diptych::continuum
     Hardening hardening;
     ConeShape shape;
 
-    Cone at(double equivalent_plastic_strain) const
+    Cone at(const double equivalent_plastic_strain) const { return at(HardeningState{equivalent_plastic_strain}); }
+    Cone at(const HardeningState &state) const
     {
-      const Strength strength = hardening.at(equivalent_plastic_strain);
+      const Strength strength = hardening.at(state);
       return shape == ConeShape::mohr_coulomb ? mohr_coulomb_cone(strength) : drucker_prager_cone(strength);
     }
   };

@@ -72,32 +72,32 @@ namespace diptych::continuum
     Report report;
     int    stage = 0;
 
-    // The snapshot lists the cells of all processes one after the other.
     void set_initial_stress(const std::vector<Eigen::Matrix2d> &stress)
     {
       std::vector<double> numbers;
       for (const auto &tensor : stress)
         numbers.insert(numbers.end(), tensor.data(), tensor.data() + 4);
-      numbers                  = dealii::Utilities::MPI::broadcast(communicator_, numbers);
-      const unsigned int mine  = problem_.discretisation().cells.size();
-      unsigned int       first = 0;
-      MPI_Exscan(&mine, &first, 1, MPI_UNSIGNED, MPI_SUM, communicator_);
-      if (is_first_process())
-        first = 0; // MPI leaves it undefined there
-      require(numbers.size() == 4 * problem_.discretisation().triangulation.n_global_active_cells(),
-              "initial stress: ", numbers.size() / 4, " tensors for ",
-              problem_.discretisation().triangulation.n_global_active_cells(), " cells");
+      numbers = of_my_cells(numbers, 4, "initial stress");
       std::vector<Eigen::Matrix2d> of_mine;
-      for (unsigned int c = 0; c < mine; ++c)
-        of_mine.push_back(Eigen::Map<const Eigen::Matrix2d>(&numbers[4 * (first + c)]));
+      for (std::size_t c = 0; c < numbers.size(); c += 4)
+        of_mine.push_back(Eigen::Map<const Eigen::Matrix2d>(&numbers[c]));
       problem_.set_initial_stress(of_mine);
       has_stress_ = true;
+    }
+
+    void set_initial_solid_fraction(const std::vector<double> &solid_fraction)
+    {
+      problem_.set_initial_solid_fraction(of_my_cells(solid_fraction, 1, "initial solid fraction"));
+      has_solid_fraction_ = true;
     }
 
     void prepare()
     {
       require(options_.initial_stress == InitialStress::isotropic || has_stress_,
               "initial_stress = mapped: there is no stress to map");
+      require(options_.material.hardening != HardeningKind::critical_state || !traits(options_.law).is_plastic ||
+                options_.material.solid_fraction_start || has_solid_fraction_,
+              "solid_fraction_start = auto: there is no solid fraction to map");
       if (const auto why = driver_.equilibrate(); !why.empty())
         fail(why);
       else
@@ -141,6 +141,20 @@ namespace diptych::continuum
     Snapshot snapshot() const { return make_snapshot(problem_, loading_); }
 
   private:
+    // Of the first process's numbers, `width` for each cell of all processes one after the other as the snapshot lists them.
+    std::vector<double> of_my_cells(const std::vector<double> &given, const std::size_t width, const char *what) const
+    {
+      const std::vector<double> numbers = dealii::Utilities::MPI::broadcast(communicator_, given);
+      const unsigned int        mine    = problem_.discretisation().cells.size();
+      unsigned int              first   = 0;
+      MPI_Exscan(&mine, &first, 1, MPI_UNSIGNED, MPI_SUM, communicator_);
+      if (is_first_process())
+        first = 0; // MPI leaves it undefined there
+      require(numbers.size() == width * problem_.discretisation().triangulation.n_global_active_cells(), what, ": ",
+              numbers.size() / width, " values for ", problem_.discretisation().triangulation.n_global_active_cells(), " cells");
+      return {numbers.begin() + std::ptrdiff_t(width * first), numbers.begin() + std::ptrdiff_t(width * (first + mine))};
+    }
+
     bool is_first_process() const { return dealii::Utilities::MPI::this_mpi_process(communicator_) == 0; }
 
     bool stop_requested() const
@@ -215,7 +229,8 @@ namespace diptych::continuum
     MPI_Comm             communicator_;
     BoundaryValueProblem problem_;
     LoadDriver           driver_;
-    bool                 has_stress_ = false;
+    bool                 has_stress_         = false;
+    bool                 has_solid_fraction_ = false;
   };
 
   Panel::Panel(const QuadMesh &mesh,
@@ -234,6 +249,11 @@ namespace diptych::continuum
   void Panel::set_initial_stress(const std::vector<Eigen::Matrix2d> &stress)
   {
     course->set_initial_stress(stress);
+  }
+
+  void Panel::set_initial_solid_fraction(const std::vector<double> &solid_fraction)
+  {
+    course->set_initial_solid_fraction(solid_fraction);
   }
 
   Status Panel::prepare()

@@ -67,6 +67,9 @@ namespace diptych::continuum
     // [pressure]. The first process's is taken.
     void set_initial_stress(const std::vector<Eigen::Matrix2d> &stress);
 
+    // The same for solid_fraction_start = auto: one number for each cell [-].
+    void set_initial_solid_fraction(const std::vector<double> &solid_fraction);
+
     // Once: finds equilibrium at rest, or takes up a loading where it was left, on any number of processes: the first
     // one's is taken. Throws std::invalid_argument for a checkpoint of another mesh.
     [[nodiscard]] Status prepare();

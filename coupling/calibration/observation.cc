@@ -7,6 +7,7 @@
 
 #include "coupling/bands/band_detection.h"
 #include "coupling/comparison/increment.h"
+#include "coupling/ensembles/ensemble.h"
 #include "coupling/scene/scene.h"
 
 namespace diptych::coupling
@@ -59,9 +60,9 @@ namespace diptych::coupling
 
     // Of every window, with find(from, to, place among the windows).
     template <class Snapshot, class Find>
-    void add_bands(const std::vector<Observable> &observables,
+    void add_bands(const Scene                   &scene,
+                   const std::vector<Observable> &observables,
                    const std::vector<Snapshot>   &snapshots,
-                   const double                   diameter,
                    const Find                    &find,
                    Observation                   &o)
     {
@@ -74,8 +75,8 @@ namespace diptych::coupling
           if (from != nullptr && to != nullptr)
             if (const std::vector<Band> bands = find(*from, *to, window); !bands.empty())
               {
-                o.values[Eigen::Index(k)] = std::log(bands.front().width_10_90 / diameter);
-                o.angle_deg               = bands.front().angle_deg;
+                o.values[Eigen::Index(k)] = std::log(bands.front().width_10_90 / scene.sample.mean_diameter);
+                o.angle_deg = is_mirror_symmetric(scene) ? std::abs(bands.front().angle_deg) : bands.front().angle_deg;
               }
           ++window;
         }
@@ -122,7 +123,7 @@ namespace diptych::coupling
     const auto        find    = [&](const discrete::Snapshot &from, const discrete::Snapshot &to, std::size_t) {
       return find_bands(displacement_field(from, to), sample_frame(from, to), options).bands;
     };
-    add_bands(observables, snapshots, scene.sample.mean_diameter, find, o);
+    add_bands(scene, observables, snapshots, find, o);
     return o;
   }
 
@@ -138,7 +139,7 @@ namespace diptych::coupling
       return continuum_increment(from, to, frames.at(window), options, 1).band.bands;
     };
     const bool ran = !history.empty() && o.values.size() > 0;
-    add_bands(observables, snapshots, scene.sample.mean_diameter, find, o);
+    add_bands(scene, observables, snapshots, find, o);
     std::size_t window = 0;
     for (std::size_t k = 0; k < observables.size(); ++k)
       if (observables[k].kind == ObservableKind::ln_width)

@@ -23,9 +23,10 @@ namespace diptych::coupling
   // One run of a panel.
   struct Observation
   {
-    Eigen::VectorXd     values;                                    // one entry an observable; NaN: not reached, or no band
-    double              peak_stress_ratio = NAN;                   // largest running mean
-    double              angle_deg         = NAN;                   // of the first band of the last window; line
+    Eigen::VectorXd values;                  // one entry an observable; NaN: not reached, or no band
+    double          peak_stress_ratio = NAN; // largest running mean
+    double          angle_deg         = NAN; // of the first band of the last window; line, without its sign where
+                                             // left and right are chosen by chance
     std::vector<double> progress, stress_ratio, volumetric_strain; // the curve, at curve_points places
   };
   constexpr int curve_points = 120;

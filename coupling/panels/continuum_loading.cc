@@ -210,6 +210,10 @@ namespace diptych::coupling
     {
       const continuum::MeshOption &mesh = scene.continuum.mesh;
       using Kind                        = continuum::MeshOption::Kind;
+      const continuum::LawOptions &law  = scene.continuum.material;
+      if (mesh.kind != Kind::outline && law.hardening == continuum::HardeningKind::critical_state && !law.solid_fraction_start)
+        throw SceneError("continuum/solid_fraction_start = auto with continuum/mesh = " + text_of(mesh) +
+                         ": there are no grains whose density could be mapped; give a number");
       if (mesh.kind != Kind::outline && scene.continuum.initial_stress == continuum::InitialStress::mapped)
         throw SceneError("continuum/initial_stress = mapped with continuum/mesh = " + text_of(mesh) +
                          ": only outline, the mesh of the grain sample, has its stress");

@@ -24,4 +24,14 @@ namespace diptych::coupling
         stress[k] = pressure * Eigen::Matrix2d::Identity();
     return stress;
   }
+
+  std::vector<double> grain_solid_fraction_on_cells(const discrete::Snapshot &grains, const continuum::Snapshot &nodes)
+  {
+    const CellCover     cover    = grain_cover(quad_mesh(nodes), grains);
+    std::vector<double> fraction = cover.solid_fraction;
+    for (std::size_t k = 0; k < fraction.size(); ++k)
+      if (!cover.covered[k])
+        fraction[k] = cover.typical_solid_fraction;
+    return fraction;
+  }
 } // namespace diptych::coupling

@@ -16,4 +16,8 @@ namespace diptych::coupling
   std::vector<Eigen::Matrix2d> grain_stress_on_cells(const discrete::Snapshot  &grains,
                                                      const continuum::Snapshot &nodes,
                                                      double                     pressure);
+
+  // Area of the grains in every cell over the cell's; cells that grains cover to less than half of what is typical take what is
+  // typical [-].
+  std::vector<double> grain_solid_fraction_on_cells(const discrete::Snapshot &grains, const continuum::Snapshot &nodes);
 } // namespace diptych::coupling

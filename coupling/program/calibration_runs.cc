@@ -51,6 +51,16 @@ namespace diptych::coupling
       return points;
     }
 
+    // Whether the law asks for a solid fraction.
+    bool has_density(const Scene &scene, const Settings &settings)
+    {
+      std::string hardening = text_of(scene.continuum.material.hardening);
+      for (const Entry &entry : settings)
+        if (entry.section == "continuum" && entry.key == "hardening")
+          hardening = entry.value;
+      return hardening == text_of(continuum::HardeningKind::critical_state);
+    }
+
     std::string words_of(const std::string &directory, const StudyRun &run, const StudyCommand command)
     {
       Study study;
@@ -142,7 +152,7 @@ namespace diptych::coupling
       if (const auto found = outlines.find(other.name); found != outlines.end() && is_same_path(other, path.target))
         return found->second;
     const SampleFrame box = sample_frame(snapshots.front(), snapshots.front());
-    return {box.width, box.height, frames_of(path.data.observables, snapshots),
+    return {box.width, box.height, solid_fraction(snapshots.front()), frames_of(path.data.observables, snapshots),
             mesh_of_sample(path.target, path.scene, snapshots.front())};
   }
 
@@ -232,6 +242,14 @@ namespace diptych::coupling
     return settings;
   }
 
+  std::vector<Settings> CalibrationRuns::with_density(const CalibrationPath &path, std::vector<Settings> points) const
+  {
+    for (Settings &settings : points)
+      if (has_density(path.scene, settings) && !path.scene.continuum.material.solid_fraction_start)
+        settings.push_back(setting("continuum", "solid_fraction_start", text_of(outlines.at(path.target.name).solid_fraction)));
+    return points;
+  }
+
   ModelRun CalibrationRuns::model_run(const CalibrationPath &path, const StudyRun &run)
   {
     ModelRun result;
@@ -256,7 +274,7 @@ namespace diptych::coupling
       {
         Study study    = study_of(paths[p].target, StudyCommand::continuum);
         study.settings = model_settings(paths[p], task);
-        study.families.push_back(family_of(task.points));
+        study.families.push_back(family_of(with_density(paths[p], task.points)));
         const std::vector<ScenePoint> points = own_points_of(study);
         asked.points.insert(asked.points.end(), points.begin(), points.end());
       }

@@ -38,7 +38,7 @@ namespace diptych::coupling
     // The box of a path's sample, where it looks for bands, and its mesh.
     struct Outline
     {
-      double                   width = 0, height = 0;
+      double                   width = 0, height = 0, solid_fraction = 0;
       std::vector<SampleFrame> frames;
       std::string              mesh; // file
     };
@@ -51,7 +51,9 @@ namespace diptych::coupling
     void                     note_cost(const std::string &folder, double &sum);
     std::string mesh_of_sample(const CalibrationTarget &target, const Scene &scene, const discrete::Snapshot &grains);
     Settings    model_settings(const CalibrationPath &path, const ModelTask &task) const;
-    ModelRun    model_run(const CalibrationPath &path, const StudyRun &run);
+    // The sample's mean density in the place of that of every cell: the meshes here have no grains.
+    std::vector<Settings> with_density(const CalibrationPath &path, std::vector<Settings> points) const;
+    ModelRun              model_run(const CalibrationPath &path, const StudyRun &run);
 
     CommandLine                    line;
     const Calibration             &calibration;

@@ -153,6 +153,17 @@ namespace diptych::coupling
         });
         panel->set_initial_stress(stress);
       }
+    const continuum::LawOptions &law = scene.continuum.material;
+    if (law.hardening == continuum::HardeningKind::critical_state && !law.solid_fraction_start)
+      {
+        const continuum::Snapshot nodes = panel->snapshot();
+        std::vector<double>       fraction;
+        on_first_process([&] {
+          fraction = grain_solid_fraction_on_cells(*grains, nodes);
+          return 0;
+        });
+        panel->set_initial_solid_fraction(fraction);
+      }
     if (panel->prepare() == continuum::Status::finished)
       add_snapshot();
   }

@@ -22,8 +22,9 @@ namespace
         for (const double kappa : {0.001, 0.013, 0.05, 0.3})
           {
             const YieldCone cone{Hardening(options), shape};
-            const double    h = 1e-6;
-            const Cone      c = cone.at(kappa), up = cone.at(kappa + h), down = cone.at(kappa - h);
+            const double    h  = 1e-6;
+            const auto      at = [&](const double strain) { return cone.at(cone.hardening.after({}, strain)); };
+            const Cone      c = at(kappa), up = at(kappa + h), down = at(kappa - h);
             EXPECT_NEAR((up.slope - down.slope) / (2 * h), c.slope_rate, 1e-6) << name;
             EXPECT_NEAR((up.intercept - down.intercept) / (2 * h), c.intercept_rate, 1e-6) << name;
             EXPECT_NEAR((up.dilation - down.dilation) / (2 * h), c.dilation_rate, 1e-6) << name;
@@ -49,6 +50,79 @@ namespace
     EXPECT_NEAR(rising.at(0.3).friction, falling.at(0.3).friction, 1e-12);
     EXPECT_EQ(rising.at(0.01).dilatancy, falling.at(0.01).dilatancy);
     EXPECT_NEAR(constant_.at(9).friction / degree, 20.5, 1e-12);
+  }
+
+  LawOptions critical(const double solid_fraction, const double start)
+  {
+    LawOptions o;
+    o.hardening            = HardeningKind::critical_state;
+    o.solid_fraction_start = solid_fraction;
+    o.stress_ratio_start   = start;
+    o.mobilisation_strain  = 0.02;
+    return o;
+  }
+
+  double eta(const Hardening &hardening, const HardeningState &state)
+  {
+    return std::sin(hardening.at(state).friction);
+  }
+
+  // Far along the path: eta = eta_c, no dilation, solid fraction nu_c, from either side.
+  TEST(CriticalState, EndsInSteadyFlow)
+  {
+    for (const double solid_fraction : {0.86, 0.78})
+      {
+        const Hardening      hardening(critical(solid_fraction, 0.1));
+        const HardeningState end = hardening.after({}, 3);
+        EXPECT_NEAR(eta(hardening, end), 0.26, 1e-9);
+        EXPECT_NEAR(hardening.at(end).dilatancy, 0, 1e-9);
+        EXPECT_NEAR(solid_fraction * std::exp(end.densification), 0.82, 1e-9);
+      }
+  }
+
+  // At the peak of eta the sine of the dilatancy angle is A nu_c ln(nu/nu_c) / beta = A (nu - nu_c) / beta to first order.
+  TEST(CriticalState, DilatesAtItsPeakByItsDensity)
+  {
+    const Hardening hardening(critical(0.86, 0.1));
+    double          low = 0, high = 0.5; // where d eta / dg changes sign
+    for (int k = 0; k < 60; ++k)
+      {
+        const double middle                                                        = 0.5 * (low + high);
+        (hardening.at(hardening.after({}, middle)).friction_rate > 0 ? low : high) = middle;
+      }
+    const HardeningState peak           = hardening.after({}, low);
+    const double         solid_fraction = 0.86 * std::exp(peak.densification), sine = std::sin(hardening.at(peak).dilatancy);
+    EXPECT_GT(eta(hardening, peak), 0.27);
+    EXPECT_NEAR(sine, 5.5 * 0.82 * std::log(solid_fraction / 0.82) / 0.55, 1e-9);
+    EXPECT_NEAR(sine / (5.5 * (solid_fraction - 0.82) / 0.55), 1, 0.02);
+  }
+
+  // d eta/dg = (eta_p - eta)/g_r and d ln nu/dg = -sin psi along the path, of overdamped and of oscillating mobilisation; steps
+  // of any length give the same.
+  TEST(CriticalState, SolvesItsEquations)
+  {
+    for (const double strain : {0.02, 0.2, 0.03048780487804878})
+      {
+        LawOptions o          = critical(0.85, 0.05);
+        o.mobilisation_strain = strain; // the last: both roots alike, to the digits that a double has
+        const Hardening hardening(o);
+        HardeningState  walked;
+        for (int k = 0; k < 50; ++k)
+          {
+            const double         g = 0.003 * k, h = 1e-5;
+            const HardeningState here = hardening.after({}, g), up = hardening.after({}, g + h), down = hardening.after(here, 0);
+            const Strength       at       = hardening.at(here);
+            const double         possible = 0.26 + 5.5 * 0.82 * std::log(0.85 * std::exp(here.densification) / 0.82);
+            EXPECT_NEAR((up.stress_ratio_gain - here.stress_ratio_gain) / h, (possible - eta(hardening, here)) / strain,
+                        2e-3 * 1 / strain * h / 1e-5)
+              << g;
+            EXPECT_NEAR((up.densification - here.densification) / h, -std::sin(at.dilatancy), 5e-4) << g;
+            EXPECT_EQ(down.stress_ratio_gain, here.stress_ratio_gain);
+            EXPECT_NEAR(walked.stress_ratio_gain, here.stress_ratio_gain, 1e-12);
+            EXPECT_NEAR(walked.densification, here.densification, 1e-12);
+            walked = hardening.after(walked, 0.003);
+          }
+      }
   }
 
   // Softens to below its dilatancy before it is mobilised.
@@ -83,6 +157,11 @@ namespace
       {[](auto &o) { o = hardenings()["mobilisation"], o.friction_angle_start = 11; }, "dilatancy_angle_peak"},
       {[](auto &o) { o = hardenings()["mobilisation"], o.mobilisation_strain = 0; }, "mobilisation_strain"},
       {[](auto &o) { slow_mobilisation(o); }, "mobilisation_strain"},
+      {[](auto &o) { o = critical(0.9, 0.1), o.dilatancy_ratio = 0.2; }, "dilatancy_ratio"},
+      {[](auto &o) { o = critical(1.2, 0.1); }, "solid_fraction_start"},
+      {[](auto &o) { o = critical(0.85, -0.1); }, "stress_ratio_start"},
+      {[](auto &o) { o = critical(0.85, 0.1), o.critical_stress_ratio = 0; }, "critical_stress_ratio"},
+      {[](auto &o) { o = critical(0.85, 0.1), o.strength_by_density = 0; }, "strength_by_density"},
       {[](auto &o) { o = constant(0, 0, 0); }, "friction_angle_peak"},
       {[](auto &o) { o.hardening = HardeningKind::table; }, "table_strain"},
       {[](auto &o) { o = hardenings()["table"], o.table_cohesion.pop_back(); }, "table_cohesion"},

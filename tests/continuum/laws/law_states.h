@@ -59,13 +59,18 @@ namespace diptych::continuum::tests
     all["exponential"]     = o;
     o.hardening            = HardeningKind::mobilisation;
     o.friction_angle_start = 13, o.mobilisation_strain = 0.01;
-    all["mobilisation"]     = o;
-    o.hardening             = HardeningKind::table;
-    o.table_strain          = {0, 0.02, 0.1};
-    o.table_friction_angle  = {15, 30, 22};
-    o.table_dilatancy_angle = {0, 12, 2};
-    o.table_cohesion        = {0.1, 0.08, 0.02};
-    all["table"]            = o;
+    all["mobilisation"] = o;
+    LawOptions dense;
+    dense.hardening = HardeningKind::critical_state, dense.cohesion = 0.1, dense.solid_fraction_start = 0.85;
+    all["critical state, dense"] = dense;
+    dense.solid_fraction_start   = 0.80; // contracts
+    all["critical state, loose"] = dense;
+    o.hardening                  = HardeningKind::table;
+    o.table_strain               = {0, 0.02, 0.1};
+    o.table_friction_angle       = {15, 30, 22};
+    o.table_dilatancy_angle      = {0, 12, 2};
+    o.table_cohesion             = {0.1, 0.08, 0.02};
+    all["table"]                 = o;
     for (const std::string name : {"constant", "exponential", "mobilisation", "table"})
       {
         all[name + ", viscous"]           = all[name];

@@ -179,6 +179,64 @@ namespace
     EXPECT_LT(largest - least, 0.4);
   }
 
+  Options critical_state(const double solid_fraction)
+  {
+    Options options;
+    options.material.hardening            = HardeningKind::critical_state;
+    options.material.solid_fraction_start = solid_fraction;
+    options.material.mobilisation_strain  = 0.02;
+    options.material.internal_length      = 2;
+    options.max_step                      = 2.5e-3;
+    return options;
+  }
+
+  // One set of parameters: dense softens and dilates, loose hardens and contracts.
+  TEST(CriticalStatePanel, KnowsTheDensity)
+  {
+    const QuadMesh mesh  = rectangle(14, 20, 2.);
+    const Loading  shear = straight_loading(1, {0, -20}, {0.08});
+    const Course   dense = finished(mesh, shear, critical_state(0.86)), loose = finished(mesh, shear, critical_state(0.79));
+    double         peak = 0;
+    for (const HistoryRow &row : dense.rows)
+      peak = std::max(peak, row.stress_ratio);
+    EXPECT_GT(peak, 1.2 * 0.267); // steady flow with this cohesion
+    EXPECT_LT(dense.end().stress_ratio, 0.85 * peak);
+    EXPECT_LT(dense.end().volumetric_strain, -0.01);
+    EXPECT_GT(loose.end().volumetric_strain, 0.01);
+    EXPECT_LT(loose.end().stress_ratio, 0.28);
+  }
+
+  // With an internal length the elements do not matter, softening or not.
+  TEST(CriticalStatePanel, DoesNotDependOnTheMesh)
+  {
+    std::vector<double> strength, volume;
+    for (const double size : {3., 1.5})
+      {
+        const Course c = finished(rectangle(18, 24, size), straight_loading(1, {24, -24}, {0.03}), critical_state(0.86));
+        strength.push_back(c.end().stress_ratio);
+        volume.push_back(c.end().volumetric_strain);
+      }
+    EXPECT_NEAR(strength[1] / strength[0], 1, 0.02);
+    EXPECT_NEAR(volume[1] / volume[0], 1, 0.04);
+  }
+
+  // What is mapped cell by cell is what is given as a number, where it is the same everywhere.
+  TEST(CriticalStatePanel, MapsTheSolidFraction)
+  {
+    const QuadMesh mesh    = rectangle(8, 12, 2.);
+    const Loading  loading = straight_loading(1, {12, -12}, {0.01});
+    const Course   given   = finished(mesh, loading, critical_state(0.85));
+    Options        mapped  = critical_state(0.85);
+    mapped.material.solid_fraction_start.reset();
+    Panel panel(mesh, {}, loading, mapped);
+    panel.set_initial_solid_fraction(std::vector<double>(mesh.cells.size(), 0.85));
+    ASSERT_EQ(panel.prepare(), Status::finished);
+    ASSERT_EQ(panel.advance_to(1), Status::finished);
+    EXPECT_NEAR((panel.snapshot().mean_stress - given.snapshots.back().mean_stress).norm(), 0, 1e-9);
+    Panel without(mesh, {}, loading, mapped);
+    EXPECT_THROW((void)without.prepare(), std::invalid_argument);
+  }
+
   TEST(Panel, WrongInputIsRefusedByName)
   {
     const auto refuses = [](const auto &spoilt, const std::string &word) {
