@@ -157,7 +157,7 @@ namespace diptych::coupling
           {
             LeastSquaresOptions options;
             options.difference          = difference;
-            options.most_jacobians      = k == 0 ? 3 : 1;
+            options.most_jacobians      = k == 0 ? 2 : 1;
             const Eigen::VectorXd start = k == 0 ? coordinates.start()
                                                  : spread_point(calibration.seed + k, Eigen::Index(coordinates.size()));
             fits.push_back(least_squares(residuals, start, options));
@@ -167,11 +167,11 @@ namespace diptych::coupling
                                       [](const LeastSquaresFit &a, const LeastSquaresFit &b) { return a.chi2 < b.chi2; });
         if (!std::isfinite(found->chi2))
           throw std::invalid_argument("the continuum comes to its end at none of the starts");
-        if (!found->is_fresh)
+        if (found != fits.begin()) // so far with the Jacobian of its start
           {
             LeastSquaresOptions options;
             options.difference     = difference;
-            options.most_jacobians = 3;
+            options.most_jacobians = 2;
             *found                 = least_squares(residuals, found->point, options);
           }
         tell_minima(std::size_t(found - fits.begin()), *found);

@@ -218,6 +218,11 @@ namespace diptych::coupling
           if (entry.section != "continuum")
             root.refuse("set", ": " + entry.section + "/" + entry.key +
                                  " is no key of the continuum; what grains need is set with the targets");
+          for (const char *key : {"mesh", "element_size", "rectangle_width", "rectangle_height", "initial_step", "max_step"})
+            if (entry.key == key)
+              root.refuse("set", ": continuum/" + entry.key +
+                                   " is the search's own; set it with a target, or load_step and "
+                                   "coarse_element_size");
           for (const CalibrationParameter &p : c.parameters)
             if (p.key == entry.key)
               root.refuse("set", ": continuum/" + entry.key + " is one of the parameters");

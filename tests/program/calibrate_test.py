@@ -176,6 +176,7 @@ class Refused(Calibrate):
                 ({"parameters": [{**parameter, "of": "cohesion"}]}, ["of", "share_of"]),
                 ({"set": {"discrete/friction": 0.5}}, ["discrete/friction"]),
                 ({"set": {"continuum/friction_angle_peak": 20}}, ["friction_angle_peak", "parameters"]),
+                ({"set": {"continuum/element_size": 3}}, ["continuum/element_size", "coarse_element_size"]),
                 ({"noise": {"level": 1}}, ["level"]),
                 ({"starts": 0}, ["starts"])]:
             with self.subTest(changes=changes):

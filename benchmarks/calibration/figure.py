@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+# diptych: figure and tables of a calibration
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: figure.py DIR FIGURE.png. DIR: folder of `diptych calibrate`. Draws every path and prints the tables of a README."""
+import json
+import os
+import sys
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "coupling", "report"))
+from diptych_report.charts import style  # noqa: E402
+from diptych_report.data.calibration import load, numbers  # noqa: E402
+from diptych_report.tables.calibration import misfits, parameters, predictions  # noqa: E402
+
+
+def panel(axes, path, name, label, scale):
+    x = 100 * numbers(path["progress"])
+    low, high = scale * numbers(path[name + "_low"]), scale * numbers(path[name + "_high"])
+    axes.fill_between(x, low, high, color=style.GRAINS, alpha=0.18, linewidth=0)
+    axes.plot(x, scale * numbers(path[name]), color=style.GRAINS, label=f"grains, {len(path['seeds'])} samples")
+    for when, look in (("before", {"color": style.FAINT, "linestyle": (0, (2, 1.5))}), ("after", {"color": style.CONTINUUM, "linestyle": (0, (5, 1.5))})):
+        y = scale * numbers(path[f"{name}_{when}"])
+        if len(y) == len(x):
+            axes.plot(x, y, label="continuum, the scene's own" if when == "before" else "continuum, calibrated", **look)
+    axes.set(xlabel="axial strain, %", ylabel=label, xlim=(0, x[-1]), title=f"{path['name']}, {'fitted' if path['use'] == 'fit' else 'predicted'}")
+
+
+def draw(calibration, to):
+    style.set_up()
+    figure = Figure(figsize=(3.3 * len(calibration.paths), 5.2), layout="constrained")
+    axes = figure.subplots(2, len(calibration.paths), squeeze=False)
+    for k, path in enumerate(calibration.paths):
+        panel(style.ruled(axes[0][k]), path, "stress_ratio", "t/s", 1)
+        axes[0][k].set_ylim(0, 1.3 * np.nanmax(numbers(path["stress_ratio"])))
+        panel(style.ruled(axes[1][k]), path, "volume", "volumetric strain, %", 100)
+        axes[1][k].set_title("")
+    axes[0][0].legend(loc="lower right", fontsize=7)
+    FigureCanvasAgg(figure).print_figure(to, dpi=110)
+
+
+def printed(table):
+    return "\n".join(["| " + " | ".join(table["head"]) + " |", "|" + "---|" * len(table["head"]), *("| " + " | ".join(row) + " |" for row in table["rows"])])
+
+
+def main():
+    calibration = load(sys.argv[1])
+    draw(calibration, sys.argv[2])
+    record = calibration.record
+    print(f"chi^2 of {record['n_observables']} observables {record['chi2_before']:.3g} -> {record['chi2']:.3g}; {record['coarse_runs']} coarse, "
+          f"{record['fine_runs']} fine, {record['other_runs']} runs of predictions; CPU s: {json.dumps(calibration.cost)}\n")
+    for table in (parameters(calibration), predictions(calibration), misfits(calibration)):
+        print(printed(table) + "\n")
+    print("\n".join(f"- {words}" for words in record["words"]))
+
+
+if __name__ == "__main__":
+    main()
