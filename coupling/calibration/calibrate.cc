@@ -157,7 +157,7 @@ namespace diptych::coupling
           {
             LeastSquaresOptions options;
             options.difference          = difference;
-            options.most_jacobians      = k == 0 ? 2 : 1;
+            options.most_jacobians      = k == 0 ? std::max(2, calibration.start_jacobians) : calibration.start_jacobians;
             const Eigen::VectorXd start = k == 0 ? coordinates.start()
                                                  : spread_point(calibration.seed + k, Eigen::Index(coordinates.size()));
             fits.push_back(least_squares(residuals, start, options));

@@ -82,6 +82,7 @@ namespace diptych::coupling
     Settings                          fixed; // continuum keys that are set and not searched for
     NoiseOptions                      noise;
     int                               starts              = 2;
+    int                               start_jacobians     = 1;     // of a search beyond the first
     double                            load_step           = 0.001; // of the continuum
     double                            coarse_element_size = 4;     // of the first stage [mean diameters]
     int                               check_samples       = 2;     // of each fitted target, run again with half the grains' step

@@ -237,7 +237,7 @@ namespace diptych::coupling
       throw SceneError(file + ": cannot be read; a calibration is a .json file");
     const JsonText text = read_json_text(file, in);
     const Part     root(text, text.root, "");
-    root.allow({"title", "targets", "quantities", "bins", "set", "parameters", "noise", "starts", "load_step",
+    root.allow({"title", "targets", "quantities", "bins", "set", "parameters", "noise", "starts", "start_jacobians", "load_step",
                 "coarse_element_size", "check_samples", "seed"});
     const std::filesystem::path path = std::filesystem::absolute(file);
     Calibration                 c;
@@ -252,6 +252,8 @@ namespace diptych::coupling
     c.noise = noise_options_of(root);
     if (root.has("starts"))
       c.starts = int(root.number("starts", 1, 20));
+    if (root.has("start_jacobians"))
+      c.start_jacobians = int(root.number("start_jacobians", 1, 20));
     if (root.has("load_step"))
       c.load_step = root.number("load_step", 1e-9, 1);
     if (root.has("coarse_element_size"))
