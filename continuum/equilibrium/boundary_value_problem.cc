@@ -3,15 +3,14 @@
 #include "continuum/equilibrium/boundary_value_problem.h"
 
 #include <algorithm>
-#include <optional>
 #include <cmath>
 #include <ctime>
 #include <type_traits>
 
 #include "continuum/elements/element_kernels.h"
+#include "continuum/equilibrium/initial_points.h"
 #include "continuum/equilibrium/point_operations.h"
 #include "continuum/equilibrium/stopwatch.h"
-#include "continuum/laws/hardening.h"
 #include "continuum/laws/plastic_flow.h"
 #include "continuum/equilibrium/loads.h"
 
@@ -58,7 +57,7 @@ namespace diptych::continuum
   {
     rebuild();
     area_at_start = Utilities::MPI::sum(current.area, mesh.communicator());
-    reset_points();
+    set_at_rest(mesh, options, units, loading.pressure, state.points);
     begin_step(0);
     (void)evaluate(zero_vector());
     reset_balance();
@@ -112,51 +111,14 @@ namespace diptych::continuum
     reset_balance();
   }
 
-  void BoundaryValueProblem::reset_points()
-  {
-    const Eigen::Vector2d spot = mesh.origin +
-                                 Eigen::Vector2d(options.weak_spot_x, options.weak_spot_y).cwiseProduct(mesh.extent);
-    const double             radius = options.weak_spot_radius * units.length;
-    std::optional<Hardening> hardening;
-    if (traits(options.law).is_plastic)
-      hardening.emplace(options.material, units);
-    for (std::size_t i = 0; i < state.points.size(); ++i)
-      {
-        auto &point          = state.points[i];
-        point.stress[xx]     = -loading.pressure;
-        point.stress[yy]     = -loading.pressure;
-        point.stress_zz      = -loading.pressure;
-        const auto     &cell = mesh.cells[i / mesh.reference.n_points];
-        Eigen::Vector2d at   = Eigen::Vector2d::Zero();
-        for (unsigned int node = 0; node < mesh.reference.n_nodes; ++node)
-          at += mesh.reference.shape[i % mesh.reference.n_points][node] * mesh.nodes[cell.nodes[node]].initial;
-        const double         strain     = options.weak_spot_strain * std::exp(-(at - spot).squaredNorm() / (2 * radius * radius));
-        const HardeningState weakened   = hardening ? hardening->after({}, strain) : HardeningState{strain};
-        point.equivalent_plastic_strain = weakened.equivalent_plastic_strain;
-        point.stress_ratio_gain         = weakened.stress_ratio_gain;
-        point.densification             = weakened.densification;
-      }
-  }
-
   void BoundaryValueProblem::set_initial_solid_fraction(const std::vector<double> &solid_fraction)
   {
-    const LawOptions &law   = options.material;
-    const double      start = law.solid_fraction_start.value_or(law.critical_solid_fraction);
-    for (std::size_t i = 0; i < state.points.size(); ++i)
-      state.points[i].densification += std::log(solid_fraction[i / mesh.reference.n_points] / start);
+    set_solid_fraction(solid_fraction, mesh.reference.n_points, options.material, state.points);
   }
 
   void BoundaryValueProblem::set_initial_stress(const std::vector<Eigen::Matrix2d> &stress)
   {
-    for (std::size_t i = 0; i < state.points.size(); ++i)
-      {
-        const auto &cell  = stress[i / mesh.reference.n_points];
-        auto       &point = state.points[i];
-        point.stress[xx]  = -cell(0, 0);
-        point.stress[yy]  = -cell(1, 1);
-        point.stress[xy]  = -(cell(0, 1) + cell(1, 0)) / 2;
-        point.stress_zz   = -(cell(0, 0) + cell(1, 1)) / 2; // discs have none: the mean of the plane
-      }
+    set_stress(stress, mesh.reference.n_points, state.points);
     (void)evaluate(zero_vector());
     reset_balance();
   }

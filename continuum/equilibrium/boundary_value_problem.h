@@ -120,7 +120,6 @@ namespace diptych::continuum
 
   private:
     void                                   set_conditions(const SideContact &contact);
-    void                                   reset_points();
     void                                   move_nodes();
     bool                                   moves() const { return options.geometry == Kinematics::updated; }
     std::array<PlatenPlane, 2>             platen_planes() const;

@@ -10,20 +10,20 @@ namespace diptych::continuum
 {
   namespace
   {
-    constexpr double degree = 3.14159265358979323846 / 180;
+    constexpr double one_degree = 3.14159265358979323846 / 180;
   }
 
   Hardening::Hardening(const LawOptions &options, const Units &units)
   {
     validate(options);
     const LawOptions o = in_units(options, units);
-    peak               = {0, o.friction_angle_peak * degree, o.dilatancy_angle_peak * degree, o.cohesion};
-    residual           = {0, o.friction_angle_residual * degree, o.dilatancy_angle_residual * degree,
+    peak               = {0, o.friction_angle_peak * one_degree, o.dilatancy_angle_peak * one_degree, o.cohesion};
+    residual           = {0, o.friction_angle_residual * one_degree, o.dilatancy_angle_residual * one_degree,
                           o.cohesion_residual.value_or(o.cohesion)};
     softening_strain   = o.softening_strain;
     if (o.hardening == HardeningKind::mobilisation)
       {
-        unmobilised         = (o.friction_angle_peak - o.friction_angle_start) * degree;
+        unmobilised         = (o.friction_angle_peak - o.friction_angle_start) * one_degree;
         mobilisation_strain = o.mobilisation_strain;
       }
     if (o.hardening == HardeningKind::critical_state)
@@ -41,8 +41,8 @@ namespace diptych::continuum
       table = {peak};
     if (o.hardening == HardeningKind::table)
       for (std::size_t k = 0; k < o.table_strain.size(); ++k)
-        table.push_back(
-          {o.table_strain[k], o.table_friction_angle[k] * degree, o.table_dilatancy_angle[k] * degree, o.table_cohesion[k]});
+        table.push_back({o.table_strain[k], o.table_friction_angle[k] * one_degree, o.table_dilatancy_angle[k] * one_degree,
+                         o.table_cohesion[k]});
   }
 
   Strength Hardening::at(const HardeningState &state) const

@@ -9,6 +9,7 @@
 #include "coupling/ensembles/ensemble_curves.h"
 #include "coupling/ensembles/ensemble_numbers.h"
 #include "coupling/program/result_entries.h"
+#include "coupling/calibration/calibration_numbers.h"
 #include "coupling/plans/plan_numbers.h"
 #include "coupling/studies/study_curves.h"
 #include "coupling/studies/study_numbers.h"
@@ -64,9 +65,16 @@ namespace diptych::coupling
       list_curve_arrays(EnsembleCurves(),
                         AddArrays{file + ", groups PANEL/stress_ratio and PANEL/volumetric_strain", "", result});
     }
+
     void add_plan(ResultList &result)
     {
       add_record("plan.json", Plan(), result);
+    }
+
+    void add_calibration(ResultList &result)
+    {
+      add_record("calibration.json", CalibrationRecord(), result);
+      add_record("calibration_cost.json", CalibrationCost(), result);
     }
 
     void add_study(ResultList &result)
@@ -95,6 +103,7 @@ namespace diptych::coupling
     add_ensemble(result);
     add_study(result);
     add_plan(result);
+    add_calibration(result);
     return result;
   }
 } // namespace diptych::coupling
