@@ -290,7 +290,7 @@ class OtherFolders(unittest.TestCase):
     def test_wrong_words_end_with_code_2(self):
         outcome = run(self.folder.name, "figure")
         self.assertEqual(outcome.returncode, 2)
-        self.assertIn("page|ensemble|study|step-study", outcome.stderr)
+        self.assertIn("page|ensemble|study|calibration|step-study", outcome.stderr)
 
     def test_a_missing_file_is_named_and_ends_with_code_2(self):
         write_folder(self.folder.name, complete=False)

@@ -3,7 +3,6 @@
 
 import numpy as np
 
-from diptych_report.charts.style import signed
 from diptych_report.data.calibration import numbers
 
 QUANTITIES = {"peak_stress_ratio": "peak t/s", "volumetric_strain": "volumetric strain, last bin", "width_10_90": "width 10–90, last window, d",
@@ -13,7 +12,7 @@ KINDS = {"stress_ratio": "rms of t/s", "volumetric_strain": "rms of volume", "ln
 
 
 def text(value, digits=4):
-    return "–" if value is None or not np.isfinite(value) else signed(f"{value:.{digits}g}")
+    return "–" if value is None or not np.isfinite(value) else f"{value:.{digits}g}".replace("-", "−")
 
 
 def parameters(calibration):
