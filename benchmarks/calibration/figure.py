@@ -6,26 +6,14 @@ import json
 import os
 import sys
 
-import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "coupling", "report"))
+from diptych_report.charts import calibration as charts  # noqa: E402
 from diptych_report.charts import style  # noqa: E402
-from diptych_report.data.calibration import load, numbers  # noqa: E402
+from diptych_report.data.calibration import load  # noqa: E402
 from diptych_report.tables.calibration import misfits, parameters, predictions  # noqa: E402
-
-
-def panel(axes, path, name, label, scale):
-    x = 100 * numbers(path["progress"])
-    low, high = scale * numbers(path[name + "_low"]), scale * numbers(path[name + "_high"])
-    axes.fill_between(x, low, high, color=style.GRAINS, alpha=0.18, linewidth=0)
-    axes.plot(x, scale * numbers(path[name]), color=style.GRAINS, label=f"grains, {len(path['seeds'])} samples")
-    for when, look in (("before", {"color": style.FAINT, "linestyle": (0, (2, 1.5))}), ("after", {"color": style.CONTINUUM, "linestyle": (0, (5, 1.5))})):
-        y = scale * numbers(path[f"{name}_{when}"])
-        if len(y) == len(x):
-            axes.plot(x, y, label="continuum, the scene's own" if when == "before" else "continuum, calibrated", **look)
-    axes.set(xlabel="axial strain, %", ylabel=label, xlim=(0, x[-1]), title=f"{path['name']}, {'fitted' if path['use'] == 'fit' else 'predicted'}")
 
 
 def draw(calibration, to):
@@ -33,10 +21,9 @@ def draw(calibration, to):
     figure = Figure(figsize=(3.3 * len(calibration.paths), 5.2), layout="constrained")
     axes = figure.subplots(2, len(calibration.paths), squeeze=False)
     for k, path in enumerate(calibration.paths):
-        panel(style.ruled(axes[0][k]), path, "stress_ratio", "t/s", 1)
-        axes[0][k].set_ylim(0, 1.3 * np.nanmax(numbers(path["stress_ratio"])))
-        panel(style.ruled(axes[1][k]), path, "volume", "volumetric strain, %", 100)
-        axes[1][k].set_title("")
+        for row, kind in enumerate(charts.CURVES):
+            charts.draw_curve(style.ruled(axes[row][k]), path, kind)
+        axes[0][k].set_title(f"{path['name']}, {'fitted' if path['use'] == 'fit' else 'predicted'}")
     axes[0][0].legend(loc="lower right", fontsize=7)
     FigureCanvasAgg(figure).print_figure(to, dpi=110)
 

@@ -3,6 +3,7 @@
 #include "coupling/calibration/calibrate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -27,7 +28,7 @@ namespace diptych::coupling
       Eigen::VectorXd               point(n);
       for (Eigen::Index d = 0; d < n; ++d)
         {
-          const int base = primes[std::size_t(d) % primes.size()];
+          const int base = primes.at(std::size_t(d));
           double    sum = 0, part = 1;
           for (int rest = k; rest > 0; rest /= base)
             part /= base, sum += part * (rest % base);
@@ -286,8 +287,8 @@ namespace diptych::coupling
               record.paths.back().observables[k].parameter_deviation = std::sqrt(spread(Eigen::Index(k), Eigen::Index(k)));
           }
         take_weights();
-        Eigen::VectorXd before = joined_on_fitted(runs[0]);
-        record.chi2_before = before.size() > 0 && data->residual(before).size() > 0 ? data->residual(before).squaredNorm() : NAN;
+        const Eigen::VectorXd before = data->residual(joined_on_fitted(runs[0]));
+        record.chi2_before           = before.size() > 0 ? before.squaredNorm() : NAN;
       }
 
       Eigen::VectorXd joined_on_fitted(const std::vector<ModelRun> &runs) const

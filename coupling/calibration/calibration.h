@@ -60,7 +60,6 @@ namespace diptych::coupling
                       std::pair{ObservableKind::volumetric_strain, "volumetric_strain"},
                       std::pair{ObservableKind::ln_width, "ln_width"}};
   }
-  constexpr std::size_t n_observable_kinds = 3;
 
   // What the noise model is told in the place of an estimate from the samples (noise.h).
   struct NoiseOptions

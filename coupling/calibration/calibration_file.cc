@@ -7,7 +7,6 @@
 #include <fstream>
 
 #include "coupling/calibration/coordinates.h"
-#include "coupling/ensembles/seed_list.h"
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_file.h"
 #include "coupling/studies/study_part.h"
@@ -16,7 +15,8 @@ namespace diptych::coupling
 {
   namespace
   {
-    constexpr double far = 1e12;
+    constexpr double      far             = 1e12;
+    constexpr std::size_t most_parameters = 12; // as many directions as the starts are spread over
 
     std::string folder_of(const std::string &file)
     {
@@ -29,14 +29,7 @@ namespace diptych::coupling
       target.scene = resolved(part.word("scene"), folder_of(file));
       if (!std::filesystem::is_regular_file(target.scene))
         part.refuse("scene", " = '" + target.scene + "': there is no such file");
-      try
-        {
-          target.seeds = read_seeds(value_text(part.json()["seeds"]));
-        }
-      catch (const std::invalid_argument &error)
-        {
-          part.refuse("seeds", std::string(error.what()).substr(std::string("--seeds").size()));
-        }
+      target.seeds = part.seeds("seeds");
     }
 
     // Finished result folders; their first scene is the continuum's.
@@ -209,6 +202,8 @@ namespace diptych::coupling
     {
       for (const Part &part : root.list("parameters"))
         c.parameters.push_back(parameter_of(part));
+      if (c.parameters.size() > most_parameters)
+        root.refuse("parameters", " are more than " + std::to_string(most_parameters));
       if (c.parameters.empty())
         root.refuse("parameters", " is missing or empty: what is to be found?");
       demand_distinct(root, "parameters", c.parameters, [](const CalibrationParameter &p) { return p.key; });

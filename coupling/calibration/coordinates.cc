@@ -55,19 +55,6 @@ namespace diptych::coupling
     return result;
   }
 
-  std::vector<double> Coordinates::number_rates(const Eigen::VectorXd &point) const
-  {
-    const std::vector<double> here = numbers(point);
-    std::vector<double>       rates;
-    for (std::size_t k = 0; k < size(); ++k)
-      {
-        const CalibrationParameter &p     = parameters[k];
-        const double                width = scale(p, p.high) - scale(p, p.low);
-        rates.push_back(p.coordinate == Coordinate::logarithm ? here[k] * width : width);
-      }
-    return rates;
-  }
-
   double Coordinates::value_of(const std::string &key, const std::vector<double> &numbers, const std::size_t depth) const
   {
     if (depth > size())
@@ -107,10 +94,7 @@ namespace diptych::coupling
     Settings                  result;
     for (std::size_t k = 0; k < size(); ++k)
       {
-        Entry entry;
-        entry.section = section, entry.key = parameters[k].key, entry.value = text_of(here[k]);
-        entry.place = "a point of the calibration";
-        result.push_back(entry);
+        result.push_back({section, parameters[k].key, text_of(here[k]), "a point of the calibration", ""});
       }
     return result;
   }

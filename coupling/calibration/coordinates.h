@@ -28,9 +28,6 @@ namespace diptych::coupling
     std::vector<double> values(const Eigen::VectorXd &point) const;
     Settings            settings(const Eigen::VectorXd &point) const;
 
-    // d number / d point; the number is almost linear over a deviation, but a logarithm's, which is told as a factor.
-    std::vector<double> number_rates(const Eigen::VectorXd &point) const;
-
     const CalibrationParameter &parameter(std::size_t k) const { return parameters[k]; }
 
   private:

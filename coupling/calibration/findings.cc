@@ -7,6 +7,7 @@
 
 #include "coupling/scene/keys.h"
 #include "coupling/statistics/equivalence.h"
+#include "coupling/statistics/student.h"
 #include "discrete/choices.h"
 
 namespace diptych::coupling
@@ -18,7 +19,7 @@ namespace diptych::coupling
                                      const Eigen::VectorXd &point,
                                      const std::size_t      k)
     {
-      constexpr double            normal_quantile = 1.96, close = 1e-3;
+      constexpr double            close = 1e-3;
       const CalibrationParameter &p     = coordinates.parameter(k);
       const Eigen::Index          place = Eigen::Index(k);
       const double                here = point[place], deviation = knowledge.deviation[place];
@@ -38,11 +39,6 @@ namespace diptych::coupling
       result.is_identified = knowledge.is_identified[k];
       result.at_bound      = here < close || here > 1 - close;
       return result;
-    }
-
-    Interval interval_of(const Equivalence &e)
-    {
-      return e.difference;
     }
 
     // One number of a path, sample by sample.
@@ -70,7 +66,7 @@ namespace diptych::coupling
             differences.push_back(held.after - x);
           test = compare_differences(differences, margin);
         }
-      record.difference = interval_of(test), record.verdict = text_of(test.verdict);
+      record.difference = test.difference, record.verdict = text_of(test.verdict);
       return record;
     }
 
@@ -123,12 +119,12 @@ namespace diptych::coupling
             if (std::isfinite(sample.angle_deg))
               of_grains.push_back(sample.angle_deg);
           angle.data = line_statistics(of_grains).mean, angle.margin = margins.angle;
-          angle.difference = interval_of(test), angle.verdict = text_of(test.verdict);
+          angle.difference = test.difference, angle.verdict = text_of(test.verdict);
           record.predictions.push_back(angle);
         }
     }
 
-    // Mean of the samples with the 95 % band of one of them, and both curves of the continuum.
+    // Mean of the samples with two deviations of one of them to either side, and both curves of the continuum.
     void add_curves(const CalibrationPath &path, const PathRuns &runs, PathRecord &record)
     {
       const auto &first = path.samples.front();

@@ -229,7 +229,7 @@ namespace diptych::coupling
           }
         if (fit.jacobians >= options.most_jacobians)
           {
-            fit.words = "chi^2 was still falling after " + std::to_string(fit.jacobians) + " Jacobians";
+            fit.words = "the last of " + std::to_string(fit.jacobians) + " Jacobians still brought chi^2 down";
             return fit;
           }
         renew(residuals, options.difference, fit);

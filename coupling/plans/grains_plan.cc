@@ -11,6 +11,7 @@
 #include "coupling/plans/plan_question.h"
 #include "coupling/plans/plan_text.h"
 #include "coupling/scene/keys.h"
+#include "coupling/statistics/student.h"
 
 namespace diptych::coupling
 {
@@ -24,8 +25,6 @@ namespace diptych::coupling
     // accuracy.
     constexpr double worth_trying = 0.1, share_of_a_knob = 0.25;
     constexpr double far_from_the_pilot = 1.5, furthest_ahead = 4; // a choice beyond the first is run, at most so far ahead
-
-    constexpr double normal_quantile = 1.96; // few samples know their deviation badly: their intervals are Student's
 
     struct Level
     {

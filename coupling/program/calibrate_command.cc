@@ -45,8 +45,12 @@ namespace diptych::coupling
     {
       std::map<std::string, double> values;
       for (const Entry &entry : calibration.fixed)
-        if (char *end = nullptr; std::strtod(entry.value.c_str(), &end) != 0 || *end == 0)
-          values.emplace(entry.key, std::strtod(entry.value.c_str(), nullptr));
+        {
+          char        *end   = nullptr;
+          const double value = std::strtod(entry.value.c_str(), &end);
+          if (end != entry.value.c_str() && *end == 0)
+            values.emplace(entry.key, value);
+        }
       for (const CalibrationTarget &target : calibration.targets)
         if (target.is_fitted)
           {
@@ -106,11 +110,9 @@ namespace diptych::coupling
            << record.chi2 << "; " << record.coarse_runs << " coarse and " << record.fine_runs << " fine runs, "
            << record.other_runs << " of predictions, " << record.cpu_s << " CPU s\n";
       for (const ParameterRecord &p : record.parameters)
-        text << "  " << p.key << " = " << p.value << (p.coordinate == "share_of" || p.coordinate == "drop_from" ? "; " : " ")
-             << (p.coordinate == "share_of" || p.coordinate == "drop_from"
-                   ? p.coordinate + " " + p.other + " " + rounded(p.number) + " "
-                   : "")
-             << '[' << p.number_low << ", " << p.number_high << "]" << (p.is_identified ? "" : ", not identified") << '\n';
+        text << "  " << p.key << " = " << p.value << ' '
+             << (p.other.empty() ? "" : p.coordinate + " " + p.other + " " + rounded(p.number) + " ") << '[' << p.number_low
+             << ", " << p.number_high << "]" << (p.is_identified ? "" : ", not identified") << '\n';
       for (const PathRecord &path : record.paths)
         for (const PredictionRecord &one : path.predictions)
           text << "  " << path.name << " (" << path.use << "): " << one.quantity << ' ' << one.data << ", before " << one.before
@@ -156,9 +158,11 @@ namespace diptych::coupling
       });
     }
 
-    int carry_out(const CommandLine &line, const Calibration &calibration, const std::string &directory)
+    int carry_out(const CommandLine &line,
+                  const Calibration &calibration,
+                  const Coordinates &coordinates,
+                  const std::string &directory)
     {
-      const Coordinates coordinates = coordinates_of(calibration);
       CalibrationRuns   runs(line, calibration, directory);
       CalibrationRecord record;
       record.title = calibration.title;
@@ -201,13 +205,14 @@ namespace diptych::coupling
   {
     const Calibration calibration = read_calibration(line.target);
     const std::string directory   = line.output.empty() ? "results/" + calibration.name + "_calibration" : line.output;
-    check_start(calibration, coordinates_of(calibration)); // before anything is changed
+    const Coordinates coordinates = coordinates_of(calibration);
+    check_start(calibration, coordinates); // before anything is changed
     return keeping(directory, [&] {
       on_first_process([&] {
         open_runs_folder(directory, folder_of_a_calibration, calibration.file, line.resume);
         return 0;
       });
-      return carry_out(line, calibration, directory);
+      return carry_out(line, calibration, coordinates, directory);
     });
   }
 } // namespace diptych::coupling

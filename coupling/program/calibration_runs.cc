@@ -15,6 +15,7 @@
 #include "coupling/plans/plan_text.h"
 #include "coupling/processes/processes.h"
 #include "coupling/scene/scene_file.h"
+#include "coupling/statistics/student.h"
 #include "coupling/studies/study_folder.h"
 #include "coupling/studies/study_results.h"
 #include "discrete/panel/snapshot_file.h"
@@ -25,20 +26,7 @@ namespace diptych::coupling
   {
     Entry setting(const std::string &section, const std::string &key, const std::string &value)
     {
-      Entry entry;
-      entry.section = section, entry.key = key, entry.value = value, entry.place = "the calibration";
-      entry.folder = std::filesystem::current_path().string();
-      return entry;
-    }
-
-    // A family of points with these settings.
-    Family family_of(const std::vector<Settings> &points)
-    {
-      Axis axis;
-      axis.name = "point";
-      for (const Settings &settings : points)
-        axis.points.push_back({std::to_string(axis.points.size()), settings});
-      return {"", {}, true, {axis}};
+      return {section, key, value, "the calibration", ""};
     }
 
     // Without the reference.
@@ -61,13 +49,14 @@ namespace diptych::coupling
       return hardening == text_of(continuum::HardeningKind::critical_state);
     }
 
+    // Why a run has no result; empty: it has.
     std::string words_of(const std::string &directory, const StudyRun &run, const StudyCommand command)
     {
+      if (const auto end = found_end(directory, run); end && end->exit_code == 0)
+        return "";
       Study study;
       study.command          = command;
       const RunResult result = result_of(directory, study, run);
-      if (result.is_known && result.exit_code == 0)
-        return "";
       return result.words.empty() ? "the run was lost" : result.words;
     }
   } // namespace
@@ -102,7 +91,7 @@ namespace diptych::coupling
 
   void CalibrationRuns::note_cost(const std::string &folder, double &sum)
   {
-    if (!counted.emplace(folder, true).second)
+    if (!counted.insert(folder).second)
       return;
     for (const PhaseCost &phase : read_run_facts(folder).phases)
       sum += phase.cpu_s;
@@ -129,13 +118,12 @@ namespace diptych::coupling
     return folders;
   }
 
-  std::string CalibrationRuns::mesh_of_sample(const CalibrationTarget  &target,
-                                              const Scene              &scene,
-                                              const discrete::Snapshot &grains)
+  std::string CalibrationRuns::mesh_of_sample(const Scene &scene, const discrete::Snapshot &grains)
   {
     if (scene.continuum.mesh.kind == continuum::MeshOption::Kind::file)
       return scene.continuum.mesh.file;
-    const std::string file = std::filesystem::absolute(directory + "/meshes/" + target.name + ".msh").string();
+    const std::string file =
+      std::filesystem::absolute(directory + "/meshes/path_" + std::to_string(1 + outlines.size()) + ".msh").string();
     on_first_process([&] {
       std::filesystem::create_directories(directory + "/meshes");
       continuum::write_mesh(mesh_of(scene, continuum_parts(scene).front(), &grains), file);
@@ -153,7 +141,7 @@ namespace diptych::coupling
         return found->second;
     const SampleFrame box = sample_frame(snapshots.front(), snapshots.front());
     return {box.width, box.height, solid_fraction(snapshots.front()), frames_of(path.data.observables, snapshots),
-            mesh_of_sample(path.target, path.scene, snapshots.front())};
+            mesh_of_sample(path.scene, snapshots.front())};
   }
 
   CalibrationPath CalibrationRuns::path_of(const CalibrationTarget &target)
@@ -216,7 +204,7 @@ namespace diptych::coupling
     std::vector<std::string> why;
     const Eigen::VectorXd    scatter = covariance(noise, path.data.observables).diagonal().cwiseSqrt();
     // Grains part after a while: two runs of a sample differ by chance, too.
-    const double allowed = std::max(1., 1.96 * std::sqrt(2. / double(n)));
+    const double allowed = std::max(1., normal_quantile * std::sqrt(2. / double(n)));
     for (Eigen::Index k = 0; k < moved.size(); ++k)
       why.push_back(std::abs(moved[k]) > allowed * scatter[k] ? "half the step of the grains moves it by " + rounded(moved[k]) +
                                                                   ", samples scatter by " + rounded(scatter[k])

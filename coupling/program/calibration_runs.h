@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -49,8 +50,8 @@ namespace diptych::coupling
     CalibrationPath          path_of(const CalibrationTarget &target);
     Study                    study_of(const CalibrationTarget &target, StudyCommand command) const;
     void                     note_cost(const std::string &folder, double &sum);
-    std::string mesh_of_sample(const CalibrationTarget &target, const Scene &scene, const discrete::Snapshot &grains);
-    Settings    model_settings(const CalibrationPath &path, const ModelTask &task) const;
+    std::string              mesh_of_sample(const Scene &scene, const discrete::Snapshot &grains);
+    Settings                 model_settings(const CalibrationPath &path, const ModelTask &task) const;
     // The sample's mean density in the place of that of every cell: the meshes here have no grains.
     std::vector<Settings> with_density(const CalibrationPath &path, std::vector<Settings> points) const;
     ModelRun              model_run(const CalibrationPath &path, const StudyRun &run);
@@ -59,7 +60,7 @@ namespace diptych::coupling
     const Calibration             &calibration;
     std::string                    directory;
     std::map<std::string, Outline> outlines; // by the target's name
-    std::map<std::string, bool>    counted;
+    std::set<std::string>          counted;
     double                         spent_on_continuum = 0, spent_on_grains = 0;
   };
 } // namespace diptych::coupling

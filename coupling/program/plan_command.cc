@@ -40,11 +40,7 @@ namespace diptych::coupling
       study.seeds                           = task.seeds;
       study.reference                       = task.points.front();
       study.quantities                      = task.quantities;
-      Axis axis;
-      axis.name = "point";
-      for (const Settings &settings : task.points)
-        axis.points.push_back({std::to_string(axis.points.size()), settings});
-      study.families.push_back({"", {}, true, {axis}});
+      study.families.push_back(family_of(task.points));
       return study;
     }
 

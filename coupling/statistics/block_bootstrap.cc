@@ -13,9 +13,8 @@ namespace diptych::coupling
 {
   namespace
   {
-    constexpr double normal_quantile  = 1.959963984540054; // 97.5 %
-    constexpr int    fewest_resamples = 40;                // below, the 2.5 % quantile is an extreme value
-  }                                                        // namespace
+    constexpr int fewest_resamples = 40; // below, the 2.5 % quantile is an extreme value
+  }                                      // namespace
 
   int Tiles::tile(const Eigen::Vector2d &point) const
   {

@@ -54,6 +54,16 @@ namespace diptych::coupling
     std::vector<Axis> axes;
   };
 
+  // These points alone, numbered.
+  inline Family family_of(const std::vector<Settings> &points)
+  {
+    Axis axis;
+    axis.name = "point";
+    for (const Settings &settings : points)
+      axis.points.push_back({std::to_string(axis.points.size()), settings});
+    return {"", {}, true, {axis}};
+  }
+
   // From what a quantity is read.
   enum class Source
   {

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "coupling/ensembles/seed_list.h"
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_file.h"
 #include "coupling/studies/study_columns.h"
@@ -221,19 +220,6 @@ namespace diptych::coupling
       return name;
     }
 
-    std::vector<int> seeds_of(const Part &root)
-    {
-      try
-        {
-          return root.has("seeds") ? read_seeds(value_text(root.json()["seeds"])) : std::vector<int>();
-        }
-      catch (const std::invalid_argument &error)
-        {
-          const std::string words = error.what();
-          root.refuse("seeds", words.substr(std::string("--seeds").size()));
-        }
-    }
-
     void demand_distinct_names(const Part &root, const Study &study)
     {
       std::vector<std::string> names;
@@ -280,7 +266,7 @@ namespace diptych::coupling
         study.settings.push_back(entry_of_override(text_of_override));
         check_entry(with_seed(study.settings.back(), "1"));
       }
-    study.seeds = seeds_of(root);
+    study.seeds = root.seeds("seeds");
     root.at("reference");
     study.reference = root.settings("reference");
     study.families  = families_of(root);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "coupling/ensembles/seed_list.h"
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_file.h"
 #include "coupling/studies/study_columns.h"
@@ -98,6 +99,18 @@ namespace diptych::coupling
     if (has(key) && !value[key].is_boolean())
       refuse(key, " = " + value[key].dump() + " is not allowed: true or false is");
     return has(key) && value[key];
+  }
+
+  std::vector<int> Part::seeds(const std::string &key) const
+  {
+    try
+      {
+        return has(key) ? read_seeds(value_text(value[key])) : std::vector<int>();
+      }
+    catch (const std::invalid_argument &error)
+      {
+        refuse(key, std::string(error.what()).substr(std::string("--seeds").size()));
+      }
   }
 
   Settings Part::settings(const std::string &key) const

@@ -53,6 +53,9 @@ namespace diptych::coupling
       refuse(key, " = '" + word(key) + "' is not allowed: one of " + listed(names_of(E())) + " is");
     }
 
+    // As on the command line, "1-8" or "1,3,5-7" or a number; empty where it is not there.
+    std::vector<int> seeds(const std::string &key) const;
+
     // {"section/key": value, ...}, each checked as a key and a value of a scene. Empty where it is not there.
     Settings settings(const std::string &key) const;
 

@@ -109,18 +109,17 @@ namespace
         HardeningState  walked;
         for (int k = 0; k < 50; ++k)
           {
-            const double         g = 0.003 * k, h = 1e-5;
-            const HardeningState here = hardening.after({}, g), up = hardening.after({}, g + h), down = hardening.after(here, 0);
-            const Strength       at       = hardening.at(here);
-            const double         possible = 0.26 + 5.5 * 0.82 * std::log(0.85 * std::exp(here.densification) / 0.82);
-            EXPECT_NEAR((up.stress_ratio_gain - here.stress_ratio_gain) / h, (possible - eta(hardening, here)) / strain,
-                        2e-3 * 1 / strain * h / 1e-5)
+            const double         g = 0.003 * (k + 1), h = 1e-6;
+            const HardeningState here = hardening.after({}, g), up = hardening.after({}, g + h),
+                                 down = hardening.after({}, g - h);
+            const double possible     = 0.26 + 5.5 * 0.82 * std::log(0.85 * std::exp(here.densification) / 0.82);
+            EXPECT_NEAR((up.stress_ratio_gain - down.stress_ratio_gain) / (2 * h), (possible - eta(hardening, here)) / strain,
+                        1e-6)
               << g;
-            EXPECT_NEAR((up.densification - here.densification) / h, -std::sin(at.dilatancy), 5e-4) << g;
-            EXPECT_EQ(down.stress_ratio_gain, here.stress_ratio_gain);
+            EXPECT_NEAR((up.densification - down.densification) / (2 * h), -std::sin(hardening.at(here).dilatancy), 1e-7) << g;
+            walked = hardening.after(walked, 0.003);
             EXPECT_NEAR(walked.stress_ratio_gain, here.stress_ratio_gain, 1e-12);
             EXPECT_NEAR(walked.densification, here.densification, 1e-12);
-            walked = hardening.after(walked, 0.003);
           }
       }
   }

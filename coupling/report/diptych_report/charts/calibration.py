@@ -14,24 +14,29 @@ MARKS = {"stress_ratio": "o", "volumetric_strain": "s", "ln_width": "D"}
 
 def curve(path, kind):
     """Mean of the grains with the band of two deviations of one sample, the continuum before and after."""
-    name, label, scale = CURVES[kind]
-    x = 100 * numbers(path["progress"])
     figure = Figure(figsize=(4.5, 3.1))
     axes = ruled(figure.add_axes([0.15, 0.16, 0.825, 0.8]))
+    label = draw_curve(axes, path, kind)
+    axes.legend(loc="lower right" if kind == "stress_ratio" else "best")
+    return svg(figure, f"{label} of {path['name']}: grains with their scatter, continuum before and after calibration.")
+
+
+def draw_curve(axes, path, kind):
+    """Without a legend; returns the label."""
+    name, label, scale = CURVES[kind]
+    x = 100 * numbers(path["progress"])
     low, high = scale * numbers(path[name + "_low"]), scale * numbers(path[name + "_high"])
     if np.isfinite(low).any():
         axes.fill_between(x, low, high, color=GRAINS, alpha=0.18, linewidth=0, label="grains, two deviations of a sample")
-    axes.plot(x, scale * numbers(path[name]), color=GRAINS, label="grains, mean")
+    axes.plot(x, scale * numbers(path[name]), color=GRAINS, label=f"grains, mean of {len(path['seeds'])}")
     for when, look in (("before", dict(color=FAINT, linestyle=(0, (2, 1.5)))), ("after", dict(color=CONTINUUM, linestyle=(0, (5, 1.5))))):
         y = scale * numbers(path[f"{name}_{when}"])
         if len(y) == len(x):
             axes.plot(x, y, label="continuum, the scene's own" if when == "before" else "continuum, calibrated", **look)
     axes.set(xlabel="axial strain, %", ylabel=label, xlim=(0, x[-1]))
-    inside = high[np.isfinite(high)]
-    if kind == "stress_ratio" and len(inside):
-        axes.set_ylim(0, 1.25 * np.nanmax(scale * numbers(path[name])))
-    axes.legend(loc="lower right" if kind == "stress_ratio" else "best")
-    return svg(figure, f"{label} of {path['name']}: grains with their scatter, continuum before and after calibration.")
+    if kind == "stress_ratio":
+        axes.set_ylim(0, 1.3 * np.nanmax(scale * numbers(path[name])))
+    return label
 
 
 def residuals(path):
