@@ -85,19 +85,38 @@ namespace diptych::coupling
                                                  const ModelMesh                     mesh,
                                                  int                                &count)
       {
-        ModelTask task{{}, on, mesh, calibration.load_step};
+        ModelTask task{on, {}, mesh, calibration.load_step};
         for (const Eigen::VectorXd &point : points)
-          task.points.push_back(settings_at(point));
+          task.points.push_back(settings_on(on, point));
         count += int(points.size() * on.size());
         return run(task);
       }
 
-      Settings settings_at(const Eigen::VectorXd &point) const
+      Settings settings_at(const Eigen::VectorXd &point, const std::string &target) const
       {
         Settings       settings = calibration.fixed;
-        const Settings found    = coordinates.settings(point);
+        const Settings found    = coordinates.settings(point, target);
         settings.insert(settings.end(), found.begin(), found.end());
         return settings;
+      }
+
+      std::vector<Settings> settings_on(const std::vector<std::size_t> &on, const Eigen::VectorXd &point) const
+      {
+        std::vector<Settings> settings;
+        for (const std::size_t p : on)
+          settings.push_back(settings_at(point, paths[p].target.name));
+        return settings;
+      }
+
+      // What all targets have in common, and what each has for itself.
+      void keep_settings(const Eigen::VectorXd &point)
+      {
+        record.settings = settings_at(point, "");
+        record.own.clear();
+        for (const CalibrationPath &path : paths)
+          for (std::size_t k = 0; k < coordinates.size(); ++k)
+            if (const CalibrationParameter &p = coordinates.parameter(k); !p.targets.empty() && p.belongs_to(path.target.name))
+              record.own.push_back({path.target.name, p.key, coordinates.values(point)[k]});
       }
 
       // Not weighted, of the fitted paths one after the other; empty where one has no run.
@@ -145,9 +164,9 @@ namespace diptych::coupling
           best_chi2 = std::numeric_limits<double>::infinity(), best_mesh = mesh;
         if (residual.size() == 0 || residual.squaredNorm() >= best_chi2)
           return;
-        best_chi2       = residual.squaredNorm();
-        record.settings = settings_at(point);
-        record.chi2     = residual.head(data->size()).squaredNorm();
+        best_chi2 = residual.squaredNorm();
+        keep_settings(point);
+        record.chi2 = residual.head(data->size()).squaredNorm();
       }
 
       LeastSquaresFit fit_coarse()
@@ -220,8 +239,8 @@ namespace diptych::coupling
         LeastSquaresFit fine   = least_squares(residuals_on(ModelMesh::fine), coarse.point, options, coarse.jacobian);
         if (!std::isfinite(fine.chi2))
           throw std::invalid_argument("the continuum does not come to its end on the samples' own mesh: " + fine.words);
-        record.chi2     = chi2_of_data(fine);
-        record.settings = settings_at(fine.point);
+        record.chi2 = chi2_of_data(fine);
+        keep_settings(fine.point);
         return fine;
       }
 
@@ -274,10 +293,13 @@ namespace diptych::coupling
         std::vector<std::size_t> all;
         for (std::size_t p = 0; p < paths.size(); ++p)
           all.push_back(p);
-        const Settings calibrated = settings_at(best);
+        std::vector<Settings> formerly;
+        for (const CalibrationPath &path : paths)
+          formerly.push_back(path.target.before);
+        const std::vector<Settings> calibrated = settings_on(all, best);
         record.other_runs += 3 * int(all.size());
-        const auto runs   = run({{{}, calibrated}, all, ModelMesh::fine, calibration.load_step});
-        const auto halved = run({{calibrated}, all, ModelMesh::fine, 0.5 * calibration.load_step});
+        const auto runs   = run({all, {formerly, calibrated}, ModelMesh::fine, calibration.load_step});
+        const auto halved = run({all, {calibrated}, ModelMesh::fine, 0.5 * calibration.load_step});
         for (const std::size_t p : all)
           {
             const Eigen::MatrixXd by_coordinates = jacobian_on(p);
@@ -308,6 +330,12 @@ namespace diptych::coupling
             one.counts = data->weights()[at++] > 0;
       }
 
+      bool have_same_parameters(const CalibrationTarget &a, const CalibrationTarget &b) const
+      {
+        return std::all_of(calibration.parameters.begin(), calibration.parameters.end(),
+                           [&](const CalibrationParameter &p) { return p.belongs_to(a.name) == p.belongs_to(b.name); });
+      }
+
       // Of the observables of one path by the coordinates: the fit's, where the path was fitted or is one that was, on other
       // samples; else on its coarse mesh.
       Eigen::MatrixXd jacobian_on(const std::size_t p)
@@ -316,7 +344,7 @@ namespace diptych::coupling
         Eigen::Index       at = 0;
         for (const std::size_t q : fitted)
           {
-            if (is_same_path(paths[p].target, paths[q].target))
+            if (is_same_path(paths[p].target, paths[q].target) && have_same_parameters(paths[p].target, paths[q].target))
               return jacobian.middleRows(at, n);
             at += Eigen::Index(paths[q].data.observables.size());
           }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -31,10 +32,16 @@ namespace diptych::coupling
   // Start and bounds are numbers of the coordinate: the value itself (also of a logarithm), a share or a drop.
   struct CalibrationParameter
   {
-    std::string key; // of the section continuum
-    Coordinate  coordinate = Coordinate::value;
-    std::string other; // share_of, drop_from: a key of the section continuum
-    double      start = 0, low = 0, high = 1;
+    std::string              key; // of the section continuum
+    Coordinate               coordinate = Coordinate::value;
+    std::string              other; // share_of, drop_from: a key of the section continuum
+    double                   start = 0, low = 0, high = 1;
+    std::vector<std::string> targets = {}; // whose own it is, by name; empty: one value for all
+
+    bool belongs_to(const std::string &target) const
+    {
+      return targets.empty() || std::find(targets.begin(), targets.end(), target) != targets.end();
+    }
   };
 
   // One path: a scene on several samples.
@@ -45,6 +52,7 @@ namespace diptych::coupling
     Settings                 settings;
     std::vector<int>         seeds;
     bool                     is_fitted = true; // else predicted
+    Settings                 before    = {};   // what the calibrated law is compared with; empty: the scene's own
   };
 
   // What is held against each other.

@@ -51,9 +51,23 @@ namespace diptych::coupling
       target.scene = target.results.front() + "/scene.prm";
     }
 
+    // Keys of the continuum in a fragment.
+    Settings before_of(const Part &part, const std::string &file)
+    {
+      const std::string fragment = resolved(part.word("before"), folder_of(file));
+      if (!std::filesystem::is_regular_file(fragment))
+        part.refuse("before", " = '" + fragment + "': there is no such file");
+      const Settings settings = read_fragment(fragment);
+      for (const Entry &entry : settings)
+        if (entry.section != "continuum")
+          part.refuse("before",
+                      " = '" + fragment + "' sets " + entry.section + "/" + entry.key + ", which is no key of the continuum");
+      return settings;
+    }
+
     CalibrationTarget target_of(const Part &part, const std::string &file)
     {
-      part.allow({"name", "scene", "set", "seeds", "results", "use"});
+      part.allow({"name", "scene", "set", "seeds", "results", "use", "before"});
       part.at("name");
       CalibrationTarget target;
       target.name     = part.word("name");
@@ -62,6 +76,8 @@ namespace diptych::coupling
         read_results(part, file, target);
       else
         read_scene_and_seeds(part, file, target);
+      if (part.has("before"))
+        target.before = before_of(part, file);
       const std::string use = part.word("use", "fit");
       if (use != "fit" && use != "predict")
         part.refuse("use", " = '" + use + "' is not allowed: fit or predict is");
@@ -97,13 +113,34 @@ namespace diptych::coupling
           part.setting(name, "continuum/" + p.key, part.json()[name]);
     }
 
-    CalibrationParameter parameter_of(const Part &part)
+    // Whose own the parameter is; the data must know of one of them.
+    std::vector<std::string> own_targets_of(const Part &part, const std::vector<CalibrationTarget> &targets)
     {
-      part.allow({"key", "coordinate", "of", "start", "low", "high"});
+      std::vector<std::string> names;
+      bool                     is_fitted = false;
+      for (const Part &one : part.list("targets"))
+        {
+          const std::string name  = value_text(one.json());
+          const auto        found = std::find_if(targets.begin(), targets.end(),
+                                                 [&](const CalibrationTarget &target) { return target.name == name; });
+          if (found == targets.end())
+            one.refuse("targets: there is no target '" + name + "'");
+          names.push_back(name);
+          is_fitted = is_fitted || found->is_fitted;
+        }
+      if (part.has("targets") && !is_fitted)
+        part.refuse("targets", " hold none that is fitted");
+      return names;
+    }
+
+    CalibrationParameter parameter_of(const Part &part, const std::vector<CalibrationTarget> &targets)
+    {
+      part.allow({"key", "coordinate", "of", "start", "low", "high", "targets"});
       for (const char *key : {"key", "start", "low", "high"})
         part.at(key);
       CalibrationParameter p;
       p.key        = part.word("key");
+      p.targets    = own_targets_of(part, targets);
       p.coordinate = part.choice("coordinate", usual_coordinate(p.key));
       p.start = part.number("start", -far, far), p.low = part.number("low", -far, far), p.high = part.number("high", -far, far);
       const bool is_ratio = p.coordinate == Coordinate::share_of || p.coordinate == Coordinate::drop_from;
@@ -201,12 +238,19 @@ namespace diptych::coupling
     void read_parameters(const Part &root, Calibration &c)
     {
       for (const Part &part : root.list("parameters"))
-        c.parameters.push_back(parameter_of(part));
+        c.parameters.push_back(parameter_of(part, c.targets));
       if (c.parameters.size() > most_parameters)
         root.refuse("parameters", " are more than " + std::to_string(most_parameters));
       if (c.parameters.empty())
         root.refuse("parameters", " is missing or empty: what is to be found?");
-      demand_distinct(root, "parameters", c.parameters, [](const CalibrationParameter &p) { return p.key; });
+      for (const CalibrationTarget &target : c.targets) // each sees a key once
+        {
+          std::vector<std::string> keys;
+          for (const CalibrationParameter &p : c.parameters)
+            if (p.belongs_to(target.name))
+              keys.push_back(p.key);
+          demand_distinct(root, "parameters", keys, [](const std::string &key) { return key; });
+        }
       c.fixed = root.settings("set");
       for (const Entry &entry : c.fixed)
         {

@@ -28,7 +28,7 @@ namespace diptych::coupling
     v({"mean", "-", "of the grains"}, o.mean);
     v({"deviation", "-", "of one sample, by the noise model"}, o.deviation);
     v({"deviation_of_mean", "-", "of the mean of the samples"}, o.deviation_of_mean);
-    v({"before", "-", "of the continuum with the scene's own parameters"}, o.before);
+    v({"before", "-", "of the continuum with the parameters from before"}, o.before);
     v({"after", "-", "of the continuum as calibrated"}, o.after);
     v({"parameter_deviation", "-", "of the latter, by that of the parameters"}, o.parameter_deviation);
     v({"half_step", "-", "how far load steps half as long move the latter"}, o.half_step);
@@ -42,7 +42,7 @@ namespace diptych::coupling
        Kind::setting},
       p.quantity);
     v({"data", "as the quantity says", "mean of the grains"}, p.data);
-    v({"before", "as the quantity says", "of the continuum with the scene's own parameters"}, p.before);
+    v({"before", "as the quantity says", "of the continuum with the parameters from before"}, p.before);
     v({"after", "as the quantity says", "of the continuum as calibrated"}, p.after);
     v({"difference", "as the margin says", "continuum less grains; relative for peak and width"}, p.difference);
     v({"margin", "as the quantity says", "up to where they count as equivalent", Kind::setting}, p.margin);
@@ -61,18 +61,19 @@ namespace diptych::coupling
     v({"stress_ratio", "-", "mean of the grains"}, p.stress_ratio);
     v({"stress_ratio_low", "-", "two deviations of one sample below"}, p.stress_ratio_low);
     v({"stress_ratio_high", "-", "and above"}, p.stress_ratio_high);
-    v({"stress_ratio_before", "-", "continuum, the scene's own parameters"}, p.stress_ratio_before);
+    v({"stress_ratio_before", "-", "continuum, the parameters from before"}, p.stress_ratio_before);
     v({"stress_ratio_after", "-", "continuum, calibrated"}, p.stress_ratio_after);
     v({"volume", "-", "mean volumetric strain of the grains"}, p.volume);
     v({"volume_low", "-", "two deviations of one sample below"}, p.volume_low);
     v({"volume_high", "-", "and above"}, p.volume_high);
-    v({"volume_before", "-", "continuum, the scene's own parameters"}, p.volume_before);
+    v({"volume_before", "-", "continuum, the parameters from before"}, p.volume_before);
     v({"volume_after", "-", "continuum, calibrated"}, p.volume_after);
   }
 
   template <class Visitor> void list_numbers(const ParameterRecord &p, Visitor &v)
   {
     v({"key", "-", "of the section continuum", Kind::setting}, p.key);
+    v({"targets", "-", "whose own it is; empty: one value for all", Kind::setting}, p.targets);
     v({"coordinate", "-", "in which it is searched for", Kind::setting}, p.coordinate);
     v({"of", "-", "the key that a share or drop refers to", Kind::setting}, p.other);
     v({"low", "as the coordinate says", "bound", Kind::setting}, p.low);
@@ -101,6 +102,13 @@ namespace diptych::coupling
     v({"words", "-", "why the search did not arrive; empty: it did", Kind::setting}, m.words);
   }
 
+  template <class Visitor> void list_numbers(const OwnValue &o, Visitor &v)
+  {
+    v({"target", "-", "whose own the value is", Kind::setting}, o.target);
+    v({"key", "-", "of the section continuum", Kind::setting}, o.key);
+    v({"value", "as the key says", "found so far"}, o.value);
+  }
+
   // The whole of calibration.json.
   template <class Visitor> void list_numbers(const CalibrationRecord &c, Visitor &v)
   {
@@ -111,7 +119,8 @@ namespace diptych::coupling
     v({"title", "-", "of the calibration", Kind::setting}, c.title);
     v({"status", "-", "finished, or why it ended before", Kind::setting}, c.status);
     v({"settings", "-", "found so far: the keys of calibrated.prm", Kind::setting}, settings);
-    v({"chi2_before", "-", "with the scenes' own parameters"}, c.chi2_before);
+    v.list("own", "values that single targets have for themselves", c.own);
+    v({"chi2_before", "-", "with the parameters from before"}, c.chi2_before);
     v({"chi2_coarse", "-", "at the best point of the coarse mesh"}, c.chi2_coarse);
     v({"chi2", "-", "as calibrated"}, c.chi2);
     v({"n_observables", "-", "that count", Kind::setting}, c.n_observables);

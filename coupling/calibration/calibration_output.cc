@@ -6,6 +6,7 @@
 
 #include "coupling/calibration/calibration_numbers.h"
 #include "coupling/numbers/number_json.h"
+#include "coupling/scene/keys.h"
 #include "coupling/version.h"
 #include "discrete/files/text_file.h"
 
@@ -50,6 +51,8 @@ namespace diptych::coupling
       text << "subsection continuum\n";
       for (const Entry &entry : record.settings)
         text << "  set " << entry.key << " = " << entry.value << '\n';
+      for (const OwnValue &one : record.own)
+        text << "  # " << one.target << ": set " << one.key << " = " << text_of(one.value) << '\n';
       text << "end\n";
       return text.str();
     }

@@ -49,13 +49,14 @@ namespace diptych::coupling
 
   struct ParameterRecord
   {
-    std::string         key, coordinate, other;
-    double              low = 0, high = 0, start = 0;                      // numbers of the coordinate
-    double              number = NAN, number_low = NAN, number_high = NAN; // 95 %
-    double              value         = NAN;                               // of the key
-    double              share_known   = NAN;
-    bool                is_identified = false, at_bound = false;
-    std::vector<double> profile_number, profile_chi2, profile_expected; // coarse; others moved along
+    std::string              key, coordinate, other;
+    std::vector<std::string> targets;                                           // whose own it is; empty: of all
+    double                   low = 0, high = 0, start = 0;                      // numbers of the coordinate
+    double                   number = NAN, number_low = NAN, number_high = NAN; // 95 %
+    double                   value         = NAN;                               // of the key
+    double                   share_known   = NAN;
+    bool                     is_identified = false, at_bound = false;
+    std::vector<double>      profile_number, profile_chi2, profile_expected; // coarse; others moved along
   };
 
   struct MinimumRecord
@@ -67,6 +68,13 @@ namespace diptych::coupling
     std::string         words;
   };
 
+  // A value that one target has for itself.
+  struct OwnValue
+  {
+    std::string target, key;
+    double      value = NAN;
+  };
+
   struct CalibrationRecord
   {
     std::string                      title, status = "started";
@@ -76,7 +84,8 @@ namespace diptych::coupling
     std::vector<MinimumRecord>       minima;
     NoiseModel                       noise;
     std::vector<std::string>         words;    // findings
-    Settings                         settings; // best so far
+    Settings                         settings; // best so far; what all targets have in common
+    std::vector<OwnValue>            own;      // and what they do not
     double                           chi2_before = NAN, chi2_coarse = NAN, chi2 = NAN;
     int                              n_observables = 0, coarse_runs = 0, fine_runs = 0, other_runs = 0;
     double                           cpu_s = 0, grains_cpu_s = 0;

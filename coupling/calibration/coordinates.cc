@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/calibration/coordinates.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -17,6 +18,12 @@ namespace diptych::coupling
     {
       return p.coordinate == Coordinate::logarithm ? std::log(number) : number;
     }
+
+    // "" is what all targets have in common.
+    bool is_of(const CalibrationParameter &p, const std::string &target)
+    {
+      return target.empty() ? p.targets.empty() : p.belongs_to(target);
+    }
   } // namespace
 
   Coordinates::Coordinates(std::vector<CalibrationParameter> given, std::map<std::string, double> given_others)
@@ -27,7 +34,15 @@ namespace diptych::coupling
     for (const CalibrationParameter &p : parameters)
       numbers.push_back(p.start);
     for (const CalibrationParameter &p : parameters)
-      value_of(p.key, numbers, 0);
+      for (const std::string &target : p.targets.empty() ? std::vector<std::string>{""} : p.targets)
+        {
+          const auto is_referred = [&](const CalibrationParameter &other) { return other.key == p.other; };
+          const auto is_seen     = [&](const CalibrationParameter &other) { return is_referred(other) && is_of(other, target); };
+          if (std::any_of(parameters.begin(), parameters.end(), is_referred) &&
+              std::none_of(parameters.begin(), parameters.end(), is_seen))
+            throw std::invalid_argument(p.key + " refers to " + p.other + ", which belongs to other targets");
+          value_of(p.key, target, numbers);
+        }
   }
 
   Eigen::VectorXd Coordinates::start() const
@@ -55,20 +70,23 @@ namespace diptych::coupling
     return result;
   }
 
-  double Coordinates::value_of(const std::string &key, const std::vector<double> &numbers, const std::size_t depth) const
+  double Coordinates::value_of(const std::string         &key,
+                               const std::string         &target,
+                               const std::vector<double> &numbers,
+                               const std::size_t          depth) const
   {
     if (depth > size())
       throw std::invalid_argument(key + " refers to itself in a circle");
     for (std::size_t k = 0; k < size(); ++k)
-      if (parameters[k].key == key)
+      if (parameters[k].key == key && is_of(parameters[k], target))
         {
           const CalibrationParameter &p = parameters[k];
           switch (p.coordinate)
             {
             case Coordinate::share_of:
-              return numbers[k] * value_of(p.other, numbers, depth + 1);
+              return numbers[k] * value_of(p.other, target, numbers, depth + 1);
             case Coordinate::drop_from:
-              return (1 - numbers[k]) * value_of(p.other, numbers, depth + 1);
+              return (1 - numbers[k]) * value_of(p.other, target, numbers, depth + 1);
             default:
               return numbers[k];
             }
@@ -84,18 +102,17 @@ namespace diptych::coupling
     const std::vector<double> here = numbers(point);
     std::vector<double>       result;
     for (const CalibrationParameter &p : parameters)
-      result.push_back(value_of(p.key, here, 0));
+      result.push_back(value_of(p.key, p.targets.empty() ? "" : p.targets.front(), here));
     return result;
   }
 
-  Settings Coordinates::settings(const Eigen::VectorXd &point) const
+  Settings Coordinates::settings(const Eigen::VectorXd &point, const std::string &target) const
   {
     const std::vector<double> here = values(point);
     Settings                  result;
     for (std::size_t k = 0; k < size(); ++k)
-      {
+      if (is_of(parameters[k], target))
         result.push_back({section, parameters[k].key, text_of(here[k]), "a point of the calibration", ""});
-      }
     return result;
   }
 } // namespace diptych::coupling

@@ -16,7 +16,7 @@ namespace diptych::coupling
   {
   public:
     // others: values of keys that shares and drops refer to and that are not searched for. Throws std::invalid_argument where
-    // one refers to a key that is neither, or in a circle.
+    // one refers to a key that is neither, to one that belongs to other targets, or in a circle.
     Coordinates(std::vector<CalibrationParameter> parameters, std::map<std::string, double> others);
 
     std::size_t     size() const { return parameters.size(); }
@@ -26,12 +26,17 @@ namespace diptych::coupling
     std::vector<double> numbers(const Eigen::VectorXd &point) const;
     // Values of the keys themselves, in the order of the parameters.
     std::vector<double> values(const Eigen::VectorXd &point) const;
-    Settings            settings(const Eigen::VectorXd &point) const;
+    // Of one target; of none (""): what all have in common.
+    Settings settings(const Eigen::VectorXd &point, const std::string &target) const;
 
     const CalibrationParameter &parameter(std::size_t k) const { return parameters[k]; }
 
   private:
-    double value_of(const std::string &key, const std::vector<double> &numbers, std::size_t depth) const;
+    // How one target sees the key.
+    double value_of(const std::string         &key,
+                    const std::string         &target,
+                    const std::vector<double> &numbers,
+                    std::size_t                depth = 0) const;
 
     std::vector<CalibrationParameter> parameters;
     std::map<std::string, double>     others;

@@ -29,7 +29,7 @@ namespace diptych::coupling
         return coordinates.numbers(moved)[k];
       };
       ParameterRecord result;
-      result.key = p.key, result.coordinate = discrete::name_of(p.coordinate), result.other = p.other;
+      result.key = p.key, result.targets = p.targets, result.coordinate = discrete::name_of(p.coordinate), result.other = p.other;
       result.low = p.low, result.high = p.high, result.start = p.start;
       result.number        = number_at(here);
       result.value         = coordinates.values(point)[k];
@@ -163,11 +163,12 @@ namespace diptych::coupling
       }
     for (const ParameterRecord &p : record.parameters)
       {
+        const std::string name = p.key + (p.targets.empty() ? "" : " (" + listed(p.targets) + ")");
         if (!p.is_identified)
-          record.words.push_back(p.key + " is not identified: the data leave " + text_of(std::round(100 * p.share_known)) +
+          record.words.push_back(name + " is not identified: the data leave " + text_of(std::round(100 * p.share_known)) +
                                  " % of what was unknown before them");
         if (p.at_bound)
-          record.words.push_back(p.key + " lies at its bound");
+          record.words.push_back(name + " lies at its bound");
       }
   }
 

@@ -36,10 +36,10 @@ namespace diptych::coupling
 
   struct ModelTask
   {
-    std::vector<Settings>    points;
-    std::vector<std::size_t> paths;
-    ModelMesh                mesh      = ModelMesh::coarse;
-    double                   load_step = 0;
+    std::vector<std::size_t>           paths;
+    std::vector<std::vector<Settings>> points; // [point][path]
+    ModelMesh                          mesh      = ModelMesh::coarse;
+    double                             load_step = 0;
   };
 
   // The continuum's runs of a task: [point][path]. May throw, which ends the calibration; the record holds what was found.

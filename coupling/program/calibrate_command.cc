@@ -81,12 +81,15 @@ namespace diptych::coupling
       for (const CalibrationTarget &target : calibration.targets)
         {
           Settings       settings = target.settings;
-          const Settings start    = coordinates.settings(coordinates.start());
+          const Settings start    = coordinates.settings(coordinates.start(), target.name);
           settings.insert(settings.end(), calibration.fixed.begin(), calibration.fixed.end());
           settings.insert(settings.end(), start.begin(), start.end());
           const Scene scene = read_changed_scene(target.scene, settings, true);
           require_continuum(scene);
           demand_observables(calibration, target, scene);
+          Settings before = target.settings;
+          before.insert(before.end(), target.before.begin(), target.before.end());
+          (void)read_changed_scene(target.scene, before, true);
         }
     }
 

@@ -258,11 +258,15 @@ namespace diptych::coupling
   std::vector<std::vector<ModelRun>> CalibrationRuns::continuum(const std::vector<CalibrationPath> &paths, const ModelTask &task)
   {
     StudyPoints asked{study_of(paths[task.paths.front()].target, StudyCommand::continuum), {}, directory};
-    for (const std::size_t p : task.paths)
+    for (std::size_t at = 0; at < task.paths.size(); ++at)
       {
-        Study study    = study_of(paths[p].target, StudyCommand::continuum);
-        study.settings = model_settings(paths[p], task);
-        study.families.push_back(family_of(with_density(paths[p], task.points)));
+        const CalibrationPath &path  = paths[task.paths[at]];
+        Study                  study = study_of(path.target, StudyCommand::continuum);
+        study.settings               = model_settings(path, task);
+        std::vector<Settings> of_points;
+        for (const std::vector<Settings> &point : task.points)
+          of_points.push_back(point[at]);
+        study.families.push_back(family_of(with_density(path, of_points)));
         const std::vector<ScenePoint> points = own_points_of(study);
         asked.points.insert(asked.points.end(), points.begin(), points.end());
       }

@@ -285,16 +285,8 @@ namespace diptych::coupling
     {
       std::vector<std::string> overrides;
       for (const std::string &file : line.set_files)
-        {
-          std::ifstream in(file);
-          if (!in || std::filesystem::is_directory(file))
-            throw SceneError("--set-file: " + file + " cannot be read");
-          for (const Entry &entry : entries_of_prm(file, in))
-            {
-              check_entry(entry);
-              overrides.push_back(entry.section + "/" + entry.key + "=" + entry.value);
-            }
-        }
+        for (const Entry &entry : read_fragment(file))
+          overrides.push_back(entry.section + "/" + entry.key + "=" + entry.value);
       line.overrides.insert(line.overrides.begin(), overrides.begin(), overrides.end());
     }
   } // namespace

@@ -148,6 +148,17 @@ namespace diptych::coupling
     return scene;
   }
 
+  std::vector<Entry> read_fragment(const std::string &file)
+  {
+    std::ifstream in(file);
+    if (!in || std::filesystem::is_directory(file))
+      throw SceneError(file + " cannot be read; --set-file takes keys as calibrate writes them (.prm)");
+    const std::vector<Entry> entries = entries_of_prm(file, in);
+    for (const Entry &entry : entries)
+      check_entry(entry);
+    return entries;
+  }
+
   bool is_echo(const std::string &file)
   {
     std::ifstream in(file);

@@ -23,6 +23,9 @@ namespace diptych::coupling
   // Throws SceneError naming the place where no scene has such a key or such a value of it.
   void check_entry(const Entry &entry);
 
+  // Keys of a fragment as calibrate writes it (.prm), each checked. Throws SceneError naming file and line.
+  std::vector<Entry> read_fragment(const std::string &file);
+
   // Stands in the first line of every echo, and so tells a result folder's scene.prm from one written by hand.
   inline constexpr char echo_title[] = "every parameter, as it was used";
 

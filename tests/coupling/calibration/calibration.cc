@@ -25,7 +25,7 @@ namespace
     EXPECT_NEAR(values[2], 23 * 0.6, 1e-9);
     EXPECT_NEAR(values[4], 23 * 0.6 * 0.7, 1e-9);
     EXPECT_NEAR(values[5], 900, 1e-6);
-    EXPECT_EQ(coordinates.settings(coordinates.start())[3].key, "mobilisation_strain");
+    EXPECT_EQ(coordinates.settings(coordinates.start(), "")[3].key, "mobilisation_strain");
     const std::vector<CalibrationParameter> alone = {
       {"dilatancy_angle_peak", Coordinate::share_of, "friction_angle_peak", 0.5, 0, 1}};
     EXPECT_NEAR(
@@ -33,6 +33,28 @@ namespace
       1e-9);
     EXPECT_THROW(Coordinates(alone, {}), std::invalid_argument);
     EXPECT_THROW(Coordinates({{"cohesion", Coordinate::share_of, "cohesion", 0.5, 0, 1}}, {}), std::invalid_argument);
+  }
+
+  TEST(Coordinates, AParameterMayBelongToSomeTargets)
+  {
+    const CalibrationParameter common = {"friction_angle_peak", Coordinate::value, "", 30, 10, 40};
+    const CalibrationParameter dense  = {
+       "friction_angle_start", Coordinate::share_of, "friction_angle_peak", 0.8, 0, 1, {"dense"}};
+    const CalibrationParameter loose = {
+      "friction_angle_start", Coordinate::share_of, "friction_angle_peak", 0.2, 0, 1, {"loose"}};
+    const Coordinates coordinates({common, dense, loose}, {});
+    const auto        start_of = [&](const std::string &target) {
+      const Settings settings = coordinates.settings(coordinates.start(), target);
+      return settings.size() < 2 ? std::string() : settings.at(1).key + " " + settings.at(1).value;
+    };
+    EXPECT_EQ(start_of("dense"), "friction_angle_start 24");
+    EXPECT_EQ(start_of("loose"), "friction_angle_start 6");
+    EXPECT_EQ(start_of("medium"), "");
+    EXPECT_EQ(start_of(""), "");
+    EXPECT_NEAR(coordinates.values(coordinates.start())[2], 6, 1e-9);
+    // What differs between targets gives a common parameter no value.
+    const CalibrationParameter share = {"dilatancy_angle_peak", Coordinate::share_of, "friction_angle_start", 0.5, 0, 1};
+    EXPECT_THROW(Coordinates({common, dense, loose, share}, {{"friction_angle_start", 20}}), std::invalid_argument);
   }
 
   // r = 100 (data - a exp(-b t)) in scaled coordinates; beyond a wall there is no run.
@@ -164,9 +186,9 @@ namespace
     EXPECT_NEAR(known.correlation(1, 2), -1, 0.01);
   }
 
-  CalibrationPath path_with(const Calibration &c, TargetData data)
+  CalibrationPath path_with(const Calibration &c, TargetData data, const std::size_t target = 0)
   {
-    CalibrationPath path{c.targets.front(), {}, std::move(data), {}, {}};
+    CalibrationPath path{c.targets[target], {}, std::move(data), {}, {}};
     for (const Eigen::VectorXd &values : path.data.samples)
       {
         path.samples.emplace_back();
@@ -184,11 +206,11 @@ namespace
       c, coordinates, paths,
       [&](const ModelTask &task) {
         std::vector<std::vector<ModelRun>> runs;
-        for (const Settings &settings : task.points)
+        for (const std::vector<Settings> &point : task.points)
           {
             runs.emplace_back();
-            for (const std::size_t p : task.paths)
-              runs.back().push_back(surrogate(settings, paths[p].data.observables));
+            for (std::size_t k = 0; k < task.paths.size(); ++k)
+              runs.back().push_back(surrogate(point[k], paths[task.paths[k]].data.observables));
           }
         return runs;
       },
@@ -214,7 +236,7 @@ namespace
   Eigen::VectorXd truth_of(const Calibration &c)
   {
     const Coordinates coordinates(c.parameters, {});
-    return surrogate(coordinates.settings(point_of(c, six_truths)), bins_of(c)).observation.values;
+    return surrogate(coordinates.settings(point_of(c, six_truths), ""), bins_of(c)).observation.values;
   }
 
   TEST(Calibrate, FindsParametersOfItsOwnDataAgain)
@@ -231,6 +253,45 @@ namespace
       EXPECT_NEAR(record.parameters[k].number / six_truths[k], 1, 1e-3) << record.parameters[k].key;
     EXPECT_LE(record.coarse_runs, 60);
     EXPECT_LE(record.fine_runs, 10);
+  }
+
+  // Two preparations of one material: what each had mobilised is its own, everything else in common. A third path takes no part
+  // in what belongs to the others.
+  TEST(Calibrate, FindsWhatBelongsToOneTarget)
+  {
+    Calibration c        = exact();
+    c.noise.stress_level = c.noise.stress_shape = 1e-5, c.noise.volume_start = c.noise.volume_growth = 1e-6;
+    c.targets = {{"dense", "", {}, {}, {1, 2}, true}, {"loose", "", {}, {}, {1, 2}, true}, {"other", "", {}, {}, {1, 2}, false}};
+    c.parameters = {{"friction_angle_peak", Coordinate::logarithm, "", 28, 12, 45},
+                    {"mobilisation_strain", Coordinate::logarithm, "", 0.01, 5e-4, 0.05},
+                    {"friction_angle_start", Coordinate::value, "", 15, 1, 20, {"dense"}},
+                    {"friction_angle_start", Coordinate::value, "", 10, 1, 20, {"loose"}}};
+    c.fixed      = {{"continuum", "dilatancy_angle_peak", "3", "", ""}, {"continuum", "friction_angle_residual", "12", "", ""}};
+    const std::vector<double>    truths = {24, 0.004, 18, 5};
+    const Coordinates            coordinates(c.parameters, {});
+    std::vector<CalibrationPath> paths;
+    for (std::size_t p = 0; p < c.targets.size(); ++p)
+      {
+        TargetData data;
+        data.observables        = bins_of(c);
+        Settings       settings = c.fixed;
+        const Settings own      = coordinates.settings(point_of(c, truths), c.targets[p].name);
+        settings.insert(settings.end(), own.begin(), own.end());
+        const ModelRun truth  = surrogate(settings, data.observables);
+        const auto    &values = truth.observation.values;
+        ASSERT_GT(values.size(), 0) << truth.words;
+        data.samples = {values, values};
+        summarise(data);
+        paths.push_back(path_with(c, data, p));
+      }
+    const CalibrationRecord record = calibrated(c, paths);
+    ASSERT_EQ(record.status, "finished");
+    for (std::size_t k = 0; k < truths.size(); ++k)
+      EXPECT_NEAR(record.parameters[k].number / truths[k], 1, 1e-3) << record.parameters[k].key << ' ' << k;
+    ASSERT_EQ(record.own.size(), 2u);
+    EXPECT_EQ(record.own[0].target, "dense");
+    EXPECT_NEAR(record.own[1].value, 5, 5e-3);
+    EXPECT_EQ(record.settings.size(), c.fixed.size() + 2) << "what is one target's own is no setting of all";
   }
 
   // Twenty data sets of four samples: errors over stated deviations scatter by one, and 95 % intervals hold the truth.

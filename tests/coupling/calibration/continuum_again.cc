@@ -72,7 +72,7 @@ namespace
     truths.push_back(2);
     const auto observables = observables_of(c, sheared());
     ASSERT_EQ(observables.size(), 28u);
-    const ModelRun truth = run_of(coordinates.settings(point_of(c, truths)), observables);
+    const ModelRun truth = run_of(coordinates.settings(point_of(c, truths), ""), observables);
     ASSERT_TRUE(truth.words.empty()) << truth.words;
     ASSERT_TRUE(std::isfinite(truth.observation.angle_deg)) << "there is no band to take a width of";
     TargetData data;
@@ -86,8 +86,8 @@ namespace
       c, coordinates, paths,
       [&](const ModelTask &task) {
         std::vector<std::vector<ModelRun>> runs;
-        for (const Settings &settings : task.points)
-          runs.push_back({run_of(settings, observables)});
+        for (const std::vector<Settings> &point : task.points)
+          runs.push_back({run_of(point.front(), observables)});
         return runs;
       },
       record);

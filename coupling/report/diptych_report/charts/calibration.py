@@ -5,7 +5,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from diptych_report.charts.style import CONTINUUM, FAINT, GRAINS, INK, ruled, svg
-from diptych_report.data.calibration import numbers
+from diptych_report.data.calibration import label, numbers
 
 CURVES = {"stress_ratio": ("stress_ratio", "stress ratio t/s", 1), "volumetric_strain": ("volume", "volumetric strain, %", 100)}
 KINDS = {"stress_ratio": "t/s", "volumetric_strain": "volume", "ln_width": "ln width"}
@@ -32,7 +32,7 @@ def draw_curve(axes, path, kind):
     for when, look in (("before", dict(color=FAINT, linestyle=(0, (2, 1.5)))), ("after", dict(color=CONTINUUM, linestyle=(0, (5, 1.5))))):
         y = scale * numbers(path[f"{name}_{when}"])
         if len(y) == len(x):
-            axes.plot(x, y, label="continuum, the scene's own" if when == "before" else "continuum, calibrated", **look)
+            axes.plot(x, y, label="continuum, before" if when == "before" else "continuum, calibrated", **look)
     axes.set(xlabel="axial strain, %", ylabel=label, xlim=(0, x[-1]))
     if kind == "stress_ratio":
         axes.set_ylim(0, 1.3 * np.nanmax(scale * numbers(path[name])))
@@ -88,7 +88,7 @@ def profiles(calibration):
         x = numbers(p["profile_number"])
         axes.plot(x, numbers(p["profile_expected"]), color=FAINT, linestyle=(0, (2, 1.5)), label="linear model")
         axes.plot(x, numbers(p["profile_chi2"]), "o-", color=CONTINUUM, markersize=4, label="as run")
-        axes.set_xlabel(p["key"] + {"share_of": ", share", "drop_from": ", drop"}.get(p["coordinate"], ""))
+        axes.set_xlabel(label(p) + {"share_of": ", share", "drop_from": ", drop"}.get(p["coordinate"], ""))
         axes.locator_params(nbins=4)
         if k % columns == 0:
             axes.set_ylabel("χ²")

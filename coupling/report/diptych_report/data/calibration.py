@@ -26,7 +26,12 @@ class Calibration:
         return self.record["parameters"]
 
     def names(self):
-        return [p["key"] for p in self.parameters]
+        return [label(p) for p in self.parameters]
+
+
+def label(parameter):
+    """Its key, and whose own it is."""
+    return parameter["key"] + (f" ({', '.join(parameter['targets'])})" if parameter["targets"] else "")
 
 
 def load(folder):

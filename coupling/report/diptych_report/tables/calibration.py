@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from diptych_report.data.calibration import numbers
+from diptych_report.data.calibration import label, numbers
 
 QUANTITIES = {"peak_stress_ratio": "peak t/s", "volumetric_strain": "volumetric strain, last bin", "width_10_90": "width 10–90, last window, d",
               "angle_deg": "inclination, last window, degrees"}
@@ -20,7 +20,7 @@ def parameters(calibration):
     for p in calibration.parameters:
         ratio = COORDINATES[p["coordinate"]]
         number = text(p["number"], 3) if ratio else ""
-        rows.append([p["key"], text(p["value"]), f"{ratio}{p['of']}: {number}" if ratio else "", f"{text(p['number_low'], 3)} … {text(p['number_high'], 3)}",
+        rows.append([label(p), text(p["value"]), f"{ratio}{p['of']}: {number}" if ratio else "", f"{text(p['number_low'], 3)} … {text(p['number_high'], 3)}",
                      f"{text(p['low'], 3)} … {text(p['high'], 3)}", f"{100 * p['share_known']:.0f} %",
                      ("yes" if p["is_identified"] else "not identified") + (", at its bound" if p["at_bound"] else "")])
     return {"head": ["continuum/", "value", "searched for as", "95 %", "bounds", "deviation left", "identified"], "rows": rows}
