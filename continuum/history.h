@@ -25,6 +25,7 @@ namespace diptych::continuum
     double          plastic_share                 = 0; // of the area, yielding in this step
     double          unreliable_share              = 0; // of the area, where the law calls its answer unreliable
     double          share_zz_not_intermediate     = 0; // of the area
+    double          unstable_share                = 0; // of the area, weakened in this step while its plastic flow contracted
     double          viscous_share                 = 0; // overstress / shear strength of the law, mean over the yielding area
     double          max_equivalent_plastic_strain = 0;
     double          dissipation                   = 0; // plastic work since the start [pressure * length^2]
@@ -76,6 +77,8 @@ namespace diptych::continuum
     visit("time", r.time, "time", "since the start of the loading");
     visit("shear_strain", r.shear_strain, "-", "travel of the upper platen to the right / initial height");
     visit("progress", r.progress, "as walk says", "what the loading has walked along its path");
+    visit("unstable_share", r.unstable_share, "-",
+          "of the area, where the step's second-order work is negative and plastic flow contracts");
     visit("walk", r.walk, "-", "which column progress equals: axial_strain, shear_strain or time");
   }
 } // namespace diptych::continuum

@@ -33,6 +33,8 @@ namespace diptych::continuum
     double          share_zz_not_intermediate = 0; // share of its points where sigma_zz is an outer principal stress
     double          acoustic_determinant      = 1; // least det(n C n) over all n and points, relative to the elastic one
     double          localisation_angle        = 0; // of the line that could form, from the horizontal [degrees], (-90, 90]
+    double          friction_angle            = 0; // that the law has mobilised or has left [degrees]; elastic: 0
+    double          solid_fraction            = 0; // hardening = critical_state [-]; else 0
   };
 
   // One instant of the continuum panel, plain values. Nodes are all support points of the displacement.

@@ -37,6 +37,8 @@ namespace diptych::continuum
           "share of the points where the stress out of the plane is an outer principal one");
     visit("cells/acoustic_determinant", c.acoustic_determinant, "-", "least det(n C n) relative to the elastic one");
     visit("cells/localisation_angle", c.localisation_angle, "degrees", "of the line that could form, from the horizontal");
+    visit("cells/friction_angle", c.friction_angle, "degrees", "of the law at its state; elastic: 0");
+    visit("cells/solid_fraction", c.solid_fraction, "-", "of a critical-state law; any other: 0");
   }
 
   // Attributes of the stage's group.

@@ -73,6 +73,7 @@ namespace diptych::continuum
     state.points.assign(n_points, {});
     state.localisation.assign(n_points, {});
     flow.assign(n_points, 0.);
+    unstable.assign(n_points, 0);
     current = geometry_at(mesh, positions(mesh, state.displacement));
     if (!moves())
       moved = current;
@@ -324,6 +325,7 @@ namespace diptych::continuum
     const Tangent   elastic = std::visit([](const auto &law) { return law.elastic_tangent(); }, material);
     const auto      moduli  = std::visit([](const auto &law) { return law.moduli(); }, material);
     flow.resize(trial.size());
+    unstable.assign(trial.size(), 0);
     with_element(mesh.kind, [&](const auto chosen) {
       using Element = std::decay_t<decltype(chosen)>;
       for (std::size_t c = 0; c < mesh.cells.size(); ++c)
@@ -334,7 +336,11 @@ namespace diptych::continuum
               const std::size_t point = c * Element::n_points + q;
               MaterialState     next  = trial[point].state;
               if (trial[point].regime != Regime::elastic)
-                add_plastic_flow(moduli, state.points[point], strain_at<Element>(mesh.reference, current.cells[c], q, u), next);
+                {
+                  const Strain d = strain_at<Element>(mesh.reference, current.cells[c], q, u);
+                  add_plastic_flow(moduli, state.points[point], d, next);
+                  unstable[point] = weakens_contracting(moduli, state.points[point], d, next);
+                }
               state.localisation[point] = trial[point].regime == Regime::elastic ? Localisation()
                                                                                  : localisation(trial[point].tangent, elastic);
               flow[point]               = next.equivalent_plastic_strain - state.points[point].equivalent_plastic_strain;

@@ -108,12 +108,14 @@ namespace diptych::continuum
     const CommittedState &committed() const { return state; }
     const std::vector<MaterialUpdate> &last_update() const { return trial; } // of the last evaluate()
     const std::vector<double>         &last_flow() const { return flow; } // growth of the hardening variable in the accepted step
-    double                             progress() const { return state.progress; }
-    const Eigen::Vector2d             &platen_force(bool upper) const { return state.platen_force[upper]; } // on the sample
-    Eigen::Vector2d                    platen_travel(bool upper) const;               // since the start [length]; collective
-    double                             initial_area() const { return area_at_start; } // of the whole sample [length^2]
-    const PhaseSeconds                &seconds() const { return phase; }
-    void                               go_on_counting(const PhaseSeconds &before) { phase = before; }
+    // Whether the accepted step weakened a point whose plastic flow contracts, one each.
+    const std::vector<char> &last_instability() const { return unstable; }
+    double                   progress() const { return state.progress; }
+    const Eigen::Vector2d   &platen_force(bool upper) const { return state.platen_force[upper]; } // on the sample
+    Eigen::Vector2d          platen_travel(bool upper) const;               // since the start [length]; collective
+    double                   initial_area() const { return area_at_start; } // of the whole sample [length^2]
+    const PhaseSeconds      &seconds() const { return phase; }
+    void                     go_on_counting(const PhaseSeconds &before) { phase = before; }
 
     std::vector<double> relevant_values(const DistributedVector &vector) const;
     DistributedVector   owned_values(const std::vector<double> &relevant) const; // its inverse
@@ -150,6 +152,7 @@ namespace diptych::continuum
     DistributedVector           applied;          // forces on free platens and walls, in the present step
     DistributedVector           nodal_force, rhs; // internal - external, uncondensed; negative residual
     std::vector<double>         flow;             // per point
+    std::vector<char>           unstable;         // per point
     PhaseSeconds                phase;
   };
 } // namespace diptych::continuum

@@ -25,6 +25,7 @@ namespace diptych::continuum
     double         yield_function(const MaterialState &state) const;
     double         shear_strength(const MaterialState &state) const;
 
+    const Hardening     *hardening() const { return &cone.hardening; }
     const ElasticModuli &moduli() const { return moduli_; }
     const Tangent       &elastic_tangent() const { return elastic; }
 

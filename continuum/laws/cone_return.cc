@@ -32,7 +32,7 @@ namespace diptych::continuum
       PathPoint at(const double lambda) const
       {
         PathPoint    p;
-        const Cone  &c = p.cone = cone.at(cone.hardening.after(start, lambda));
+        const Cone  &c = p.cone = cone.over(start, lambda);
         const double loss       = path.shear_loss + path.shear_loss_by_dilation * c.dilation;
         const double gain       = path.pressure_gain + path.pressure_gain_by_dilation * c.dilation;
         p.shear                 = path.shear - loss * lambda;

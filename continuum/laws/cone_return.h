@@ -7,7 +7,7 @@
 
 namespace diptych::continuum
 {
-  // Plastic flow by the multiplier lambda from a trial state, d = dilation of the cone after lambda:
+  // Plastic flow by the multiplier lambda from a trial state, d = dilation of the cone over lambda:
   //   t(lambda) = shear    - (shear_loss    + shear_loss_by_dilation    d) lambda,
   //   s(lambda) = pressure + (pressure_gain + pressure_gain_by_dilation d) lambda.
   // A radial return has shear_loss = G, pressure_gain_by_dilation = B and nothing else. All in [pressure].

@@ -11,6 +11,15 @@ namespace diptych::continuum
   namespace
   {
     constexpr double one_degree = 3.14159265358979323846 / 180;
+
+    // The angle of a sine and its rate, cut off short of upright.
+    std::array<double, 2> angle(const double sine, const double sine_rate)
+    {
+      constexpr double most   = 0.95;
+      const bool       is_cut = std::abs(sine) > most;
+      const double     kept   = std::clamp(sine, -most, most);
+      return {std::asin(kept), is_cut ? 0 : sine_rate / std::sqrt(1 - kept * kept)};
+    }
   }
 
   Hardening::Hardening(const LawOptions &options, const Units &units)
@@ -30,6 +39,7 @@ namespace diptych::continuum
       {
         const double start = o.solid_fraction_start.value_or(o.critical_solid_fraction);
         critical_state     = {true,
+                              start,
                               o.critical_stress_ratio,
                               o.stress_ratio_start - o.critical_stress_ratio,
                               o.strength_by_density * o.critical_solid_fraction * std::log(start / o.critical_solid_fraction),
@@ -52,6 +62,11 @@ namespace diptych::continuum
     return table.empty() ? decayed(state.equivalent_plastic_strain) : interpolated(state.equivalent_plastic_strain);
   }
 
+  double Hardening::solid_fraction(const HardeningState &state) const
+  {
+    return critical_state.is_on ? critical_state.solid_fraction * std::exp(state.densification) : 0;
+  }
+
   Hardening::Excess Hardening::excess(const HardeningState &state) const
   {
     return {critical_state.start_excess + state.stress_ratio_gain,
@@ -61,18 +76,42 @@ namespace diptych::continuum
   // sin phi = eta, sin psi = (eta - eta_c)/beta, cut off short of upright.
   Strength Hardening::critical(const HardeningState &state) const
   {
-    constexpr double most  = 0.95;
-    const Excess     e     = excess(state);
-    const double     rate  = (e.possible - e.mobilised) / critical_state.mobilisation_strain;
-    const auto       angle = [&](const double sine, const double sine_rate) {
-      const bool   is_cut = std::abs(sine) > most;
-      const double kept   = std::clamp(sine, -most, most);
-      return std::array<double, 2>{std::asin(kept), is_cut ? 0 : sine_rate / std::sqrt(1 - kept * kept)};
-    };
-    const auto friction  = angle(std::max(0., critical_state.stress_ratio + e.mobilised),
+    const Excess e         = excess(state);
+    const double rate      = (e.possible - e.mobilised) / critical_state.mobilisation_strain;
+    const auto   friction  = angle(std::max(0., critical_state.stress_ratio + e.mobilised),
                                 critical_state.stress_ratio + e.mobilised > 0 ? rate : 0);
-    const auto dilatancy = angle(e.mobilised / critical_state.dilatancy_ratio, rate / critical_state.dilatancy_ratio);
+    const auto   dilatancy = angle(dilation(state), rate / critical_state.dilatancy_ratio);
     return {friction[0], friction[1], dilatancy[0], dilatancy[1], peak.cohesion, 0};
+  }
+
+  double Hardening::dilation(const HardeningState &state) const
+  {
+    return excess(state).mobilised / critical_state.dilatancy_ratio;
+  }
+
+  Strength Hardening::over(const HardeningState &start, const double multiplier) const
+  {
+    const HardeningState end = after(start, multiplier);
+    Strength             s   = at(end);
+    if (!critical_state.is_on)
+      return s;
+    constexpr double short_step = 1e-6; // below it the densification of a step is round-off; its middle does to 1e-9
+    double           mean = 0, rate = 0;
+    if (multiplier > short_step)
+      {
+        mean = (start.densification - end.densification) / multiplier;
+        rate = (dilation(end) - mean) / multiplier;
+      }
+    else
+      {
+        const HardeningState middle = after(start, 0.5 * multiplier);
+        const Excess         e      = excess(middle);
+        mean                        = dilation(middle);
+        rate = 0.5 * (e.possible - e.mobilised) / (critical_state.mobilisation_strain * critical_state.dilatancy_ratio);
+      }
+    const auto dilatancy = angle(mean, rate);
+    s.dilatancy = dilatancy[0], s.dilatancy_rate = dilatancy[1];
+    return s;
   }
 
   // y = eta - eta_c and z = eta_p - eta_c obey y' = (z - y)/g, z' = -w y with w = A nu_c / beta: with a = 1/(2 g) and q^2 = a^2 -

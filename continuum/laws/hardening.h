@@ -34,7 +34,8 @@ namespace diptych::continuum
   //   d eta / dg = (eta_p(nu) - eta) / g_r,   eta_p = eta_c + A nu_c ln(nu / nu_c),
   //   d eps_v / dg = -sin psi = -(eta - eta_c) / beta,   d ln nu = d eps_v.
   // With the logarithm, which is nu - nu_c to first order, both equations are linear and are solved exactly, so that steps of any
-  // length conserve mass and give the same.
+  // length give the same; the flow of a step has the mean dilation over it, so that they conserve mass (but at the cone's tip,
+  // where the volume opens and nothing shears).
   class Hardening
   {
   public:
@@ -46,8 +47,15 @@ namespace diptych::continuum
     Strength at(const HardeningState &state) const;
     Strength at(const double equivalent_plastic_strain) const { return at(HardeningState{equivalent_plastic_strain}); }
 
+    // Of a critical state; 0 where the solid fraction is none of the law's business.
+    double solid_fraction(const HardeningState &state) const;
+
     // The state after plastic shear strain `multiplier` >= 0.
     HardeningState after(const HardeningState &state, double multiplier) const;
+
+    // Of a step: strength at its end; of a critical state with the mean dilatancy over it, so that volume and solid fraction stay
+    // together. Rates are derivatives by the multiplier.
+    Strength over(const HardeningState &start, double multiplier) const;
 
   private:
     struct Point
@@ -57,6 +65,7 @@ namespace diptych::continuum
     Strength decayed(double equivalent_plastic_strain) const;
     Strength interpolated(double equivalent_plastic_strain) const;
     Strength critical(const HardeningState &state) const;
+    double   dilation(const HardeningState &state) const; // sin psi of a critical state
 
     // What eta and eta_p have above eta_c.
     struct Excess
@@ -67,7 +76,8 @@ namespace diptych::continuum
 
     struct Critical
     {
-      bool   is_on        = false;
+      bool   is_on          = false;
+      double solid_fraction = 0;                                           // nu_0
       double stress_ratio = 0, start_excess = 0, start_possible = 0;       // eta_c; eta_0 - eta_c; eta_p(nu_0) - eta_c
       double by_density = 0, dilatancy_ratio = 1, mobilisation_strain = 1; // A nu_c, beta, g_r
     };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "continuum/laws/elasticity.h"
+#include "continuum/laws/hardening.h"
 
 namespace diptych::continuum
 {
@@ -24,6 +25,9 @@ namespace diptych::continuum
 
     // Radius of the yield surface at the state's pressure and hardening variable [pressure]; here infinite.
     double shear_strength(const MaterialState &state) const;
+
+    // How strength changes with the state; none where there is none.
+    const Hardening *hardening() const { return nullptr; }
 
     const ElasticModuli &moduli() const { return moduli_; }
     const Tangent       &elastic_tangent() const { return tangent; }

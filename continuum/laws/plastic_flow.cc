@@ -27,4 +27,17 @@ namespace diptych::continuum
       for (const Component k : {curvature_x, curvature_y})
         s1.dissipation += s1.stress[k] * (d_strain[k] - d_stress[k] / moduli.couple);
   }
+
+  bool weakens_contracting(const ElasticModuli &moduli, const MaterialState &s0, const Strain &d_strain, const MaterialState &s1)
+  {
+    constexpr double none = 1e-9; // of the elastic work of such a strain: perfect plasticity has 0
+    double           work = 0, size = 0;
+    for (const Component k : {xx, yy, xy})
+      {
+        work += (s1.stress[k] - s0.stress[k]) * d_strain[k];
+        size += d_strain[k] * d_strain[k];
+      }
+    const double growth = s1.plastic_strain.xx - s0.plastic_strain.xx + s1.plastic_strain.yy - s0.plastic_strain.yy;
+    return growth < 0 && work < -none * moduli.shear * size;
+  }
 } // namespace diptych::continuum

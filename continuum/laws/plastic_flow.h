@@ -11,4 +11,8 @@ namespace diptych::continuum
   // of the end, not negative but for round-off. The skew stress has no plastic part. s1 must hold s0's sums, as update() leaves
   // them.
   void add_plastic_flow(const ElasticModuli &moduli, const MaterialState &s0, const Strain &d_strain, MaterialState &s1);
+
+  // Whether the second-order work (sigma_1 - sigma_0) : d eps is negative (Hill, J. Mech. Phys. Solids 6, 1958) while the plastic
+  // flow from s0 to s1 contracts: loose grains that collapse where nothing lets them dilate. Both with their plastic flow.
+  bool weakens_contracting(const ElasticModuli &moduli, const MaterialState &s0, const Strain &d_strain, const MaterialState &s1);
 } // namespace diptych::continuum

@@ -114,7 +114,7 @@ namespace diptych::continuum
       if (r.verdict == Verdict::failed || r.regime == Regime::apex)
         return {};
       PrincipalReturn answer = assemble(Branch::plane, r);
-      const Cone      c      = problem.cone.at(problem.cone.hardening.after(problem.start, r.multiplier));
+      const Cone      c      = problem.cone.over(problem.start, r.multiplier);
       const double    loss   = problem.moduli.lateral * (c.dilation + c.dilation_rate * r.multiplier);
       answer.stress[1]       = problem.trial[1] - problem.moduli.lateral * c.dilation * r.multiplier;
       answer.jacobian[1]     = gradient(weights(Branch::plane), -loss * r.multiplier_by_shear, -loss * r.multiplier_by_pressure);
@@ -132,7 +132,7 @@ namespace diptych::continuum
       if (r.verdict == Verdict::failed)
         return {};
       const bool   right      = branch == Branch::right_edge;
-      const double dilation   = problem.cone.at(problem.cone.hardening.after(problem.start, r.multiplier)).dilation;
+      const double dilation   = problem.cone.over(problem.start, r.multiplier).dilation;
       const double difference = right ? problem.trial[1] - problem.trial[2] : problem.trial[0] - problem.trial[1];
       if (difference > problem.moduli.shear * (1 + (right ? -dilation : dilation)) * r.multiplier * (1 + 1e-10))
         return {};

@@ -36,9 +36,18 @@ namespace diptych::continuum
     ConeShape shape;
 
     Cone at(const double equivalent_plastic_strain) const { return at(HardeningState{equivalent_plastic_strain}); }
-    Cone at(const HardeningState &state) const
+    Cone at(const HardeningState &state) const { return of(hardening.at(state)); }
+    // At the end of a step, with the dilation over it.
+    Cone over(const HardeningState &start, const double multiplier) const
     {
-      const Strength strength = hardening.at(state);
+      Cone       c    = at(hardening.after(start, multiplier));
+      const Cone mean = of(hardening.over(start, multiplier));
+      c.dilation = mean.dilation, c.dilation_rate = mean.dilation_rate;
+      return c;
+    }
+
+    Cone of(const Strength &strength) const
+    {
       return shape == ConeShape::mohr_coulomb ? mohr_coulomb_cone(strength) : drucker_prager_cone(strength);
     }
   };

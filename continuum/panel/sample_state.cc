@@ -39,6 +39,8 @@ namespace diptych::continuum
       return std::hypot((s[xx] - s[yy]) / 2, s[xy]);
     }
 
+    constexpr double one_radian = 180 / dealii::numbers::PI; // [degrees]
+
     bool zz_is_not_intermediate(const MaterialState &point)
     {
       const double mean = (point.stress[xx] + point.stress[yy]) / 2;
@@ -79,8 +81,9 @@ namespace diptych::continuum
     // Means over one cell by current area.
     CellState cell_state(const BoundaryValueProblem &problem, const Shape &shape, const std::size_t c)
     {
-      const auto &mesh = problem.discretisation();
-      CellState   state;
+      const auto      &mesh      = problem.discretisation();
+      const Hardening *hardening = std::visit([](const auto &law) { return law.hardening(); }, problem.law());
+      CellState        state;
       for (unsigned int q = 0; q < mesh.reference.n_points; ++q)
         {
           const std::size_t     i     = c * mesh.reference.n_points + q;
@@ -97,6 +100,12 @@ namespace diptych::continuum
           state.dissipation += w * point.dissipation;
           state.overstress += w * point.overstress;
           state.share_zz_not_intermediate += w * zz_is_not_intermediate(point);
+          if (hardening)
+            {
+              const HardeningState now = hardening_state(point);
+              state.friction_angle += w * hardening->at(now).friction * one_radian;
+              state.solid_fraction += w * hardening->solid_fraction(now);
+            }
           state.area += w;
           if (place.determinant < state.acoustic_determinant)
             {
@@ -107,8 +116,8 @@ namespace diptych::continuum
       for (auto *tensor : {&state.stress, &state.strain, &state.plastic_strain})
         *tensor /= state.area;
       state.couple_stress /= state.area;
-      for (auto *value :
-           {&state.equivalent_plastic_strain, &state.dissipation, &state.overstress, &state.share_zz_not_intermediate})
+      for (auto *value : {&state.equivalent_plastic_strain, &state.dissipation, &state.overstress,
+                          &state.share_zz_not_intermediate, &state.friction_angle, &state.solid_fraction})
         *value /= state.area;
       return state;
     }
@@ -121,7 +130,7 @@ namespace diptych::continuum
       Eigen::Vector2d       position, displacement;
       double                rotation = 0, weight = 0;
     };
-    constexpr unsigned int entry_length = 9, n_state = 36;
+    constexpr unsigned int entry_length = 9, n_state = 38;
 
     void append(std::vector<double> &message, const NodeEntry &n)
     {
@@ -134,7 +143,8 @@ namespace diptych::continuum
       for (const auto *tensor : {&s.stress, &s.strain, &s.plastic_strain})
         message.insert(message.end(), tensor->data(), tensor->data() + 9);
       message.insert(message.end(), {s.couple_stress.x(), s.couple_stress.y(), s.area, s.equivalent_plastic_strain, s.dissipation,
-                                     s.overstress, s.share_zz_not_intermediate, s.acoustic_determinant, s.localisation_angle});
+                                     s.overstress, s.share_zz_not_intermediate, s.acoustic_determinant, s.localisation_angle,
+                                     s.friction_angle, s.solid_fraction});
     }
 
     CellState read_state(const double *m)
@@ -153,6 +163,8 @@ namespace diptych::continuum
       s.share_zz_not_intermediate = m[6];
       s.acoustic_determinant      = m[7];
       s.localisation_angle        = m[8];
+      s.friction_angle            = m[9];
+      s.solid_fraction            = m[10];
       return s;
     }
 
@@ -258,7 +270,8 @@ namespace diptych::continuum
       const auto &mesh     = problem.discretisation();
       const auto &state    = problem.committed();
       const auto &geometry = problem.moved_geometry();
-      double      area = 0, yielding = 0, unreliable = 0, not_intermediate = 0, viscous = 0, dissipation = 0, largest = 0;
+      double      area = 0, yielding = 0, unreliable = 0, not_intermediate = 0, viscous = 0, dissipation = 0, largest = 0,
+             unstable = 0;
       for (std::size_t i = 0; i < state.points.size(); ++i)
         {
           const auto  &point = state.points[i];
@@ -272,6 +285,7 @@ namespace diptych::continuum
           if (problem.last_update()[i].regime == Regime::elastic)
             continue;
           yielding += w;
+          unstable += w * problem.last_instability()[i];
           const double strength = std::visit([&](const auto &law) { return law.shear_strength(point); }, problem.law());
           viscous += strength > 0 ? w * point.overstress / strength : 0;
         }
@@ -281,6 +295,7 @@ namespace diptych::continuum
       yielding                          = sum(yielding, mesh.communicator());
       row.plastic_share                 = yielding / area;
       row.viscous_share                 = sum(viscous, mesh.communicator()) / std::max(yielding, 1e-300);
+      row.unstable_share                = sum(unstable, mesh.communicator()) / area;
       row.unreliable_share              = sum(unreliable, mesh.communicator()) / area;
       row.share_zz_not_intermediate     = sum(not_intermediate, mesh.communicator()) / area;
       row.dissipation                   = sum(dissipation, mesh.communicator());

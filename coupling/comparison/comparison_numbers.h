@@ -131,6 +131,8 @@ namespace diptych::coupling
     v({"final_volumetric_strain", "-", "volumetric strain at the end"}, s.final_volumetric_strain);
     v({"share_zz_not_intermediate", "-", "points where σ_zz is not intermediate"}, s.share_zz_not_intermediate);
     v({"viscous_share", "-", "largest share of the strength that viscosity carries"}, s.viscous_share);
+    v({"unstable_share", "-", "largest share of the area that weakens in a step while its plastic flow contracts"},
+      s.unstable_share);
     v({"max_equivalent_plastic_strain", "-", "largest equivalent plastic strain"}, s.max_equivalent_plastic_strain);
     v({"platen_unbalance", "-", "platen forces out of balance, at the end"}, s.platen_unbalance);
     v({"law", "-", "constitutive law", Kind::setting}, s.law);

@@ -93,6 +93,7 @@ namespace diptych::coupling
     s.strength                      = strength_of(scene, h);
     s.final_volumetric_strain       = column(h, "volumetric_strain").back();
     s.share_zz_not_intermediate     = largest(loaded(h, "share_zz_not_intermediate"));
+    s.unstable_share                = largest(column(h, "unstable_share"));
     s.viscous_share                 = largest(column(h, "viscous_share"));
     s.max_equivalent_plastic_strain = column(h, "max_equivalent_plastic_strain").back();
     s.platen_unbalance              = platen_unbalance(h);

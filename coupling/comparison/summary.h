@@ -40,14 +40,14 @@ namespace diptych::coupling
 
   struct ContinuumSummary
   {
-    double                element_size      = NAN; // [mean diameters]
-    double                newton_iterations = NAN, cut_backs = NAN;
-    Peak                  peak;
-    Strength              strength;
-    double                final_volumetric_strain = NAN, share_zz_not_intermediate = NAN, viscous_share = NAN;
-    double                max_equivalent_plastic_strain = NAN;
-    double                platen_unbalance              = NAN; // of the vertical forces, at the end, relative to their mean size
-    std::string           law;
+    double      element_size      = NAN; // [mean diameters]
+    double      newton_iterations = NAN, cut_backs = NAN;
+    Peak        peak;
+    Strength    strength;
+    double      final_volumetric_strain = NAN, share_zz_not_intermediate = NAN, viscous_share = NAN, unstable_share = NAN;
+    double      max_equivalent_plastic_strain = NAN;
+    double      platen_unbalance              = NAN; // of the vertical forces, at the end, relative to their mean size
+    std::string law;
     std::optional<double> internal_length; // [mean diameters]; none: the law has none, the mesh sets its band
     std::string           parameters_from;
     ContinuumFacts        facts;

@@ -50,6 +50,17 @@ namespace diptych::continuum::tests
   }
 
   // Every kind of hardening; strong enough cohesion that random strains meet every regime.
+  // A critical-state law with t/s of `start` mobilised at the start.
+  inline LawOptions critical(const double solid_fraction, const double start)
+  {
+    LawOptions o;
+    o.hardening            = HardeningKind::critical_state;
+    o.solid_fraction_start = solid_fraction;
+    o.stress_ratio_start   = start;
+    o.mobilisation_strain  = 0.02;
+    return o;
+  }
+
   inline std::map<std::string, LawOptions> hardenings()
   {
     std::map<std::string, LawOptions> all;

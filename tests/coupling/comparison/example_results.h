@@ -172,6 +172,7 @@ namespace diptych::coupling::synthetic
         row.upper_platen_force = {1, -100}, row.lower_platen_force = {-1, 99};
         row.newton_iterations = 3 * row.step, row.cut_backs = row.step > 20, row.max_equivalent_plastic_strain = 0.01 * row.step;
         row.share_zz_not_intermediate = row.step == 7 ? 0.25 : 0, row.viscous_share = 0.001 * row.step;
+        row.unstable_share = row.step == 9 ? 0.125 : 0;
       }
     results.phases = {{"preparation", 2, 1.5, 100}, {"discrete", 20, 18, 300}, {"continuum", 3, 2.5, 250}};
     return results;

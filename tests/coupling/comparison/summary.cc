@@ -56,6 +56,7 @@ namespace
     EXPECT_EQ(s.cut_backs, 1);
     EXPECT_EQ(s.share_zz_not_intermediate, 0.25);
     EXPECT_EQ(s.viscous_share, 0.04);
+    EXPECT_EQ(s.unstable_share, 0.125);
     EXPECT_EQ(s.max_equivalent_plastic_strain, 0.4);
     EXPECT_NEAR(s.platen_unbalance, 1 / 99.5, 1e-14); // 100 against 99
     EXPECT_EQ(s.law, "cosserat_mohr_coulomb");

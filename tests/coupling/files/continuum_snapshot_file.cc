@@ -229,7 +229,9 @@ namespace
                                                           {"overstress", "Scalar"},
                                                           {"share_zz_not_intermediate", "Scalar"},
                                                           {"acoustic_determinant", "Scalar"},
-                                                          {"localisation_angle", "Scalar"}};
+                                                          {"localisation_angle", "Scalar"},
+                                                          {"friction_angle", "Scalar"},
+                                                          {"solid_fraction", "Scalar"}};
 
   std::string extents_in(const hid_t file, const std::string &path)
   {

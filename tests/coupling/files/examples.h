@@ -105,7 +105,8 @@ namespace diptych::coupling::files
   // A member added to CellState does not compile here: it needs a line in the list of fields, too.
   inline void expect_same(const CellState &x, const CellState &y)
   {
-    const auto &[stress, strain, plastic_strain, couple_stress, area, kappa, dissipation, overstress, zz, determinant, angle] = x;
+    const auto &[stress, strain, plastic_strain, couple_stress, area, kappa, dissipation, overstress, zz, determinant, angle,
+                 friction, solid_fraction] = x;
     EXPECT_TRUE(same_bits(stress, y.stress)) << stress << "\n\n" << y.stress;
     EXPECT_TRUE(same_bits(strain, y.strain)) << strain << "\n\n" << y.strain;
     EXPECT_TRUE(same_bits(plastic_strain, y.plastic_strain)) << plastic_strain << "\n\n" << y.plastic_strain;
@@ -117,6 +118,8 @@ namespace diptych::coupling::files
     EXPECT_TRUE(same_bits(zz, y.share_zz_not_intermediate));
     EXPECT_TRUE(same_bits(determinant, y.acoustic_determinant));
     EXPECT_TRUE(same_bits(angle, y.localisation_angle));
+    EXPECT_TRUE(same_bits(friction, y.friction_angle));
+    EXPECT_TRUE(same_bits(solid_fraction, y.solid_fraction));
   }
 
   inline void expect_same(const Snapshot &x, const Snapshot &y)

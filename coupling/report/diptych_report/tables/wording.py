@@ -16,7 +16,7 @@ LENGTH_SET_REASON = "It depends on that length, the size of the sample and the s
 # Pure numbers that are shown in per cent, by their key.
 PER_CENT = {"volumetric_strain", "final_volumetric_strain", "reached_axial_strain", "reached_shear_strain", "share_inside",
             "area_share", "share_above_mean", "lost_share", "relative_l2", "stress_l2_relative", "sampling_alone",
-            "lowest_scatter", "outside_share", "viscous_share", "share_zz_not_intermediate", "solver_share_of_cpu",
+            "lowest_scatter", "outside_share", "viscous_share", "unstable_share", "share_zz_not_intermediate", "solver_share_of_cpu",
             "platen_difference_share_below_1_percent", "platen_difference_mean", "platen_difference_largest",
             "grain_stress_error", "residual_factor_error", "residual_factor_estimate"}
 
@@ -25,7 +25,7 @@ ORDER = ("grains", "cells", "unknowns", "element_size_d", "preparation_solid_fra
          "preparation_steps", "preparation_residual", "preparation_unbalanced_force", "initial_height", "platen_speed",
          "mean_inertial_number", "finished", "reached_progress", "reached_axial_strain", "reached_shear_strain",
          "peak_stress_ratio", "strain_at_peak", "early_strength", "strength", "final_volumetric_strain", "max_equivalent_plastic_strain", "internal_length_d",
-         "localisation_strain", "localisation_angle_deg", "viscous_share", "platen_unbalance", "share_zz_not_intermediate",
+         "localisation_strain", "localisation_angle_deg", "unstable_share", "viscous_share", "platen_unbalance", "share_zz_not_intermediate",
          "processes", "steps", "step_length", "step", "step_bound", "halved_steps", "cut_backs", "newton_iterations", "sweeps",
          "residual", "solver_noise", "grain_stress_error", "max_penetration_d", "energy_residual", "momentum_residual",
          "spin_term_share", "kinetic_energy_ratio_median", "kinetic_energy_ratio_largest", "kinetic_energy_bursts",
@@ -39,6 +39,7 @@ EXPECTED = {
     "solver_noise": "right below 0.03",
     "internal_length_d": "a local law has none: its band is set by the mesh",
     "viscous_share": "rate independent: 0",
+    "unstable_share": "0 where nothing weakens while it contracts",
     "platen_unbalance": "equilibrium: 0",
     "share_zz_not_intermediate": "below 5 %: the in-plane yield surface is exact only where it is",
     "max_penetration_d": "rigid grains: 0",
