@@ -94,7 +94,10 @@ namespace diptych::continuum
       for (unsigned int k = 1; k <= n_steps; ++k)
         {
           const double end = k < n_steps ? k * path.step : path.axial_strain, d_time = end - report.axial_strain;
-          d_strain[yy]        = std::log1p(-end) - point.axial;
+          const double last = d_strain[yy];
+          d_strain[yy]      = std::log1p(-end) - point.axial;
+          if (last != 0)
+            d_strain[xx] *= d_strain[yy] / last; // the last step is shorter, and far too much of it ends at the tip
           const auto solution = solve_lateral(law, point.state, d_strain, d_time, path.pressure);
           report.status       = solution.status;
           if (report.status != MaterialPointStatus::finished)

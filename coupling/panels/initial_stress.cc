@@ -2,12 +2,56 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/panels/initial_stress.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
 #include "coupling/averaging/cell_cover.h"
 #include "coupling/averaging/periodic.h"
 #include "coupling/averaging/segments.h"
+#include "coupling/cells/bin_grid.h"
+#include "coupling/panels/continuum_mesh.h"
 
 namespace diptych::coupling
 {
+  namespace
+  {
+    double mean_diameter(const discrete::Snapshot &grains)
+    {
+      return 2 * std::accumulate(grains.radius.begin(), grains.radius.end(), 0.) / double(grains.radius.size());
+    }
+
+    // Those without an edge on the mesh's rim, which runs between grains; all of them where there is no other.
+    std::vector<bool> inner_cells(const QuadMesh &mesh)
+    {
+      std::vector<bool> inside(mesh.cell.size(), true);
+      for (const BoundaryEdge &edge : boundary_edges(mesh))
+        inside[mesh.triangle[edge.triangle].cell] = false;
+      if (std::find(inside.begin(), inside.end(), true) == inside.end())
+        inside.assign(inside.size(), true);
+      return inside;
+    }
+
+    BinGrid binned(const std::vector<Eigen::Vector2d> &points, const double size)
+    {
+      Eigen::Vector2d lower = points.front(), upper = points.front();
+      for (const Eigen::Vector2d &x : points)
+        lower = lower.cwiseMin(x), upper = upper.cwiseMax(x);
+      BinGrid bins(lower, upper, size);
+      bins.sort(points.size(), [&](const std::size_t k, const auto &put) { put(bins.bin_of(points[k])); });
+      return bins;
+    }
+
+    // The mean over the area becomes `mean`.
+    void scale_to(const double mean, const std::vector<double> &area, std::vector<double> &values)
+    {
+      const double sum = std::inner_product(values.begin(), values.end(), area.begin(), 0.);
+      const double by  = mean * std::accumulate(area.begin(), area.end(), 0.) / sum;
+      for (double &value : values)
+        value *= by;
+    }
+  } // namespace
+
   std::vector<Eigen::Matrix2d> grain_stress_on_cells(const discrete::Snapshot  &grains,
                                                      const continuum::Snapshot &nodes,
                                                      const double               pressure)
@@ -27,11 +71,28 @@ namespace diptych::coupling
 
   std::vector<double> grain_solid_fraction_on_cells(const discrete::Snapshot &grains, const continuum::Snapshot &nodes)
   {
-    const CellCover     cover    = grain_cover(quad_mesh(nodes), grains);
-    std::vector<double> fraction = cover.solid_fraction;
-    for (std::size_t k = 0; k < fraction.size(); ++k)
-      if (!cover.covered[k])
-        fraction[k] = cover.typical_solid_fraction;
+    const QuadMesh            mesh    = quad_mesh(nodes);
+    const CellCover           cover   = grain_cover(mesh, grains);
+    const std::vector<double> area    = cell_areas(mesh);
+    const std::vector<bool>   inside  = inner_cells(mesh);
+    const auto                centres = cell_centres(mesh);
+    const double              sigma = 0.5 * solid_fraction_width * mean_diameter(grains), reach = 3 * sigma;
+    const BinGrid             bins = binned(centres, sigma);
+    const Eigen::Vector2d     corner(reach, reach);
+    std::vector<double>       fraction(centres.size(), cover.typical_solid_fraction);
+    for (std::size_t k = 0; k < centres.size(); ++k)
+      {
+        double sum = 0, weights = 0;
+        bins.for_each_in(bins.range(centres[k] - corner, centres[k] + corner), [&](const std::size_t other) {
+          if (!cover.covered[other] || !inside[other])
+            return;
+          const double weight = area[other] * std::exp(-(centres[other] - centres[k]).squaredNorm() / (2 * sigma * sigma));
+          sum += weight * cover.solid_fraction[other], weights += weight;
+        });
+        if (weights > 0)
+          fraction[k] = sum / weights;
+      }
+    scale_to(solid_fraction(grains), area, fraction);
     return fraction;
   }
 } // namespace diptych::coupling

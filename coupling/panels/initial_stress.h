@@ -17,7 +17,10 @@ namespace diptych::coupling
                                                      const continuum::Snapshot &nodes,
                                                      double                     pressure);
 
-  // Area of the grains in every cell over the cell's; cells that grains cover to less than half of what is typical take what is
-  // typical [-].
+  // Solid fraction of the grains about every cell [-]: area of the grains over that of the cells, with the weights of a Gaussian
+  // of half of `solid_fraction_width` mean diameters. In a cell of 2 d it would scatter by 0.036, which says where grains happen
+  // to be and not what they can carry together; over 6 d by 0.005 to 0.007 (two dense samples of 4000). Cells at the mesh's rim
+  // and cells that grains cover to less than half of what is typical do not count. The mean over the mesh is the sample's own.
+  constexpr double    solid_fraction_width = 6; // [mean diameters]
   std::vector<double> grain_solid_fraction_on_cells(const discrete::Snapshot &grains, const continuum::Snapshot &nodes);
 } // namespace diptych::coupling

@@ -181,4 +181,16 @@ namespace
           EXPECT_EQ(std::string(error.what()).find(key), 0u) << error.what();
         }
   }
+
+  // The last step of a path is what the others leave of it.
+  TEST(MaterialPoint, EndsWithAShorterStep)
+  {
+    const Law law = make_law(LawKind::mohr_coulomb, constant(30, 12, 0.1));
+    for (const double step : {0.0011, 0.0012, 0.0017})
+      {
+        const MaterialPointReport report = drive_material_point(law, {1, 0.04, step});
+        EXPECT_EQ(report.status, MaterialPointStatus::finished) << report.message;
+        EXPECT_EQ(report.axial_strain, 0.04);
+      }
+  }
 } // namespace

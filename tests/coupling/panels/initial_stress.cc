@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/panels/initial_stress.h"
 
+#include <cmath>
+#include <random>
+
 #include <gtest/gtest.h>
 
 namespace
@@ -9,15 +12,15 @@ namespace
   using namespace diptych;
   using namespace diptych::coupling;
 
-  // Nine-node cells of 1 x 1 over [0, nx] x [0, 2].
-  continuum::Snapshot cells(const unsigned int nx)
+  // Nine-node cells of 1 x 1 over [0, nx] x [0, ny].
+  continuum::Snapshot cells(const unsigned int nx, const unsigned int ny = 2)
   {
     const unsigned int  m = 2 * nx + 1;
     continuum::Snapshot s;
-    for (unsigned int j = 0; j < 5; ++j)
+    for (unsigned int j = 0; j < 2 * ny + 1; ++j)
       for (unsigned int i = 0; i < m; ++i)
         s.position.emplace_back(0.5 * i, 0.5 * j);
-    for (unsigned int j = 0; j < 4; j += 2)
+    for (unsigned int j = 0; j < 2 * ny; j += 2)
       for (unsigned int i = 0; i < 2 * nx; i += 2)
         {
           const unsigned int a = j * m + i;
@@ -54,5 +57,41 @@ namespace
       EXPECT_LT((stress[k] - expected).norm(), 1e-12) << "cell " << k;
     for (const std::size_t k : {2, 5}) // beside the grains
       EXPECT_LT((stress[k] - 7 * Eigen::Matrix2d::Identity()).norm(), 1e-12) << "cell " << k;
+  }
+
+  // One disc a cell, larger ones on the left; one in ten is missing. The field follows the halves and not the single holes.
+  TEST(InitialSolidFraction, FollowsTheSampleAndNotSingleGrains)
+  {
+    const unsigned int  n = 40;
+    discrete::Snapshot  grains;
+    std::mt19937        random(1);
+    std::vector<double> cell_by_cell;
+    for (unsigned int j = 0; j < n; ++j)
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          cell_by_cell.push_back(0);
+          if (random() % 10 == 0)
+            continue;
+          grains.position.emplace_back(i + 0.5, j + 0.5);
+          grains.radius.push_back(i < n / 2 ? 0.5 : 0.45);
+          cell_by_cell.back() = M_PI * grains.radius.back() * grains.radius.back();
+        }
+    grains.area         = n * n;
+    const auto fraction = grain_solid_fraction_on_cells(grains, cells(n, n));
+    double     mean = 0, expected = 0;
+    for (std::size_t k = 0; k < fraction.size(); ++k)
+      mean += fraction[k] / double(n * n), expected += cell_by_cell[k] / double(n * n);
+    EXPECT_NEAR(mean, expected, 1e-12);
+    for (const bool left : {true, false})
+      {
+        double own = 0, squares = 0;
+        int    cells_seen = 0;
+        for (unsigned int j = 6; j < n - 6; ++j)
+          for (unsigned int i = left ? 6 : n / 2 + 6; i < (left ? n / 2 - 6 : n - 6); ++i, ++cells_seen)
+            own += fraction[j * n + i], squares += std::pow(fraction[j * n + i], 2);
+        own /= cells_seen;
+        EXPECT_NEAR(own, (left ? M_PI / 4 : 0.81 * M_PI / 4) * 0.9, 0.02) << left;
+        EXPECT_LT(std::sqrt(squares / cells_seen - own * own), 0.05) << "single cells scatter by 0.24";
+      }
   }
 } // namespace
