@@ -54,7 +54,7 @@ class Failures(unittest.TestCase):
 
     def test_a_full_disk_under_the_continuum(self):
         result = self.fill_the_disk("continuum/stage_0000.vtu", "continuum", QUICK, *FEW, *RECTANGLE,
-                                    *setting(loading_axial_strain=0.2, continuum_max_step=1e-3))
+                                    *setting(loading_axial_strain=0.2, continuum_initial_step=1e-3, continuum_max_step=1e-3))
         self.expect_system_failure(result, self.folder, "kept in", "scene.prm")
 
     @unittest.skipIf(os.geteuid() == 0, "root may write everywhere")

@@ -20,7 +20,7 @@ SIGNALS = (signal.SIGKILL, signal.SIGTERM, signal.SIGINT)
 GRAINS = SMALL + setting(sample_grains=200, loading_axial_strain=0.04, loading_stage_strain=0.005, output_report="false",
                          comparison_window_edges="0,0.04", discrete_checkpoint_minutes=0.0005)
 NODES = GRAINS + setting(continuum_mesh="rectangle", continuum_rectangle_width=40, continuum_rectangle_height=60,
-                         continuum_max_step=1e-3, comparison_coarse_element_size=0)
+                         continuum_initial_step=1e-3, continuum_max_step=1e-3, comparison_coarse_element_size=0)
 SEEDS = SMALL + setting(sample_grains=150, continuum_element_size=2.5, comparison_coarse_element_size=3, output_report="false",
                         discrete_checkpoint_minutes=0.0005)
 
