@@ -12,6 +12,7 @@ import tempfile
 import time
 import unittest
 
+import browser
 from running import content, diptych, ENVIRONMENT, listing, main, PROGRAM, QUICK, start, write
 
 TINY = {"sample/grains": 150, "loading/axial_strain": 0.02, "loading/stage_strain": 0.01, "loading/inertial_number": 1e-3,
@@ -54,8 +55,13 @@ class Calibrate(unittest.TestCase):
 
 class Results(Calibrate):
     def test_parameters_are_found_and_taken_by_a_scene(self):
-        self.calibrate(calibration())
+        write(os.path.join(self.work, "before.prm"), "subsection continuum\n  set friction_angle_peak = 35\nend\n")
+        asked = calibration()
+        asked["targets"][0]["before"] = "before.prm"
+        self.calibrate(asked)
         record = self.record()
+        before = [[o["before"] for o in path["observables"] if o["kind"] == "stress_ratio"] for path in record["paths"]]
+        self.assertGreater(before[0][-1], 1.05 * before[1][-1])  # of the fragment, of the scene
         self.assertEqual(record["status"], "finished")
         self.assertLess(record["chi2"], record["chi2_before"])
         friction, dilatancy = record["parameters"]
@@ -90,6 +96,19 @@ class Results(Calibrate):
             self.assertIn(text, page)
         result = diptych("report", self.folder, "--quiet")
         self.assertEqual(result.returncode, 0, result.stderr)
+        self.look_at_the_page(len(record["paths"]))
+
+    def look_at_the_page(self, paths):
+        """It opens without an error and fits a telephone; two curves and the residuals of every path, correlations, profiles."""
+        if browser.program() is None:
+            self.skipTest("chromium is not installed (test.sh installs it)")
+        for width in (1400, 390):
+            with browser.Page(width, 900) as page:
+                page.open(os.path.join(self.folder, "report.html"))
+                self.assertEqual(page.messages, [])
+                self.assertLessEqual(page.run("document.documentElement.scrollWidth"), width)
+                self.assertGreaterEqual(page.run("document.querySelectorAll('svg, img').length"), 3 * paths + 2)
+                self.assertTrue(page.run("[...document.images].every(image => image.naturalWidth > 0)"))
 
     def test_result_folders_stand_in_the_place_of_runs(self):
         words = [word for key, value in TINY.items() for word in ("--set", f"{key}={value}")]
