@@ -77,6 +77,15 @@ def correlation(calibration):
     return svg(figure, "Correlation of the parameters in the coordinates of the search.")
 
 
+def parabola(x, y, logarithm):
+    """Through three points, which a linear model's chi squared is in the coordinate of the search; fewer known ones as they are."""
+    at = np.log(x) if logarithm else x
+    if not np.isfinite(y).all() or len(set(at)) < 3:
+        return x, y
+    fine = np.linspace(at[0], at[-1], 60)
+    return np.exp(fine) if logarithm else fine, np.polyval(np.polyfit(at - at[1], y, 2), fine - at[1])
+
+
 def profiles(calibration):
     """chi^2 one and a half deviations to either side of the minimum, as run and as the linear model expects."""
     entries = [p for p in calibration.parameters if None not in p["profile_number"]]
@@ -86,8 +95,8 @@ def profiles(calibration):
     for k, p in enumerate(entries):
         axes = ruled(figure.add_subplot(rows, columns, k + 1))
         x = numbers(p["profile_number"])
-        axes.plot(x, numbers(p["profile_expected"]), color=FAINT, linestyle=(0, (2, 1.5)), label="linear model")
-        axes.plot(x, numbers(p["profile_chi2"]), "o-", color=CONTINUUM, markersize=4, label="as run")
+        axes.plot(*parabola(x, numbers(p["profile_expected"]), p["coordinate"] == "logarithm"), color=FAINT, label="linear model")
+        axes.plot(x, numbers(p["profile_chi2"]), "o", color=CONTINUUM, markersize=4.5, label="as run")
         axes.set_xlabel(label(p) + {"share_of": ", share", "drop_from": ", drop"}.get(p["coordinate"], ""))
         axes.locator_params(nbins=4)
         if k % columns == 0:
