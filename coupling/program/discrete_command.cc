@@ -19,6 +19,7 @@
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_error.h"
 #include "discrete/files/table_file.h"
+#include "discrete/files/text_file.h"
 #include "discrete/panel/checkpoint.h"
 #include "discrete/panel/snapshot_file.h"
 
@@ -339,6 +340,9 @@ namespace diptych::coupling
       discrete::write_snapshots(directory + "/discrete", imported.snapshots);
       record_phases(directory, scene, line.text, {timer.stop()});
       record_facts(directory, imported.facts);
+      const std::string folder = std::filesystem::path(imported_file(scene)).parent_path().string();
+      if (const std::string said = discrete::read_text(folder + "/import.json"); !said.empty())
+        discrete::write_text(directory + "/import.json", said); // what was not told must be known here, too
       say(line, "the grains are those of " + imported_file(scene));
       return done;
     }
