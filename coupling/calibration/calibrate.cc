@@ -205,6 +205,7 @@ namespace diptych::coupling
         minimum.start   = coordinates.numbers(start);
         minimum.numbers = coordinates.numbers(fit.point);
         minimum.chi2    = std::isfinite(fit.chi2) ? chi2_of_data(fit) : NAN;
+        minimum.total   = fit.chi2;
         minimum.runs    = fit.evaluations;
         minimum.words   = fit.words;
         record.minima.push_back(minimum);
@@ -216,6 +217,7 @@ namespace diptych::coupling
         record.minima[found].is_best = true;
         record.minima[found].numbers = coordinates.numbers(fit.point);
         record.minima[found].chi2    = chi2_of_data(fit);
+        record.minima[found].total   = fit.chi2;
         for (std::size_t k = 0; k < record.minima.size(); ++k)
           if (k != found && std::isfinite(totals[k]) && (points[k] - fit.point).cwiseAbs().maxCoeff() > same_minimum)
             {
@@ -246,13 +248,32 @@ namespace diptych::coupling
 
       void tell(const LeastSquaresFit &fine, const LeastSquaresFit &coarse)
       {
-        jacobian  = data->unweighted(fine.jacobian.topRows(data->size()));
-        knowledge = identify(jacobian, data->weights(), data->noise_of_means());
+        jacobian = data->unweighted(fine.jacobian.topRows(data->size()));
+        // Where the law misses the data by more than their noise and what it was granted, that is noise, too.
+        record.misfit      = std::sqrt(record.chi2 / expected_chi2(jacobian, data->weights(), data->noise_of_means()));
+        const double wider = std::pow(std::max(1., record.misfit), 2);
+        knowledge          = identify(jacobian, data->weights(), wider * data->noise_of_means());
+        take_degrees_of_freedom(jacobian, data->weights(), wider * data->scatter_of_means(), record.noise.degrees_of_freedom,
+                                knowledge);
+        tell_misfit();
         tell_parameters(coordinates, knowledge, fine.point, record);
         if (!fine.words.empty())
           record.words.push_back("on the samples' own mesh " + fine.words);
         if (!coarse.words.empty())
           record.words.push_back("on the coarse mesh " + coarse.words);
+      }
+
+      void tell_misfit()
+      {
+        if (!(record.misfit > 1))
+          return;
+        std::ostringstream text;
+        text.precision(3);
+        text
+          << "chi^2 is " << record.chi2 << " on " << record.n_observables << " observables and " << coordinates.size()
+          << " parameters: the law lies beside the data by more than their noise and what it was granted; intervals are wider by "
+          << record.misfit;
+        record.words.push_back(text.str());
       }
 
       // chi^2 one and a half deviations to either side, the others moved along as the linear model says.
@@ -307,6 +328,8 @@ namespace diptych::coupling
             const Eigen::MatrixXd spread = by_coordinates * knowledge.covariance * by_coordinates.transpose();
             for (std::size_t k = 0; k < record.paths.back().observables.size(); ++k)
               record.paths.back().observables[k].parameter_deviation = std::sqrt(spread(Eigen::Index(k), Eigen::Index(k)));
+            if (!paths[p].target.is_fitted)
+              add_parameters_to_predictions(knowledge.quantile.maxCoeff(), record.paths.back());
           }
         take_weights();
         const Eigen::VectorXd before = data->residual(joined_on_fitted(runs[0]));

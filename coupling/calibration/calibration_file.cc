@@ -8,6 +8,7 @@
 
 #include "coupling/calibration/coordinates.h"
 #include "coupling/scene/keys.h"
+#include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
 #include "coupling/studies/study_part.h"
 
@@ -32,6 +33,39 @@ namespace diptych::coupling
       target.seeds = part.seeds("seeds");
     }
 
+    // sample, loading and discrete without the seed.
+    Identity sample_part_of(const Scene &scene)
+    {
+      Identity identity = sample_identity(scene);
+      identity.erase("sample/seed");
+      return identity;
+    }
+
+    // Samples of one scene that differ by their seed and by nothing else; an imported sample's file is its seed.
+    void demand_samples_of_one_scene(const Part &part, const CalibrationTarget &target)
+    {
+      const auto sample_of = [&](const std::size_t k) {
+        Scene       scene    = *echoed_scene(target.results[k] + "/scene.prm");
+        const bool  imported = scene.discrete.method.method == discrete::Method::imported;
+        std::string mark     = imported ? scene.discrete.method.file : std::to_string(scene.sample.seed);
+        if (imported)
+          scene.discrete.method.file.clear(), scene.loading.pressure = 1;
+        return std::pair(mark, sample_part_of(scene));
+      };
+      for (std::size_t k = 0; k < target.results.size(); ++k)
+        for (std::size_t j = 0; j < k; ++j)
+          {
+            const auto [mark, scene]             = sample_of(k);
+            const auto [other_mark, other_scene] = sample_of(j);
+            if (mark == other_mark)
+              part.refuse("results",
+                          ": '" + target.results[k] + "' and '" + target.results[j] + "' hold one sample (" + mark + ")");
+            if (const std::string difference = first_difference(scene, other_scene); !difference.empty())
+              part.refuse("results",
+                          ": '" + target.results[k] + "' is of another scene than '" + target.results[j] + "': " + difference);
+          }
+    }
+
     // Finished result folders; their first scene is the continuum's.
     void read_results(const Part &part, const std::string &file, CalibrationTarget &target)
     {
@@ -48,6 +82,7 @@ namespace diptych::coupling
         }
       if (target.results.empty())
         part.refuse("results", " is empty");
+      demand_samples_of_one_scene(part, target);
       target.scene = target.results.front() + "/scene.prm";
     }
 
@@ -84,6 +119,9 @@ namespace diptych::coupling
       target.is_fitted = use == "fit";
       return target;
     }
+
+    constexpr const char *keys_of_the_search[] = {"mesh",         "element_size", "rectangle_width", "rectangle_height",
+                                                  "initial_step", "max_step"};
 
     // What a key is searched for in where the file does not say.
     Coordinate usual_coordinate(const std::string &key)
@@ -148,6 +186,9 @@ namespace diptych::coupling
         part.refuse("of", " belongs to coordinate = share_of or drop_from");
       p.other = is_ratio ? part.word("of", "friction_angle_peak") : "";
       part.setting("key", "continuum/" + p.key, 0.3); // whether there is such a key
+      for (const char *key : keys_of_the_search)
+        if (p.key == key)
+          part.refuse("key", " = " + p.key + " is the search's own, no parameter of the law");
       check_numbers(part, p);
       return p;
     }
@@ -257,7 +298,7 @@ namespace diptych::coupling
           if (entry.section != "continuum")
             root.refuse("set", ": " + entry.section + "/" + entry.key +
                                  " is no key of the continuum; what grains need is set with the targets");
-          for (const char *key : {"mesh", "element_size", "rectangle_width", "rectangle_height", "initial_step", "max_step"})
+          for (const char *key : keys_of_the_search)
             if (entry.key == key)
               root.refuse("set", ": continuum/" + entry.key +
                                    " is the search's own; set it with a target, or load_step and "

@@ -47,6 +47,9 @@ namespace diptych::coupling
     v({"difference", "as the margin says", "continuum less grains; relative for peak and width"}, p.difference);
     v({"margin", "as the quantity says", "up to where they count as equivalent", Kind::setting}, p.margin);
     v({"verdict", "-", "equivalent, different, cannot tell", Kind::setting}, p.verdict);
+    v({"parameter_deviation", "as the margin",
+       "of the difference, by that of the parameters; null: not in the interval (paths fitted, angles)"},
+      p.parameter_deviation);
   }
 
   template <class Visitor> void list_numbers(const PathRecord &p, Visitor &v)
@@ -86,6 +89,7 @@ namespace diptych::coupling
     v({"share_known", "-", "deviation left, of a quarter of the range that was known before"}, p.share_known);
     v({"is_identified", "-", "whether the data leave less than two thirds of it"}, p.is_identified);
     v({"at_bound", "-", "whether it lies at a bound"}, p.at_bound);
+    v({"is_cut", "-", "whether its interval ends at a bound"}, p.is_cut);
     v({"profile_number", "as the coordinate says", "one and a half deviations below, the minimum, and above; coarse mesh"},
       p.profile_number);
     v({"profile_chi2", "-", "chi^2 there, the other parameters moved along as the linear model says"}, p.profile_chi2);
@@ -96,7 +100,8 @@ namespace diptych::coupling
   {
     v({"start", "as the coordinates say", "where the search began", Kind::setting}, m.start);
     v({"numbers", "as the coordinates say", "where it ended"}, m.numbers);
-    v({"chi2", "-", "there, on the coarse mesh"}, m.chi2);
+    v({"chi2", "-", "of the data there, on the coarse mesh"}, m.chi2);
+    v({"total", "-", "the same with what was known beforehand: what the search makes small"}, m.total);
     v({"runs", "-", "that it took", Kind::setting}, m.runs);
     v({"is_best", "-", "whether the search went on from here"}, m.is_best);
     v({"words", "-", "why the search did not arrive; empty: it did", Kind::setting}, m.words);
@@ -123,6 +128,8 @@ namespace diptych::coupling
     v({"chi2_before", "-", "with the parameters from before"}, c.chi2_before);
     v({"chi2_coarse", "-", "at the best point of the coarse mesh"}, c.chi2_coarse);
     v({"chi2", "-", "as calibrated"}, c.chi2);
+    v({"misfit", "-", "root of chi2 / (observables - parameters); above 1 deviations of parameters are multiplied by it"},
+      c.misfit);
     v({"n_observables", "-", "that count", Kind::setting}, c.n_observables);
     v({"coarse_runs", "-", "of the fit and the profiles", Kind::setting}, c.coarse_runs);
     v({"fine_runs", "-", "of the fit", Kind::setting}, c.fine_runs);

@@ -33,6 +33,8 @@ namespace diptych::coupling
     double      margin = NAN;
     Interval    difference; // continuum less grains, 95 %
     std::string verdict;
+    double      parameter_deviation = NAN; // of the difference, by that of the parameters; paths not fitted
+    Equivalence test;                      // of the samples, and of the parameters where these count
   };
 
   struct PathRecord
@@ -55,14 +57,15 @@ namespace diptych::coupling
     double                   number = NAN, number_low = NAN, number_high = NAN; // 95 %
     double                   value         = NAN;                               // of the key
     double                   share_known   = NAN;
-    bool                     is_identified = false, at_bound = false;
+    bool                     is_identified = false, at_bound = false, is_cut = false;
     std::vector<double>      profile_number, profile_chi2, profile_expected; // coarse; others moved along
   };
 
   struct MinimumRecord
   {
     std::vector<double> start, numbers; // of the coordinates
-    double              chi2    = NAN;
+    double              chi2    = NAN;  // of the data
+    double              total   = NAN;  // with what was known beforehand: what the search makes small
     int                 runs    = 0;
     bool                is_best = false;
     std::string         words;
@@ -86,7 +89,7 @@ namespace diptych::coupling
     std::vector<std::string>         words;    // findings
     Settings                         settings; // best so far; what all targets have in common
     std::vector<OwnValue>            own;      // and what they do not
-    double                           chi2_before = NAN, chi2_coarse = NAN, chi2 = NAN;
+    double                           chi2_before = NAN, chi2_coarse = NAN, chi2 = NAN, misfit = NAN;
     int                              n_observables = 0, coarse_runs = 0, fine_runs = 0, other_runs = 0;
     double                           cpu_s = 0, grains_cpu_s = 0;
   };

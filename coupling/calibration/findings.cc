@@ -33,11 +33,12 @@ namespace diptych::coupling
       result.low = p.low, result.high = p.high, result.start = p.start;
       result.number        = number_at(here);
       result.value         = coordinates.values(point)[k];
-      result.number_low    = number_at(here - normal_quantile * deviation);
-      result.number_high   = number_at(here + normal_quantile * deviation);
+      result.number_low    = number_at(here - knowledge.quantile[place] * deviation);
+      result.number_high   = number_at(here + knowledge.quantile[place] * deviation);
       result.share_known   = knowledge.share_known[place];
       result.is_identified = knowledge.is_identified[k];
       result.at_bound      = here < close || here > 1 - close;
+      result.is_cut        = here - knowledge.quantile[place] * deviation < 0 || here + knowledge.quantile[place] * deviation > 1;
       return result;
     }
 
@@ -66,7 +67,7 @@ namespace diptych::coupling
             differences.push_back(held.after - x);
           test = compare_differences(differences, margin);
         }
-      record.difference = test.difference, record.verdict = text_of(test.verdict);
+      record.difference = test.difference, record.verdict = text_of(test.verdict), record.test = test;
       return record;
     }
 
@@ -109,7 +110,12 @@ namespace diptych::coupling
           prediction("volumetric_strain", held_of(path, runs, *k, false), margins.volumetric_strain, false));
       if (const auto k = last_of(path.data.observables, ObservableKind::ln_width))
         {
-          record.predictions.push_back(prediction("width_10_90", held_of(path, runs, *k, true), margins.thickness, true));
+          Held width = held_of(path, runs, *k, true);
+          if (!std::isfinite(runs.before.observation.angle_deg)) // half the height stands for no band in the fit alone
+            width.before = NAN;
+          if (!std::isfinite(runs.after.observation.angle_deg))
+            width.after = NAN;
+          record.predictions.push_back(prediction("width_10_90", width, margins.thickness, true));
           const Equivalence test = compare_turns(turns, margins.angle);
           PredictionRecord  angle;
           angle.quantity = "angle_deg", angle.before = runs.before.observation.angle_deg,
@@ -169,7 +175,36 @@ namespace diptych::coupling
                                  " % of what was unknown before them");
         if (p.at_bound)
           record.words.push_back(name + " lies at its bound");
+        else if (p.is_cut)
+          record.words.push_back("the interval of " + name + " is cut off by its bound: there the bound says it, not the data");
       }
+  }
+
+  void add_parameters_to_predictions(const double quantile, PathRecord &record)
+  {
+    // The peak is the largest of the curve: where the curve is flat it moves as the curve does there.
+    const ObservableRecord *highest = nullptr, *last_volume = nullptr, *last_width = nullptr;
+    for (const ObservableRecord &one : record.observables)
+      {
+        if (one.kind == discrete::name_of(ObservableKind::stress_ratio) && (highest == nullptr || one.after > highest->after))
+          highest = &one;
+        if (one.kind == discrete::name_of(ObservableKind::volumetric_strain))
+          last_volume = &one;
+        if (one.kind == discrete::name_of(ObservableKind::ln_width))
+          last_width = &one;
+      }
+    const auto widen = [&](const char *quantity, const ObservableRecord *by, const auto &deviation_of) {
+      for (PredictionRecord &p : record.predictions)
+        if (p.quantity == quantity && by != nullptr && std::isfinite(by->parameter_deviation))
+          {
+            p.parameter_deviation = deviation_of(p, *by);
+            p.test                = widened(p.test, p.parameter_deviation, quantile, p.margin);
+            p.difference = p.test.difference, p.verdict = text_of(p.test.verdict);
+          }
+    };
+    widen("peak_stress_ratio", highest, [](const auto &p, const auto &by) { return by.parameter_deviation / p.data; });
+    widen("volumetric_strain", last_volume, [](const auto &, const auto &by) { return by.parameter_deviation; });
+    widen("width_10_90", last_width, [](const auto &p, const auto &by) { return by.parameter_deviation * p.after / p.data; });
   }
 
   PathRecord path_record(const CalibrationPath &path, const PathRuns &runs)

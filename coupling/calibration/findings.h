@@ -21,5 +21,9 @@ namespace diptych::coupling
     const NoiseModel &noise;
     const ModelRun   &before, &after, &halved;
   };
+  // Predictions of a path that was not fitted: the deviation of the parameters goes into the intervals and verdicts, with
+  // this 97.5 % quantile. The angle has none: the data of the fit hold no derivative of it.
+  void add_parameters_to_predictions(double quantile, PathRecord &record);
+
   PathRecord path_record(const CalibrationPath &path, const PathRuns &runs);
 } // namespace diptych::coupling

@@ -39,19 +39,45 @@ namespace diptych::coupling
     return result;
   }
 
+  namespace
+  {
+    // What the options give is known, not estimated.
+    NoiseModel told_by_samples(NoiseModel noise, const NoiseOptions &options)
+    {
+      for (const auto &[given, value] : {std::pair(&options.stress_level, &noise.stress_level),
+                                         {&options.stress_shape, &noise.stress_shape},
+                                         {&options.volume_start, &noise.volume_start},
+                                         {&options.volume_growth, &noise.volume_growth},
+                                         {&options.ln_width, &noise.ln_width}})
+        if (*given)
+          *value = 0;
+      return noise;
+    }
+  } // namespace
+
   Eigen::MatrixXd FittedData::noise_of_means() const
+  {
+    return of_means(true);
+  }
+
+  Eigen::MatrixXd FittedData::scatter_of_means() const
+  {
+    return of_means(false);
+  }
+
+  Eigen::MatrixXd FittedData::of_means(const bool with_granted) const
   {
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(size(), size());
     Eigen::Index    at  = 0;
     for (const TargetData &path : paths)
       {
         const Eigen::VectorXd granted = discrepancy(options, path.observables);
-        const Eigen::MatrixXd one     = covariance(noise, path.observables);
+        const Eigen::MatrixXd one     = covariance(with_granted ? noise : told_by_samples(noise, options), path.observables);
         const Eigen::Index    n       = granted.size();
         for (Eigen::Index i = 0; i < n; ++i)
           for (Eigen::Index j = 0; j < n; ++j)
             all(at + i, at + j) = one(i, j) / std::sqrt(double(std::max(1, path.count[i])) * std::max(1, path.count[j])) +
-                                  (i == j ? granted[i] : 0.);
+                                  (with_granted && i == j ? granted[i] : 0.);
         at += n;
       }
     return all;

@@ -34,8 +34,11 @@ namespace diptych::coupling
 
     // Covariance of the means with what the law is granted, size() squared; samples of different paths have nothing in common.
     [[nodiscard]] Eigen::MatrixXd noise_of_means() const;
+    [[nodiscard]] Eigen::MatrixXd scatter_of_means() const; // the part that the samples told
 
   private:
+    Eigen::MatrixXd of_means(bool with_granted) const;
+
     const NoiseModel       &noise;
     const NoiseOptions     &options;
     std::vector<TargetData> paths;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/program/calibrate_command.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <map>
@@ -67,7 +68,11 @@ namespace diptych::coupling
                          ": continuum/initial_stress = mapped has no place in a calibration: one mesh serves all samples");
       try
         {
-          observables_of(calibration, scene);
+          const std::vector<Observable> observables = observables_of(calibration, scene);
+          for (const ObservableKind kind : calibration.kinds)
+            if (target.is_fitted &&
+                std::none_of(observables.begin(), observables.end(), [&](const Observable &o) { return o.kind == kind; }))
+              throw std::invalid_argument("no bin or window of " + discrete::name_of(kind) + " lies within its loading");
         }
       catch (const std::invalid_argument &error)
         {
@@ -87,6 +92,11 @@ namespace diptych::coupling
           const Scene scene = read_changed_scene(target.scene, settings, true);
           require_continuum(scene);
           demand_observables(calibration, target, scene);
+          for (const CalibrationParameter &p : calibration.parameters)
+            for (const auto &[key, because] : continuum::unused_keys(scene.continuum))
+              if (p.key == key && p.belongs_to(target.name))
+                throw SceneError(calibration.file + ": parameters: " + key + " is read by no law of target '" + target.name +
+                                 "': continuum/" + because);
           Settings before = target.settings;
           before.insert(before.end(), target.before.begin(), target.before.end());
           (void)read_changed_scene(target.scene, before, true);

@@ -120,6 +120,21 @@ namespace diptych::coupling
     return judged(statistics(differences), margin);
   }
 
+  Equivalence widened(Equivalence result, const double deviation, const double quantile, const double margin)
+  {
+    const auto widen = [&](Interval &interval, const double half) {
+      const double value = interval.value;
+      interval.low       = value - std::hypot(value - interval.low, half);
+      interval.high      = value + std::hypot(interval.high - value, half);
+    };
+    constexpr double normal_95 =
+      1.6448536269514722; // 95 %; Student's shrinks more from 97.5 to 95 %, so this is on the safe side
+    widen(result.difference, quantile * deviation);
+    widen(result.difference_90, quantile * normal_95 / normal_quantile * deviation);
+    result.verdict = verdict_of(result, margin);
+    return result;
+  }
+
   Equivalence compare_turns(const std::vector<double> &turns, const double margin)
   {
     return judged(line_statistics(turns), margin);

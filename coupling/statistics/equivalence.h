@@ -51,6 +51,10 @@ namespace diptych::coupling
   // The same for turns of lines [degrees].
   [[nodiscard]] Equivalence compare_turns(const std::vector<double> &turns, double margin);
 
+  // The same difference where its second part is uncertain by itself, too: independent, with a deviation in the unit of the
+  // margin and a 97.5 % quantile of its own. Half widths add up in squares.
+  [[nodiscard]] Equivalence widened(Equivalence result, double deviation, double quantile, double margin);
+
   // The difference is (mean of second) / (mean of first) - 1, with Fieller's interval, so that the scatter of the first panel
   // counts in the margin, too; entry k of both lists belongs to one realisation. Interval ends are NaN, and the verdict
   // cannot_tell, where the mean of `first` is not told from 0. Sources: Fieller, J. R. Stat. Soc. B 16 (1954) 175; for the test

@@ -8,8 +8,8 @@ namespace diptych::coupling
 {
   constexpr double normal_quantile = 1.959963984540054; // 97.5 %: where the deviation is known
 
-  // probability in (0, 1), degrees_of_freedom from 1 on.
-  [[nodiscard]] inline double student_quantile(const double probability, const int degrees_of_freedom)
+  // probability in (0, 1), degrees_of_freedom above 0, whole or not.
+  [[nodiscard]] inline double student_quantile(const double probability, const double degrees_of_freedom)
   {
     return boost::math::quantile(boost::math::students_t(degrees_of_freedom), probability);
   }
