@@ -43,7 +43,7 @@ namespace diptych::continuum
   // Rigid smooth side walls: the left one stands still, the right one carries pressure x current height or is moved.
   struct RigidSides
   {
-    std::optional<double> widening = {}; // displacement of the right wall per unit progress, outwards [length]
+    std::function<double(double)> widening = {}; // progress -> displacement of the right wall, outwards [length]; none: pressure
   };
   // The right side moves as the left one plus a change of the width, which is free under pressure x current height or given.
   // The sides must carry equally many element edges at equal heights. A free width needs smooth platens.
@@ -57,8 +57,9 @@ namespace diptych::continuum
 
   struct Loading
   {
-    double                              pressure = 1; // lateral; also the isotropic initial stress [pressure]
-    std::array<std::array<Drive, 2>, 2> platens;      // [lower, upper][x, y]; no function: at rest. Smooth platens leave x alone
+    double                              pressure = 1;  // lateral; also the isotropic initial stress [pressure]
+    std::function<double(double)>       side_pressure; // progress -> lateral pressure, where it is not constant [pressure]
+    std::array<std::array<Drive, 2>, 2> platens;       // [lower, upper][x, y]; no function: at rest. Smooth platens leave x alone
     LateralCondition                    lateral;
     Eigen::Vector2d                     body_force = Eigen::Vector2d::Zero(); // weight per initial area [pressure / length]
     std::vector<double>                 stages; // values of the progress at which the panel halts, ascending; last: the end

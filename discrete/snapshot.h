@@ -27,7 +27,8 @@ namespace diptych::discrete
   {
     open,
     sticking,
-    slipping
+    slipping,
+    unknown // of a contact that carries force in a file of another code
   };
 
   // Side of the sample's outline: points from the lower platen upward to the upper one.

@@ -52,7 +52,7 @@ namespace diptych::discrete
   template <class AnySnapshot, class Visit> void visit_contact_values(AnySnapshot &s, Visit &&visit)
   {
     visit("contacts/gap", s.gap, "length", "distance of the surfaces; negative: penetration");
-    visit("contacts/status", s.status, "-", "0 open, 1 sticking, 2 slipping");
+    visit("contacts/status", s.status, "-", "0 open, 1 sticking, 2 slipping, 3 not told (imported)");
     visit("window/dissipation", s.window_dissipation, "pressure length^2", "by friction, summed over the steps of the stage");
     visit("window/impact_dissipation", s.window_impact_dissipation, "pressure length^2",
           "along the normal, summed over the steps of the stage");

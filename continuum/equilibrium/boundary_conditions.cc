@@ -138,7 +138,7 @@ namespace diptych::continuum
     const auto right = free_of_platens(right_side);
     if (sides.widening)
       {
-        widening = [rate = *sides.widening](const double progress) { return rate * progress; };
+        widening = sides.widening;
         for (const auto dof : right)
           add_rule({dof, {}, &widening});
       }

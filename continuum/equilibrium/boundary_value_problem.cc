@@ -175,7 +175,7 @@ namespace diptych::continuum
     const auto   planes = platen_planes();
     const double share  = moves() ? 1. : conditions->height(to, planes[1].now - planes[0].now) / mesh.extent.y();
     add_side_pressure(mesh, positions(mesh, moves() ? state.displacement : std::vector<double>(force.size(), 0.)),
-                      loading.pressure * share, force);
+                      (loading.side_pressure ? loading.side_pressure(to) : loading.pressure) * share, force);
     return force;
   }
 

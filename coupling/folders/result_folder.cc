@@ -48,6 +48,11 @@ namespace diptych::coupling
   void open_result_folder(const Scene &scene, const bool resume)
   {
     const std::string &directory = scene.output.directory;
+    if (const std::string &file = scene.discrete.method.file;
+        scene.discrete.method.method == discrete::Method::imported && fs::exists(directory) &&
+        fs::weakly_canonical(fs::path(file).parent_path()) == fs::weakly_canonical(directory))
+      throw SceneError("output/directory = '" + directory + "' is the folder of discrete/file = '" + file +
+                       "', whose grains would be lost; name another one");
     make_folder(directory);
     // A run replaces files and folders by name: only where an earlier one of its own stands may it do so.
     const std::string echo_file        = directory + "/scene.prm";

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "continuum/mesh/mesh.h"
+#include "coupling/import/imported_folder.h"
 #include "coupling/panels/continuum_mesh.h"
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_error.h"
@@ -114,12 +115,15 @@ namespace diptych::coupling
       std::optional<double>           widening;
       if (o.side_motion == SideMotion::velocity)
         widening = o.side_velocity / rate;
+      continuum::RigidSides rigid;
       switch (o.lateral)
         {
         case Lateral::rigid_walls:
           if (const DriveKey right = drives_of(scene)[3][0]; !right.is_auto())
             widening = *constant_velocity(right) / rate;
-          return continuum::RigidSides{widening};
+          if (widening)
+            rigid.widening = [by = *widening](const double progress) { return by * progress; };
+          return rigid;
         case Lateral::periodic:
           return continuum::PeriodicSides{widening};
         case Lateral::none:
@@ -233,8 +237,34 @@ namespace diptych::coupling
     }
   } // namespace
 
+  namespace
+  {
+    // The upper platen takes the way of the imported one, on the mesh's height; the right wall its mean pressure frame by frame,
+    // or its way where discrete/side_motion = velocity. Between frames all is linear.
+    void follow_imported_walls(const Scene &scene, const ContinuumSample &sample, continuum::Loading &loading)
+    {
+      const ImportedWalls walls   = imported_walls(load_imported(scene));
+      const auto          follows = [](const TimeTable &table, const double scale) {
+        return continuum::Drive{false, [table, scale](const double progress) { return scale * table.at(progress); }};
+      };
+      const double scale    = sample.height / walls.initial_height;
+      loading.platens[1][0] = follows(walls.upper_x, scale);
+      loading.platens[1][1] = follows(walls.upper_y, scale);
+      auto *rigid           = std::get_if<continuum::RigidSides>(&loading.lateral);
+      if (rigid == nullptr)
+        return;
+      rigid->widening = nullptr;
+      if (scene.discrete.lateral.side_motion == SideMotion::velocity)
+        rigid->widening = [table = walls.right_x](const double progress) { return table.at(progress); };
+      else if (!walls.right_pressure.time.empty())
+        loading.side_pressure = [table = walls.right_pressure](const double progress) { return table.at(progress); };
+    }
+  } // namespace
+
   void require_continuum(const Scene &scene)
   {
+    if (scene.discrete.method.method == discrete::Method::imported)
+      (void)load_imported(scene);
     if (scene.sample.rough_platens)
       refuse("sample/rough_platens", "true", "what grains hand to those that are part of a platen is not mapped");
     check_sides(scene);
@@ -260,6 +290,11 @@ namespace diptych::coupling
     loading.walk              = continuum_walk(scene.loading.mode);
     loading.time_per_progress = loading.walk == continuum::Walk::time ? 1. : 1 / rate_of(scene);
     set_mode(scene.loading, sample, loading);
+    if (scene.discrete.method.method == discrete::Method::imported)
+      {
+        follow_imported_walls(scene, sample, loading);
+        return loading;
+      }
     const auto drives = drives_of(scene);
     for (std::size_t p = 0; p < 2; ++p)
       for (std::size_t c = 0; c < 2; ++c)

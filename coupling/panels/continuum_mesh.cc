@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "continuum/mesh/mesh.h"
+#include "coupling/import/imported_folder.h"
 #include "coupling/processes/progress.h"
 #include "coupling/processes/stop_signal.h"
 #include "discrete/panel/panel.h"
@@ -47,6 +48,8 @@ namespace diptych::coupling
 
   std::optional<discrete::Snapshot> prepared_grains(const Scene &scene, const bool quiet)
   {
+    if (scene.discrete.method.method == discrete::Method::imported)
+      return load_imported(scene).snapshots.front();
     Progress        progress(quiet);
     discrete::Hooks hooks;
     hooks.stop_requested = stop_requested;

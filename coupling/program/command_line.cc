@@ -44,6 +44,7 @@ namespace diptych::coupling
         add_panels();
         add_solve();
         add_results();
+        add_exchange();
         add_others();
       }
 
@@ -205,6 +206,44 @@ namespace diptych::coupling
         add_quiet(report);
       }
 
+      void add_exchange()
+      {
+        CLI::App *in = add(Command::import_sample,
+                           "a sample of another code as results of the discrete panel, checked on arrival");
+        in->add_option("FORMAT", line.target, "whose files")
+          ->required()
+          ->check(CLI::IsMember({"lammps", "liggghts", "yade", "lmgc90", "mercurydpm", "csv"}));
+        in->add_option("FILES", line.foreign.files, "of grains, contacts and walls, in any order")->required();
+        in->add_option("--output", line.output, "folder of the imported sample")->type_name("DIR")->required();
+        in->add_option(
+            "--columns", line.foreign.columns,
+            "KIND=NAME,NAME,...: what columns mean that the files do not name; KIND: contacts or walls; may be repeated")
+          ->allow_extra_args(false)
+          ->type_name("KIND=NAMES");
+        const auto number = [&](const char *name, std::optional<double> &value, const char *meaning) {
+          in->add_option(name, value, meaning)->check(CLI::Range(1e-30, 1e30))->type_name("NUMBER");
+        };
+        number("--thickness", line.foreign.thickness,
+               "of a layer of spheres: forces and masses are divided by it; 1 keeps forces per length");
+        number("--timestep", line.foreign.timestep, "of codes that count steps");
+        number("--density", line.foreign.density, "mass per area, where no file tells masses");
+        number("--pressure", line.foreign.pressure, "lateral (default: that of the right wall in the first frame with forces)");
+        number("--mean-diameter", line.foreign.mean_diameter, "(default: mean of the grains)");
+        in->add_flag("--walls-touch", line.foreign.walls_touch,
+                     "walls that no file places stand where the grains reach farthest");
+        add_quiet(in);
+
+        CLI::App *out = add(Command::export_sample, "the prepared sample of a result folder as a start for another code");
+        out->add_option("FOLDER", line.target, "result folder")->required();
+        out->add_option("--format", line.format, "for whom")
+          ->required()
+          ->check(CLI::IsMember({"lammps", "yade", "lmgc90", "csv"}));
+        out->add_option("--output", line.output, "folder of the exported files (default: FOLDER_for_FORMAT)")->type_name("DIR");
+        out->add_option("--stage", line.stage, "of the snapshots (default: 0, the prepared sample)")
+          ->check(CLI::Range(0, 1000000));
+        add_quiet(out);
+      }
+
       void add_others()
       {
         add(Command::explain, "every key of a scene: default, unit, range, meaning; or all that result files hold")
@@ -315,6 +354,10 @@ namespace diptych::coupling
         return "compare";
       case Command::report:
         return "report";
+      case Command::import_sample:
+        return "import";
+      case Command::export_sample:
+        return "export";
       case Command::explain:
         return "explain";
       case Command::completion:

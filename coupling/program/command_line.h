@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/import/foreign_sample.h"
 #include "coupling/scene/scene.h"
 #include "discrete/problem_files/fclib.h"
 #include "discrete/solvers/solver.h"
@@ -33,6 +34,8 @@ namespace diptych::coupling
     solve,
     compare,
     report,
+    import_sample,
+    export_sample,
     explain,
     completion
   };
@@ -57,6 +60,9 @@ namespace diptych::coupling
     double                               tolerance  = 1e-8;
     int                                  max_sweeps = 1000000;
     std::optional<discrete::ProblemForm> form;                   // --form; none: the better one that the file has
+    ForeignOptions                       foreign;                // of import
+    std::string                          format;                 // of export
+    int                                  stage          = 0;     // of export
     bool                                 quiet          = false; // --quiet
     bool                                 tells_warnings = true;  // the first of several processes does
     std::string                          text;                   // as it was typed

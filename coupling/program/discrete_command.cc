@@ -12,6 +12,7 @@
 #include "coupling/comparison/step_comparison.h"
 #include "coupling/folders/provenance.h"
 #include "coupling/folders/result_folder.h"
+#include "coupling/import/imported_folder.h"
 #include "coupling/processes/progress.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/program/report_command.h"
@@ -323,8 +324,29 @@ namespace diptych::coupling
       return not_converged;
     }
 
+    // Frames of another code in the place of a run: copied, so that the folder is whole without the import's.
+    int take_imported(const CommandLine &line, const Scene &scene)
+    {
+      const std::string    &directory = scene.output.directory;
+      const PhaseTimer      timer("discrete");
+      const DiscreteResults imported = load_imported(scene);
+      remove_results(directory, comparison_files);
+      forget_earlier_run(scene);
+      discrete::TableFile table(directory + "/discrete.csv", discrete::csv_header<discrete::HistoryRow>());
+      for (const discrete::HistoryRow &row : imported.rows)
+        table.add(discrete::csv_line(row));
+      table.flush();
+      discrete::write_snapshots(directory + "/discrete", imported.snapshots);
+      record_phases(directory, scene, line.text, {timer.stop()});
+      record_facts(directory, imported.facts);
+      say(line, "the grains are those of " + imported_file(scene));
+      return done;
+    }
+
     void check_study(const Scene &scene)
     {
+      if (scene.discrete.method.method == discrete::Method::imported)
+        throw SceneError("--study step: discrete/method = imported has no step of its own");
       if (scene.discrete.method.method == discrete::Method::penalty)
         throw SceneError(
           "--study step: discrete/method = penalty takes its step from penalty_step_fraction, not from discrete/step");
@@ -359,6 +381,8 @@ namespace diptych::coupling
 
   int discrete_panel(const CommandLine &line, const Scene &scene)
   {
+    if (scene.discrete.method.method == discrete::Method::imported)
+      return take_imported(line, scene);
     const std::string &directory  = scene.output.directory;
     const auto         checkpoint = line.resume ? found_checkpoint(scene) : std::nullopt;
     if (line.resume && !checkpoint && is_finished(scene))
@@ -392,6 +416,8 @@ namespace diptych::coupling
     const Scene scene = scene_of(line);
     if (line.study_of_step)
       check_study(scene);
+    if (scene.discrete.method.method == discrete::Method::imported)
+      (void)load_imported(scene);
     return keeping(scene.output.directory, [&] {
       open_result_folder(scene, line.resume);
       return line.study_of_step ? step_study(line, scene) : discrete_panel(line, scene);

@@ -13,6 +13,8 @@
 #include "coupling/processes/stop_signal.h"
 #include "coupling/program/command_line.h"
 #include "coupling/program/discrete_command.h"
+#include "coupling/program/export_command.h"
+#include "coupling/program/import_command.h"
 #include "coupling/program/explain_command.h"
 #include "coupling/program/report_command.h"
 #include "coupling/program/solve_command.h"
@@ -73,13 +75,15 @@ namespace
 
   int compare(const CommandLine &)
   {
-    throw SceneError("diptych compare: this program was built without the continuum; it has discrete, solve, report and explain");
+    throw SceneError("diptych compare: this program was built without the continuum; it has discrete, solve, report, import, "
+                     "export and explain");
   }
 
   [[noreturn]] void become_the_panels(char **argv)
   {
-    throw SceneError(std::string("diptych ") + argv[1] +
-                     ": this program was built without the continuum; it has discrete, solve, report and explain");
+    throw SceneError(
+      std::string("diptych ") + argv[1] +
+      ": this program was built without the continuum; it has discrete, solve, report, import, export and explain");
   }
 #endif
 
@@ -130,6 +134,10 @@ namespace
         return compare(line);
       case Command::report:
         return report_again(line);
+      case Command::import_sample:
+        return import_sample(line);
+      case Command::export_sample:
+        return export_sample(line);
       default:
         return explain(line, result_lists);
       }

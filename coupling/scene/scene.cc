@@ -8,11 +8,13 @@ namespace diptych::coupling
 {
   std::vector<double> stages(const LoadingOptions &loading)
   {
-    const bool   time     = loading.mode == discrete::LoadingMode::time;
-    const double end      = time ? loading.duration : loading.axial_strain,
-                 interval = time ? loading.stage_time : loading.stage_strain;
-    std::vector<double> values;
-    const int           count = int(std::lround(end / interval));
+    const bool   time          = loading.mode == discrete::LoadingMode::time;
+    const double end           = time ? loading.duration : loading.axial_strain,
+                 interval      = time ? loading.stage_time : loading.stage_strain;
+    std::vector<double> values = loading.stages;
+    if (!values.empty())
+      return values;
+    const int count = int(std::lround(end / interval));
     for (int k = 1; k <= count; ++k)
       values.push_back(k * interval);
     return values;

@@ -29,6 +29,7 @@ namespace diptych::coupling
     double                normal_pressure = 1;
     double                duration        = 10;
     double                stage_time      = 1;
+    std::vector<double>   stages          = {};
   };
 
   template <class Visitor> void visit_parameters(LoadingOptions &o, Visitor &&visitor)
@@ -54,6 +55,9 @@ namespace diptych::coupling
             "plane_shear: on the upper platen, free to rise and sink");
     visitor("duration", o.duration, "time", {1e-12, 1e12}, "mode time: of the loading");
     visitor("stage_time", o.stage_time, "time", {1e-12, 1e12}, "mode time: between two snapshots");
+    visitor(
+      "stages", o.stages, "strain (mode time: time)", {1e-12, 1e12},
+      "the stages one by one, ascending, in the place of equal ones; the last is the end (axial_strain, mode time: duration)");
   }
 
   struct ComparisonOptions

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "coupling/scene/keys.h"
@@ -18,9 +19,21 @@ namespace diptych::coupling
   {
     using discrete::LoadingMode;
 
+    void check_windows_of_list(const Scene &scene)
+    {
+      const std::vector<double> &stages = scene.loading.stages;
+      for (const double edge : scene.comparison.window_edges)
+        if (edge != 0 &&
+            std::none_of(stages.begin(), stages.end(), [&](const double s) { return std::abs(s - edge) <= 1e-9 * s; }))
+          throw std::invalid_argument("comparison/window_edges holds " + text_of(edge) +
+                                      ", which is none of loading/stages = " + text_of(stages));
+    }
+
     // `last`: the end in the unit of the stages.
     void check_windows(const Scene &scene, const double last)
     {
+      if (!scene.loading.stages.empty())
+        return check_windows_of_list(scene);
       const bool   time     = scene.loading.mode == LoadingMode::time;
       const double interval = time ? scene.loading.stage_time : scene.loading.stage_strain;
       for (const double edge : scene.comparison.window_edges)
@@ -40,10 +53,18 @@ namespace diptych::coupling
       const bool            time    = loading.mode == LoadingMode::time;
       const double          last    = time ? loading.duration : loading.axial_strain;
       const double          count   = last / (time ? loading.stage_time : loading.stage_strain);
-      if (time && (std::abs(count - std::round(count)) > 1e-6 || count < 0.5))
+      if (const std::vector<double> &list = loading.stages; !list.empty())
+        {
+          if (std::adjacent_find(list.begin(), list.end(), std::greater_equal<double>()) != list.end())
+            throw std::invalid_argument("loading/stages = " + text_of(list) + " do not ascend");
+          if (std::abs(list.back() - last) > 1e-9 * last)
+            throw std::invalid_argument("loading/stages end at " + text_of(list.back()) + ", but loading/" +
+                                        (time ? "duration" : "axial_strain") + " = " + text_of(last));
+        }
+      else if (time && (std::abs(count - std::round(count)) > 1e-6 || count < 0.5))
         throw std::invalid_argument("loading/duration = " + text_of(loading.duration) +
                                     " is not a whole number of loading/stage_time = " + text_of(loading.stage_time));
-      if (!time && (std::abs(count - std::round(count)) > 1e-6 || count < 0.5))
+      else if (!time && (std::abs(count - std::round(count)) > 1e-6 || count < 0.5))
         throw std::invalid_argument("loading/axial_strain = " + text_of(loading.axial_strain) +
                                     " is not a whole number of loading/stage_strain = " + text_of(loading.stage_strain));
       const std::vector<double> &edges = scene.comparison.window_edges;
@@ -113,6 +134,8 @@ namespace diptych::coupling
       unless(!time, mode, {"axial_strain", "stage_strain", "inertial_number", "strain_rate", "affine_start"});
       unless(o.mode == LoadingMode::descent, mode, {"horizontal_over_vertical"});
       unless(o.mode == LoadingMode::plane_shear, mode, {"normal_pressure"});
+      const std::string stages = "loading/stages are given";
+      unless(o.stages.empty(), stages, {"stage_strain", "stage_time"});
       unless(time || !(o.strain_rate > 0), "loading/strain_rate = " + text_of(o.strain_rate), {"inertial_number"});
       return keys;
     }
@@ -132,6 +155,26 @@ namespace diptych::coupling
       return keys;
     }
 
+    // Frames of another code: nothing is prepared and nothing computed on the left.
+    void add_unread_of_imported(const Scene &scene, std::vector<Unused> &keys)
+    {
+      if (scene.discrete.method.method != discrete::Method::imported)
+        return;
+      const std::set<std::string> read = {"sample/mean_diameter", "sample/density",   "sample/seed",
+                                          "discrete/method",      "discrete/file",    "discrete/lateral",
+                                          "discrete/side_motion", "loading/pressure", "loading/mode",
+                                          "loading/strain_rate",  "loading/stages",   "loading/axial_strain"};
+      Scene                       copy = scene;
+      for_each_section(copy, [&](const std::string &section, auto &options) {
+        std::vector<KeyDescription> names;
+        visit_parameters(options, DescribeKeys{section.c_str(), names});
+        if (section == "sample" || section == "discrete" || section == "loading")
+          for (const KeyDescription &key : names)
+            if (const std::string name = section + "/" + key.name; read.count(name) == 0)
+              keys.push_back({name, "discrete/method = imported"});
+      });
+    }
+
     std::vector<Unused> unused_keys(const Scene &scene)
     {
       std::vector<Unused> keys = unused_keys(scene.loading);
@@ -141,6 +184,7 @@ namespace diptych::coupling
         keys.push_back({"continuum/" + key, "continuum/" + because});
       for (const Unused &unused : unused_keys(scene.comparison))
         keys.push_back(unused);
+      add_unread_of_imported(scene, keys);
       if (scene.loading.mode == LoadingMode::time)
         keys.push_back({"comparison/averaging_strain", "loading/mode = time: means are over the whole stage"});
       return keys;

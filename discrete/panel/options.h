@@ -12,28 +12,36 @@ namespace diptych::discrete
 {
   enum class Method
   {
-    nscd,   // Non-Smooth Contact Dynamics
-    penalty // explicit springs, dashpots and Coulomb friction (Cundall & Strack 1979)
+    nscd,    // Non-Smooth Contact Dynamics
+    penalty, // explicit springs, dashpots and Coulomb friction (Cundall & Strack 1979)
+    imported // nothing is computed: frames of another code
   };
 
   constexpr auto choices(Method)
   {
-    return std::array{std::pair{Method::nscd, "nscd"}, std::pair{Method::penalty, "penalty"}};
+    return std::array{std::pair{Method::nscd, "nscd"}, std::pair{Method::penalty, "penalty"},
+                      std::pair{Method::imported, "imported"}};
   }
 
   struct MethodOptions
   {
-    Method method             = Method::nscd;
-    int    history_interval   = 0;
-    double checkpoint_minutes = 10;
-    bool   store_problems     = false;
+    Method      method = Method::nscd;
+    std::string file;
+    int         history_interval   = 0;
+    double      checkpoint_minutes = 10;
+    bool        store_problems     = false;
   };
 
   template <class Visitor> void visit_parameters(MethodOptions &o, Visitor &&visitor)
   {
     visitor(
       "method", o.method, "-",
-      "nscd: Non-Smooth Contact Dynamics; penalty: explicit springs, dashpots and Coulomb friction (Cundall & Strack 1979)");
+      "nscd: Non-Smooth Contact Dynamics; penalty: explicit springs, dashpots and Coulomb friction (Cundall & Strack 1979); "
+      "imported: nothing is computed, frames of another code are taken from `file`");
+    visitor(
+      "file", FileName{o.file}, "-",
+      "imported: discrete.h5 of `diptych import`, discrete.csv beside it; {seed} in its path stands for sample/seed, so that an "
+      "ensemble runs over several samples");
     visitor("history_interval", o.history_interval, "steps", {0, 1000000000},
             "between two rows of discrete.csv; 0: every step, penalty: about a thousand rows a stage");
     visitor("checkpoint_minutes", o.checkpoint_minutes, "min", {0., 1e6},

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/panel/snapshot_file.h"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <type_traits>
 
@@ -42,17 +44,64 @@ namespace diptych::discrete
       file.attribute(name, "meaning", contact_impulses);
     }
 
+    // What frames of another code may lack: NaN throughout. Not written; the attribute says so.
+    constexpr char not_told[] = "not_told";
+
+    bool is_told(const double value)
+    {
+      return !std::isnan(value);
+    }
+    bool is_told(const Eigen::Vector2d &value)
+    {
+      return !value.array().isNaN().all();
+    }
+    bool is_told(const Eigen::Matrix2d &value)
+    {
+      return !value.array().isNaN().all();
+    }
+    template <class T> bool is_told(const std::vector<T> &values)
+    {
+      if constexpr (is_whole<T>)
+        return true;
+      else
+        return values.empty() || std::any_of(values.begin(), values.end(), [](const T &value) { return is_told(value); });
+    }
+
+    template <class T> void set_untold(std::vector<T> &values, const std::size_t n)
+    {
+      if constexpr (std::is_same_v<T, double>)
+        values.assign(n, NAN);
+      else if constexpr (!is_whole<T>)
+        values.assign(n, T::Constant(NAN));
+    }
+
+    // Not every snapshot tells what a pair dissipates.
+    bool is_told_of_contacts(const Snapshot &s, const std::string &name, const std::size_t size)
+    {
+      return name.rfind("window", 0) != 0 || size == s.window_forces.size();
+    }
+
     void write_stage(Hdf5Writer &file, const std::string &group, const Snapshot &s)
     {
-      const auto write = [&](const std::string &name, const auto &values, const char *unit, const char *meaning) {
-        write_field(file, group + "/" + name, values, unit, meaning);
+      std::string untold;
+      const auto  write = [&](const std::string &name, const auto &values, const char *unit, const char *meaning) {
+        if (is_told(values))
+          write_field(file, group + "/" + name, values, unit, meaning);
+        else
+          untold += name + " ";
       };
       visit_grain_fields(s, write);
       visit_contact_lists(s, [&](const std::string &name, const std::vector<ContactForce> &contacts, const char *, const char *) {
         write_contacts(file, group + "/" + name, contacts);
       });
-      write_impulses(file, group + "/contacts/impulse", s);
-      visit_contact_values(s, write);
+      if (is_told(s.step))
+        write_impulses(file, group + "/contacts/impulse", s);
+      if (!untold.empty())
+        file.attribute(group, not_told, untold);
+      visit_contact_values(s, [&](const std::string &name, const auto &values, const char *unit, const char *meaning) {
+        if (is_told_of_contacts(s, name, values.size()))
+          write(name, values, unit, meaning);
+      });
       visit_outline(
         s, [&](const std::string &name, const std::vector<Eigen::Vector2d> &points, const char *unit, const char *meaning) {
           file.write(group + "/" + name, points);
@@ -106,9 +155,12 @@ namespace diptych::discrete
         else
           check.refuse(name, "is none of the names it may have");
       });
+      const std::string untold = file.has_attribute(group, not_told) ? file.text_attribute(group, not_told) : "";
       visit_grain_fields(s, [&](const std::string &name, auto &values, const char *, const char *) {
         using Value = typename std::decay_t<decltype(values)>::value_type;
-        values      = read_field<Value>(file, group + "/" + name);
+        if (name != "grains/position" && untold.find(name + " ") != std::string::npos && !file.has(group + "/" + name))
+          return set_untold(values, s.position.size());
+        values = read_field<Value>(file, group + "/" + name);
         check.size(name, values.size(), s.position.size());
         check.finite(name, values);
       });
@@ -172,7 +224,7 @@ namespace diptych::discrete
     XdmfGrid grains = points("grains", "position", s.position.size()), contacts = points("contacts", "point", s.contacts.size()),
              window = points("window", "point", s.window_forces.size());
     visit_grain_fields(s, [&](const std::string &name, const auto &values, const char *, const char *) {
-      if (name != "grains/position")
+      if (name != "grains/position" && is_told(values))
         grains.attributes.push_back(xdmf_field(stage + name, values));
     });
     visit_contact_lists(s, [&](const std::string &list, const std::vector<ContactForce> &entries, const char *, const char *) {
@@ -182,7 +234,8 @@ namespace diptych::discrete
       });
     });
     visit_contact_values(s, [&](const std::string &name, const auto &values, const char *, const char *) {
-      (name.rfind("contacts/", 0) == 0 ? contacts : window).attributes.push_back(xdmf_field(stage + name, values));
+      if (is_told_of_contacts(s, name, values.size()))
+        (name.rfind("contacts/", 0) == 0 ? contacts : window).attributes.push_back(xdmf_field(stage + name, values));
     });
     collections[0].grids.push_back(std::move(grains));
     collections[1].grids.push_back(std::move(contacts));

@@ -200,7 +200,7 @@ namespace
   {
     const QuadMesh file                     = distorted_mesh(2, 2);
     Loading        loading                  = straight_loading(1, {0, 0}, {1});
-    loading.lateral                         = RigidSides{0.};
+    loading.lateral                         = RigidSides{[](double) { return 0.; }};
     Options options                         = perfectly_plastic(LawKind::cosserat_mohr_coulomb, 30, 0, 1e6);
     options.material.elastic.youngs_modulus = 1e-3;
     BoundaryValueProblem problem(file, Units(), loading, options);

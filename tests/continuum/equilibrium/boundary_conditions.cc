@@ -74,7 +74,7 @@ namespace
     for (const auto &[name, lateral, platens] : std::vector<std::tuple<std::string, LateralCondition, Platens>>{
            {"pressure", SidePressure(), Platens::rough},
            {"pressure", SidePressure(), Platens::smooth},
-           {"rigid walls at rest", RigidSides{0.}, Platens::rough},
+           {"rigid walls at rest", RigidSides{[](double) { return 0.; }}, Platens::rough},
            {"rigid wall, smooth", RigidSides(), Platens::smooth},
 
            {"fixed width", PeriodicSides{0.}, Platens::rough},
@@ -190,7 +190,7 @@ namespace
   {
     const QuadMesh mesh    = rectangle(4, 6, 2.);
     Loading        loading = straight_loading(1, {0, -6}, {1e-4});
-    loading.lateral        = RigidSides{2.};
+    loading.lateral        = RigidSides{[](const double progress) { return 2 * progress; }};
     const Course c         = finished(mesh, loading, with(elastic(), Platens::smooth, Kinematics::small_strain));
     EXPECT_NEAR((c.end().mean_stress(0, 0) - 1) / 1e-4, 138.889 - 0.5 * 555.556, 0.01);
     EXPECT_NEAR((c.end().mean_stress(1, 1) - 1) / 1e-4, 555.556 - 0.5 * 138.889, 0.01);

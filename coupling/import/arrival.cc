@@ -1,0 +1,177 @@
+// diptych: another code's sample put in order and checked
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/import/arrival.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <unordered_map>
+
+#include "coupling/import/arrival_check.h"
+#include "coupling/import/arrival_contacts.h"
+#include "coupling/scene/scene_error.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    using Index = std::unordered_map<long, int>;
+
+    std::string at(const std::string &file, const int line)
+    {
+      return file + (line > 0 ? ", line " + std::to_string(line) : "");
+    }
+
+    std::vector<ForeignGrain> sorted(std::vector<ForeignGrain> grains, const ForeignFrame &frame)
+    {
+      std::sort(grains.begin(), grains.end(), [](const auto &a, const auto &b) { return a.id < b.id; });
+      for (std::size_t k = 0; k < grains.size(); ++k)
+        {
+          const ForeignGrain &g = grains[k];
+          if (k > 0 && grains[k - 1].id == g.id)
+            throw SceneError(at(frame.grain_file, g.line) + ": frame " + frame.name + ": grain " + std::to_string(g.id) +
+                             " stands twice");
+          if (!g.position.allFinite() || !(g.radius > 0) || !std::isfinite(g.radius))
+            throw SceneError(at(frame.grain_file, g.line) + ": frame " + frame.name + ": grain " + std::to_string(g.id) +
+                             " has no finite place or no positive radius");
+        }
+      return grains;
+    }
+
+    void take_grains(const std::vector<ForeignGrain> &grains, const double thickness, ArrivedFrame &to)
+    {
+      for (const ForeignGrain &g : grains)
+        {
+          to.position.push_back(g.position), to.velocity.push_back(g.velocity), to.resultant.push_back(g.resultant / thickness);
+          to.radius.push_back(g.radius), to.mass.push_back(g.mass / thickness);
+          to.rotation.push_back(g.rotation), to.spin.push_back(g.spin);
+        }
+    }
+
+    // The ids of the first frame, which all others must have.
+    void require_same_grains(const std::vector<long> &ids, const std::vector<ForeignGrain> &grains, const ForeignFrame &frame)
+    {
+      std::set<long> here;
+      for (const ForeignGrain &g : grains)
+        here.insert(g.id);
+      for (const long id : ids)
+        if (here.count(id) == 0)
+          throw SceneError(frame.grain_file + ": frame " + frame.name + " lacks grain " + std::to_string(id) +
+                           " of the first frame: displacements need the same grains in all frames");
+      if (here.size() != ids.size())
+        throw SceneError(frame.grain_file + ": frame " + frame.name + " has " + std::to_string(here.size()) +
+                         " grains, the first frame " + std::to_string(ids.size()));
+    }
+
+    // Layers of spheres: forces are of the whole thickness.
+    double thickness_of(const ForeignSample &sample, const ForeignOptions &options)
+    {
+      if (!options.thickness && sample.is_spheres)
+        throw SceneError(
+          "import " + sample.format +
+          ": the grains are spheres: --thickness T says over which thickness the forces act (stress = force / (length "
+          "x T)); 1 keeps forces per length");
+      return options.thickness.value_or(1.);
+    }
+
+    // Masses that grow as r^3 are of spheres, whatever the dimension of the run was.
+    bool has_masses_of_spheres(const std::vector<ForeignGrain> &grains)
+    {
+      double lowest_2 = HUGE_VAL, highest_2 = 0, lowest_3 = HUGE_VAL, highest_3 = 0;
+      for (const ForeignGrain &g : grains)
+        {
+          const double area = g.radius * g.radius, volume = area * g.radius;
+          lowest_2 = std::min(lowest_2, g.mass / area), highest_2 = std::max(highest_2, g.mass / area);
+          lowest_3 = std::min(lowest_3, g.mass / volume), highest_3 = std::max(highest_3, g.mass / volume);
+        }
+      return highest_3 < 1.001 * lowest_3 && highest_2 > 1.01 * lowest_2;
+    }
+
+    // Over the area of the discs: what enters inertial numbers and weights.
+    double density_of(const ArrivedFrame &frame, const ForeignOptions &options, const double material)
+    {
+      double mass = 0, area = 0;
+      for (std::size_t i = 0; i < frame.mass.size(); ++i)
+        mass += frame.mass[i], area += M_PI * frame.radius[i] * frame.radius[i];
+      if (std::isfinite(mass))
+        return mass / area;
+      return options.density ? *options.density : material;
+    }
+
+    void note_what_is_lacking(const Arrival &arrival, std::vector<std::string> &lacking)
+    {
+      const ArrivedFrame &last = arrival.frames.back();
+      const auto          lack = [&](const bool told, const char *what) {
+        if (!told)
+          lacking.push_back(what);
+      };
+      lack(std::isfinite(last.mass[0]), "masses");
+      lack(last.velocity[0].allFinite(), "velocities");
+      lack(std::isfinite(last.spin[0]), "spins (their term in the internal moment counts as 0)");
+      lack(std::isfinite(last.rotation[0]), "rotations");
+      lack(std::isfinite(last.time), "times");
+      const bool status = std::any_of(last.status.begin(), last.status.end(),
+                                      [](const auto s) { return s != discrete::ContactStatus::unknown; });
+      lack(status, "which contacts slide");
+      lack(false, "dissipation, energies and means over stages (a frame is one instant)");
+      for (std::size_t k = 0; k < arrival.frames.size(); ++k)
+        lack(arrival.frames[k].has_contacts, ("contacts of frame " + arrival.frames[k].name).c_str());
+    }
+
+    void note_ids(Arrival &arrival)
+    {
+      const long span = arrival.id.back() - arrival.id.front() + 1, gaps = span - long(arrival.id.size());
+      if (gaps > 0)
+        arrival.remarks.push_back("ids run from " + std::to_string(arrival.id.front()) + " to " +
+                                  std::to_string(arrival.id.back()) + " with " + std::to_string(gaps) +
+                                  " missing; grains are counted from 0 in the order of their ids");
+    }
+  } // namespace
+
+  Arrival arrive(ForeignSample sample, const ForeignOptions &options)
+  {
+    if (sample.frames.empty())
+      throw SceneError("import " + sample.format + ": the files hold no frame");
+    std::vector<std::vector<ForeignGrain>> grains;
+    for (ForeignFrame &frame : sample.frames)
+      grains.push_back(sorted(std::move(frame.grains), frame));
+    if (grains.front().size() < 3)
+      throw SceneError(sample.frames.front().grain_file + ": " + std::to_string(grains.front().size()) +
+                       " grains; at least 3 are needed");
+    sample.is_spheres |= has_masses_of_spheres(grains.front());
+
+    Arrival arrival;
+    arrival.format    = sample.format;
+    arrival.thickness = thickness_of(sample, options);
+    arrival.remarks   = sample.remarks;
+    for (const ForeignGrain &g : grains.front())
+      arrival.id.push_back(g.id);
+    double diameter = 0;
+    for (const ForeignGrain &g : grains.front())
+      diameter += 2 * g.radius / double(grains.front().size());
+    arrival.mean_diameter = options.mean_diameter.value_or(diameter);
+    note_ids(arrival);
+    for (std::size_t k = 0; k < sample.frames.size(); ++k)
+      {
+        ForeignFrame &from = sample.frames[k];
+        require_same_grains(arrival.id, grains[k], from);
+        if (k > 0 && !from.has_contacts)
+          throw SceneError(from.grain_file + ": frame " + from.name +
+                           " has no contacts: stresses of every frame after the first are made of them");
+        ArrivedFrame frame;
+        frame.name = from.name;
+        frame.time = from.time.value_or(not_told);
+        frame.step = from.step.value_or(long(k));
+        take_grains(grains[k], arrival.thickness, frame);
+        take_contacts(from, arrival, options, frame);
+        arrival.frames.push_back(std::move(frame));
+      }
+    arrival.density = density_of(arrival.frames.front(), options, sample.is_spheres ? not_told : sample.density);
+    for (const std::string &text : sample.lacking)
+      arrival.lacking.push_back(text);
+    note_what_is_lacking(arrival, arrival.lacking);
+    check_arrival(arrival);
+    return arrival;
+  }
+} // namespace diptych::coupling

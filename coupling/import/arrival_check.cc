@@ -1,0 +1,193 @@
+// diptych: what a sample of another code is checked for on arrival
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/import/arrival_check.h"
+#include "coupling/scene/scene_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "coupling/cells/point_bins.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    // Above these a user should look. Balance is over the mean contact force: 1e-6 where a code writes nine digits of forces that
+    // it integrated, 0.02 where it evaluates them anew after the step. In slow motion without resultants it stays below 0.3.
+    constexpr double doubtful_balance = 0.05, doubtful_motion = 0.3, doubtful_stress = 0.05, doubtful_overlap = 0.05,
+                     doubtful_overlap_told = 0.005, doubtful_wall_force = 0.03;
+
+    double area_of(const ArrivedFrame &f)
+    {
+      return (f.wall[int(Side::right)] - f.wall[int(Side::left)]) * (f.wall[int(Side::upper)] - f.wall[int(Side::lower)]);
+    }
+
+    void check_walls(const ArrivedFrame &f)
+    {
+      for (const auto &[low, high] : {std::pair(Side::lower, Side::upper), std::pair(Side::left, Side::right)})
+        if (f.wall[std::size_t(low)] >= f.wall[std::size_t(high)])
+          throw SceneError("frame " + f.name + ": the " + side_names[int(low)] + " wall stands beyond the " +
+                           side_names[int(high)] + " one");
+    }
+
+    void count_contacts(const ArrivedFrame &f, ArrivalCheck &check)
+    {
+      const int n = int(f.position.size());
+      for (const discrete::ContactForce &c : f.contacts)
+        switch (c.j - n)
+          {
+          case int(Side::lower):
+            ++check.lower_contacts;
+            break;
+          case int(Side::upper):
+            ++check.upper_contacts;
+            break;
+          case int(Side::left):
+            ++check.left_contacts;
+            break;
+          case int(Side::right):
+            ++check.right_contacts;
+            break;
+          default:
+            ++check.contacts;
+          }
+    }
+
+    void check_balance(const Arrival &arrival, const ArrivedFrame &f, ArrivalCheck &check)
+    {
+      const std::size_t            n = f.position.size();
+      std::vector<Eigen::Vector2d> sum(n, Eigen::Vector2d::Zero());
+      double                       mean = 0;
+      for (const discrete::ContactForce &c : f.contacts)
+        {
+          sum[std::size_t(c.i)] += c.force;
+          if (std::size_t(c.j) < n)
+            sum[std::size_t(c.j)] -= c.force;
+          mean += c.force.norm() / double(f.contacts.size());
+        }
+      check.against_resultants = f.resultant[0].allFinite();
+      double square = 0, worst = -1;
+      for (std::size_t i = 0; i < n; ++i)
+        {
+          const double miss = (check.against_resultants ? Eigen::Vector2d(sum[i] - f.resultant[i]) : sum[i]).norm() / mean;
+          square += miss * miss / double(n);
+          if (miss > worst)
+            worst = miss, check.balance_worst_grain = arrival.id[i];
+        }
+      check.balance_rms = std::sqrt(square), check.balance_worst = worst;
+    }
+
+    // Force (x) branch, row of the force, with walls' contact points; and the same of the walls alone about the origin.
+    void add_stresses(const ArrivedFrame &f, ArrivalCheck &check)
+    {
+      const std::size_t n        = f.position.size();
+      const double      area     = area_of(f);
+      Eigen::Matrix2d   contacts = Eigen::Matrix2d::Zero(), walls = contacts;
+      for (const discrete::ContactForce &c : f.contacts)
+        {
+          const Eigen::Vector2d &x = f.position[std::size_t(c.i)];
+          contacts += c.force * (x - (std::size_t(c.j) < n ? f.position[std::size_t(c.j)] : c.point)).transpose();
+          if (std::size_t(c.j) >= n)
+            walls -= c.force * c.point.transpose();
+        }
+      check.contact_stress = contacts / area;
+      const bool touched   = check.lower_contacts > 0 && check.upper_contacts > 0 && check.left_contacts > 0 &&
+                           check.right_contacts > 0;
+      if (!touched)
+        return;
+      check.wall_stress       = walls / area;
+      check.stress_difference = (contacts - walls).cwiseAbs().maxCoeff() / walls.cwiseAbs().maxCoeff();
+    }
+
+    void check_wall_forces(const ArrivedFrame &f, ArrivalCheck &check)
+    {
+      double difference = 0, scale = 0;
+      for (const int side : {0, 1, 2, 3})
+        {
+          const Eigen::Vector2d &told = f.told_wall_force[std::size_t(side)], &sum = f.wall_force[std::size_t(side)];
+          if (told.allFinite() && sum.allFinite())
+            difference = std::max(difference, (told - sum).norm()), scale = std::max(scale, told.norm());
+        }
+      if (scale > 0)
+        check.wall_force_difference = difference / scale;
+    }
+
+    void check_overlaps(const Arrival &arrival, const ArrivedFrame &f, ArrivalCheck &check)
+    {
+      double largest = -HUGE_VAL, widest = 0;
+      for (std::size_t i = 0; i < f.position.size(); ++i)
+        {
+          widest = std::max(widest, f.radius[i]);
+          for (const int side : {0, 1, 2, 3})
+            if (const double place = f.wall[std::size_t(side)]; std::isfinite(place))
+              {
+                const double height = f.position[i][side < 2 ? 1 : 0] - place;
+                largest             = std::max(largest, f.radius[i] - (side % 2 == 0 ? height : -height));
+              }
+        }
+      const PointBins bins(f.position, 2 * widest);
+      for (unsigned int i = 0; i < f.position.size(); ++i)
+        bins.for_each_near(f.position[i], f.radius[i] + widest, [&](const unsigned int j) {
+          if (j > i)
+            largest = std::max(largest, f.radius[i] + f.radius[j] - (f.position[i] - f.position[j]).norm());
+        });
+      check.largest_overlap = largest / arrival.mean_diameter;
+    }
+
+    void find_doubts(const ArrivedFrame &f, const ArrivalCheck &c, const double diameter, std::vector<std::string> &doubtful)
+    {
+      const auto doubt = [&](const bool is_doubtful, const std::string &what, const double value) {
+        std::ostringstream text;
+        text.precision(3);
+        text << "frame " << c.name << ": " << what << " " << 100 * value << " %";
+        if (is_doubtful)
+          doubtful.push_back(text.str());
+      };
+      const std::string grain = "grain " + std::to_string(c.balance_worst_grain);
+      doubt(c.against_resultants && c.balance_worst > doubtful_balance,
+            "contact forces miss the resultant of " + grain + " by, over the mean contact force,", c.balance_worst);
+      doubt(!c.against_resultants && c.balance_rms > doubtful_motion,
+            "grains are far from balance (a contact missing, of the wrong sign or twice?): rms over the mean contact force",
+            c.balance_rms);
+      doubt(c.stress_difference > doubtful_stress, "stress of contacts and of wall forces differ by", c.stress_difference);
+      doubt(c.wall_force_difference > doubtful_wall_force, "wall forces told and summed over contacts differ by",
+            c.wall_force_difference);
+      doubt(c.largest_overlap > doubtful_overlap, "discs or disc and wall overlap by up to, over a mean diameter,",
+            c.largest_overlap);
+      doubt(f.overlap_miss > doubtful_overlap_told * diameter,
+            "overlaps told and those of the discs differ by up to, over a mean diameter,", f.overlap_miss / diameter);
+      doubt(f.has_contacts && c.contact_stress.trace() <= 0, "the mean stress pulls: its trace over its largest component is",
+            c.contact_stress.trace() / c.contact_stress.cwiseAbs().maxCoeff());
+    }
+  } // namespace
+
+  void check_arrival(Arrival &arrival)
+  {
+    for (const ArrivedFrame &f : arrival.frames)
+      {
+        ArrivalCheck check;
+        check.name   = f.name;
+        check.time   = f.time;
+        check.grains = int(f.position.size());
+        check_walls(f);
+        double mass = 0, discs = 0;
+        for (std::size_t i = 0; i < f.position.size(); ++i)
+          mass += f.mass[i], discs += M_PI * f.radius[i] * f.radius[i];
+        check.mass           = mass;
+        check.solid_fraction = discs / area_of(f);
+        const double first   = arrival.frames[0].wall[1] - arrival.frames[0].wall[0];
+        check.axial_strain   = 1 - (f.wall[1] - f.wall[0]) / first;
+        check_overlaps(arrival, f, check);
+        if (f.has_contacts && !f.contacts.empty())
+          {
+            count_contacts(f, check);
+            check_balance(arrival, f, check);
+            add_stresses(f, check);
+            check_wall_forces(f, check);
+          }
+        find_doubts(f, check, arrival.mean_diameter, arrival.doubtful);
+        arrival.checks.push_back(check);
+      }
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,165 @@
+// diptych: a sample of ours as a start for other codes
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/import/exported_sample.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <sstream>
+
+#include "coupling/import/lmgc90_datbox.h"
+#include "coupling/scene/scene_error.h"
+#include "discrete/files/csv_file.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    using discrete::exact_text;
+    using discrete::Snapshot;
+
+    // Lower left and upper right corner of the walls; sides where the sample has none are NaN.
+    struct ExportBox
+    {
+      double left, right, lower, upper;
+
+      bool has_sides() const { return std::isfinite(left) && std::isfinite(right); }
+    };
+
+    ExportBox box_of(const Snapshot &s)
+    {
+      if (s.cell_width > 0)
+        throw SceneError("export: discrete/lateral = periodic: the sample has no side walls that another code could take");
+      return {s.left_x, s.right_x, s.lower_y, s.upper_y};
+    }
+
+    std::ostringstream exact_stream()
+    {
+      std::ostringstream out;
+      out.precision(std::numeric_limits<double>::max_digits10);
+      return out;
+    }
+
+    ExportedFiles as_csv(const Snapshot &s)
+    {
+      std::ostringstream particles = exact_stream(), contacts = exact_stream(), walls = exact_stream();
+      particles << "id,x,y,r,mass,vx,vy,omega\n";
+      for (std::size_t i = 0; i < s.radius.size(); ++i)
+        particles << i << ',' << s.position[i].x() << ',' << s.position[i].y() << ',' << s.radius[i] << ',' << s.mass[i] << ','
+                  << s.velocity[i].x() << ',' << s.velocity[i].y() << ',' << s.spin[i] << '\n';
+      contacts << "# force on i; j = -1 lower, -2 upper, -3 left, -4 right wall\ni,j,fx,fy,px,py\n";
+      const int n = int(s.radius.size());
+      for (const discrete::ContactForce &c : s.contacts)
+        if (c.force != Eigen::Vector2d::Zero())
+          contacts << c.i << ',' << (c.j < n ? c.j : n - c.j - 1) << ',' << c.force.x() << ',' << c.force.y() << ','
+                   << c.point.x() << ',' << c.point.y() << '\n';
+      const ExportBox box = box_of(s);
+      walls << "frame," << (box.has_sides() ? "left_x,right_x," : "") << "lower_y,upper_y\n0,";
+      if (box.has_sides())
+        walls << box.left << ',' << box.right << ',';
+      walls << box.lower << ',' << box.upper << '\n';
+      return {{"particles_0.csv", particles.str()}, {"contacts_0.csv", contacts.str()}, {"walls.csv", walls.str()}};
+    }
+
+    std::string lammps_script(const Scene &scene, const Snapshot &s, const ExportBox &box)
+    {
+      const double       d = s.mean_diameter, p = scene.loading.pressure, rho = scene.sample.density;
+      const double       kn = 1e4 * p, mass = rho * M_PI * d * d / 4, damping = std::sqrt(kn / mass);
+      std::ostringstream out = exact_stream();
+      out
+        << "# Discs of sample.data between walls at rest, springs kn = 1e4 P (rigid grains have none), dashpots near critical.\n"
+        << "units si\ndimension 2\nboundary f f p\nnewton off\ncomm_modify vel yes\natom_style sphere\nread_data sample.data\n"
+        << "set group all density/disc " << rho << "\n"
+        << "variable kn equal " << kn << "\nvariable kt equal 0.8*${kn}\nvariable gn equal " << damping
+        << "\nvariable gt equal 0.5*${gn}\n"
+        << "pair_style gran/hooke/history ${kn} ${kt} ${gn} ${gt} " << scene.discrete.law.friction << " 1\npair_coeff * *\n";
+      const auto wall = [&](const char *name, const char *sides, const double mu) {
+        out << "region " << name << " block " << sides << " units box side in\n"
+            << "fix " << name << " all wall/gran/region hooke/history ${kn} ${kt} ${gn} ${gt} " << mu << " 1 region " << name
+            << " contacts\n";
+      };
+      const std::string lower = exact_text(box.lower), upper = exact_text(box.upper), left = exact_text(box.left),
+                        right = exact_text(box.right);
+      wall("lower", ("INF INF " + lower + " INF INF INF").c_str(), scene.discrete.law.platen_friction);
+      wall("upper", ("INF INF INF " + upper + " INF INF").c_str(), scene.discrete.law.platen_friction);
+      if (box.has_sides())
+        {
+          wall("left", (left + " INF INF INF INF INF").c_str(), scene.discrete.law.wall_friction);
+          wall("right", ("INF " + right + " INF INF INF INF").c_str(), scene.discrete.law.wall_friction);
+        }
+      out << "fix move all nve/sphere disc\nfix plane all enforce2d\n"
+          << "timestep " << 0.05 * M_PI / damping << "\n"
+          << "compute pp all pair/local dist force fx fy p1 p2 p4 cutoff radius\ncompute id all property/local patom1 patom2 "
+             "cutoff radius\n"
+          << "# frames that `diptych import lammps` reads back\n"
+          << "dump g all custom 1000 grains.dump id type x y radius mass vx vy omegaz fx fy\ndump_modify g sort id format float "
+             "%.9g\n"
+          << "dump c all local 1000 contacts.dump index c_id[1] c_id[2] c_pp[1] c_pp[2] c_pp[3] c_pp[4] c_pp[5] c_pp[6] c_pp[7]\n"
+          << "dump_modify c format float %.9g\nthermo 1000\nrun 1000\n";
+      return out.str();
+    }
+
+    ExportedFiles as_lammps(const Scene &scene, const Snapshot &s)
+    {
+      const ExportBox    box   = box_of(s);
+      std::ostringstream out   = exact_stream();
+      const double       room  = 2 * s.mean_diameter;
+      double             low_x = HUGE_VAL, high_x = -HUGE_VAL;
+      for (const Eigen::Vector2d &x : s.position)
+        low_x = std::min(low_x, x.x()), high_x = std::max(high_x, x.x());
+      out << "LAMMPS data file: discs of a prepared sample; in.sample sets density/disc\n\n"
+          << s.radius.size() << " atoms\n1 atom types\n\n"
+          << low_x - 5 * room << ' ' << high_x + 5 * room << " xlo xhi\n"
+          << box.lower - room << ' ' << box.upper + room << " ylo yhi\n-0.5 0.5 zlo zhi\n\nAtoms # sphere\n\n";
+      for (std::size_t i = 0; i < s.radius.size(); ++i)
+        out << i + 1 << " 1 " << 2 * s.radius[i] << ' ' << scene.sample.density << ' ' << s.position[i].x() << ' '
+            << s.position[i].y() << " 0\n";
+      return {{"sample.data", out.str()}, {"in.sample", lammps_script(scene, s, box)}};
+    }
+
+    ExportedFiles as_yade(const Scene &scene, const Snapshot &s)
+    {
+      const ExportBox    box   = box_of(s);
+      std::ostringstream table = exact_stream(), out = exact_stream();
+      table << "#format x_y_z_r_attrs\n# x y z r id mass\n";
+      for (std::size_t i = 0; i < s.radius.size(); ++i)
+        table << s.position[i].x() << '\t' << s.position[i].y() << "\t0\t" << s.radius[i] << '\t' << i << '\t' << s.mass[i]
+              << '\n';
+      out << "# Discs of sample.txt as one layer of spheres between walls at rest. Yade's spheres have masses of spheres: each "
+             "is set to that of\n"
+          << "# its disc. Springs 1e4 P (rigid grains have none).\n"
+          << "from yade import utils\nimport math\nfriction, wall_friction = " << scene.discrete.law.friction << ", "
+          << scene.discrete.law.platen_friction << "\nyoung = 1e4*" << scene.loading.pressure << "/" << s.mean_diameter << "\n"
+          << "grain = O.materials.append(FrictMat(young=young, poisson=0.8, frictionAngle=math.atan(friction), density="
+          << scene.sample.density << "))\n"
+          << "plate = O.materials.append(FrictMat(young=young, poisson=0.8, frictionAngle=math.atan(wall_friction), density=0))\n"
+          << "for line in open('sample.txt'):\n    if line.startswith('#'):\n        continue\n"
+          << "    x, y, z, r, number, mass = (float(v) for v in line.split())\n"
+          << "    body = O.bodies[O.bodies.append(utils.sphere((x, y, 0), r, material=grain))]\n"
+          << "    body.state.blockedDOFs, body.state.mass = 'zXY', mass\n    body.state.inertia = (0.5*mass*r*r,)*3\n"
+          << "walls = dict(lower=O.bodies.append(utils.wall((0, " << box.lower << ", 0), axis=1, material=plate)),\n"
+          << "             upper=O.bodies.append(utils.wall((0, " << box.upper << ", 0), axis=1, material=plate)))\n";
+      if (box.has_sides())
+        out << "walls.update(left=O.bodies.append(utils.wall((" << box.left << ", 0, 0), axis=0, material=plate)),\n"
+            << "             right=O.bodies.append(utils.wall((" << box.right << ", 0, 0), axis=0, material=plate)))\n";
+      out << "O.engines = [ForceResetter(), InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()]),\n"
+          << "             InteractionLoop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()], "
+             "[Ip2_FrictMat_FrictMat_FrictPhys()],\n"
+          << "                             [Law2_ScGeom_FrictPhys_CundallStrack()]), NewtonIntegrator(damping=0.2)]\n"
+          << "O.dt = 0.3*utils.PWaveTimeStep()\n";
+      return {{"sample.txt", table.str()}, {"start.py", out.str()}};
+    }
+  } // namespace
+
+  ExportedFiles exported_sample(const std::string &format, const Scene &scene, const discrete::Snapshot &snapshot)
+  {
+    if (format == "lammps")
+      return as_lammps(scene, snapshot);
+    if (format == "yade")
+      return as_yade(scene, snapshot);
+    if (format == "lmgc90")
+      return lmgc90_datbox(scene, snapshot);
+    return as_csv(snapshot);
+  }
+} // namespace diptych::coupling

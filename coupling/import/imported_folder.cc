@@ -1,0 +1,85 @@
+// diptych: frames of another code in the place of the discrete panel
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/import/imported_folder.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include "coupling/folders/provenance.h"
+#include "coupling/scene/keys.h"
+#include "coupling/scene/scene_error.h"
+#include "discrete/files/table_file.h"
+#include "discrete/panel/snapshot_file.h"
+
+namespace diptych::coupling
+{
+  std::string imported_file(const Scene &scene)
+  {
+    std::string       file = scene.discrete.method.file;
+    const std::string mark = "{seed}";
+    for (std::size_t at = file.find(mark); at != std::string::npos; at = file.find(mark))
+      file.replace(at, mark.size(), std::to_string(scene.sample.seed));
+    return file;
+  }
+
+  namespace
+  {
+    constexpr double same_stage = 1e-9;
+
+    void require_stages(const Scene &scene, const std::string &file, const DiscreteResults &results)
+    {
+      const std::vector<double> wanted = stages(scene.loading);
+      if (results.snapshots.size() != wanted.size() + 1)
+        throw SceneError("discrete/file = '" + file + "' holds " + std::to_string(results.snapshots.size()) +
+                         " frames; loading/stages are " + std::to_string(wanted.size()) + " and the start");
+      for (std::size_t k = 0; k < wanted.size(); ++k)
+        if (std::abs(results.snapshots[k + 1].progress - wanted[k]) > same_stage)
+          throw SceneError("discrete/file = '" + file + "': frame " + std::to_string(k + 1) + " is at " +
+                           text_of(results.snapshots[k + 1].progress) + ", loading/stages say " + text_of(wanted[k]));
+      if (results.rows.size() != results.snapshots.size())
+        throw SceneError("discrete/file = '" + file + "': discrete.csv beside it has " + std::to_string(results.rows.size()) +
+                         " rows, not one a frame");
+    }
+  } // namespace
+
+  DiscreteResults load_imported(const Scene &scene)
+  {
+    const std::string file = imported_file(scene);
+    if (file.empty())
+      throw SceneError("discrete/file is empty, but discrete/method = imported: name the discrete.h5 of `diptych import`");
+    const std::string folder = std::filesystem::path(file).parent_path().string();
+    DiscreteResults   results;
+    try
+      {
+        results.snapshots = discrete::read_snapshots(file);
+        results.rows      = discrete::read_rows<discrete::HistoryRow>(folder + "/discrete.csv");
+        results.facts     = read_run_facts(folder).discrete;
+      }
+    catch (const std::invalid_argument &error)
+      {
+        throw SceneError("discrete/file = '" + file + "': " + error.what());
+      }
+    require_stages(scene, file, results);
+    return results;
+  }
+
+  ImportedWalls imported_walls(const DiscreteResults &results)
+  {
+    const discrete::Snapshot &first = results.snapshots.front();
+    ImportedWalls             walls;
+    walls.initial_height = first.upper_y - first.lower_y;
+    for (std::size_t k = 0; k < results.snapshots.size(); ++k)
+      {
+        const discrete::Snapshot &s   = results.snapshots[k];
+        const auto                add = [&](discrete::TimeTable &table, const double value) {
+          if (std::isfinite(value))
+            table.time.push_back(s.progress), table.value.push_back(value);
+        };
+        add(walls.upper_x, s.upper_platen_displacement.x());
+        add(walls.upper_y, s.upper_y - s.lower_y - walls.initial_height);
+        add(walls.right_x, s.right_x - first.right_x - (s.left_x - first.left_x));
+        add(walls.right_pressure, -results.rows[k].right_force.x() / (s.upper_y - s.lower_y));
+      }
+    return walls;
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,28 @@
+// diptych: frames of another code in the place of the discrete panel
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+
+#include "coupling/results/results.h"
+#include "coupling/scene/scene.h"
+#include "discrete/bodies/state.h"
+
+namespace diptych::coupling
+{
+  // discrete/file with {seed} replaced by sample/seed.
+  std::string imported_file(const Scene &scene);
+
+  // discrete.h5, discrete.csv and the facts of an import. Throws SceneError naming key and file where they are missing or broken,
+  // or hold other stages than the scene.
+  DiscreteResults load_imported(const Scene &scene);
+
+  // Motion of the walls over the progress (the tables' time), linear between frames.
+  struct ImportedWalls
+  {
+    double              initial_height = 0;
+    discrete::TimeTable upper_x, upper_y;        // displacement of the upper platen [length]
+    discrete::TimeTable right_x, right_pressure; // of the right wall, outwards [length], on the sample [pressure]; empty: none
+  };
+  ImportedWalls imported_walls(const DiscreteResults &results);
+} // namespace diptych::coupling

@@ -1,0 +1,46 @@
+// diptych: export FOLDER: our prepared sample as a start for other codes
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/program/export_command.h"
+
+#include <filesystem>
+
+#include "coupling/folders/result_folder.h"
+#include "coupling/import/exported_sample.h"
+#include "coupling/scene/scene_file.h"
+#include "discrete/files/text_file.h"
+#include "discrete/panel/snapshot_file.h"
+
+namespace diptych::coupling
+{
+  int export_sample(const CommandLine &line)
+  {
+    namespace fs = std::filesystem;
+    if (!fs::is_directory(line.target))
+      throw SceneError(line.target + ": no result folder");
+    const std::string file = line.target + "/discrete.h5";
+    if (!fs::exists(file))
+      throw SceneError(line.target + ": has no discrete.h5; diptych discrete or run makes it");
+    Scene scene;
+    if (fs::exists(line.target + "/scene.prm"))
+      scene = read_scene(line.target + "/scene.prm", {}, false);
+    const std::vector<discrete::Snapshot> snapshots = discrete::read_snapshots(file);
+    if (std::size_t(line.stage) >= snapshots.size())
+      throw SceneError("--stage " + std::to_string(line.stage) + ": " + file + " holds " + std::to_string(snapshots.size()) +
+                       " snapshots, 0 to " + std::to_string(snapshots.size() - 1));
+    const ExportedFiles files  = exported_sample(line.format, scene, snapshots[std::size_t(line.stage)]);
+    const std::string   folder = line.output.empty() ? fs::path(line.target + "/").parent_path().string() + "_for_" + line.format
+                                                     : line.output;
+    for (const auto &[name, text] : files)
+      if (fs::exists(folder + "/" + name))
+        throw SceneError("--output " + folder + ": " + name + " stands there; name a new folder");
+    return keeping(folder, [&] {
+      for (const auto &[name, text] : files)
+        {
+          make_folder(fs::path(folder + "/" + name).parent_path().string());
+          discrete::write_text(folder + "/" + name, text);
+        }
+      say(line, "written to " + folder);
+      return done;
+    });
+  }
+} // namespace diptych::coupling
