@@ -26,7 +26,7 @@ case "$preset" in
             select+=(-R '^(house[.]House|discrete|coupling|coupling_panels)[.]') ;;
 esac
 # The tests alone: they open report.html, read the ParaView files back, make a package and the manual.
-packages+=(chromium python3-meshio dpkg-dev clang-format mkdocs mkdocs-material libjs-katex)
+packages+=(chromium python3-meshio dpkg-dev clang-format mkdocs mkdocs-material libjs-katex fish man-db)
 install_missing
 build "$preset" "${targets[@]}"
 ctest --test-dir build/"$preset" --output-on-failure -j "$(cores)" "${select[@]}"

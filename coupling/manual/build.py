@@ -87,10 +87,11 @@ class Directives:
         return self.tree.with_links(readmes.spaced(text.strip()), "index.html", folder)
 
     def do_readme(self, name):
-        """A README where there is one, its headings one deeper."""
+        """A README where there is one, without its title, its headings one deeper."""
         if not os.path.exists(self.path(name, optional=True)):
             return ""
-        return re.sub(r"^#", "##", self.moved(text_of(self.path(name)), posixpath.dirname(name)), flags=re.MULTILINE)
+        text = re.sub(r"\A# .*\n", "", text_of(self.path(name)))
+        return re.sub(r"^#", "##", self.moved(text, posixpath.dirname(name)), flags=re.MULTILINE)
 
     def do_docstrings(self, folder):
         """Docstrings of the Python modules of a folder, where there is one."""

@@ -121,6 +121,19 @@ class Results:
             yield name, heading + (", " + kind if kind else ""), f"reference/results_{family}.html#{anchor(heading, name)}", meaning
 
 
+def options(text):
+    """[(head, meaning)] of the positionals and options that CLI11 prints; a head that is too long has its meaning in the next line."""
+    found = []
+    for block in re.findall(r"^(?:Positionals|Options|Subcommands):\n(.*?)(?=^\S|\Z)", text, re.DOTALL | re.MULTILINE):
+        for line in block.split("\n"):
+            head = re.match(r"  (\S.*?)(?: {2,}(\S.*))?$", line)
+            if head:
+                found.append([head[1].replace("-h,", "-h, "), head[2] or ""])
+            elif found and line.strip():
+                found[-1][1] = (found[-1][1] + " " + line.strip()).strip()
+    return found
+
+
 class Commands:
     """What `diptych --help` and `diptych COMMAND --help` print."""
 
@@ -134,11 +147,15 @@ class Commands:
         return set(re.findall(r"^  (?:-\w,)?(--[a-z-]+)", self.helps[name], re.MULTILINE))
 
     def page(self):
-        lines = ["# Commands", "", "    " + self.overview.rstrip().replace("\n", "\n    "), ""]
+        lines = ["# Commands", "", "As `diptych --help` and `diptych COMMAND --help` tell them.", ""]
         for name in self.names:
             first, rest = self.helps[name].split("\n", 1)
-            lines += [f"## diptych {name}", "", first[:1].upper() + first[1:] + ".", "",
-                      "    " + rest.split("\n\nExit codes:")[0].strip().replace("\n", "\n    "), ""]
+            lines += [f"## diptych {name}", "", html.escape(first[:1].upper() + first[1:]) + ".", "",
+                      "    " + re.search(r"^Usage: (.*)$", rest, re.MULTILINE)[1], ""]
+            for head, meaning in options(rest):
+                lines += [entry(anchor(name, head.split()[-1] if head.startswith("-h") else head.split()[0]), head, (), meaning), ""]
+        codes = self.overview[self.overview.index("Exit codes: "):].split(": ", 1)[1]
+        lines += ["## Exit codes", "", html.escape(" ".join(codes.split())) + "."]
         return "\n".join(lines)
 
     def index(self):
