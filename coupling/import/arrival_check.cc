@@ -16,7 +16,7 @@ namespace diptych::coupling
     // Above these a user should look. Balance is over the mean contact force: 1e-6 where a code writes nine digits of forces that
     // it integrated, 0.02 where it evaluates them anew after the step. In slow motion without resultants it stays below 0.3.
     constexpr double doubtful_balance = 0.05, doubtful_motion = 0.3, doubtful_stress = 0.05, doubtful_overlap = 0.05,
-                     doubtful_overlap_told = 0.005, doubtful_wall_force = 0.03;
+                     doubtful_overlap_told = 0.005, doubtful_wall_force = 0.03, doubtful_wall_place = 0.02;
 
     double area_of(const ArrivedFrame &f)
     {
@@ -157,6 +157,8 @@ namespace diptych::coupling
             c.largest_overlap);
       doubt(f.overlap_miss > doubtful_overlap_told * diameter,
             "overlaps told and those of the discs differ by up to, over a mean diameter,", f.overlap_miss / diameter);
+      doubt(f.wall_miss > doubtful_wall_place * diameter, "a wall and its contact points lie apart by, over a mean diameter,",
+            f.wall_miss / diameter);
       doubt(f.has_contacts && c.contact_stress.trace() <= 0, "the mean stress pulls: its trace over its largest component is",
             c.contact_stress.trace() / c.contact_stress.cwiseAbs().maxCoeff());
     }

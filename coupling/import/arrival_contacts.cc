@@ -113,8 +113,8 @@ namespace diptych::coupling
       return sides;
     }
 
-    // Where contact points of a wall lie across it; NaN without any.
-    double place_from_points(const ForeignFrame &from, const std::vector<int> &sides, const int side, const double radius)
+    // Where contact points of a wall lie across it; NaN without any. Throws where they scatter more than that [length].
+    double place_from_points(const ForeignFrame &from, const std::vector<int> &sides, const int side, const double most_scatter)
     {
       double sum = 0, low = HUGE_VAL, high = -HUGE_VAL;
       int    n = 0;
@@ -126,10 +126,9 @@ namespace diptych::coupling
           }
       if (n == 0)
         return not_told;
-      if (high - low > flat * radius)
+      if (high - low > most_scatter)
         throw SceneError(from.contact_file + ": frame " + from.name + ": contact points of the " + side_names[side] +
-                         " wall scatter over " + std::to_string((high - low) / radius) +
-                         " mean radii across it; a flat wall is needed");
+                         " wall scatter over " + std::to_string(high - low) + " [length] across it; a flat wall is needed");
       return sum / n;
     }
 
@@ -158,8 +157,13 @@ namespace diptych::coupling
                 if (side == int(Side::upper) && from.walls[w].travel != 0)
                   to.upper_travel = from.walls[w].travel;
               }
-          if (there && std::isnan(to.wall[std::size_t(side)]))
-            to.wall[std::size_t(side)] = place_from_points(from, sides, side, radius);
+          const bool   is_placed   = std::isfinite(to.wall[std::size_t(side)]);
+          const double from_points = there ? place_from_points(from, sides, side, is_placed ? HUGE_VAL : flat * radius)
+                                           : not_told;
+          if (!is_placed)
+            to.wall[std::size_t(side)] = from_points;
+          else if (std::isfinite(from_points))
+            to.wall_miss = std::max(to.wall_miss, std::abs(from_points - to.wall[std::size_t(side)]));
           if (options.walls_touch && std::isnan(to.wall[std::size_t(side)]) && (there || axis_of[side] == 1))
             to.wall[std::size_t(side)] = extreme[std::size_t(side)];
           if (there && std::isnan(to.wall[std::size_t(side)]))

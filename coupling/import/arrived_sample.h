@@ -29,6 +29,7 @@ namespace diptych::coupling
     std::array<Eigen::Vector2d, 4>       told_wall_force;  // as a table tells it
     double                               upper_travel = 0; // of the upper wall to the right since the first frame
     double                               overlap_miss = 0; // largest difference of overlaps told from those of the discs
+    double                               wall_miss    = 0; // largest distance of a wall from its contact points
   };
 
   // What the check of one frame found. Stresses are positive in compression.

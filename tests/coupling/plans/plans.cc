@@ -12,6 +12,7 @@
 
 namespace
 {
+  namespace continuum = diptych::continuum;
   using namespace diptych::coupling;
 
   // The last value that a key is given, or what it has otherwise.

@@ -1,0 +1,107 @@
+// diptych: files of other codes cut off or with a flipped bit: told, never a crash, never nonsense in silence
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <cmath>
+#include <random>
+
+#include "coupling/import/imported_results.h"
+#include "tests/coupling/import/foreign_files.h"
+
+namespace
+{
+  using namespace diptych::coupling;
+  using namespace diptych::coupling::foreign_files;
+
+  struct Outcome
+  {
+    bool refused = false, doubtful = false, near = false;
+  };
+
+  // `near`: what was taken is what stood there, to 3 % of the stress, 0.1 % of the radii's area and a diameter in every place.
+  Outcome outcome_of(const Case &c, const ForeignOptions &options, const Arrival &whole)
+  {
+    Outcome outcome;
+    try
+      {
+        const Arrival         arrival = arrival_of(c, options);
+        const DiscreteResults results = imported_results(arrival);
+        outcome.doubtful              = !arrival.doubtful.empty();
+        outcome.near                  = arrival.checks.size() == whole.checks.size();
+        for (std::size_t k = 0; outcome.near && k < whole.checks.size(); ++k)
+          {
+            const ArrivalCheck &a = arrival.checks[k], &b = whole.checks[k];
+            const double        stress = (a.contact_stress - b.contact_stress).norm() / b.contact_stress.norm();
+            outcome.near &= a.grains == b.grains && (std::isnan(stress) || stress < 0.03) &&
+                            std::abs(a.solid_fraction / b.solid_fraction - 1) < 1e-3;
+            for (std::size_t i = 0; i < whole.frames[k].position.size(); ++i)
+              outcome.near &= (arrival.frames[k].position[i] - whole.frames[k].position[i]).norm() < whole.mean_diameter;
+          }
+        for (const diptych::discrete::Snapshot &s : results.snapshots)
+          for (const Eigen::Vector2d &x : s.position)
+            EXPECT_TRUE(x.allFinite());
+      }
+    catch (const std::invalid_argument &error)
+      {
+        outcome.refused = true;
+        EXPECT_NE(std::string(error.what()), "");
+      }
+    return outcome;
+  }
+
+  // One of the case's files, chosen by chance.
+  ForeignOptions damaged(const Case                               &c,
+                         const Scratch                            &scratch,
+                         std::mt19937                             &random,
+                         const std::function<void(std::string &)> &damage)
+  {
+    return with_changed(c, scratch, c.files[random() % c.files.size()], damage);
+  }
+
+  class ImportDamage : public testing::TestWithParam<std::string>
+  {};
+
+  // Whole lines may be missing at the end only where nothing counts them; then stresses or grains tell.
+  TEST_P(ImportDamage, CutOffFilesAreRefusedOrDoubted)
+  {
+    const Case    c     = case_of(GetParam());
+    const Arrival whole = arrival_of(c, options_of(c));
+    std::mt19937  random(1);
+    int           silent = 0, refused = 0;
+    for (int k = 0; k < 100; ++k)
+      {
+        const Scratch scratch;
+        const Outcome outcome = outcome_of(
+          c, damaged(c, scratch, random, [&](std::string &text) { text.resize(random() % text.size()); }), whole);
+        refused += outcome.refused;
+        silent += !outcome.refused && !outcome.doubtful && !outcome.near;
+      }
+    EXPECT_EQ(silent, 0);
+    EXPECT_GE(refused, 85) << "of 100";
+  }
+
+  TEST_P(ImportDamage, AFlippedBitIsRefusedDoubtedOrSmall)
+  {
+    const Case    c     = case_of(GetParam());
+    const Arrival whole = arrival_of(c, options_of(c));
+    std::mt19937  random(2);
+    int           silent = 0;
+    for (int k = 0; k < 100; ++k)
+      {
+        const Scratch  scratch;
+        std::string    what;
+        ForeignOptions options = damaged(c, scratch, random, [&](std::string &text) {
+          const std::size_t at = random() % text.size();
+          text[at]             = char(text[at] ^ (1 << random() % 8));
+          what                 = "byte " + std::to_string(at) + ": " + text.substr(at < 40 ? 0 : at - 40, 80);
+        });
+        const Outcome  outcome = outcome_of(c, options, whole);
+        silent += !outcome.refused && !outcome.doubtful && !outcome.near;
+        EXPECT_TRUE(outcome.refused || outcome.doubtful || outcome.near) << what;
+      }
+    EXPECT_EQ(silent, 0);
+  }
+
+  INSTANTIATE_TEST_SUITE_P(Formats,
+                           ImportDamage,
+                           testing::Values("lammps", "liggghts", "yade", "lmgc90", "lmgc90_hdf5", "mercurydpm", "csv"),
+                           [](const auto &info) { return info.param; });
+} // namespace

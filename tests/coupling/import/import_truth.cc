@@ -1,0 +1,126 @@
+// diptych: samples of six codes against numbers made of the same files without this program
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "coupling/import/imported_results.h"
+#include "tests/coupling/import/foreign_files.h"
+
+namespace
+{
+  using namespace diptych::coupling;
+  using namespace diptych::coupling::foreign_files;
+  using nlohmann::json;
+
+  // Told as numbers, or as [rows, rows with force].
+  int wall_contacts(const json &frame)
+  {
+    for (const char *key :
+         {"contacts_wall", "contact_rows_wall", "contacts_wall_with_force", "contacts_wall_rows_and_with_force"})
+      if (const auto found = frame.find(key); found != frame.end())
+        {
+          if (found->is_number())
+            return found->get<int>();
+          int sum = 0;
+          for (const auto &side : *found)
+            sum += side.is_array() ? side.at(1).get<int>() : side.get<int>();
+          return sum;
+        }
+    ADD_FAILURE() << "no wall contacts in the truth";
+    return -1;
+  }
+
+  Eigen::Matrix2d in_compression(const json &tension)
+  {
+    Eigen::Matrix2d stress;
+    for (const int a : {0, 1})
+      for (const int b : {0, 1})
+        stress(a, b) = -tension.at(std::size_t(a)).at(std::size_t(b)).get<double>();
+    return stress;
+  }
+
+  void compare(const Case &c, const ArrivalCheck &check, const json &frame)
+  {
+    const auto contacts = frame.contains("contacts_grain_grain") ? frame.at("contacts_grain_grain")
+                                                                 : frame.at("contacts_grain_grain_with_force");
+    EXPECT_EQ(check.contacts, contacts.get<int>());
+    EXPECT_EQ(check.lower_contacts + check.upper_contacts + check.left_contacts + check.right_contacts, wall_contacts(frame));
+    EXPECT_EQ(check.grains, frame.value("grains", 400));
+    const double mass = frame.at("mass").get<double>(); // the tables hold none
+    EXPECT_TRUE(c.name == "csv" ? std::isnan(check.mass) : std::abs(check.mass - mass) < 1e-6 * mass) << check.mass;
+    const Eigen::Matrix2d stress = in_compression(frame.at("mean_stress_from_contacts")),
+                          walls  = in_compression(frame.at("mean_stress_from_wall_forces"));
+    const double size            = stress.cwiseAbs().maxCoeff();
+    EXPECT_LT((check.contact_stress - stress).cwiseAbs().maxCoeff(), c.stress_tolerance * size) << check.contact_stress << "\n"
+                                                                                                << stress;
+    // Walls' sums are printed with fewer digits, or evaluated at another moment of the step (0.02 % in LMGC90, README there).
+    EXPECT_LT((check.wall_stress - walls).cwiseAbs().maxCoeff(), 4e-4 * size) << check.wall_stress << "\n" << walls;
+    EXPECT_NEAR(100 * check.stress_difference, frame.value("difference_contacts_walls_percent", 100 * check.stress_difference),
+                0.05);
+  }
+
+  TEST(ImportTruth, CountsMassesAndStressesAreThoseOfTheFiles)
+  {
+    for (const Case &c : cases())
+      {
+        SCOPED_TRACE(c.name);
+        const json    truth   = json::parse(text_of_file(path_of(c.truth + "/truth.json"))).at("frames");
+        const Arrival arrival = arrival_of(c, options_of(c));
+        ASSERT_EQ(arrival.checks.size(), truth.size());
+        for (const ArrivalCheck &check : arrival.checks)
+          for (const auto &[key, frame] : truth.items())
+            if (check.name == key || check.name == "step " + key || check.name == "_" + key || check.name == "time " + key)
+              {
+                SCOPED_TRACE(key);
+                compare(c, check, frame);
+              }
+        EXPECT_TRUE(arrival.doubtful.empty()) << arrival.doubtful.front();
+      }
+  }
+
+  // The largest difference from the resultants that a code wrote beside: nine digits, but LIGGGHTS evaluates the law anew after
+  // the velocities moved on (2 % on moving plates).
+  TEST(ImportTruth, ForcesOnEveryGrainAreThoseThatTheCodeAddedUp)
+  {
+    for (const auto &[name, tolerance] : {std::pair("lammps", 1e-4), std::pair("liggghts", 0.03), std::pair("yade", 1e-6)})
+      {
+        const Case c = case_of(name);
+        for (const ArrivalCheck &check : arrival_of(c, options_of(c)).checks)
+          {
+            EXPECT_TRUE(check.against_resultants);
+            EXPECT_LT(check.balance_rms, tolerance) << name << " " << check.name;
+          }
+      }
+  }
+
+  TEST(ImportTruth, TextAndHdf5OfOneRunAreOneSample)
+  {
+    const Arrival text    = arrival_of(case_of("lmgc90"), options_of(case_of("lmgc90"))),
+                  hdf5    = arrival_of(case_of("lmgc90_hdf5"), options_of(case_of("lmgc90_hdf5")));
+    const ArrivedFrame &a = text.frames[1], &b = hdf5.frames[2]; // OUT.3 and ID_3
+    ASSERT_EQ(a.contacts.size(), b.contacts.size());
+    for (std::size_t i = 0; i < a.position.size(); ++i)
+      EXPECT_LT((a.position[i] - b.position[i]).norm(), 1e-9);
+  }
+
+  // A snapshot's internal moments sum up to the mean stress of the check, symmetrised; the rest of the chain stands on them.
+  TEST(ImportTruth, InternalMomentsSumUpToTheMeanStress)
+  {
+    for (const Case &c : cases())
+      {
+        SCOPED_TRACE(c.name);
+        const Arrival         arrival = arrival_of(c, options_of(c));
+        const DiscreteResults results = imported_results(arrival);
+        for (std::size_t k = 0; k < results.snapshots.size(); ++k)
+          {
+            Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+            for (const Eigen::Matrix2d &moment : results.snapshots[k].internal_moment)
+              sum += moment;
+            const Eigen::Matrix2d stress = arrival.checks[k].contact_stress;
+            EXPECT_LT((sum / results.snapshots[k].area - 0.5 * (stress + stress.transpose())).norm(), 1e-4 * stress.norm());
+            EXPECT_NEAR(results.snapshots[k].axial_strain, arrival.checks[k].axial_strain, 1e-15);
+          }
+      }
+  }
+} // namespace
