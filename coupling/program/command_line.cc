@@ -11,12 +11,11 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <CLI/Version.hpp>
 
+#include "coupling/program/built_with.h"
 #include "coupling/program/completion.h"
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_file.h"
-#include "coupling/version.h"
 #include "discrete/files/nearest_name.h"
 
 namespace diptych::coupling
@@ -26,16 +25,6 @@ namespace diptych::coupling
     constexpr char footer[] =
       "Exit codes: 0 done, 1 a stated invariant failed, 2 wrong input, 3 did not converge or was stopped (what was "
       "reached is kept),\n4 the system failed: disk, folder, library, script (what was kept is said)";
-
-    // Versions as the build saw them.
-    std::string built_with()
-    {
-      const std::string libraries = std::string("Eigen ") + eigen_version + ", HDF5 " + hdf5_version + ", CLI11 " + CLI11_VERSION;
-      const std::string panels    = std::string(", deal.II ") + deal_ii_version + ", Trilinos " + trilinos_version + ", p4est " +
-                                 p4est_version + ", gmsh API " + gmsh_version;
-      return std::string("diptych ") + version + " (" + git_revision + ")\nbuilt by " + compiler_version + ", " + build_type +
-             "\nwith " + libraries + (std::string(deal_ii_version) == "none" ? ", without the continuum" : panels);
-    }
 
     // The commands with the options that each of them uses, and no others.
     class Commands
