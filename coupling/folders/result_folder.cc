@@ -20,10 +20,10 @@ namespace diptych::coupling
     namespace fs = std::filesystem;
 
     const std::vector<std::string> panel_files = {
-      "discrete.h5",    "discrete.xdmf",           "discrete.csv",      "discrete",        "continuum.h5", "continuum.xdmf",
-      "continuum.csv",  "continuum.pvd",           "continuum",         "provenance.json", "coarse",       "checkpoint.h5",
-      "study_step.csv", "study_step.json",         "study_step.png",    "step_1",          "step_2",       "step_4",
-      "sample.msh",     "continuum_checkpoint.h5", "material_point.csv"};
+      "discrete.h5",    "discrete.xdmf",           "discrete.csv",       "discrete",        "continuum.h5", "continuum.xdmf",
+      "continuum.csv",  "continuum.pvd",           "continuum",          "provenance.json", "coarse",       "checkpoint.h5",
+      "study_step.csv", "study_step.json",         "study_step.png",     "step_1",          "step_2",       "step_4",
+      "sample.msh",     "continuum_checkpoint.h5", "material_point.csv", "import.json"};
   } // namespace
 
   const std::vector<std::string> comparison_files = {"comparison.json", "comparison.csv", "comparison.h5",

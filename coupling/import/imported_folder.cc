@@ -24,21 +24,24 @@ namespace diptych::coupling
 
   namespace
   {
-    constexpr double same_stage = 1e-9;
+    // Samples of one ensemble were written at nearly the same strains, not at the same bits.
+    constexpr double same_stage = 1e-3; // of the stage
 
-    void require_stages(const Scene &scene, const std::string &file, const DiscreteResults &results)
+    void take_stages(const Scene &scene, const std::string &file, DiscreteResults &results)
     {
       const std::vector<double> wanted = stages(scene.loading);
       if (results.snapshots.size() != wanted.size() + 1)
         throw SceneError("discrete/file = '" + file + "' holds " + std::to_string(results.snapshots.size()) +
                          " frames; loading/stages are " + std::to_string(wanted.size()) + " and the start");
       for (std::size_t k = 0; k < wanted.size(); ++k)
-        if (std::abs(results.snapshots[k + 1].progress - wanted[k]) > same_stage)
+        if (std::abs(results.snapshots[k + 1].progress - wanted[k]) > same_stage * wanted[k])
           throw SceneError("discrete/file = '" + file + "': frame " + std::to_string(k + 1) + " is at " +
                            text_of(results.snapshots[k + 1].progress) + ", loading/stages say " + text_of(wanted[k]));
       if (results.rows.size() != results.snapshots.size())
         throw SceneError("discrete/file = '" + file + "': discrete.csv beside it has " + std::to_string(results.rows.size()) +
                          " rows, not one a frame");
+      for (std::size_t k = 0; k < wanted.size(); ++k)
+        results.snapshots[k + 1].progress = results.rows[k + 1].progress = wanted[k];
     }
   } // namespace
 
@@ -59,7 +62,7 @@ namespace diptych::coupling
       {
         throw SceneError("discrete/file = '" + file + "': " + error.what());
       }
-    require_stages(scene, file, results);
+    take_stages(scene, file, results);
     return results;
   }
 

@@ -14,7 +14,8 @@ namespace diptych::coupling
   std::string imported_file(const Scene &scene);
 
   // discrete.h5, discrete.csv and the facts of an import. Throws SceneError naming key and file where they are missing or broken,
-  // or hold other stages than the scene.
+  // or hold other stages
+  // than the scene, by more than a thousandth; less is taken for the scene\'s.
   DiscreteResults load_imported(const Scene &scene);
 
   // Motion of the walls over the progress (the tables' time), linear between frames.

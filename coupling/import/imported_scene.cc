@@ -84,6 +84,12 @@ namespace diptych::coupling
     set("file", "discrete.h5");
     set("lateral", sides ? "rigid_walls" : "end_grains");
     end();
+    if (sides && axial) // rough platens would hold the corners that the wall takes along
+      {
+        begin("continuum");
+        set("platens", "smooth");
+        end();
+      }
     begin("comparison");
     set("window_edges", listed(windows(stages)));
     set("averaging_strain", exact_text(0.999 * shortest));

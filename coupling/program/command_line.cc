@@ -14,6 +14,7 @@
 
 #include "coupling/program/built_with.h"
 #include "coupling/program/completion.h"
+#include "coupling/program/refused_line.h"
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_file.h"
 #include "discrete/files/nearest_name.h"
@@ -271,50 +272,6 @@ namespace diptych::coupling
           joined_words.push_back(word);
       return joined_words;
     }
-
-    std::vector<std::string> command_names(CLI::App &app)
-    {
-      std::vector<std::string> names;
-      for (const CLI::App *command : app.get_subcommands({}))
-        names.push_back(command->get_name());
-      return names;
-    }
-
-    // What is wrong with a line that names no command.
-    std::string refused_command(CLI::App &app, const std::vector<std::string> &words, const std::string &error)
-    {
-      const std::vector<std::string> names     = command_names(app);
-      const std::string             &first     = words.front();
-      const bool                     is_option = first.rfind('-', 0) == 0;
-      return "diptych: " +
-             (is_option ? error
-                        : "'" + first + "' is no command; the nearest is '" + discrete::nearest_name(first, names) + "'") +
-             "; the commands are " + joined(names) + "; see diptych --help";
-    }
-
-    // "; it is one of diptych run" for an option that only other commands have.
-    std::string owners_of(CLI::App &app, const std::string &option)
-    {
-      std::vector<std::string> owners;
-      for (CLI::App *command : app.get_subcommands({}))
-        for (const std::string &name : option_names(*command))
-          if (name == option)
-            owners.push_back("diptych " + command->get_name());
-      return owners.empty() ? "" : "; it is one of " + joined(owners, ", ");
-    }
-
-    // "diptych compare: ...; it has --help --set --quiet"
-    std::string refusal(CLI::App &app, const std::vector<std::string> &words, const CLI::ParseError &error)
-    {
-      const std::vector<CLI::App *> found = app.get_subcommands();
-      if (found.empty())
-        return refused_command(app, words, error.what());
-      CLI::App   &asked = *found.front();
-      std::string text  = error.what();
-      if (const std::vector<std::string> extra = asked.remaining(true); !extra.empty())
-        text = "'" + joined(extra) + "' is not used" + owners_of(app, extra.front());
-      return "diptych " + asked.get_name() + ": " + text + "; it has " + joined(option_names(asked));
-    }
   } // namespace
 
   namespace
@@ -332,38 +289,24 @@ namespace diptych::coupling
 
   std::string name_of(const Command command)
   {
-    switch (command)
-      {
-      case Command::run:
-        return "run";
-      case Command::study:
-        return "study";
-      case Command::plan:
-        return "plan";
-      case Command::calibrate:
-        return "calibrate";
-      case Command::discrete:
-        return "discrete";
-      case Command::continuum:
-        return "continuum";
-      case Command::material_point:
-        return "material-point";
-      case Command::solve:
-        return "solve";
-      case Command::compare:
-        return "compare";
-      case Command::report:
-        return "report";
-      case Command::import_sample:
-        return "import";
-      case Command::export_sample:
-        return "export";
-      case Command::explain:
-        return "explain";
-      case Command::completion:
-        break;
-      }
-    return "completion";
+    constexpr std::pair<Command, const char *> names[] = {{Command::run, "run"},
+                                                          {Command::study, "study"},
+                                                          {Command::plan, "plan"},
+                                                          {Command::calibrate, "calibrate"},
+                                                          {Command::discrete, "discrete"},
+                                                          {Command::continuum, "continuum"},
+                                                          {Command::material_point, "material-point"},
+                                                          {Command::solve, "solve"},
+                                                          {Command::compare, "compare"},
+                                                          {Command::report, "report"},
+                                                          {Command::import_sample, "import"},
+                                                          {Command::export_sample, "export"},
+                                                          {Command::explain, "explain"},
+                                                          {Command::completion, "completion"}};
+    for (const auto &[known, name] : names)
+      if (known == command)
+        return name;
+    throw std::logic_error("a command without a name");
   }
 
   ParsedLine parse_command_line(const std::vector<std::string> &words)

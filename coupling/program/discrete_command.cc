@@ -15,10 +15,12 @@
 #include "coupling/import/imported_folder.h"
 #include "coupling/processes/progress.h"
 #include "coupling/processes/stop_signal.h"
+#include "coupling/program/imported_grains.h"
 #include "coupling/program/report_command.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_error.h"
 #include "discrete/files/table_file.h"
+#include "discrete/files/text_file.h"
 #include "discrete/panel/checkpoint.h"
 #include "discrete/panel/snapshot_file.h"
 
@@ -70,13 +72,6 @@ namespace diptych::coupling
       f.reached_shear_strain               = r.shear_strain;
       f.message                            = r.message;
       return f;
-    }
-
-    std::string problem_name(const int stage)
-    {
-      char name[32];
-      std::snprintf(name, sizeof name, "/problem_%04d.h5", stage);
-      return name;
     }
 
     std::string checkpoint_file(const Scene &scene)
@@ -285,15 +280,6 @@ namespace diptych::coupling
       discrete::Panel                       panel;
     };
 
-    void forget_earlier_run(const Scene &scene)
-    {
-      const std::string &directory = scene.output.directory;
-      forget_fact(directory, "discrete"); // killed, this one is not finished
-      remove_results(directory, {"discrete.h5", "discrete.xdmf", "discrete.csv", "discrete", "checkpoint.h5"});
-      for (std::size_t stage = 1; stage <= stages(scene.loading).size(); ++stage)
-        std::filesystem::remove(directory + problem_name(int(stage)));
-    }
-
     void record(const CommandLine      &line,
                 const Scene            &scene,
                 const discrete::Report &report,
@@ -322,25 +308,6 @@ namespace diptych::coupling
                   << scene.output.directory << " --resume (with the same --set)";
       std::cerr << std::endl;
       return not_converged;
-    }
-
-    // Frames of another code in the place of a run: copied, so that the folder is whole without the import's.
-    int take_imported(const CommandLine &line, const Scene &scene)
-    {
-      const std::string    &directory = scene.output.directory;
-      const PhaseTimer      timer("discrete");
-      const DiscreteResults imported = load_imported(scene);
-      remove_results(directory, comparison_files);
-      forget_earlier_run(scene);
-      discrete::TableFile table(directory + "/discrete.csv", discrete::csv_header<discrete::HistoryRow>());
-      for (const discrete::HistoryRow &row : imported.rows)
-        table.add(discrete::csv_line(row));
-      table.flush();
-      discrete::write_snapshots(directory + "/discrete", imported.snapshots);
-      record_phases(directory, scene, line.text, {timer.stop()});
-      record_facts(directory, imported.facts);
-      say(line, "the grains are those of " + imported_file(scene));
-      return done;
     }
 
     void check_study(const Scene &scene)

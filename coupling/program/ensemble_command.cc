@@ -8,6 +8,7 @@
 #include "coupling/ensembles/ensemble_folder.h"
 #include "coupling/ensembles/seed_list.h"
 #include "coupling/folders/result_folder.h"
+#include "coupling/import/imported_folder.h"
 #include "coupling/panels/continuum_loading.h"
 #include "coupling/processes/processes.h"
 #include "coupling/program/compare_command.h"
@@ -28,6 +29,21 @@ namespace diptych::coupling
       return text;
     }
 
+    // Every sample of an ensemble of imported ones must be there, each once.
+    void check_imported_seeds(const CommandLine &line, Scene &scene)
+    {
+      if (scene.discrete.method.method != discrete::Method::imported)
+        return;
+      if (scene.discrete.method.file.find("{seed}") == std::string::npos)
+        throw SceneError("--seeds " + line.seeds + ": discrete/file = '" + scene.discrete.method.file +
+                         "' is one sample; write {seed} in its path where the samples differ");
+      for (const int seed : read_seeds(line.seeds))
+        {
+          scene.sample.seed = seed;
+          (void)load_imported(scene);
+        }
+    }
+
     // Everything that would make all members fail is refused here.
     Scene ensemble_scene(const CommandLine &line)
     {
@@ -38,6 +54,7 @@ namespace diptych::coupling
       if (!scene.sample.file.empty())
         throw SceneError("--seeds " + line.seeds + ": sample/file = '" + scene.sample.file +
                          "' is one sample; only samples that are generated depend on a seed");
+      check_imported_seeds(line, scene);
       require_continuum(scene);
       check_comparable(scene);
       // A single run of the scene may stand in its own folder.

@@ -6,6 +6,7 @@
 
 #include "coupling/comparison/step_comparison.h"
 #include "coupling/folders/origin.h"
+#include "coupling/import/import_record.h"
 #include "coupling/program/result_entries.h"
 #include "coupling/scene/scene_file.h"
 #include "discrete/panel/history.h"
@@ -42,6 +43,9 @@ namespace diptych::coupling
     add_table("study_step.csv", step_study_columns(), result);
     add_record("study_step.json", StepComparison(), result);
     add_record("provenance.json", ProvenanceDocument{Origin(), RunFacts()}, result);
+    add_record("import.json", ImportRecord(), result);
+    result.push_back({h5, "not_told", "attribute, name", "-",
+                      "arrays that the files of another code did not hold: not in this file (imported)"});
     result.push_back({"checkpoint.h5, continuum_checkpoint.h5", "/", "group", "",
                       "what --resume goes on from; its arrays are the program's own and change with it"});
     return result;

@@ -28,8 +28,8 @@ namespace
     {"discrete", {"files", "bodies", "contacts", "solvers", "stepping", "problem_files", "samples", "panel"}},
     {"continuum", {"laws", "mesh", "elements", "equilibrium", "panel"}},
     {"coupling",
-     {"cells", "statistics", "numbers", "processes", "files", "averaging", "fields", "bands", "probes", "scene", "folders",
-      "results", "import", "comparison", "panels", "ensembles", "studies", "plans", "calibration", "program"}}};
+     {"cells",   "statistics", "numbers", "processes",  "files",  "averaging", "fields",  "bands", "probes",      "scene",
+      "folders", "results",    "import",  "comparison", "panels", "ensembles", "studies", "plans", "calibration", "program"}}};
 
   std::vector<std::string> includes_of(const fs::path &file)
   {

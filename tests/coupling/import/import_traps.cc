@@ -387,17 +387,4 @@ namespace
                          arrival_of(c, options_of(c)).frames[1].wall[std::size_t(side)]),
                 0.02 * d);
   }
-
-  TEST(ImportTraps, MissingNumbersAreNotInvented)
-  {
-    const Case            c       = case_of("csv");
-    const DiscreteResults results = imported_results(arrival_of(c, options_of(c)));
-    EXPECT_TRUE(std::isnan(results.snapshots[1].mass[0]));
-    EXPECT_TRUE(std::isnan(results.snapshots[1].rotation[0]));
-    EXPECT_TRUE(std::isnan(results.rows[1].time));
-    EXPECT_TRUE(std::isnan(results.rows[1].kinetic_energy));
-    EXPECT_TRUE(std::isnan(results.rows[1].friction_dissipation));
-    EXPECT_TRUE(results.snapshots[1].window_dissipation.empty());
-    EXPECT_EQ(results.snapshots[1].status[0], diptych::discrete::ContactStatus::unknown);
-  }
 } // namespace

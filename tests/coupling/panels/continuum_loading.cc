@@ -122,8 +122,8 @@ namespace
     scene.discrete.drives.right_x        = "velocity -0.1";
     const auto driven                    = continuum_loading(scene, sample).lateral;
     EXPECT_FALSE(std::get<continuum::RigidSides>(pressed).widening);
-    EXPECT_DOUBLE_EQ(*std::get<continuum::RigidSides>(moved).widening, 30);
-    EXPECT_DOUBLE_EQ(*std::get<continuum::RigidSides>(driven).widening, -10);
+    EXPECT_DOUBLE_EQ(std::get<continuum::RigidSides>(moved).widening(1.), 30);
+    EXPECT_DOUBLE_EQ(std::get<continuum::RigidSides>(driven).widening(1.), -10);
     scene.discrete.drives.right_x  = "auto";
     scene.discrete.lateral.lateral = discrete::Lateral::periodic;
     scene.loading.mode             = LoadingMode::time; // the progress is the time itself

@@ -33,6 +33,7 @@ class Result:
     numbers: Descriptions
     arrays: dict
     scene_text: str   # echo of the scene, empty if absent
+    imported: dict    # import.json of another code's sample; {} where the grains are our own
 
     @property
     def walk(self) -> Walk:
@@ -91,4 +92,9 @@ def load(folder):
     except (KeyError, TypeError) as error:
         raise InputError(f"{folder}/comparison.json: a stage or a window is incomplete: {error}") from error
     return Result(comparison, read_json(os.path.join(folder, "provenance.json")), histories, increments, units, numbers, arrays,
-                  read_text(os.path.join(folder, "scene.prm")))
+                  read_text(os.path.join(folder, "scene.prm")), imported_of(folder))
+
+
+def imported_of(folder):
+    path = os.path.join(folder, "import.json")
+    return read_json(path) if os.path.exists(path) else {}

@@ -61,7 +61,7 @@ def draw(folder):
 def page(result):
     maps = viewer.data(result)
     return template("result.html").render(
-        comparison=result.comparison, parts=parts(result), maps=maps, map_json=viewer.as_json(maps) if maps else "",
+        comparison=result.comparison, imported=result.imported, parts=parts(result), maps=maps, map_json=viewer.as_json(maps) if maps else "",
         still=opening.still_pair(result), curves=histories.figures(result) + ledgers.figures(result),
         solver=ledgers.solver(result), trends=trends.figures(result),
         resolution=resolution.figures(result), resolution_verdict=said(resolution.verdict(result)),

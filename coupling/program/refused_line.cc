@@ -1,0 +1,56 @@
+// diptych: words of the command line that are refused
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/program/refused_line.h"
+
+#include "coupling/program/completion.h"
+#include "coupling/scene/keys.h"
+#include "discrete/files/nearest_name.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    std::vector<std::string> command_names(CLI::App &app)
+    {
+      std::vector<std::string> names;
+      for (const CLI::App *command : app.get_subcommands({}))
+        names.push_back(command->get_name());
+      return names;
+    }
+
+    // What is wrong with a line that names no command.
+    std::string refused_command(CLI::App &app, const std::vector<std::string> &words, const std::string &error)
+    {
+      const std::vector<std::string> names     = command_names(app);
+      const std::string             &first     = words.front();
+      const bool                     is_option = first.rfind('-', 0) == 0;
+      return "diptych: " +
+             (is_option ? error
+                        : "'" + first + "' is no command; the nearest is '" + discrete::nearest_name(first, names) + "'") +
+             "; the commands are " + joined(names) + "; see diptych --help";
+    }
+
+    // "; it is one of diptych run" for an option that only other commands have.
+    std::string owners_of(CLI::App &app, const std::string &option)
+    {
+      std::vector<std::string> owners;
+      for (CLI::App *command : app.get_subcommands({}))
+        for (const std::string &name : option_names(*command))
+          if (name == option)
+            owners.push_back("diptych " + command->get_name());
+      return owners.empty() ? "" : "; it is one of " + joined(owners, ", ");
+    }
+  } // namespace
+
+  std::string refusal(CLI::App &app, const std::vector<std::string> &words, const CLI::ParseError &error)
+  {
+    const std::vector<CLI::App *> found = app.get_subcommands();
+    if (found.empty())
+      return refused_command(app, words, error.what());
+    CLI::App   &asked = *found.front();
+    std::string text  = error.what();
+    if (const std::vector<std::string> extra = asked.remaining(true); !extra.empty())
+      text = "'" + joined(extra) + "' is not used" + owners_of(app, extra.front());
+    return "diptych " + asked.get_name() + ": " + text + "; it has " + joined(option_names(asked));
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,183 @@
+#!/usr/bin/env python3
+# diptych: another code's files from the command line to the report
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: import_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
+
+import glob
+import json
+import os
+import shutil
+import tempfile
+import unittest
+
+import h5py
+import numpy
+
+from running import SOURCE, bits, content, diptych, history, listing, main, write
+
+FOREIGN = os.path.join(SOURCE, "tests", "foreign")
+COARSE = ["--set", "continuum/element_size=3", "--set", "comparison/coarse_element_size=0", "--set", "output/report=false"]
+
+
+def files(pattern):
+    return sorted(glob.glob(os.path.join(FOREIGN, pattern)))
+
+
+LAMMPS = files("lammps/*.dump") + files("lammps/walls.txt")
+MERCURY = [f for f in files("mercurydpm/Biaxial2D.*") if not f.endswith((".cpp", ".walls.txt"))]
+YADE = files("yade/spheres_*.txt") + files("yade/contacts_*.txt") + files("yade/walls_*.txt")
+CSV = files("plain_csv/*.csv")
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def done(self, *words):
+        run = diptych(*words)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return run.stdout
+
+    def refused(self, *words, says):
+        before = listing(self.folder)
+        run = diptych(*words)
+        self.assertEqual(run.returncode, 2, run.stderr)
+        self.assertIn(says, run.stderr)
+        self.assertEqual(listing(self.folder), before)
+
+
+class Import(Case):
+    def test_a_sample_of_lammps_beside_the_continuum(self):
+        told = self.done("import", "lammps", *LAMMPS, "--output", self.path("mine"))
+        self.assertIn("not in the files: rotations", told)
+        self.done("run", self.path("mine", "scene.prm"), "--output", self.path("both"), "--quiet", "--set", "continuum/element_size=3",
+                  "--set", "comparison/coarse_element_size=0")
+        self.assertEqual(bits(self.path("mine", "discrete.h5")), bits(self.path("both", "discrete.h5")))
+        with open(self.path("both", "comparison.json")) as file:
+            stages = json.load(file)["stages"]
+        self.assertEqual(len(stages), 3)
+        # The mapped stress of the last stage: its mean over the mesh is that of the contacts, which truth.json has.
+        with open(os.path.join(FOREIGN, "lammps", "truth.json")) as file:
+            truth = -numpy.array(json.load(file)["frames"]["480000"]["mean_stress_from_contacts"])
+        grains = history(self.path("both"))
+        self.assertAlmostEqual(grains["sxx"][-1] / truth[0, 0], 1, delta=1e-6)
+        self.assertAlmostEqual(grains["syy"][-1] / truth[1, 1], 1, delta=1e-6)
+        with open(self.path("both", "report.html")) as file:
+            page = file.read()
+        self.assertIn("Grains imported from lammps", page)
+        self.assertIn("Not in the files, and left out below: rotations", page)
+        self.done("compare", self.path("both"), "--quiet")
+        self.done("report", self.path("both"), "--quiet")
+
+    def test_the_continuum_walks_as_the_walls_did(self):
+        self.done("import", "lammps", *LAMMPS, "--output", self.path("mine"), "--quiet")
+        scene = self.path("mine", "scene.prm")
+        self.done("continuum", scene, "--output", self.path("pressed"), "--quiet", *COARSE)
+        self.done("continuum", scene, "--output", self.path("moved"), "--quiet", *COARSE, "--set", "discrete/side_motion=velocity")
+        grains = history(self.path("mine"))
+        moved = history(self.path("moved"), "continuum.csv")
+        # Side walls moved as the imported ones: the same volume; the walls' height and width are given.
+        at = [numpy.argmin(abs(moved["axial_strain"] - strain)) for strain in grains["axial_strain"]]
+        numpy.testing.assert_allclose(moved["volumetric_strain"][at], grains["volumetric_strain"], atol=2e-6)
+        # Under the imported pressure: horizontal equilibrium, mean of the continuum's sxx over the height is the pressure of the right wall.
+        pressed = history(self.path("pressed"), "continuum.csv")
+        numpy.testing.assert_allclose(pressed["axial_strain"][-1], grains["axial_strain"][-1], rtol=1e-9)
+        self.assertNotAlmostEqual(pressed["volumetric_strain"][-1], grains["volumetric_strain"][-1], places=5)
+
+    def test_several_samples_are_an_ensemble(self):
+        self.done("import", "lammps", *LAMMPS, "--output", self.path("sample_1"), "--quiet")
+        self.done("import", "mercurydpm", *MERCURY, "--output", self.path("sample_2"), "--quiet")
+        self.done("import", "yade", *YADE, "--thickness", "1", "--output", self.path("sample_3"), "--quiet")
+        with open(self.path("sample_1", "scene.prm")) as file:
+            text = file.read()
+        write(self.path("all.prm"), text.replace("set file = discrete.h5", "set file = sample_{seed}/discrete.h5"))
+        self.done("run", self.path("all.prm"), "--seeds", "1-3", "--output", self.path("ensemble"), "--quiet", *COARSE)
+        with open(self.path("ensemble", "ensemble.json")) as file:
+            self.assertEqual(json.load(file)["seeds"], [1, 2, 3])
+        self.assertNotEqual(content(self.path("ensemble", "seed_1", "discrete.csv")), content(self.path("ensemble", "seed_2", "discrete.csv")))
+        self.refused("run", self.path("all.prm"), "--seeds", "1-4", "--output", self.path("more"), says="sample_4/discrete.h5")
+        self.refused("run", self.path("sample_1", "scene.prm"), "--seeds", "1-2", "--output", self.path("more"), says="{seed}")
+
+    def test_calibration_and_study_take_imported_samples(self):
+        self.done("import", "lammps", *LAMMPS, "--output", self.path("mine"), "--quiet")
+        calibration = {"targets": [{"name": "lammps", "scene": "mine/scene.prm", "seeds": "1", "set": {"continuum/element_size": 4}}],
+                       "quantities": ["stress_ratio"], "bins": [0.0101, 0.0201, 0.03001], "noise": {"stress_level": 0.02, "stress_shape": 0.02},
+                       "set": {"continuum/hardening": "exponential"}, "coarse_element_size": 5,
+                       "parameters": [{"key": "friction_angle_peak", "start": 30, "low": 12, "high": 50}]}
+        write(self.path("calibration.json"), json.dumps(calibration))
+        run = diptych("calibrate", self.path("calibration.json"), "--output", self.path("fit"), "--quiet")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn(b"friction_angle_peak", content(self.path("fit", "calibrated.prm")))
+        study = {"scene": "mine/scene.prm", "command": "run", "set": {"comparison/coarse_element_size": 0},
+                 "reference": {"continuum/element_size": 2}, "axes": [{"key": "continuum/element_size", "values": [4]}],
+                 "quantities": [{"name": "peak", "of": "continuum", "column": "stress_ratio", "largest": True, "limit": {"relative": 0.1}}]}
+        write(self.path("study.json"), json.dumps(study))
+        self.done("study", self.path("study.json"), "--output", self.path("study"), "--quiet")
+
+    def test_what_a_file_lacks_stays_unknown(self):
+        told = self.done("import", "csv", *CSV, "--output", self.path("mine"))
+        self.assertIn("not in the files: masses", told)
+        with h5py.File(self.path("mine", "discrete.h5")) as file:
+            self.assertNotIn("mass", file["stage_0001/grains"])
+            self.assertIn("grains/mass", file["stage_0001"].attrs["not_told"].decode())
+        self.assertTrue(numpy.isnan(history(self.path("mine"))["kinetic_energy"]).all())
+        self.done("run", self.path("mine", "scene.prm"), "--output", self.path("both"), "--quiet", *COARSE)
+        with open(self.path("both", "comparison.json")) as file:
+            self.assertNotIn("NaN", file.read())
+
+
+class Refused(Case):
+    def test_wrong_input_writes_nothing(self):
+        folder, out = self.folder, self.path("out")
+        self.refused("import", "lammps", self.path("absent.dump"), "--output", out, says="absent.dump")
+        self.refused("import", "yade", *YADE, "--output", out, says="--thickness")
+        self.refused("import", "nonsense", *LAMMPS, "--output", out, says="nonsense")
+        self.refused("import", "lmgc90", *LAMMPS, "--output", out, says="BODIES")
+        cut = write(self.path("cut.dump"), content(LAMMPS[0])[:5000].decode())
+        self.refused("import", "lammps", cut, *LAMMPS[1:], "--output", out, says="cut.dump, line")
+        self.refused("import", "csv", *CSV[:-1], "--output", out, says="--walls-touch")
+        os.mkdir(out)
+        write(self.path("out", "mine.txt"), "")
+        self.refused("import", "lammps", *LAMMPS, "--output", out, says="holds other files")
+        self.refused("import", "csv", *CSV, "--output", os.path.dirname(CSV[0]), says="plain_csv")
+
+    def test_a_scene_of_an_import_is_checked(self):
+        self.done("import", "lammps", *LAMMPS, "--output", self.path("mine"), "--quiet")
+        scene = self.path("mine", "scene.prm")
+        self.refused("compare", self.path("mine"), says="no continuum yet")
+        self.refused("run", scene, "--output", self.path("mine"), says="grains would be lost")
+        self.refused("run", scene, "--output", self.path("out"), "--set", "discrete/file=absent.h5", says="absent.h5")
+        self.refused("run", scene, "--output", self.path("out"), "--set", "loading/stages=0.01,0.03", "--set", "loading/axial_strain=0.03", "--set",
+                     "comparison/window_edges=0,0.03", says="frames")
+        self.refused("run", scene, "--output", self.path("out"), "--set", "loading/stages=0.01,0.02,0.031", "--set",
+                     "loading/axial_strain=0.031", "--set", "comparison/window_edges=0,0.031", says="frame 3 is at")
+        self.refused("discrete", scene, "--output", self.path("out"), "--study", "step", says="imported")
+
+
+class Export(Case):
+    def test_what_is_exported_comes_back(self):
+        self.done("import", "lammps", *LAMMPS, "--output", self.path("mine"), "--quiet")
+        self.done("run", self.path("mine", "scene.prm"), "--output", self.path("both"), "--quiet", *COARSE)
+        for name in ("csv", "lmgc90", "lammps", "yade"):
+            self.done("export", self.path("both"), "--format", name, "--output", self.path(name))
+        self.done("import", "csv", *sorted(glob.glob(self.path("csv", "*.csv"))), "--output", self.path("back_csv"), "--quiet")
+        self.done("import", "lmgc90", *sorted(glob.glob(self.path("lmgc90", "DATBOX", "*"))), "--output", self.path("back_lmgc90"), "--quiet")
+        self.done("import", "lammps", self.path("lammps", "sample.data"), "--walls-touch", "--output", self.path("back_lammps"), "--quiet")
+        self.done("import", "yade", self.path("yade", "sample.txt"), "--walls-touch", "--thickness", "1", "--output",
+                  self.path("back_yade"), "--quiet")
+        with h5py.File(self.path("mine", "discrete.h5")) as file:
+            place, radius = file["stage_0000/grains/position"][()], file["stage_0000/grains/radius"][()]
+        for name, digits in (("csv", 0), ("lmgc90", 1e-7), ("lammps", 0), ("yade", 0)):
+            with h5py.File(self.path("back_" + name, "discrete.h5")) as file:
+                numpy.testing.assert_allclose(file["stage_0000/grains/position"][()], place, atol=digits * place.max(), err_msg=name)
+                numpy.testing.assert_allclose(file["stage_0000/grains/radius"][()], radius, rtol=digits, atol=1e-18, err_msg=name)
+        self.refused("export", self.path("both"), "--format", "csv", "--output", self.path("csv"), says="stands there")
+        self.refused("export", self.path("both"), "--format", "csv", "--stage", "9", "--output", self.path("x"), says="0 to 3")
+
+
+if __name__ == "__main__":
+    main()
