@@ -6,6 +6,7 @@
 Made of what the program, the READMEs and the headers say; pages/*.md are the only words of its own, and their keys, commands and
 options are held against the program. OUTPUT is replaced as a whole. Exit code 1 naming what is stale: an equation that its source does
 not state, an unknown key or option, a link that leads nowhere."""
+import glob
 import html
 import json
 import os
@@ -86,15 +87,24 @@ class Directives:
         text = readmes.LINK.sub(lambda m: m[0] if re.match(r"\w+:|#", m[2]) else f"{m[1]}({posixpath.join('source', folder, m[2])})", text)
         return self.tree.with_links(readmes.spaced(text.strip()), "index.html", folder)
 
-    def do_readme(self, name):
-        """A README where there is one, without its title, its headings one deeper."""
+    def do_readme(self, argument):
+        """A README where there is one, below a heading in the place of its title: FILE, HEADING."""
+        name, heading = argument.split(", ", 1)
         if not os.path.exists(self.path(name, optional=True)):
             return ""
-        text = re.sub(r"\A# .*\n", "", text_of(self.path(name)))
-        return re.sub(r"^#", "##", self.moved(text, posixpath.dirname(name)), flags=re.MULTILINE)
+        text = self.moved(re.sub(r"\A#.*\n", "", text_of(self.path(name))), posixpath.dirname(name)).split("```")
+        deeper = [part if k % 2 else re.sub(r"^#(?=#* )", "##", part, flags=re.MULTILINE) for k, part in enumerate(text)]
+        return f"## {heading}\n\n" + "```".join(deeper)
 
     def do_docstrings(self, folder):
-        """Docstrings of the Python modules of a folder, where there is one."""
+        """Docstrings of the Python package that was built beside the program; else of the modules of a folder; else nothing."""
+        built = os.path.join(os.path.dirname(self.commands.program), "python")
+        if glob.glob(os.path.join(built, "diptych", "*.so")):
+            done = subprocess.run([sys.executable, "-B", os.path.join(HERE, "module_docs.py"), "diptych"], capture_output=True, text=True,
+                                  check=False, env={**os.environ, "PYTHONPATH": built})
+            if done.returncode != 0:
+                raise RuntimeError("the Python package does not load: " + done.stderr)
+            return "## What it has\n\n" + done.stdout
         found = []
         for root, folders, names in os.walk(self.path(folder, optional=True)):
             folders.sort()

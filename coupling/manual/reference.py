@@ -138,6 +138,7 @@ class Commands:
     """What `diptych --help` and `diptych COMMAND --help` print."""
 
     def __init__(self, program):
+        self.program = program
         self.overview = told(program, "--help")
         block = self.overview.split("Subcommands:\n")[1].split("\n\n")[0]
         self.names = re.findall(r"^  (\S+)", block, re.MULTILINE)

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/program/completion.h"
 
-#include <algorithm>
 #include <sstream>
 
 #include <CLI/App.hpp>
 
 #include "coupling/program/fish_completion.h"
+#include "coupling/program/option_values.h"
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene.h"
 
@@ -73,18 +73,6 @@ namespace diptych::coupling
       for (const std::string &name : option->get_lnames())
         names.push_back("--" + name);
     return names;
-  }
-
-  // CLI11 tells it as TEXT:{a,b}.
-  std::string values_of(const CLI::Option &option)
-  {
-    const std::string type = option.get_type_name();
-    const std::size_t open = type.find('{'), close = type.find('}');
-    if (open == std::string::npos || close == std::string::npos)
-      return "";
-    std::string values = type.substr(open + 1, close - open - 1);
-    std::replace(values.begin(), values.end(), ',', ' ');
-    return values;
   }
 
   std::string completion_script(CLI::App &app, const std::string &shell)

@@ -8,8 +8,7 @@
 namespace CLI
 {
   class App;
-  class Option;
-} // namespace CLI
+}
 
 namespace diptych::coupling
 {
@@ -17,9 +16,6 @@ namespace diptych::coupling
 
   // Options of a command as they are typed: --set, --help.
   std::vector<std::string> option_names(CLI::App &command);
-
-  // What an option or a word may be, where that is one of a few, divided by spaces; else empty.
-  std::string values_of(const CLI::Option &option);
 
   // For bash, zsh or fish: commands, their options, the keys of a scene behind --set, files else.
   std::string completion_script(CLI::App &app, const std::string &shell);

@@ -4,7 +4,7 @@
 
 #include <CLI/App.hpp>
 
-#include "coupling/program/completion.h"
+#include "coupling/program/option_values.h"
 
 namespace diptych::coupling
 {

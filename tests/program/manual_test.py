@@ -117,6 +117,19 @@ class Manual(Built):
         wrong = "`discrete/frictoin` and\n    diptych run SCENE --seed 1-8\n    diptych walk SCENE\n"
         self.assertEqual(reference.unknown_words(wrong, keys, commands), ["discrete/frictoin", "diptych run --seed", "diptych walk"])
 
+    def test_a_python_package_is_shown_by_its_docstrings(self):
+        with tempfile.TemporaryDirectory() as work:
+            os.mkdir(os.path.join(work, "grains"))
+            write(os.path.join(work, "grains", "__init__.py"), '"""Discs."""\n__all__ = ["Panel", "radii"]\n'
+                  'class Panel:\n    """One sample."""\n    def step(self, h=1):\n        """Goes on by h."""\n    def _own(self):\n'
+                  '        """Not shown."""\ndef radii(n):\n    """n numbers."""\ndef hidden():\n    """Not shown."""\n')
+            told = subprocess.run([sys.executable, "-B", os.path.join(MANUAL, "module_docs.py"), "grains"], capture_output=True,
+                                  text=True, check=True, env={**os.environ, "PYTHONPATH": work}).stdout
+        self.assertEqual(re.findall(r"^#+ .*$", told, re.MULTILINE), ["### `Panel`", "#### `step(self, h=1)`", "### `radii(n)`"])
+        for words in ("Discs.", "    One sample.", "    Goes on by h.", "    n numbers."):
+            self.assertIn(words, told)
+        self.assertNotIn("Not shown", told)
+
     def test_no_link_leads_nowhere(self):
         self.assertEqual(links.check(self.site)[0], [])
         with tempfile.TemporaryDirectory() as work:  # it can fail
