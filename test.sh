@@ -25,7 +25,8 @@ case "$preset" in
   sanitize) targets=(house_tests discrete_tests coupling_tests coupling_panel_tests)
             select+=(-R '^(house[.]House|discrete|coupling|coupling_panels)[.]') ;;
 esac
-packages+=(chromium python3-meshio dpkg-dev clang-format) # the tests alone: they open report.html, read the ParaView files back, make a package
+# The tests alone: they open report.html, read the ParaView files back, make a package and the manual.
+packages+=(chromium python3-meshio dpkg-dev clang-format mkdocs mkdocs-material libjs-katex fish man-db)
 install_missing
 build "$preset" "${targets[@]}"
 ctest --test-dir build/"$preset" --output-on-failure -j "$(cores)" "${select[@]}"

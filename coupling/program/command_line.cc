@@ -12,11 +12,11 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include "coupling/program/built_with.h"
 #include "coupling/program/completion.h"
 #include "coupling/program/refused_line.h"
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_file.h"
-#include "coupling/version.h"
 #include "discrete/files/nearest_name.h"
 
 namespace diptych::coupling
@@ -37,7 +37,7 @@ namespace diptych::coupling
       {
         app.require_subcommand(1);
         app.footer(footer);
-        app.set_version_flag("--version", std::string("diptych ") + version + " (" + git_revision + ")");
+        app.set_version_flag("--version", built_with());
         add_run();
         add_study();
         add_plan();
@@ -253,7 +253,7 @@ namespace diptych::coupling
         add(Command::completion, "a script that completes command lines: source <(diptych completion bash)")
           ->add_option("SHELL", line.target)
           ->required()
-          ->check(CLI::IsMember({"bash", "zsh"}));
+          ->check(CLI::IsMember({"bash", "zsh", "fish"}));
       }
 
       CommandLine                  &line;

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/program/completion.h"
 
-#include <algorithm>
 #include <sstream>
 
 #include <CLI/App.hpp>
 
+#include "coupling/program/fish_completion.h"
+#include "coupling/program/option_values.h"
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene.h"
 
@@ -47,18 +48,6 @@ namespace diptych::coupling
       return lines;
     }
 
-    // What an option or a word may be, where that is one of a few: CLI11 tells it as TEXT:{a,b}.
-    std::string values_of(const CLI::Option &option)
-    {
-      const std::string type = option.get_type_name();
-      const std::size_t open = type.find('{'), close = type.find('}');
-      if (open == std::string::npos || close == std::string::npos)
-        return "";
-      std::string values = type.substr(open + 1, close - open - 1);
-      std::replace(values.begin(), values.end(), ',', ' ');
-      return values;
-    }
-
     std::string words_of(CLI::App &command)
     {
       std::string words;
@@ -89,10 +78,13 @@ namespace diptych::coupling
   std::string completion_script(CLI::App &app, const std::string &shell)
   {
     const std::vector<KeyDescription> keys = keys_of_scenes();
-    std::ostringstream                out;
-    std::vector<std::string>          commands;
-    std::string                       choices; // a line for each option that has a few
-    out << "# diptych: completion, made by `diptych completion " << shell << "`\n";
+    if (shell == "fish")
+      return fish_completion(app, keys);
+    std::ostringstream       out;
+    std::vector<std::string> commands;
+    std::string              choices; // a line for each option that has a few
+    out << (shell == "zsh" ? "#compdef diptych\n" : "") << "# diptych: completion, made by `diptych completion " << shell
+        << "`\n";
     if (shell == "zsh")
       out << "autoload -U +X bashcompinit && bashcompinit\n";
     out << "_diptych()\n{\n  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} options=\"\" words=\"\" "
@@ -118,6 +110,8 @@ namespace diptych::coupling
         << "  elif [ -n \"$words\" ]; then\n    COMPREPLY=($(compgen -W \"$words\" -- \"$word\"))\n"
         << "  else\n    compopt -o filenames 2>/dev/null\n    COMPREPLY=($(compgen -f -- \"$word\"))\n  fi\n}\n"
         << "complete -F _diptych diptych\n";
+    if (shell == "zsh") // from a folder of functions: it is called once as what it then defines
+      out << "if [ \"$funcstack[1]\" = _diptych ]; then _bash_complete -F _diptych; fi\n";
     return out.str();
   }
 } // namespace diptych::coupling

@@ -17,6 +17,6 @@ namespace diptych::coupling
   // Options of a command as they are typed: --set, --help.
   std::vector<std::string> option_names(CLI::App &command);
 
-  // For bash or zsh: commands, their options, the keys of a scene behind --set, files else.
+  // For bash, zsh or fish: commands, their options, the keys of a scene behind --set, files else.
   std::string completion_script(CLI::App &app, const std::string &shell);
 } // namespace diptych::coupling

@@ -3,7 +3,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: install_test.py PROGRAM SOURCE_DIR [unittest arguments]; PROGRAM in its build folder."""
 
+import gzip
 import os
+import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -37,7 +40,7 @@ class Package(unittest.TestCase):
 
     def test_it_names_what_it_needs(self):
         fields = subprocess.run(["dpkg-deb", "-f", self.package, "Depends"], check=True, capture_output=True, text=True).stdout
-        for package in ("python3-h5py", "python3-matplotlib", "python3-jinja2", "libdeal.ii", "libhdf5-openmpi", "libc6"):
+        for package in ("python3-h5py", "python3-matplotlib", "python3-jinja2", "python3-numpy", "libdeal.ii", "libhdf5-openmpi", "libc6"):
             self.assertIn(package, fields)
 
     def test_no_file_of_it_knows_where_it_was_built(self):
@@ -47,6 +50,62 @@ class Package(unittest.TestCase):
         for name in names:
             for tree in (SOURCE, BUILD):
                 self.assertNotIn(tree.encode(), content(name), name)
+
+    def test_the_version_names_what_it_was_built_with(self):
+        told = self.run_program("--version").stdout
+        self.assertRegex(told, r"^diptych \d+\.\d+\.\d+ \(\S+\)\n")
+        for name in ("GNU", "Eigen", "HDF5", "CLI11", "deal.II", "Trilinos", "p4est", "gmsh API"):
+            self.assertRegex(told, rf"\b{re.escape(name)} \d+\.\d+")
+
+    def test_the_manual_page_has_every_command_and_option(self):
+        page = os.path.join(self.root, "usr", "share", "man", "man1", "diptych.1.gz")
+        with gzip.open(page, "rt") as file:
+            text = file.read().replace("\\-", "-")
+        commands = re.findall(r"^  ([a-z-]+) ", self.run_program("--help").stdout.split("Subcommands:")[1], re.MULTILINE)
+        self.assertGreater(len(commands), 10)
+        for command in commands:
+            section = text.split(f'.SS "diptych {command}"')[1].split(".SS")[0]
+            for option in re.findall(r"^  (?:-h,)?(--[a-z-]+)", self.run_program(command, "--help").stdout, re.MULTILINE):
+                self.assertRegex(section, rf"(?m)^\.B (?:-h, )?{option}\b")
+        if shutil.which("man"):
+            told = subprocess.run(["man", "--warnings", "-l", page], capture_output=True, text=True, check=True,
+                                  env={"PATH": "/usr/bin:/bin", "MANWIDTH": "100", "LC_ALL": "C.UTF-8"})
+            self.assertEqual(told.stderr, "")
+            self.assertIn("material-point", told.stdout)
+
+    def test_shells_complete_keys(self):
+        share = os.path.join(self.root, "usr", "share")
+        script = os.path.join(share, "bash-completion", "completions", "diptych")
+        told = subprocess.run(["bash", "-c", f"source {script}; COMP_WORDS=(diptych run --set discrete/fric); COMP_CWORD=3; _diptych; "
+                               "echo ${COMPREPLY[@]}"], capture_output=True, text=True, check=True).stdout
+        self.assertEqual(told, "discrete/friction=\n")
+        with open(os.path.join(share, "zsh", "vendor-completions", "_diptych")) as file:
+            self.assertEqual(file.readline(), "#compdef diptych\n")
+        script = os.path.join(share, "fish", "vendor_completions.d", "diptych.fish")
+        if not shutil.which("fish"):
+            self.skipTest("no fish on the PATH: test.sh installs it")
+        for line, offered in (("run --set discrete/fric", "discrete/friction="), ("run --set discrete/lateral=per", "discrete/lateral=periodic"),
+                              ("run --se", "--seeds"), ("mat", "material-point"), ("solve --solver n", "nsgs")):
+            told = subprocess.run(["fish", "--no-config", "-c", f"source {script}; complete -C 'diptych {line}'"], capture_output=True,
+                                  text=True, check=True, env={"PATH": "/usr/bin:/bin", "HOME": self.work})
+            self.assertEqual(told.stderr, "")
+            self.assertIn(offered, [word.split("\t")[0] for word in told.stdout.split("\n")], line)
+
+    def test_another_project_links_the_library(self):
+        build = os.path.join(self.work, "external")
+        source = os.path.join(os.path.dirname(os.path.abspath(__file__)), "external_project")
+        environment = {"PATH": "/usr/bin:/bin", "HOME": self.work}
+        for words in (["cmake", "-S", source, "-B", build, "-DCMAKE_PREFIX_PATH=" + os.path.join(self.root, "usr")], ["cmake", "--build", build]):
+            done = subprocess.run(words, capture_output=True, text=True, check=False, env=environment)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        cache = content(os.path.join(build, "CMakeCache.txt")).decode()
+        self.assertIn("diptych_DIR:PATH=" + self.root, cache)
+        self.assertNotIn(BUILD, cache)
+        told = subprocess.run([os.path.join(build, "three_discs"), os.path.join(self.work, "discs.h5")], capture_output=True, text=True,
+                              check=True, env=environment).stdout
+        ratio, height = (float(number) for number in re.findall(r"\d+\.\d+", told))
+        self.assertAlmostEqual(ratio, 1, delta=1e-8)  # at rest the floor carries the weight of all three
+        self.assertAlmostEqual(height, 2.5, delta=3e-4)  # radius 0.5 on two diameters, less penetrations of at most 1e-4 d
 
     def test_a_comparison_with_its_report(self):
         scene = os.path.join(self.root, "usr", "share", "diptych", "benchmarks", "moreau_quick", "scene.prm")

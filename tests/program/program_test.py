@@ -315,7 +315,7 @@ class Help(unittest.TestCase):
                 file.write(diptych("completion", "bash").stdout)
             for words, offered in ((["ru"], "run"), (["run", "scene.prm", "--see"], "--seeds"), (["solve", "--solver", ""], "psor"),
                                    (["solve", "--form", "lo"], "local"), (["explain", "samp"], "sample"), (["explain", "res"], "results"),
-                                   (["completion", ""], "zsh"), (["run", "--set", "discrete/fric"], "discrete/friction="),
+                                   (["completion", ""], "fish"), (["run", "--set", "discrete/fric"], "discrete/friction="),
                                    (["run", "--set", "continuum/law", "=", "mo"], "mohr_coulomb"),
                                    (["run", "--set", "discrete/lateral", "="], "periodic")):
                 quoted = " ".join(f"'{word}'" for word in ["diptych", *words])

@@ -1,0 +1,178 @@
+# diptych: the pages that the program writes: keys, numbers of results, commands
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""`diptych explain` and `diptych COMMAND --help` as pages."""
+import html
+import re
+import subprocess
+
+from headers import with_code
+
+
+def told(program, *words):
+    """What the program says. RuntimeError where it ends with another code than 0."""
+    done = subprocess.run([program, *words], capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise RuntimeError(f"{program} {' '.join(words)}: {done.stderr}")
+    return done.stdout
+
+
+def groups(text):
+    """[(heading, [(head, meaning)])] of what `explain` prints: headings at the margin, heads two deep, meanings six."""
+    found = []
+    for line in text.split("\n"):
+        depth = len(line) - len(line.lstrip())
+        if not line.strip():
+            continue
+        if depth == 0:
+            found.append((line.strip(), []))
+        elif depth == 2:
+            found[-1][1].append([line.strip(), ""])
+        else:
+            found[-1][1][-1][1] = (found[-1][1][-1][1] + " " + line.strip()).strip()
+    return found
+
+
+def key_parts(head):
+    """(key, default, unit, range) of "step = auto  [time]  auto or a number"."""
+    match = re.fullmatch(r"(\S+) = (.*?)  \[(.*?)\](?:  (.*))?", head)
+    if not match:
+        raise RuntimeError("diptych explain prints a key in a form that the manual does not know: " + head)
+    return match[1], match[2], match[3], match[4] or ""
+
+
+def number_parts(head):
+    """(name, unit, kind) of "time  [time]  column, number"."""
+    match = re.fullmatch(r"(.*?)  \[(.*?)\](?:  (.*))?", head)
+    if not match:
+        raise RuntimeError("diptych explain results prints an entry in a form that the manual does not know: " + head)
+    return match[1], match[2], match[3] or ""
+
+
+def anchor(*words):
+    return re.sub(r"[^A-Za-z0-9_]+", "-", "-".join(words)).strip("-")
+
+
+def entry(identity, head, facts, meaning):
+    """One key or number: what it is called, small facts about it, what it means."""
+    small = "".join(f'<span class="fact">{html.escape(fact)}</span>' for fact in facts if fact)
+    return (f'<div class="entry" id="{identity}"><p class="head"><a href="#{identity}"><code>{html.escape(head)}</code></a>{small}</p>'
+            f'<p class="meaning">{with_code(meaning)}</p></div>')
+
+
+def unit_fact(unit):
+    return "" if unit == "-" else "[" + unit + "]"
+
+
+class Keys:
+    """Every key of a scene: a page a section."""
+
+    def __init__(self, program):
+        self.sections = groups(told(program, "explain"))
+        self.names = {section + "/" + key_parts(head)[0] for section, entries in self.sections for head, _ in entries}
+
+    def link(self, name):
+        section, key = name.split("/", 1)
+        return f"reference/keys_{section}.html#{anchor(section, key)}"
+
+    def pages(self):
+        for section, entries in self.sections:
+            lines = [f"# Section `{section}`", "", f"{len(entries)} keys, as `diptych explain {section}` tells them. In a scene:", "",
+                     f"    subsection {section}", f"      set {key_parts(entries[0][0])[0]} = {key_parts(entries[0][0])[1]}", "    end", "",
+                     f"or on the command line `--set {section}/KEY=VALUE`.", ""]
+            for head, meaning in entries:
+                key, default, unit, bounds = key_parts(head)
+                lines += [entry(anchor(section, key), f"{key} = {default}", (unit_fact(unit), bounds), meaning), ""]
+            yield f"reference/keys_{section}.md", f"Section {section}", "\n".join(lines)
+
+    def index(self):
+        for section, entries in self.sections:
+            for head, meaning in entries:
+                yield section + "/" + key_parts(head)[0], "key", self.link(section + "/" + key_parts(head)[0]), meaning
+
+
+class Results:
+    """Every column, number and dataset of result files: a page a family of files."""
+
+    def __init__(self, program):
+        self.files = groups(told(program, "explain", "results"))
+        self.families = {}
+        for heading, entries in self.files:
+            self.families.setdefault(re.match(r"[a-z]+", heading)[0], []).append((heading, entries))
+
+    def entries(self):
+        for family, files in self.families.items():
+            for heading, entries in files:
+                for head, meaning in entries:
+                    name, unit, kind = number_parts(head)
+                    yield family, heading, name, unit, kind, meaning
+
+    def pages(self):
+        for family, files in self.families.items():
+            lines = [f"# Results: {family}", "", "As `diptych explain results` tells them. Stress and strain are positive in compression.", ""]
+            for heading, entries in files:
+                lines += ["## " + heading, ""]
+                for head, meaning in entries:
+                    name, unit, kind = number_parts(head)
+                    lines += [entry(anchor(heading, name), name, (unit_fact(unit), kind), meaning), ""]
+            yield f"reference/results_{family}.md", f"Results: {family}", "\n".join(lines)
+
+    def index(self):
+        for family, heading, name, _, kind, meaning in self.entries():
+            yield name, heading + (", " + kind if kind else ""), f"reference/results_{family}.html#{anchor(heading, name)}", meaning
+
+
+def options(text):
+    """[(head, meaning)] of the positionals and options that CLI11 prints; a head that is too long has its meaning in the next line."""
+    found = []
+    for block in re.findall(r"^(?:Positionals|Options|Subcommands):\n(.*?)(?=^\S|\Z)", text, re.DOTALL | re.MULTILINE):
+        for line in block.split("\n"):
+            head = re.match(r"  (\S.*?)(?: {2,}(\S.*))?$", line)
+            if head:
+                found.append([head[1].replace("-h,", "-h, "), head[2] or ""])
+            elif found and line.strip():
+                found[-1][1] = (found[-1][1] + " " + line.strip()).strip()
+    return found
+
+
+class Commands:
+    """What `diptych --help` and `diptych COMMAND --help` print."""
+
+    def __init__(self, program):
+        self.program = program
+        self.overview = told(program, "--help")
+        block = self.overview.split("Subcommands:\n")[1].split("\n\n")[0]
+        self.names = re.findall(r"^  (\S+)", block, re.MULTILINE)
+        self.helps = {name: told(program, name, "--help") for name in self.names}
+
+    def options(self, name):
+        return set(re.findall(r"^  (?:-\w,)?(--[a-z-]+)", self.helps[name], re.MULTILINE))
+
+    def page(self):
+        lines = ["# Commands", "", "As `diptych --help` and `diptych COMMAND --help` tell them.", ""]
+        for name in self.names:
+            first, rest = self.helps[name].split("\n", 1)
+            lines += [f"## diptych {name}", "", html.escape(first[:1].upper() + first[1:]) + ".", "",
+                      "    " + re.search(r"^Usage: (.*)$", rest, re.MULTILINE)[1], ""]
+            for head, meaning in options(rest):
+                lines += [entry(anchor(name, head.split()[-1] if head.startswith("-h") else head.split()[0]), head, (), meaning), ""]
+        codes = self.overview[self.overview.index("Exit codes: "):].split(": ", 1)[1]
+        lines += ["## Exit codes", "", html.escape(" ".join(codes.split())) + "."]
+        return "\n".join(lines)
+
+    def index(self):
+        for name in self.names:
+            yield "diptych " + name, "command", "reference/commands.html#diptych-" + name, self.helps[name].split("\n", 1)[0]
+
+
+def unknown_words(text, keys, commands):
+    """What a hand-written page says that the program does not know: keys `section/key`, and commands and options in its code blocks."""
+    sections = "|".join(section for section, _ in keys.sections)
+    wrong = [name for name in re.findall(rf"(?<![\w/.-])((?:{sections})/[a-z_]+)(?![\w/.])", text) if name not in keys.names]
+    for line in re.findall(r"^\s*(?:\$ )?(?:\S*/)?diptych ([a-z].*)$", text, re.MULTILINE):
+        words = re.sub(r"\s#.*$", "", line).split()
+        if words[0] not in commands.names:
+            wrong.append("diptych " + words[0])
+            continue
+        wrong += [f"diptych {words[0]} {word}" for word in words
+                  if word.startswith("--") and word.split("=")[0] not in commands.options(words[0])]
+    return wrong

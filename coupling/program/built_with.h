@@ -1,0 +1,11 @@
+// diptych: what the program was built with, in words
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+
+namespace diptych::coupling
+{
+  // Three lines: program and revision; compiler and kind of build; libraries, in the versions that the build saw.
+  std::string built_with();
+} // namespace diptych::coupling
