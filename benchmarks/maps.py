@@ -24,19 +24,20 @@ def draw_bands(axis, panel, points):
 
 
 def draw_window(folder, window, path):
-    """Shear strain increment of the grains and of the continuum over one window of a result folder, on one colour scale. Lengths
-    are mean diameters: for scenes with mean_diameter = 1."""
+    """Shear strain increment of the grains and of the continuum over one window of a result folder, on one colour scale, lengths
+    in mean diameters."""
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as pyplot
     from matplotlib.collections import EllipseCollection, PolyCollection
     with open(os.path.join(folder, "comparison.json")) as file:
-        record = json.load(file)["windows"][window]
+        whole = json.load(file)
+    record, d = whole["windows"][window], whole["mean_diameter"]
     with h5py.File(os.path.join(folder, "comparison.h5"), "r") as file:
         group = file[f"window_{window}"]
-        position, radius = group["discrete/position"][()][:, :2], group["discrete/radius"][()]
+        position, radius = group["discrete/position"][()][:, :2] / d, group["discrete/radius"][()] / d
         grains = group["discrete/shear_strain_increment"][()]
-        corners, cells = group["cells/node_position"][()][group["cells/nodes"][()]], group["cells/continuum_shear_strain_increment"][()]
+        corners, cells = group["cells/node_position"][()][group["cells/nodes"][()]] / d, group["cells/continuum_shear_strain_increment"][()]
     top = numpy.nanpercentile(grains, 97)
     figure, axes = pyplot.subplots(1, 2, figsize=(8.4, 5.6), constrained_layout=True, sharey=True)
     axes[0].add_collection(EllipseCollection(2 * radius, 2 * radius, numpy.zeros_like(radius), units="xy", offsets=position,

@@ -250,7 +250,9 @@ namespace diptych::coupling
       {
         jacobian = data->unweighted(fine.jacobian.topRows(data->size()));
         // Where the law misses the data by more than their noise and what it was granted, that is noise, too.
-        record.misfit      = std::sqrt(record.chi2 / expected_chi2(jacobian, data->weights(), data->noise_of_means()));
+        record.misfit = std::sqrt(record.chi2 / expected_chi2(jacobian, data->weights(), data->noise_of_means()));
+        if (record.n_observables <= int(coordinates.size()))
+          record.misfit = NAN; // nothing is left over to tell it
         const double wider = std::pow(std::max(1., record.misfit), 2);
         knowledge          = identify(jacobian, data->weights(), wider * data->noise_of_means());
         take_degrees_of_freedom(jacobian, data->weights(), wider * data->scatter_of_means(), record.noise.degrees_of_freedom,

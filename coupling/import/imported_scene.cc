@@ -92,7 +92,7 @@ namespace diptych::coupling
       }
     begin("comparison");
     set("window_edges", listed(windows(stages)));
-    set("averaging_strain", exact_text(0.999 * shortest));
+    set("averaging_strain", exact_text(1e-3 * shortest)); // frames are instants: so is what the continuum is held against
     end();
     return out.str();
   }

@@ -149,6 +149,13 @@ namespace diptych::coupling
         {
           if (!path.target.is_fitted)
             continue;
+          if (path.scene.discrete.method.method == discrete::Method::imported)
+            {
+              path.left_out = runs.without_frames(path);
+              record.words.push_back("target '" + path.target.name +
+                                     "' is imported: nothing was run again, and only bins that hold a frame count");
+              continue;
+            }
           if (calibration.check_samples == 0 || !path.target.results.empty())
             {
               record.words.push_back("target '" + path.target.name + "' was not checked for the step of its grains");

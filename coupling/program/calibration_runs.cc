@@ -175,6 +175,19 @@ namespace diptych::coupling
     return paths;
   }
 
+  std::vector<std::string> CalibrationRuns::without_frames(const CalibrationPath &path) const
+  {
+    std::vector<std::string> why;
+    for (const Observable &one : path.data.observables)
+      {
+        const std::vector<double> frames = stages(path.scene.loading);
+        const bool                holds  = std::any_of(frames.begin(), frames.end(),
+                                                       [&](const double at) { return at >= one.from && at <= one.to; });
+        why.push_back(holds || one.kind == ObservableKind::ln_width ? "" : "no frame lies in it");
+      }
+    return why;
+  }
+
   std::vector<std::string> CalibrationRuns::unsteady(const CalibrationPath &path, const NoiseModel &noise)
   {
     Study             study = study_of(path.target, StudyCommand::discrete);

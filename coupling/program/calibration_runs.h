@@ -26,6 +26,9 @@ namespace diptych::coupling
     // std::invalid_argument where grains do not come to their end.
     std::vector<CalibrationPath> paths();
 
+    // Of the bins of an imported path: why one does not count. Between frames nothing is known of the grains.
+    std::vector<std::string> without_frames(const CalibrationPath &path) const;
+
     // The first samples of a target with half the step: why an observable is left out, one entry each; empty: it is not. It is
     // where it moves by more than samples scatter, and by more than two runs of a sample differ by chance.
     std::vector<std::string> unsteady(const CalibrationPath &path, const NoiseModel &noise);
