@@ -257,25 +257,11 @@ namespace diptych::coupling
         knowledge          = identify(jacobian, data->weights(), wider * data->noise_of_means());
         take_degrees_of_freedom(jacobian, data->weights(), wider * data->scatter_of_means(), record.noise.degrees_of_freedom,
                                 knowledge);
-        tell_misfit();
+        tell_misfit(record);
         tell_parameters(coordinates, knowledge, fine.point, record);
-        if (!fine.words.empty())
-          record.words.push_back("on the samples' own mesh " + fine.words);
-        if (!coarse.words.empty())
-          record.words.push_back("on the coarse mesh " + coarse.words);
-      }
-
-      void tell_misfit()
-      {
-        if (!(record.misfit > 1))
-          return;
-        std::ostringstream text;
-        text.precision(3);
-        text
-          << "chi^2 is " << record.chi2 << " on " << record.n_observables << " observables and " << coordinates.size()
-          << " parameters: the law lies beside the data by more than their noise and what it was granted; intervals are wider by "
-          << record.misfit;
-        record.words.push_back(text.str());
+        for (const auto &[mesh, words] : {std::pair("the samples' own", &fine.words), {"the coarse", &coarse.words}})
+          if (!words->empty())
+            record.words.push_back(std::string("on ") + mesh + " mesh " + *words);
       }
 
       // chi^2 one and a half deviations to either side, the others moved along as the linear model says.
@@ -402,14 +388,6 @@ namespace diptych::coupling
       ModelMesh                           best_mesh = ModelMesh::coarse;
     };
   } // namespace
-
-  bool is_same_path(const CalibrationTarget &a, const CalibrationTarget &b)
-  {
-    const auto same = [](const Entry &x, const Entry &y) {
-      return x.section == y.section && x.key == y.key && x.value == y.value;
-    };
-    return a.scene == b.scene && std::equal(a.settings.begin(), a.settings.end(), b.settings.begin(), b.settings.end(), same);
-  }
 
   void calibrate(const Calibration                  &calibration,
                  const Coordinates                  &coordinates,

@@ -11,9 +11,6 @@
 
 namespace diptych::coupling
 {
-  // But for its samples.
-  bool is_same_path(const CalibrationTarget &a, const CalibrationTarget &b);
-
   // Several starts on coarse meshes, then the samples' own with the coarse Jacobian; then what the data tell and do not tell,
   // what load steps half as long change, and what is predicted on the paths that were not fitted. `on_best`: told of every better
   // point, with the chi^2 so far. Throws std::invalid_argument where no start has a run.

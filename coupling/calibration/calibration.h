@@ -55,6 +55,15 @@ namespace diptych::coupling
     Settings                 before    = {};   // what the calibrated law is compared with; empty: the scene's own
   };
 
+  // But for its samples.
+  inline bool is_same_path(const CalibrationTarget &a, const CalibrationTarget &b)
+  {
+    const auto same = [](const Entry &x, const Entry &y) {
+      return x.section == y.section && x.key == y.key && x.value == y.value;
+    };
+    return a.scene == b.scene && std::equal(a.settings.begin(), a.settings.end(), b.settings.begin(), b.settings.end(), same);
+  }
+
   // What is held against each other.
   enum class ObservableKind
   {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "coupling/scene/keys.h"
 #include "coupling/statistics/equivalence.h"
@@ -205,6 +206,19 @@ namespace diptych::coupling
     widen("peak_stress_ratio", highest, [](const auto &p, const auto &by) { return by.parameter_deviation / p.data; });
     widen("volumetric_strain", last_volume, [](const auto &, const auto &by) { return by.parameter_deviation; });
     widen("width_10_90", last_width, [](const auto &p, const auto &by) { return by.parameter_deviation * p.after / p.data; });
+  }
+
+  void tell_misfit(CalibrationRecord &record)
+  {
+    if (!(record.misfit > 1))
+      return;
+    std::ostringstream text;
+    text.precision(3);
+    text << "chi^2 is " << record.chi2 << ", " << record.misfit * record.misfit
+         << " times what a right law would leave: the law lies beside the data by more than their noise and what it was granted; "
+            "deviations of the parameters are multiplied by "
+         << record.misfit;
+    record.words.push_back(text.str());
   }
 
   PathRecord path_record(const CalibrationPath &path, const PathRuns &runs)

@@ -21,6 +21,9 @@ namespace diptych::coupling
     const NoiseModel &noise;
     const ModelRun   &before, &after, &halved;
   };
+  // Where the law misses the data by more than a right one would.
+  void tell_misfit(CalibrationRecord &record);
+
   // Predictions of a path that was not fitted: the deviation of the parameters goes into the intervals and verdicts, with
   // this 97.5 % quantile. The angle has none: the data of the fit hold no derivative of it.
   void add_parameters_to_predictions(double quantile, PathRecord &record);

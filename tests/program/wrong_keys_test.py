@@ -78,7 +78,7 @@ class WrongKeys(unittest.TestCase):
         self.assertEqual(self.expect_refused("loading"), set())
 
     def test_every_key_of_discrete(self):
-        self.assertEqual(self.expect_refused("discrete"), set())
+        self.assertEqual(self.expect_refused("discrete"), {"file"})
 
     def test_every_key_of_continuum(self):
         self.assertEqual(self.expect_refused("continuum"), {"mesh"})
@@ -86,6 +86,7 @@ class WrongKeys(unittest.TestCase):
     def test_files_that_are_not_there(self):
         self.expect_wrong(setting(continuum_mesh="no_such.msh"), "continuum/mesh", "no_such.msh", command="continuum")
         self.expect_wrong(setting(sample_file="no_such.csv"), "no_such.csv", "sample/file")
+        self.expect_wrong(setting(discrete_method="imported", discrete_file="no_such.h5"), "no_such.h5", "discrete/file")
         self.expect_wrong(setting(sample_radius_distribution="table", sample_radius_table="no_such.csv"), "no_such.csv",
                           "sample/radius_table")
         self.expect_wrong(setting(discrete_drive_lower_x="velocity no_such.csv"), "no_such.csv", "discrete/drive_lower_x")
