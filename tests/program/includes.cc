@@ -29,7 +29,7 @@ namespace
     {"continuum", {"laws", "mesh", "elements", "equilibrium", "panel"}},
     {"coupling",
      {"cells", "statistics", "numbers", "processes", "files", "averaging", "fields", "bands", "probes", "scene", "folders",
-      "results", "comparison", "panels", "ensembles", "studies", "plans", "calibration", "program"}}};
+      "results", "comparison", "panels", "ensembles", "studies", "plans", "calibration", "program", "python"}}};
 
   std::vector<std::string> includes_of(const fs::path &file)
   {
