@@ -32,10 +32,10 @@ namespace diptych::python
           : scene(scene),
             grains(std::move(grains))
       {
+        coupling::require_continuum(scene);
         const bool outline = scene.continuum.mesh.kind == continuum::MeshOption::Kind::outline;
         if (outline && !this->grains)
           throw coupling::SceneError("continuum/mesh = outline needs the prepared grains: hand over their first snapshot");
-        coupling::require_continuum(scene);
         start_mpi();
         const continuum::QuadMesh mesh = coupling::mesh_of(scene, coupling::continuum_parts(scene).front(), this->grains.get());
         const double              fraction = outline ? coupling::solid_fraction(*this->grains) : scene.sample.solid_fraction;

@@ -6,6 +6,7 @@ import os
 import numpy as np
 import pandas
 import pytest
+import scipy.sparse
 
 import diptych
 from conftest import SOURCE, program
@@ -39,10 +40,11 @@ def test_a_column_of_discs_carries_force_over_width(method):
 
 def test_a_map_of_a_snapshot_sums_to_its_moments(panels):
     snapshot = panels[0].snapshots[-1]
-    expected = (snapshot.mean_internal_moment + snapshot.mean_spin_term[:, None, None] * np.eye(2)).sum(0)
+    expected = (snapshot.mean_internal_moment + snapshot.mean_spin_term[:, None, None] * np.eye(2)).sum(0)  # symmetric
     for mesh in (None, panels[1].snapshots[-1]):
         stress = diptych.map_stress(snapshot, mesh=mesh)
-        np.testing.assert_allclose(stress.total * stress.area.sum(), expected, rtol=1e-10, atol=1e-10 * np.abs(expected).max())
+        total = np.einsum("k,kab->ab", stress.area, stress.symmetric)
+        np.testing.assert_allclose(total, expected, rtol=1e-10)
     s1, s2, _ = diptych.principal(stress.stress)
     np.testing.assert_allclose(stress.t, 0.5 * (s1 - s2), atol=1e-12)
     np.testing.assert_allclose(stress.s, 0.5 * (s1 + s2), atol=1e-12)
@@ -103,12 +105,15 @@ def test_an_affine_field_is_diffuse_and_has_its_own_shear():
     points, _, _ = band_of(50, 12)
     displacement = points @ np.array([[0.01, 0.004], [0.002, -0.02]]).T
     assert diptych.find_bands(points, displacement, 1.0).bands == []
-    np.testing.assert_allclose(diptych.shear_strain(points, displacement, radius=2.5), np.hypot(0.03, 0.006), rtol=1e-9)
+    shear = diptych.shear_strain(points, displacement, radius=2.5)
+    lonely = np.isnan(shear)  # fewer than four points about
+    assert lonely.mean() < 0.01
+    np.testing.assert_allclose(shear[~lonely], np.hypot(0.03, 0.006), rtol=1e-9)
 
 
 def test_probes_of_grains_and_of_their_map_agree_with_the_walls():
     grains, pairs = column(10, 3.0)
-    whole = [(-1, 0), (1, 0), (1, 20), (-1, 20)]
+    whole = [(-1, -1e-9), (1, -1e-9), (1, 20 + 1e-9), (-1, 20 + 1e-9)]  # with the contacts at the walls
     of_grains = diptych.probe(grains, whole, pairs, resamples=0)
     np.testing.assert_allclose(of_grains.stress, [[0, 0], [0, 1.5]], atol=1e-12)
     assert of_grains.count == 10 and of_grains.contacts == 11 and of_grains.solid_fraction == pytest.approx(np.pi / 4)
@@ -157,7 +162,7 @@ def test_mohr_coulomb_has_its_strength_and_its_path_again():
 
 def test_one_contact_is_solved_by_hand():
     """W = diag(2, 3), q = (-1, 0.5), mu = 0.3: r_n = 0.5; sticking needs r_t = -1/6, more than mu r_n = 0.15: it slips."""
-    for w in (np.diag([2.0, 3.0]), __import__("scipy.sparse").sparse.csr_matrix(np.diag([2.0, 3.0]))):
+    for w in (np.diag([2.0, 3.0]), scipy.sparse.csr_matrix(np.diag([2.0, 3.0]))):
         solution = diptych.solve((w, [-1.0, 0.5], [0.3]))
         np.testing.assert_allclose(solution.r, [[0.5, -0.15]], rtol=1e-12)
         np.testing.assert_allclose(solution.u, [[0, 0.05]], atol=1e-12)
@@ -166,7 +171,7 @@ def test_one_contact_is_solved_by_hand():
 
 def test_stored_problems_are_solved_as_by_the_program():
     path = sorted(glob.glob(os.path.join(SOURCE, "tests", "discrete", "contact_problems", "*.h5")))[0]
-    told = dict(line.split(": ", 1) for line in program("solve", path).splitlines() if ": " in line)
+    told = dict(line.split(": ", 1) for line in program("solve", path, "--tolerance", "2e-5").splitlines() if ": " in line)
     solution = diptych.solve(path)
     assert solution.sweeps == int(told["sweeps"]) and solution.status == told["status"]
     assert solution.residual == pytest.approx(float(told["residual"]), rel=1e-5) and solution.residual <= 2e-5
@@ -176,7 +181,7 @@ def test_stored_problems_are_solved_as_by_the_program():
 
 @pytest.mark.parametrize("call, error, words", [
     (lambda: diptych.map_stress({"position": [[0, 0, 0]], "radius": [1]}, column(2, 1)[1]), ValueError, r"position: .*\(n, 2\)"),
-    (lambda: diptych.map_stress({"position": [[0, 0]], "radius": [-1]}, column(2, 1)[1]), ValueError, r"radius\[0\]"),
+    (lambda: diptych.map_stress({"position": [[0, 0]], "radius": [-1]}, column(2, 1)[1]), ValueError, "radius: 1 positive numbers"),
     (lambda: diptych.map_stress({"radius": [1]}, column(2, 1)[1]), ValueError, "position"),
     (lambda: diptych.map_stress(column(2, 1)[0], {"i": [0]}), ValueError, "'j' is missing"),
     (lambda: diptych.map_stress(column(1, 1)[0], column(2, 1)[1], diptych.grid((0, 0), (1, 1), 1)), ValueError, "contact 1 joins"),
@@ -187,7 +192,7 @@ def test_stored_problems_are_solved_as_by_the_program():
     (lambda: diptych.find_bands(np.zeros((5, 2)), np.zeros((4, 2)), 1), ValueError, "displacement"),
     (lambda: diptych.find_bands(*band_of(50, 12)[:2], 1.0, max_bands=7), diptych.SceneError, "comparison/max_bands"),
     (lambda: diptych.find_bands(*band_of(50, 12)[:2], 1.0, bands=1), diptych.SceneError, "unknown key 'comparison/bands'"),
-    (lambda: diptych.find_bands(np.full((50, 2), np.nan), np.ones((50, 2)), 1.0), ValueError, "not finite"),
+    (lambda: diptych.find_bands(np.full((50, 2), np.nan), np.ones((50, 2)), 1.0), ValueError, "finite"),
     (lambda: diptych.probe(column(2, 1)[0], [(0, 0), (0, 1), (1, 0)], column(2, 1)[1]), ValueError, "anticlockwise"),
     (lambda: diptych.integrate({"law": "rubber"}, [[0, 0, 0]]), diptych.SceneError, "continuum/law"),
     (lambda: diptych.integrate({}, [[[0, 1], [0, 0]]]), ValueError, r"strain_path\[0\] must be finite and symmetric"),

@@ -160,13 +160,14 @@ def test_arrays_share_the_memory_of_their_snapshot_and_outlive_it(panels):
 
 
 def test_contacts_hold_the_moments_of_the_grains(panels):
-    """M = -sum f (x) (point - centre) of each grain, less the spin term."""
+    """M = -sum f (x) (point - centre) of each grain, its symmetric part, less the spin term. The contact point is that of the
+    stage's end, the branch moved meanwhile: thousandths of the largest moment."""
     s = panels[0].snapshots[-1]
     c, moment = s.window, np.zeros((len(s), 2, 2))
     np.subtract.at(moment, c.i, c.force[:, :, None] * (c.point - s.position[c.i])[:, None, :])
     pair = c.j < len(s)
     np.add.at(moment, c.j[pair], c.force[pair][:, :, None] * (c.point - s.position[np.minimum(c.j, len(s) - 1)])[pair][:, None, :])
-    moment -= s.mean_spin_term[:, None, None] * np.eye(2)
+    moment = 0.5 * (moment + moment.transpose(0, 2, 1)) - s.mean_spin_term[:, None, None] * np.eye(2)
     np.testing.assert_allclose(moment, s.mean_internal_moment, atol=2e-3 * np.abs(s.mean_internal_moment).max())
 
 

@@ -61,12 +61,12 @@ class Mesh(NamedTuple):
     @property
     def polygons(self) -> Array:
         """(k, 4, 2): corners of every cell, for matplotlib's PolyCollection."""
-        return self.nodes[self.cells]
+        return np.asarray(self.nodes[self.cells])
 
     @property
     def centres(self) -> Array:
         """(k, 2): means of the corners."""
-        return self.polygons.mean(axis=1)
+        return np.asarray(self.polygons.mean(axis=1))
 
 
 @dataclass
@@ -84,18 +84,18 @@ class StressMap:
     @property
     def symmetric(self) -> Array:
         """(k, 2, 2): the symmetric part."""
-        return 0.5 * (self.stress + self.stress.transpose(0, 2, 1))
+        return np.asarray(0.5 * (self.stress + self.stress.transpose(0, 2, 1)))
 
     @property
     def s(self) -> Array:
         """(k): mean stress (s1 + s2)/2 [pressure]."""
-        return 0.5 * np.trace(self.stress, axis1=1, axis2=2)
+        return np.asarray(0.5 * np.trace(self.stress, axis1=1, axis2=2))
 
     @property
     def t(self) -> Array:
         """(k): shear stress (s1 - s2)/2 >= 0 [pressure]."""
         sym = self.symmetric
-        return np.hypot(0.5 * (sym[:, 0, 0] - sym[:, 1, 1]), sym[:, 0, 1])
+        return np.asarray(np.hypot(0.5 * (sym[:, 0, 0] - sym[:, 1, 1]), sym[:, 0, 1]))
 
     @property
     def t_over_s(self) -> Array:
@@ -105,7 +105,7 @@ class StressMap:
     @property
     def total(self) -> Array:
         """(2, 2): mean stress over all cells [pressure]."""
-        return np.einsum("k,kab->ab", self.area, self.stress) / self.area.sum()
+        return np.asarray(np.einsum("k,kab->ab", self.area, self.stress) / self.area.sum())
 
 
 @dataclass

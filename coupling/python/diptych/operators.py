@@ -22,7 +22,7 @@ def _column(table: Any, name: str) -> Any:
     return getattr(table, name, None)
 
 
-def _grains(grains: Any) -> dict[str, Any]:
+def _grains(grains: Any) -> dict[str, Array]:
     position, radius = _column(grains, "position"), _column(grains, "radius")
     if position is None and _column(grains, "x") is not None:
         position = np.column_stack([_column(grains, "x"), _column(grains, "y")])
@@ -30,6 +30,11 @@ def _grains(grains: Any) -> dict[str, Any]:
         radius = _column(grains, "r")
     if position is None or radius is None:
         raise ValueError("grains: position (n, 2), or x and y, and radius (or r) are needed")
+    position, radius = np.asarray(position, dtype=float), np.asarray(radius, dtype=float)
+    if position.ndim != 2 or position.shape[1] != 2 or len(position) == 0:
+        raise ValueError(f"position: an array of shape (n, 2) is needed, this one has {position.shape}")
+    if radius.shape != (len(position),) or not np.all(radius > 0):
+        raise ValueError(f"radius: {len(position)} positive numbers are needed, one a grain")
     return {"position": position, "radius": radius}
 
 
@@ -75,7 +80,7 @@ def contacts(grains: Any, i: Any, j: Any, force: Any, ids: Any = None,
     Raises ValueError naming the body that is not there.
     """
     given, walls = _grains(grains), walls or {}
-    position, radius = np.asarray(given["position"], dtype=float), np.asarray(given["radius"], dtype=float)
+    position, radius = given["position"], given["radius"]
     n, i, j, force = len(radius), np.asarray(i), np.asarray(j), np.array(force, dtype=float)
     names = np.arange(n) if ids is None else np.asarray(ids)
     number = {int(name): k for k, name in enumerate([*names, *walls])}
@@ -123,8 +128,8 @@ def map_stress(grains: Any, contacts: Any = None, mesh: Any = None, method: str 
     given = _grains(grains)
     pairs = _contacts(contacts, grains)
     if mesh is None:
-        position, radius = np.asarray(given["position"]), np.asarray(given["radius"])
-        mesh = grid((position - radius[:, None]).min(0), (position + radius[:, None]).max(0), 6 * float(np.mean(radius)))
+        position, radius = given["position"], given["radius"]
+        mesh = grid((position - radius[:, None]).min(0), (position + radius[:, None]).max(0), 6 * radius.mean())
     cells = _mesh(mesh)
     keys = {"averaging": method, **{name: scenes.text_of(value) for name, value in options.items()}}
     result = _diptych.map_stress(given, pairs, cells._asdict(), period, keys)
@@ -136,7 +141,7 @@ def _frame(points: Array, displacement: Array, mean_diameter: float, given: Mapp
     low, high = points.min(0), points.max(0)
     frame = {"centre": 0.5 * (low + high), "width": high[0] - low[0], "height": high[1] - low[1],
              "mean_diameter": mean_diameter, **{name: value for name, value in given.items() if value is not None}}
-    if "platen_increment" not in frame:
+    if "platen_increment" not in frame:  # of points near the ends: there is always one at either
         top, bottom = points[:, 1] > high[1] - 2 * mean_diameter, points[:, 1] < low[1] + 2 * mean_diameter
         frame["platen_increment"] = displacement[top].mean(0) - displacement[bottom].mean(0)
     return frame
@@ -144,6 +149,8 @@ def _frame(points: Array, displacement: Array, mean_diameter: float, given: Mapp
 
 def _field(points: Any, displacement: Any, weight: Any) -> dict[str, Array]:
     points, displacement = np.asarray(points, dtype=float), np.asarray(displacement, dtype=float)
+    if not (np.all(np.isfinite(points)) and np.all(np.isfinite(displacement))):
+        raise ValueError("points and displacement: all must be finite; leave out what is not")
     if points.ndim != 2 or points.shape[1:] != (2,) or points.shape != displacement.shape or len(points) == 0:
         raise ValueError(f"points and displacement: (n, 2) each are needed, they have {points.shape} and {displacement.shape}")
     return {"position": points, "increment": displacement, "weight": np.ones(len(points)) if weight is None else weight}
@@ -225,7 +232,7 @@ def probe(sample: Any, where: Any, contacts: Any = None, *, angle_deg: float = 0
         return Record(_diptych.probe_cells(sample.mesh._asdict(), sample.stress, np.asarray(where, dtype=float)))
     grains = _grains(sample)
     pairs = _contacts(contacts, sample)
-    blocks = {"block": 10 * float(np.mean(grains["radius"])) if block is None else block, "resamples": resamples, "seed": seed}
+    blocks = {"block": 10 * grains["radius"].mean() if block is None else block, "resamples": resamples, "seed": seed}
     if np.ndim(where) == 1:
         x, y, radius = (float(number) for number in where)
         result = _diptych.probe_circle(grains, pairs, (x, y, radius), blocks)
