@@ -11,6 +11,7 @@
 #include "coupling/averaging/segments.h"
 #include "coupling/cells/bin_grid.h"
 #include "coupling/panels/continuum_mesh.h"
+#include "coupling/processes/processes.h"
 
 namespace diptych::coupling
 {
@@ -94,5 +95,30 @@ namespace diptych::coupling
       }
     scale_to(solid_fraction(grains), area, fraction);
     return fraction;
+  }
+
+  void map_initial_state(const Scene &scene, const discrete::Snapshot *grains, continuum::Panel &panel)
+  {
+    if (scene.continuum.initial_stress == continuum::InitialStress::mapped)
+      {
+        const continuum::Snapshot    nodes = panel.snapshot();
+        std::vector<Eigen::Matrix2d> stress;
+        on_first_process([&] {
+          stress = grain_stress_on_cells(*grains, nodes, scene.loading.pressure);
+          return 0;
+        });
+        panel.set_initial_stress(stress);
+      }
+    const continuum::LawOptions &law = scene.continuum.material;
+    if (law.hardening == continuum::HardeningKind::critical_state && !law.solid_fraction_start)
+      {
+        const continuum::Snapshot nodes = panel.snapshot();
+        std::vector<double>       fraction;
+        on_first_process([&] {
+          fraction = grain_solid_fraction_on_cells(*grains, nodes);
+          return 0;
+        });
+        panel.set_initial_solid_fraction(fraction);
+      }
   }
 } // namespace diptych::coupling

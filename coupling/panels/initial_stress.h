@@ -6,7 +6,9 @@
 
 #include <Eigen/Core>
 
+#include "continuum/panel/panel.h"
 #include "continuum/snapshot.h"
+#include "coupling/scene/scene.h"
 #include "discrete/snapshot.h"
 
 namespace diptych::coupling
@@ -23,4 +25,8 @@ namespace diptych::coupling
   // and cells that grains cover to less than half of what is typical do not count. The mean over the mesh is the sample's own.
   constexpr double    solid_fraction_width = 6; // [mean diameters]
   std::vector<double> grain_solid_fraction_on_cells(const discrete::Snapshot &grains, const continuum::Snapshot &nodes);
+
+  // Before panel.prepare(): what the scene wants mapped, initial stress and solid fraction. `grains`: the first process's, looked
+  // at only where something is mapped. Collective.
+  void map_initial_state(const Scene &scene, const discrete::Snapshot *grains, continuum::Panel &panel);
 } // namespace diptych::coupling

@@ -143,27 +143,7 @@ namespace diptych::coupling
       snapshots.emplace(path("continuum"));
       return 0;
     });
-    if (scene.continuum.initial_stress == continuum::InitialStress::mapped)
-      {
-        const continuum::Snapshot    nodes = panel->snapshot();
-        std::vector<Eigen::Matrix2d> stress;
-        on_first_process([&] {
-          stress = grain_stress_on_cells(*grains, nodes, scene.loading.pressure);
-          return 0;
-        });
-        panel->set_initial_stress(stress);
-      }
-    const continuum::LawOptions &law = scene.continuum.material;
-    if (law.hardening == continuum::HardeningKind::critical_state && !law.solid_fraction_start)
-      {
-        const continuum::Snapshot nodes = panel->snapshot();
-        std::vector<double>       fraction;
-        on_first_process([&] {
-          fraction = grain_solid_fraction_on_cells(*grains, nodes);
-          return 0;
-        });
-        panel->set_initial_solid_fraction(fraction);
-      }
+    map_initial_state(scene, grains, *panel);
     if (panel->prepare() == continuum::Status::finished)
       add_snapshot();
   }

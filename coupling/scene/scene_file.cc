@@ -134,6 +134,11 @@ namespace diptych::coupling
       for (Entry &entry : entries)
         entry.of_echo = true;
     entries.insert(entries.end(), changes.begin(), changes.end());
+    return scene_of_entries(file, entries, compares);
+  }
+
+  Scene scene_of_entries(const std::string &file, const std::vector<Entry> &entries, const bool compares)
+  {
     Scene scene;
     for (const Entry &entry : entries)
       {

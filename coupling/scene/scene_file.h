@@ -20,6 +20,9 @@ namespace diptych::coupling
   // The same with changes that say where they were made and where their files are.
   Scene read_changed_scene(const std::string &file, const std::vector<Entry> &changes, bool compares);
 
+  // A scene that stands in no file: `file` is what messages call it and gives its name. Throws SceneError.
+  Scene scene_of_entries(const std::string &file, const std::vector<Entry> &entries, bool compares);
+
   // Throws SceneError naming the place where no scene has such a key or such a value of it.
   void check_entry(const Entry &entry);
 

@@ -1,0 +1,93 @@
+// diptych: stress maps of anybody's grains for Python
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/averaging/averaging.h"
+#include "coupling/averaging/cell_cover.h"
+#include "coupling/python/bindings.h"
+#include "coupling/python/inputs.h"
+
+namespace diptych::python
+{
+  namespace
+  {
+    // Moments over areas; what the sum over the cells misses of the sum over the contacts, relative to it.
+    struct Mapped
+    {
+      std::vector<Eigen::Matrix2d> stress;
+      double                       outside_share = 0, total_relative_error = 0;
+    };
+
+    Mapped mapped(const coupling::CellSums &sums, const coupling::Carriers &carriers, const std::vector<double> &area)
+    {
+      Mapped          result;
+      Eigen::Vector4d total = Eigen::Vector4d::Zero(), expected = total;
+      for (std::size_t k = 0; k < area.size(); ++k)
+        {
+          const Eigen::Vector4d moment = sums.uniform.row(Eigen::Index(k));
+          Eigen::Matrix2d       stress;
+          stress << moment[0], moment[1], moment[2], moment[3];
+          result.stress.emplace_back(stress / area[k]);
+          total += moment;
+        }
+      for (Eigen::Index k = 0; k < carriers.uniform.rows(); ++k)
+        expected += carriers.uniform.row(k).transpose();
+      result.outside_share        = sums.outside_share;
+      result.total_relative_error = expected.norm() > 0 ? (total - expected).norm() / expected.norm() : total.norm();
+      return result;
+    }
+
+    // options: keys of the section `comparison` that begin with averaging.
+    py::dict map_stress(const py::dict &grain_arrays,
+                        const py::dict &contacts,
+                        const py::dict &mesh_arrays,
+                        const double    period,
+                        const py::dict &keys)
+    {
+      const GrainInput           grains = grains_of(grain_arrays);
+      const auto                 forces = contacts_of(contacts, grains);
+      const coupling::QuadMesh   mesh   = mesh_of(mesh_arrays);
+      coupling::AveragingOptions options;
+      set_options("comparison", keys, options);
+
+      Mapped              result;
+      coupling::CellCover cover;
+      std::vector<double> area;
+      {
+        const py::gil_scoped_release release;
+        coupling::Carriers           carriers = coupling::moment_carriers(grains.position, grains.radius, forces);
+        carriers.mean_diameter                = grains.mean_diameter;
+        const coupling::TargetCells target(mesh, period);
+        area   = target.area;
+        result = mapped(coupling::distribute(options, target, carriers), carriers, area);
+        cover  = coupling::cell_cover(mesh, coupling::TriangleSearch(mesh), grains.position, grains.radius);
+      }
+      py::dict map;
+      map["stress"]               = own(std::move(result.stress));
+      map["area"]                 = own(std::move(area));
+      map["solid_fraction"]       = own(std::move(cover.solid_fraction));
+      map["covered"]              = own(std::move(cover.covered));
+      map["outside_share"]        = result.outside_share;
+      map["total_relative_error"] = result.total_relative_error;
+      return map;
+    }
+
+    py::dict mesh_dict(const coupling::QuadMesh &mesh)
+    {
+      std::vector<std::array<int, 4>> cells;
+      for (const auto &cell : mesh.cell)
+        cells.push_back({int(cell[0]), int(cell[1]), int(cell[2]), int(cell[3])});
+      py::dict dict;
+      dict["nodes"] = own(std::vector<Eigen::Vector2d>(mesh.node));
+      dict["cells"] = own(std::move(cells));
+      return dict;
+    }
+  } // namespace
+
+  void bind_averaging(py::module_ &m)
+  {
+    m.def("map_stress", &map_stress);
+    m.def("grid", [](const Numbers &lower, const Numbers &upper, const double size) {
+      return mesh_dict(coupling::regular_grid(vector_of(lower, "lower"), vector_of(upper, "upper"), size));
+    });
+    m.def("mesh_of", [](const continuum::Snapshot &snapshot) { return mesh_dict(coupling::quad_mesh(snapshot)); });
+  }
+} // namespace diptych::python

@@ -1,0 +1,28 @@
+# diptych: one granular sample shown twice, for Python
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Diptych: discs in contact dynamics beside an elasto-plastic continuum, and the operators that compare them.
+
+Scenes are nested dicts or paths and checked like files (scene, keys). Panels are objects (DiscretePanel, ContinuumPanel). Result
+folders of the program load as arrays (load, compare). Operators work on anybody's arrays: map_stress, find_bands, strips,
+shear_strain, probe, integrate, biaxial, solve.
+
+Two dimensions, unit thickness, any consistent units. Stress and strain are positive in compression, dilation is a negative
+volumetric strain, angles are degrees from the horizontal, forces act on the first body.
+"""
+
+from ._diptych import Contacts, ContinuumSnapshot, DiscreteSnapshot, __version__
+from .arrays import Band, BandReport, History, Interval, Mesh, Record, StressMap
+from .errors import NotConverged, SceneError, SceneWarning
+from .laws import biaxial, integrate, principal
+from .operators import contacts, find_bands, grid, map_stress, probe, shear_strain, strips, theory_lines
+from .panels import ContinuumPanel, DiscretePanel
+from .problems import solve
+from .results import Comparison, PanelResults, Results, compare, load
+from .scenes import keys, scene
+
+__all__ = [
+    "Band", "BandReport", "Comparison", "Contacts", "ContinuumPanel", "ContinuumSnapshot", "DiscretePanel", "DiscreteSnapshot",
+    "History", "Interval", "Mesh", "NotConverged", "PanelResults", "Record", "Results", "SceneError", "SceneWarning", "StressMap",
+    "__version__", "biaxial", "compare", "contacts", "find_bands", "grid", "integrate", "keys", "load", "map_stress", "principal",
+    "probe", "scene", "shear_strain", "solve", "strips", "theory_lines",
+]

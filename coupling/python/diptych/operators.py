@@ -1,0 +1,249 @@
+# diptych: operators on anybody's arrays
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Stress maps, bands, strips and probes, of snapshots of the panels and of anybody's arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from . import _diptych, scenes
+from .arrays import Array, Band, BandReport, Interval, Mesh, Record, StressMap
+
+_CONTACT = ("i", "j", "point", "force", "normal", "shift")
+
+
+def _column(table: Any, name: str) -> Any:
+    """An entry of a dict or a DataFrame, or an attribute; None where there is none."""
+    if isinstance(table, Mapping) or hasattr(table, "columns"):
+        return table[name] if name in table else None
+    return getattr(table, name, None)
+
+
+def _grains(grains: Any) -> dict[str, Array]:
+    position, radius = _column(grains, "position"), _column(grains, "radius")
+    if position is None and _column(grains, "x") is not None:
+        position = np.column_stack([_column(grains, "x"), _column(grains, "y")])
+    if radius is None:
+        radius = _column(grains, "r")
+    if position is None or radius is None:
+        raise ValueError("grains: position (n, 2), or x and y, and radius (or r) are needed")
+    position, radius = np.asarray(position, dtype=float), np.asarray(radius, dtype=float)
+    if position.ndim != 2 or position.shape[1] != 2 or len(position) == 0:
+        raise ValueError(f"position: an array of shape (n, 2) is needed, this one has {position.shape}")
+    if radius.shape != (len(position),) or not np.all(radius > 0):
+        raise ValueError(f"radius: {len(position)} positive numbers are needed, one a grain")
+    return {"position": position, "radius": radius}
+
+
+def _contacts(contacts: Any, grains: Any) -> dict[str, Any]:
+    if contacts is None:
+        contacts = getattr(grains, "window", None)
+        if contacts is None:
+            raise ValueError("contacts are needed: i, j, point, force")
+        if len(contacts) == 0:
+            contacts = grains.contacts
+    given = {name: _column(contacts, name) for name in _CONTACT}
+    for name in _CONTACT[:4]:
+        if given[name] is None:
+            raise ValueError(f"contacts: '{name}' is missing; diptych.contacts() makes points of what a code without them has")
+    return given
+
+
+def _mesh(mesh: Any) -> Mesh:
+    if isinstance(mesh, StressMap):
+        return mesh.mesh
+    if isinstance(mesh, _diptych.ContinuumSnapshot):
+        return Mesh(**_diptych.mesh_of(mesh))
+    nodes, cells = (mesh["nodes"], mesh["cells"]) if isinstance(mesh, Mapping) else mesh
+    return Mesh(np.asarray(nodes, dtype=float), np.asarray(cells))
+
+
+def grid(lower: Any, upper: Any, size: float) -> Mesh:
+    """Equal rectangles over a box, lower and upper its corners (2) [length], their sides about `size` [length]."""
+    return Mesh(**_diptych.grid(lower, upper, size))
+
+
+def contacts(grains: Any, i: Any, j: Any, force: Any, ids: Any = None,
+             walls: Mapping[int, tuple[Any, Any]] | None = None) -> dict[str, Array]:
+    """Contacts of discs with the points that many codes do not write: on the line of centres, and the foot on a wall.
+
+    grains  position (n, 2), or x and y, and radius (or r) [length]: a dict, a DataFrame or a snapshot
+    i, j    (c): bodies, by the numbers in `ids` where that is given, else counted from 0
+    force   (c, 2): force ON i from j
+    ids     (n): the grains' own numbers, in any order, gaps allowed
+    walls   number -> (a point on it (2), its inward normal (2)); they are renumbered on from the number of grains, in this order
+
+    Returns i, j, point, normal, force for map_stress() and probe(). A wrong sign of `force` shows as a negative mean stress.
+    Raises ValueError naming the body that is not there.
+    """
+    given, walls = _grains(grains), walls or {}
+    position, radius = given["position"], given["radius"]
+    n, i, j, force = len(radius), np.asarray(i), np.asarray(j), np.array(force, dtype=float)
+    names = np.arange(n) if ids is None else np.asarray(ids)
+    number = {int(name): k for k, name in enumerate([*names, *walls])}
+    missing = sorted({int(name) for name in [*i, *j]} - set(number))
+    if missing:
+        raise ValueError(f"body {missing[0]} of a contact is neither a grain nor a wall ({len(missing)} such numbers)")
+    i, j = (np.array([number[int(name)] for name in side], dtype=np.int32) for side in (i, j))
+    swapped = i >= n
+    i[swapped], j[swapped] = j[swapped], i[swapped]
+    force[swapped] *= -1
+    if np.any(i >= n):
+        raise ValueError("a contact joins two walls")
+    normal, point = np.zeros((len(i), 2)), np.zeros((len(i), 2))
+    pair = j < n
+    a, b = i[pair], j[pair]
+    branch = position[a] - position[b]
+    normal[pair] = branch / np.linalg.norm(branch, axis=1, keepdims=True)
+    gap = np.linalg.norm(branch, axis=1) - radius[a] - radius[b]
+    point[pair] = position[a] - (radius[a] + 0.5 * gap)[:, None] * normal[pair]
+    for k, (place, inward) in enumerate(walls.values()):
+        at = j == n + k
+        inward = np.asarray(inward, dtype=float) / np.linalg.norm(inward)
+        normal[at] = inward
+        point[at] = position[i[at]] - ((position[i[at]] - np.asarray(place)) @ inward)[:, None] * inward
+    return {"i": i, "j": j, "point": point, "normal": normal, "force": force}
+
+
+def map_stress(grains: Any, contacts: Any = None, mesh: Any = None, method: str = "segments", *, period: float = 0.0,
+               **options: Any) -> StressMap:
+    """Contact forces of grains on the cells of a mesh: conservative, the sum over the cells is the sum over the contacts.
+
+    grains    snapshot of a DiscretePanel, or position (n, 2), or x and y, and radius (or r) [length] in a dict or a DataFrame
+    contacts  i, j (c), point (c, 2) [length], force (c, 2) ON i from j [pressure length]; i a grain, j a grain or, from n on, a
+              wall; shift (c) where j touches as its image. Default: of a snapshot the mean forces over the stage, or those of the
+              instant where there is no stage yet.
+    mesh      (nodes (m, 2), cells (k, 4) anticlockwise), grid(...), a continuum snapshot; default: grid over the grains' box, 3 d
+    method    segments (branches cut by the cells), centroid, laguerre, kernel, projection
+    period    width of a periodic cell [length]; 0: none
+    options   averaging_kernel, averaging_width [mean diameters]: as in a scene's section comparison
+
+    Returns a StressMap, stress (k, 2, 2) positive in compression, row index = component of the force. The spin term, small in
+    slow flow, is not added. Source: coupling/averaging (branches: Drescher & de Josselin de Jong 1972; Bagi 1996). Raises
+    SceneError on options, ValueError on arrays.
+    """
+    given = _grains(grains)
+    pairs = _contacts(contacts, grains)
+    if mesh is None:
+        position, radius = given["position"], given["radius"]
+        mesh = grid((position - radius[:, None]).min(0), (position + radius[:, None]).max(0), 6 * radius.mean())
+    cells = _mesh(mesh)
+    keys = {"averaging": method, **{name: scenes.text_of(value) for name, value in options.items()}}
+    result = _diptych.map_stress(given, pairs, cells._asdict(), period, keys)
+    result["covered"] = result["covered"].astype(bool)
+    return StressMap(cells, **result)
+
+
+def _frame(points: Array, displacement: Array, mean_diameter: float, given: Mapping[str, Any]) -> dict[str, Any]:
+    low, high = points.min(0), points.max(0)
+    frame = {"centre": 0.5 * (low + high), "width": high[0] - low[0], "height": high[1] - low[1],
+             "mean_diameter": mean_diameter, **{name: value for name, value in given.items() if value is not None}}
+    if "platen_increment" not in frame:  # of points near the ends: there is always one at either
+        top, bottom = points[:, 1] > high[1] - 2 * mean_diameter, points[:, 1] < low[1] + 2 * mean_diameter
+        frame["platen_increment"] = displacement[top].mean(0) - displacement[bottom].mean(0)
+    return frame
+
+
+def _field(points: Any, displacement: Any, weight: Any) -> dict[str, Array]:
+    points, displacement = np.asarray(points, dtype=float), np.asarray(displacement, dtype=float)
+    if not (np.all(np.isfinite(points)) and np.all(np.isfinite(displacement))):
+        raise ValueError("points and displacement: all must be finite; leave out what is not")
+    if points.ndim != 2 or points.shape[1:] != (2,) or points.shape != displacement.shape or len(points) == 0:
+        raise ValueError(f"points and displacement: (n, 2) each are needed, they have {points.shape} and {displacement.shape}")
+    return {"position": points, "increment": displacement, "weight": np.ones(len(points)) if weight is None else weight}
+
+
+def find_bands(points: Any, displacement: Any, mean_diameter: float, *, weight: Any = None, platen_increment: Any = None,
+               centre: Any = None, width: float | None = None, height: float | None = None, seed: int = 1,
+               **options: Any) -> BandReport:
+    """Shear bands in a displacement field, the same operator for grains, nodes and image correlation.
+
+    points            (n, 2) [length], where they are at the end of the increment
+    displacement      (n, 2) [length]
+    mean_diameter     of the grains [length]: what widths and correlation are measured in
+    weight            (n): area a point stands for; 0: left out; default: alike
+    platen_increment  (2) [length]: what jumps count in; default: mean displacement within 2 d of the uppermost point less that
+                      within 2 d of the lowest
+    centre, width, height  of the sample [length]; default: of the points' box
+    seed              draws the blocks of the intervals, nothing else
+    options           max_bands, huber_threshold, correlation_length, minimum_jump, residual_floor, band_resamples: as in a
+                      scene's section comparison
+
+    Returns a BandReport; angles in degrees from the horizontal, lengths in the unit of the points, 95 % intervals by block
+    bootstrap. Fits no, one and two tanh profiles with Huber loss and takes their number by BIC (coupling/bands). Raises SceneError
+    on options, ValueError for fewer than 30 points of weight or a platen increment of zero.
+    """
+    field = _field(points, displacement, weight)
+    frame = _frame(field["position"], field["increment"], mean_diameter,
+                   {"platen_increment": platen_increment, "centre": centre, "width": width, "height": height})
+    found = _diptych.find_bands(field, frame, seed, {name: scenes.text_of(value) for name, value in options.items()})
+    bands = []
+    for band in found.pop("bands"):
+        intervals = {name: Interval(*ends) for name, ends in band.pop("interval").items()}
+        bands.append(Band(**band, interval=intervals, centre=np.asarray(frame["centre"])))
+    return BandReport(bands, frame=frame, **found)
+
+
+def strips(points: Any, displacement: Any, mean_diameter: float, band: Any = 45.0, n: int = 16, *, offset: float = 0.0,
+           weight: Any = None, platen_increment: Any = None) -> Record:
+    """Mean displacement along a band in strips parallel to it (Moreau 1997).
+
+    points, displacement, mean_diameter, weight, platen_increment  as in find_bands()
+    band    a Band, or an angle from the horizontal [degrees] with `offset` of the middle from the points' centre [length]
+    n       number of strips, over 30 mean diameters to either side as far as the sample reaches
+
+    Returns edges (n + 1) along the normal from the centre [length]; mean, deviation (n) over |platen increment|, NaN in an empty
+    strip; count (n); angle_deg.
+    """
+    field = _field(points, displacement, weight)
+    frame = _frame(field["position"], field["increment"], mean_diameter, {"platen_increment": platen_increment})
+    if isinstance(band, Band):
+        frame["centre"] = band.centre
+        band, offset = band.angle_deg, band.offset
+    return Record(_diptych.strips(field, frame, float(band), offset, n))
+
+
+def shear_strain(points: Any, displacement: Any, at: Any = None, *, radius: float, weight: Any = None) -> Array:
+    """(m): eps_1 - eps_2 >= 0 of the displacement gradient fitted to the points within `radius` [length] (2.5 mean diameters in
+    the comparison) of each of `at` (m, 2), default: at the points. NaN where fewer than 4 points are there."""
+    field = _field(points, displacement, weight)
+    return _diptych.shear_strain(field, field["position"] if at is None else at, radius)
+
+
+def probe(sample: Any, where: Any, contacts: Any = None, *, angle_deg: float = 0.0, block: float | None = None,
+          resamples: int = 400, seed: int = 1) -> Record:
+    """Mean stress and fabric of a part of the sample, with 95 % intervals (Moreau 1997).
+
+    sample     a snapshot or grains with `contacts` as in map_stress(); or a StressMap, whose cells are then averaged
+    where      (m, 2): corners of a polygon, anticlockwise; or (x, y, radius) of a circle (grains alone)
+    angle_deg  direction of the blocks that are drawn for the intervals [degrees]
+    block      their smallest side [length]; default: 5 mean diameters
+    resamples  fewer than 40: no intervals
+
+    Returns stress (2, 2), s1 >= s2, t_over_s, direction_deg of s1; of a polygon of grains fabric (2, 2), anisotropy,
+    fabric_direction_deg, contacts, solid_fraction, count and interval: name -> (value, low, high); of a circle the tractions on
+    its diameters (angles_deg, normal, tangential) and what the mean stress predicts of them. Stress positive in compression; the
+    spin term is not added.
+    """
+    if isinstance(sample, StressMap):
+        return Record(_diptych.probe_cells(sample.mesh._asdict(), sample.stress, np.asarray(where, dtype=float)))
+    grains = _grains(sample)
+    pairs = _contacts(contacts, sample)
+    blocks = {"block": 10 * grains["radius"].mean() if block is None else block, "resamples": resamples, "seed": seed}
+    if np.ndim(where) == 1:
+        x, y, radius = (float(number) for number in where)
+        result = _diptych.probe_circle(grains, pairs, (x, y, radius), blocks)
+        result["relative_l2"] = Interval(*result["relative_l2"])
+        return Record(result)
+    result = _diptych.probe_grains(grains, pairs, np.asarray(where, dtype=float), angle_deg, blocks)
+    result["interval"] = {name: Interval(*ends) for name, ends in result["interval"].items()}
+    return Record(result)
+
+
+def theory_lines(friction_deg: float, dilatancy_deg: float) -> tuple[float, float, float]:
+    """Angles between a band and the minor principal stress after Coulomb (45 + phi/2), Roscoe (45 + psi/2) and Arthur
+    (45 + (phi + psi)/4) [degrees]."""
+    return _diptych.theory_lines(friction_deg, dilatancy_deg)

@@ -1,0 +1,166 @@
+# diptych: both panels as objects
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The discrete and the continuum panel: prepare, advance from stage to stage, look at snapshots."""
+
+from __future__ import annotations
+
+import importlib
+import os
+from collections.abc import Callable, Mapping
+from typing import Any, Optional
+
+import numpy as np
+
+from . import _diptych, scenes
+from .arrays import Array, History, Record
+from .errors import NotConverged
+
+OnStep = Optional[Callable[[dict[str, Any]], Any]]
+
+
+class _Panel:
+    """What both panels have in common."""
+
+    _columns: Callable[[], dict[str, tuple[str, str]]]
+
+    def __init__(self, scene: _diptych.Scene, make: Callable[[], Any], on_step: OnStep) -> None:
+        self._scene, self._make, self._panel, self._prepared = scene, make, make(), False
+        self.on_step = on_step
+        self.status = "new"
+        self.snapshots: list[Any] = []
+
+    @property
+    def scene(self) -> dict[str, dict[str, Any]]:
+        """The checked scene, every key."""
+        return self._scene.dict()
+
+    @property
+    def stages(self) -> Array:
+        """(m): progress at stages 1 ... m (axial strain, shear strain or time, as the loading walks)."""
+        return np.array(self._scene.stages())
+
+    @property
+    def stage(self) -> int:
+        """How many stages are reached."""
+        return int(self._panel.stage())
+
+    @property
+    def history(self) -> History:
+        """Columns of discrete.csv or continuum.csv, one row a step; .frame() makes a pandas.DataFrame."""
+        return History(self._panel.history(), type(self)._columns())
+
+    @property
+    def report(self) -> Record:
+        """What became of the sample so far: steps, cost, message."""
+        return Record(self._panel.report())
+
+    def snapshot(self) -> Any:
+        """The present instant; also from on_step. Its arrays are read only and share its memory."""
+        return self._panel.snapshot()
+
+    def prepare(self) -> str:
+        """Makes the sample ready and keeps its snapshot. Returns "finished". Raises NotConverged. A preparation that was
+        interrupted begins anew with the next call."""
+        if self._prepared:
+            raise RuntimeError("the sample is prepared already")
+        if self.status != "new":
+            self._panel = self._make()
+        self.status = "stopped"
+        status = self._told(self._panel.prepare(self.on_step))
+        self._prepared = True
+        self.snapshots.append(self.snapshot())
+        return status
+
+    def advance(self, stage: int | None = None) -> str:
+        """Loads up to a stage (1, 2, ...; default: the next one) and keeps the snapshot of each that it reaches; prepares before
+        where that was not done. Returns "finished", or "stopped" where on_step returned False: another advance() goes on, with
+        the bits of a run that was never stopped. Raises NotConverged; what on_step raises, and KeyboardInterrupt, come out after
+        the step that is under way, and the panel may go on."""
+        last = self.stage + 1 if stage is None else stage
+        if not 1 <= last <= len(self.stages):
+            raise ValueError(f"stage = {last}: the loading has stages 1 ... {len(self.stages)}")
+        if not self._prepared and self.prepare() != "finished":
+            return self.status
+        while self.stage < last:
+            before, self.status = self.stage, "stopped"
+            try:
+                status = self._panel.advance(before + 1, self.on_step)
+            finally:
+                if self.stage > before:
+                    self.snapshots.append(self.snapshot())
+            if self._told(status) != "finished":
+                break
+        return self.status
+
+    def run(self) -> str:
+        """Prepares and loads through all stages. Returns as advance() does."""
+        return self.advance(len(self.stages))
+
+    def write(self, folder: str | os.PathLike[str]) -> None:
+        """Snapshots and history as the program writes them (.h5, .xdmf, .csv), into a folder that is there."""
+        self._write(self._results(), os.fspath(folder))
+
+    def _results(self) -> Any:
+        return self._panel.results(self.snapshots)
+
+    def _write(self, results: Any, folder: str) -> None:
+        raise NotImplementedError
+
+    def _told(self, status: str) -> str:
+        self.status = status
+        if status == "not_converged":
+            raise NotConverged(self._panel.report()["message"])
+        return status
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__}: {self.status}, stage {self.stage} of {len(self.stages)}>"
+
+
+class DiscretePanel(_Panel):
+    """A sample of grains loaded through the stages of a scene (Non-Smooth Contact Dynamics, Moreau 1988; Jean 1999).
+
+    scene    dict or path, see scene()
+    on_step  called with every row of the history, a dict with the columns of discrete.csv; returns False to stop. The GIL is
+             released while steps are computed and taken for the callback, which may look at snapshot() but not advance.
+    grains   {"position": (n, 2) [length], "radius": (n) [length]}: own grains in the place of a prepared sample, put between
+             platens and sides as those of a file are
+
+    Raises SceneError, and ValueError on options that contradict each other. The numbers are the program's, bit by bit.
+
+    >>> panel = DiscretePanel({"sample": {"grains": 200}, "loading": {"axial_strain": 0.01, "stage_strain": 0.005}})
+    >>> panel.run()
+    'finished'
+    """
+
+    _columns = staticmethod(_diptych.discrete_columns)
+
+    def __init__(self, scene: scenes.SceneLike, on_step: OnStep = None, grains: Mapping[str, Any] | None = None) -> None:
+        read = scenes.read(scene)
+        own = (None, None) if grains is None else (grains["position"], grains["radius"])
+        super().__init__(read, lambda: _diptych.GrainPanel(read, *own), on_step)
+
+    def _write(self, results: Any, folder: str) -> None:
+        _diptych.write_grains(results, folder)
+
+
+class ContinuumPanel(_Panel):
+    """The same sample as an elasto-plastic continuum on a mesh (deal.II), loaded through the same stages.
+
+    scene    dict or path, see scene()
+    grains   snapshot of the prepared grains (DiscretePanel.snapshots[0]), needed for continuum/mesh = outline, the default: its
+             outline is meshed, its stress and solid fraction are mapped where the scene wants that
+    on_step  called with every row of the history, a dict with the columns of continuum.csv; returns False to stop
+
+    MPI is started with the first panel and ended with the process; one that runs already (mpi4py) is used. Raises SceneError and
+    ValueError.
+    """
+
+    _columns = staticmethod(_diptych.continuum_columns)
+
+    def __init__(self, scene: scenes.SceneLike, grains: Any = None, on_step: OnStep = None) -> None:
+        read = scenes.read(scene)
+        compiled = importlib.import_module("diptych._continuum")  # deal.II, only when it is needed
+        super().__init__(read, lambda: compiled.ContinuumPanel(read, grains), on_step)
+
+    def _write(self, results: Any, folder: str) -> None:
+        _diptych.write_nodes(results, folder)

@@ -1,0 +1,100 @@
+# diptych: result folders and comparisons
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Result folders of the program as arrays, and the comparison of both panels."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass
+from typing import Any
+
+from . import _diptych, scenes
+from .arrays import History, Mesh
+from .panels import ContinuumPanel, DiscretePanel
+
+
+class PanelResults:
+    """What one panel left in a folder: `snapshots` (the prepared sample first, then one a stage) and `history`."""
+
+    def __init__(self, results: Any, told: dict[str, tuple[str, str]]) -> None:
+        self._kept, self._told = results, told
+        self.snapshots: list[Any] = results.snapshots
+
+    @property
+    def history(self) -> History:
+        """Columns of discrete.csv or continuum.csv; .frame() makes a pandas.DataFrame."""
+        return History(self._kept.history(), self._told)
+
+    def _results(self) -> Any:
+        return self._kept
+
+
+@dataclass
+class Results:
+    """A result folder; None where it has no such panel."""
+
+    folder: str
+    scene: dict[str, dict[str, Any]] | None
+    discrete: PanelResults | None
+    continuum: PanelResults | None
+    coarse: PanelResults | None
+
+
+@dataclass
+class Comparison:
+    """Numbers as in comparison.json; of every stage the fields of both panels, under their names in comparison.h5."""
+
+    numbers: dict[str, Any]
+    fields: list[dict[str, Any]]  # on the continuum's mesh: name -> (k), (k, 2) or (k, 2, 2); nodes (m, 2), cells (k, 4)
+    grid: list[dict[str, Any]]  # the same on the regular grid
+
+    def mesh(self, stage: int = -1) -> Mesh:
+        """The continuum's mesh at a stage, in its shape there."""
+        return Mesh(self.fields[stage]["nodes"], self.fields[stage]["cells"])
+
+
+def _panel(folder: str, name: str) -> PanelResults | None:
+    if not os.path.exists(os.path.join(folder, name + ".h5")):
+        return None
+    if name == "discrete":
+        return PanelResults(_diptych.read_grains(folder), _diptych.discrete_columns())
+    return PanelResults(_diptych.read_nodes(folder), _diptych.continuum_columns())
+
+
+def load(folder: str | os.PathLike[str]) -> Results:
+    """A result folder of `diptych run`, `discrete` or `continuum`: scene, snapshots and histories of what is there.
+
+    Raises FileNotFoundError where no panel left anything, ValueError naming file and array where one is damaged.
+    """
+    folder = os.fspath(folder)
+    prm = os.path.join(folder, "scene.prm")
+    results = Results(folder, scenes.read(prm).dict() if os.path.exists(prm) else None, _panel(folder, "discrete"),
+                      _panel(folder, "continuum"), _panel(os.path.join(folder, "coarse"), "continuum"))
+    if results.discrete is None and results.continuum is None:
+        raise FileNotFoundError(f"{folder}: no discrete.h5 and no continuum.h5")
+    return results
+
+
+def compare(folder: str | os.PathLike[str] | Results | None = None, *, scene: Any = None,
+            discrete: DiscretePanel | PanelResults | None = None, continuum: ContinuumPanel | PanelResults | None = None,
+            coarse: ContinuumPanel | PanelResults | None = None) -> Comparison:
+    """Both panels at the same instants through the same operators: mapping, bands, strips, probes, intervals.
+
+    folder  result folder, or what load() made of it; or else, of runs in this process,
+    scene, discrete, continuum, coarse  dict or path, and the panels (`coarse`: on the coarse mesh, may be left out)
+
+    Raises ValueError where the panels share no stage beyond the start. Numbers that only the program knows of a run (CPU time)
+    are missing or zero for panels of this process.
+    """
+    place = ""
+    if folder is not None:
+        loaded = folder if isinstance(folder, Results) else load(folder)
+        scene = loaded.scene if scene is None else scene
+        discrete, continuum, coarse, place = loaded.discrete, loaded.continuum, loaded.coarse, loaded.folder
+    if scene is None or discrete is None or continuum is None:
+        raise ValueError("compare: a folder with scene.prm and both panels is needed, or scene, discrete and continuum")
+    read = scenes.read(scene, compares=True)
+    text, fields, grid = _diptych.compare(read, discrete._results(), continuum._results(),
+                                          None if coarse is None else coarse._results(), place)
+    return Comparison(json.loads(text), fields, grid)

@@ -1,0 +1,23 @@
+// diptych: wrong scenes as Python's exception
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/python/bindings.h"
+#include "coupling/scene/scene_error.h"
+
+namespace diptych::python
+{
+  void translate_errors()
+  {
+    namespace py = pybind11;
+    py::register_local_exception_translator([](std::exception_ptr thrown) {
+      try
+        {
+          std::rethrow_exception(thrown);
+        }
+      catch (const coupling::SceneError &error)
+        {
+          const py::object type = py::module_::import("diptych.errors").attr("SceneError");
+          PyErr_SetObject(type.ptr(), type(error.what()).ptr());
+        }
+    });
+  }
+} // namespace diptych::python

@@ -1,0 +1,10 @@
+// diptych: constitutive laws at one point for Python
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace diptych::python
+{
+  void bind_laws(pybind11::module_ &m);
+} // namespace diptych::python

@@ -1,0 +1,99 @@
+// diptych: scenes for Python
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <pybind11/stl.h>
+
+#include "coupling/python/bindings.h"
+#include "coupling/scene/scene_file.h"
+#include "coupling/scene/keys.h"
+#include "coupling/version.h"
+
+namespace diptych::python
+{
+  namespace py = pybind11;
+
+  namespace
+  {
+    using Change = std::tuple<std::string, std::string, std::string>; // section, key, value as a file would hold it
+
+    // A value as Python has it; what a scene would have to say in words (auto, names of choices and files) stays a text.
+    struct ValueOfKey
+    {
+      py::dict &keys;
+
+      template <class Number>
+      void operator()(const char *name, const Number &value, const char *, coupling::Range, const char *) const
+      {
+        if constexpr (std::is_same_v<Number, std::optional<double>>)
+          keys[name] = value ? py::object(py::float_(*value)) : py::object(py::str("auto"));
+        else
+          keys[name] = py::cast(value);
+      }
+      void operator()(const char *name, const discrete::FileName &file, const char *, const char *) const
+      {
+        keys[name] = file.path;
+      }
+      void operator()(const char *name, const bool value, const char *, const char *) const { keys[name] = value; }
+      template <class Value> void operator()(const char *name, const Value &value, const char *, const char *) const
+      {
+        using coupling::text_of; // or that of the value's own library
+        keys[name] = text_of(value);
+      }
+    };
+
+    coupling::Scene read(const std::optional<std::string> &file, const std::vector<Change> &changes, const bool compares)
+    {
+      std::vector<coupling::Entry> entries;
+      for (const auto &[section, key, value] : changes)
+        entries.push_back({section, key, value, "scene", std::filesystem::current_path().string(), true}); // may hold every key
+      return file ? coupling::read_changed_scene(*file, entries, compares)
+                  : coupling::scene_of_entries("python", entries, compares);
+    }
+
+    py::dict scene_dict(const coupling::Scene &scene)
+    {
+      py::dict        sections;
+      coupling::Scene copy = scene;
+      coupling::for_each_section(copy, [&](const char *section, auto &options) {
+        py::dict keys;
+        visit_parameters(options, ValueOfKey{keys});
+        sections[section] = keys;
+      });
+      return sections;
+    }
+
+    // Every key with its unit, what is allowed and its meaning.
+    py::dict described()
+    {
+      py::dict        keys;
+      coupling::Scene defaults;
+      coupling::for_each_section(defaults, [&](const char *section, auto &options) {
+        std::vector<coupling::KeyDescription> described;
+        visit_parameters(options, coupling::DescribeKeys{section, described});
+        for (const coupling::KeyDescription &key : described)
+          keys[py::str(key.section + "/" + key.name)] = py::make_tuple(key.unit, key.allowed, key.meaning);
+      });
+      return keys;
+    }
+  } // namespace
+
+  void bind_scene(py::module_ &m)
+  {
+    py::class_<coupling::Scene>(m, "Scene")
+      .def_readonly("name", &coupling::Scene::name)
+      .def_readonly("warnings", &coupling::Scene::warnings)
+      .def("dict", scene_dict)
+      .def("text", [](const coupling::Scene &scene) { return coupling::echo(scene); })
+      .def("stages", [](const coupling::Scene &scene) { return coupling::stages(scene.loading); });
+    m.def("read_scene", read, py::arg("file"), py::arg("changes"), py::arg("compares"));
+    m.def("described_keys", described);
+    m.def("section_names", &coupling::section_names);
+    m.attr("__version__")  = coupling::version;
+    m.attr("git_revision") = coupling::git_revision;
+  }
+} // namespace diptych::python

@@ -1,0 +1,57 @@
+# diptych: what the tests of the Python package share
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The program and one small scene of it, run by both."""
+
+import os
+import subprocess
+
+import pytest
+
+import diptych
+
+PROGRAM, SOURCE = os.environ["DIPTYCH_PROGRAM"], os.environ["DIPTYCH_SOURCE"]
+QUICK = os.path.join(SOURCE, "benchmarks", "moreau_quick", "scene.prm")
+
+# The physics of the quick scene on 300 grains, two stages.
+SMALL = {"sample": {"grains": 300}, "loading": {"axial_strain": 0.01, "inertial_number": 1e-3},
+         "comparison": {"window_edges": [0, 0.01]}, "output": {"report": False}}
+
+
+def words(overrides):
+    """As the program takes them."""
+    for section, keys in overrides.items():
+        for key, value in keys.items():
+            text = ", ".join(map(str, value)) if isinstance(value, list) else str(value).replace("False", "false")
+            yield from ("--set", f"{section}/{key}={text}")
+
+
+def program(*arguments):
+    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+@pytest.fixture(scope="session")
+def small():
+    return diptych.scene(QUICK, compares=True, **SMALL)
+
+
+@pytest.fixture(scope="session")
+def folder(tmp_path_factory):
+    """What `diptych run` makes of the small scene."""
+    path = tmp_path_factory.mktemp("program") / "out"
+    program("run", QUICK, *words(SMALL), "--output", path, "--quiet")
+    return path
+
+
+@pytest.fixture(scope="session")
+def panels(small):
+    """Both panels of the small scene, run in this process; the continuum on both meshes."""
+    grains = diptych.DiscretePanel(small)
+    assert grains.run() == "finished"
+    nodes = diptych.ContinuumPanel(small, grains.snapshots[0])
+    assert nodes.run() == "finished"
+    edge = small["comparison"]["coarse_element_size"]
+    coarse = diptych.ContinuumPanel(diptych.scene(small, continuum={"element_size": edge}), grains.snapshots[0])
+    assert coarse.run() == "finished"
+    return grains, nodes, coarse

@@ -1,0 +1,102 @@
+# diptych: memory and reference counts over a thousand calls
+# SPDX-License-Identifier: LGPL-2.1-or-later
+import gc
+import sys
+import weakref
+
+import numpy as np
+import pytest
+
+import diptych
+from operators_test import band_of, column
+
+
+def resident_kb():
+    with open("/proc/self/status") as file:
+        return next(int(line.split()[1]) for line in file if line.startswith("VmRSS"))
+
+
+def growth_kb(call, n):
+    """Resident memory that n calls add, after as many again as it takes to fill pools."""
+    for _ in range(max(n // 5, 1)):
+        call()
+    gc.collect()
+    before = resident_kb()
+    for _ in range(n):
+        call()
+    gc.collect()
+    return resident_kb() - before
+
+
+GRAINS, PAIRS = column(200, 1.0)
+MESH = diptych.grid((-1, 0), (1, 400), 1.0)
+POINTS, MOVED, PLATEN = band_of(50, 12, n=300)
+PATH = np.zeros((50, 3))
+CALLS = {
+    "map_stress": lambda: diptych.map_stress(GRAINS, PAIRS, MESH),  # 20 kB of results each: 20 MB if they stayed
+    "probe": lambda: diptych.probe(GRAINS, [(-1, 0), (1, 0), (1, 400), (-1, 400)], PAIRS, resamples=0),
+    "shear_strain": lambda: diptych.shear_strain(POINTS, MOVED, radius=5),
+    "strips": lambda: diptych.strips(POINTS, MOVED, 1.0, platen_increment=PLATEN),
+    "integrate": lambda: diptych.integrate({"law": "mohr_coulomb"}, PATH),
+    "solve": lambda: diptych.solve((np.eye(80), np.full(80, -1.0), np.full(40, 0.3))),
+    "scene": lambda: diptych.scene({"sample": {"grains": 20}}),
+    "panel": lambda: diptych.DiscretePanel({"sample": {"grains": 20}}),
+}
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_a_thousand_calls_leave_no_memory_behind(name):
+    assert growth_kb(CALLS[name], 1000) < 3000  # kB: 3 bytes a byte of the smallest leak of a result would be more
+
+
+def test_a_thousand_errors_leave_no_memory_behind():
+    def wrong():
+        with pytest.raises(diptych.SceneError):
+            diptych.scene({"sample": {"grains": -1}})
+
+    assert growth_kb(wrong, 1000) < 3000
+
+
+def test_arguments_are_given_back():
+    arguments = [GRAINS["position"], GRAINS["radius"], PAIRS["force"], PAIRS["point"], MESH.nodes, MESH.cells]
+    before = [sys.getrefcount(one) for one in arguments]
+    for _ in range(1000):
+        CALLS["map_stress"]()
+    assert [sys.getrefcount(one) for one in arguments] == before
+
+
+def test_views_hold_their_snapshot_and_nothing_holds_it_longer(panels):
+    snapshot = panels[0].snapshot()
+    before = sys.getrefcount(snapshot)
+    views = [snapshot.position for _ in range(1000)]
+    assert sys.getrefcount(snapshot) == before + 1000
+    del views
+    assert sys.getrefcount(snapshot) == before
+    assert growth_kb(panels[0].snapshot, 1000) < 3000  # a snapshot is 100 kB
+    assert growth_kb(lambda: panels[0].history, 200) < 3000
+
+
+def test_panels_and_callbacks_go_when_nobody_holds_them():
+    class Callback:
+        calls = 0
+
+        def __call__(self, row):
+            Callback.calls += 1
+            return Callback.calls % 2 == 0
+
+    callback = Callback()
+    panel = diptych.DiscretePanel({"sample": {"grains": 30}, "loading": {"axial_strain": 0.02}}, on_step=callback)
+    panel.run()
+    callback.panel = panel  # a circle
+    watched, references = weakref.ref(panel), sys.getrefcount(callback)
+    for _ in range(50):
+        panel.run()
+    assert sys.getrefcount(callback) == references and Callback.calls > 50
+    del panel, callback
+    gc.collect()
+    assert watched() is None
+
+
+def test_continuum_panels_give_their_memory_back():
+    scene = diptych.scene({"continuum": {"mesh": "rectangle", "rectangle_width": 20, "rectangle_height": 20}})
+    assert growth_kb(lambda: diptych.ContinuumPanel(scene).prepare(), 20) < 6000  # one panel takes more than 1 MB

@@ -1,0 +1,30 @@
+# diptych: the notebooks run as they stand
+# SPDX-License-Identifier: LGPL-2.1-or-later
+import glob
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+from conftest import SOURCE
+
+NOTEBOOKS = sorted(glob.glob(os.path.join(SOURCE, "coupling", "python", "notebooks", "*.ipynb")))
+
+
+def test_there_are_three():
+    assert len(NOTEBOOKS) == 3
+    for path in NOTEBOOKS:
+        assert os.path.getsize(path) < 250000, path
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=[os.path.basename(path) for path in NOTEBOOKS])
+def test_a_notebook_runs(path, tmp_path):
+    out = tmp_path / "done.ipynb"
+    done = subprocess.run([sys.executable, "-m", "nbconvert", "--to", "notebook", "--execute", path, "--output", str(out)],
+                          capture_output=True, text=True, check=False, env={**os.environ, "IPYTHONDIR": str(tmp_path)})
+    assert done.returncode == 0, done.stderr[-3000:]
+    outputs = [output for cell in json.loads(out.read_text())["cells"] for output in cell.get("outputs", [])]
+    assert any("image/png" in output.get("data", {}) for output in outputs)
+    assert not [output for output in outputs if output.get("name") == "stderr"]

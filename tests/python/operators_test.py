@@ -1,0 +1,206 @@
+# diptych: operators on anybody's arrays, against numbers derived by hand
+# SPDX-License-Identifier: LGPL-2.1-or-later
+import glob
+import os
+
+import numpy as np
+import pandas
+import pytest
+import scipy.sparse
+
+import diptych
+from conftest import SOURCE, program
+
+DATA = os.path.join(SOURCE, "coupling", "python", "notebooks", "data")
+METHODS = ("segments", "centroid", "laguerre", "kernel", "projection")
+
+
+def column(n, force):
+    """n discs of radius 1 one above another between two walls, pressed by `force`; the lower wall at y = 0."""
+    position = np.column_stack([np.zeros(n), 1 + 2.0 * np.arange(n)])
+    i, j = np.append(np.arange(n), n - 1), np.append(np.arange(n) - 1, -2)  # -1 lower, -2 upper wall
+    push = np.tile([0.0, force], (n + 1, 1))
+    push[-1] = [0, -force]
+    grains = {"position": position, "radius": np.ones(n)}
+    walls = {-1: ((0, 0), (0, 1)), -2: ((0, 2 * n), (0, -1))}
+    return grains, diptych.contacts(grains, i, j, push, walls=walls)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_column_of_discs_carries_force_over_width(method):
+    """Branches add up to the height 2 n, so that sigma_yy = F 2 n / (2 x 2 n) = F / 2, and nothing else."""
+    grains, pairs = column(10, 3.0)
+    stress = diptych.map_stress(grains, pairs, diptych.grid((-1, 0), (1, 20), 1.0), method)
+    np.testing.assert_allclose(stress.total, [[0, 0], [0, 1.5]], atol=1e-12)
+    assert stress.total_relative_error < 1e-12 and stress.area.sum() == pytest.approx(40)
+    if method == "segments":
+        assert stress.outside_share == 0
+        np.testing.assert_allclose(stress.solid_fraction.mean(), np.pi / 4)
+
+
+def test_a_map_of_a_snapshot_sums_to_its_moments(panels):
+    snapshot = panels[0].snapshots[-1]
+    expected = (snapshot.mean_internal_moment + snapshot.mean_spin_term[:, None, None] * np.eye(2)).sum(0)  # symmetric
+    for mesh in (None, panels[1].snapshots[-1]):
+        stress = diptych.map_stress(snapshot, mesh=mesh)
+        total = np.einsum("k,kab->ab", stress.area, stress.symmetric)
+        np.testing.assert_allclose(total, expected, rtol=1e-10)
+    s1, s2, _ = diptych.principal(stress.stress)
+    np.testing.assert_allclose(stress.t, 0.5 * (s1 - s2), atol=1e-12)
+    np.testing.assert_allclose(stress.s, 0.5 * (s1 + s2), atol=1e-12)
+
+
+@pytest.mark.parametrize("k", [0, 1, 2])
+def test_grains_of_another_code_carry_what_its_walls_measure(k):
+    """The walls' forces over their lengths are known beside the data; contact points are not in it, they are made."""
+    frame = pandas.read_csv(os.path.join(DATA, "frames.csv")).loc[k]
+    grains, pairs = (pandas.read_csv(os.path.join(DATA, f"{name}_{k}.csv")) for name in ("particles", "contacts"))
+    walls = {-1: ((0, 0), (1, 0)), -2: ((0, 0), (0, 1)), -3: ((frame.width, 0), (-1, 0)), -4: ((0, frame.height), (0, -1))}
+    contacts = diptych.contacts(grains, pairs.i, pairs.j, pairs[["fx", "fy"]], ids=grains.id, walls=walls)
+    stress = diptych.map_stress(grains, contacts, diptych.grid((0, 0), (frame.width, frame.height), 0.006))
+    np.testing.assert_allclose([stress.total[0, 0], stress.total[1, 1]], [frame.wall_sxx, frame.wall_syy], rtol=1e-3)
+    turned = diptych.contacts(grains, pairs.i, pairs.j, -pairs[["fx", "fy"]], ids=grains.id, walls=walls)
+    assert diptych.map_stress(grains, turned).s.mean() < 0  # a wrong sign shows
+
+
+def test_contacts_may_name_the_wall_first():
+    grains, pairs = column(2, 1.0)
+    walls = {-1: ((0, 0), (0, 1)), -2: ((0, 4), (0, -1))}
+    turned = diptych.contacts(grains, [-1, 1, 1], [0, 0, -2], [[0, -1.0], [0, 1], [0, -1]], walls=walls)
+    for name in ("i", "j", "point", "normal", "force"):
+        np.testing.assert_array_equal(turned[name], pairs[name], name)
+    with pytest.raises(ValueError, match="body 7"):
+        diptych.contacts(grains, [0], [7], [[0, 1.0]])
+
+
+def band_of(angle, width, n=4000, noise=0.0):
+    """Points in 60 x 80, displaced by a tanh across a line through the middle under a platen that goes down."""
+    rng = np.random.default_rng(1)
+    points = rng.uniform([-30, -40], [30, 40], (n, 2))
+    s = np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle))])
+    across = points @ np.array([-s[1], s[0]])
+    displacement = -0.5 * s * np.tanh(across / (width / 2.197))[:, None] + noise * rng.normal(size=(n, 2))
+    return points, displacement, -s
+
+
+def test_a_band_is_found_where_it_was_put():
+    points, displacement, platen = band_of(50, 12, noise=0.02)
+    report = diptych.find_bands(points, displacement, 1.0, platen_increment=platen)
+    assert report.verdict.startswith("one band") and report.converged
+    band = report.bands[0]
+    assert band.angle_deg == pytest.approx(50, abs=0.5) and band.width_10_90 == pytest.approx(12, rel=0.05)
+    assert abs(band.offset) < 0.3 and abs(band.jump) == pytest.approx(1, abs=0.03)
+    low, high = band.interval["angle_deg"][1:]
+    assert low < band.angle_deg < high
+    ends = band.line(10)
+    assert np.linalg.norm(ends[1] - ends[0]) == pytest.approx(10)
+    assert np.abs(ends @ band.normal - band.centre @ band.normal - band.offset).max() < 1e-12
+    strips = diptych.strips(points, displacement, 1.0, band, platen_increment=platen)
+    assert strips["mean"][0] == pytest.approx(-strips["mean"][-1], abs=0.05) and abs(strips["mean"][0]) > 0.4
+    assert strips.count.sum() <= len(points) and len(strips.edges) == 17
+
+
+def test_an_affine_field_is_diffuse_and_has_its_own_shear():
+    """u = G x with G = [[0.01, 0.004], [0.002, -0.02]]: eps_1 - eps_2 = sqrt(0.03^2 + 0.006^2)."""
+    points, _, _ = band_of(50, 12)
+    displacement = points @ np.array([[0.01, 0.004], [0.002, -0.02]]).T
+    assert diptych.find_bands(points, displacement, 1.0).bands == []
+    shear = diptych.shear_strain(points, displacement, radius=2.5)
+    lonely = np.isnan(shear)  # fewer than four points about
+    assert lonely.mean() < 0.01
+    np.testing.assert_allclose(shear[~lonely], np.hypot(0.03, 0.006), rtol=1e-9)
+
+
+def test_probes_of_grains_and_of_their_map_agree_with_the_walls():
+    grains, pairs = column(10, 3.0)
+    whole = [(-1, -1e-9), (1, -1e-9), (1, 20 + 1e-9), (-1, 20 + 1e-9)]  # with the contacts at the walls
+    of_grains = diptych.probe(grains, whole, pairs, resamples=0)
+    np.testing.assert_allclose(of_grains.stress, [[0, 0], [0, 1.5]], atol=1e-12)
+    assert of_grains.count == 10 and of_grains.contacts == 11 and of_grains.solid_fraction == pytest.approx(np.pi / 4)
+    np.testing.assert_allclose(of_grains.fabric, [[0, 0], [0, 1]], atol=1e-12)
+    assert of_grains.s1 == pytest.approx(1.5) and of_grains.direction_deg == pytest.approx(90)
+    of_cells = diptych.probe(diptych.map_stress(grains, pairs, diptych.grid((-1, 0), (1, 20), 1.0)), whole)
+    np.testing.assert_allclose(of_cells.stress, of_grains.stress, atol=1e-12)
+
+
+def test_probes_have_intervals_and_circles_tractions(panels):
+    snapshot = panels[0].snapshots[-1]
+    middle = 0.5 * (snapshot.position.min(0) + snapshot.position.max(0))
+    square = diptych.probe(snapshot, middle + 6 * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]), block=3)
+    value, low, high = square.interval["t_over_s"]
+    assert low < value < high and value == pytest.approx(square.t_over_s)
+    circle = diptych.probe(snapshot, (*middle, 6.0), block=3)
+    assert circle.normal.shape == circle.predicted_normal.shape == (36,) and 0 < circle.relative_l2.value < 1
+
+
+def test_an_elastic_law_follows_hooke():
+    """Uniaxial strain: sigma_yy = E (1 - nu) / ((1 + nu)(1 - 2 nu)) eps, the others nu / (1 - nu) of it."""
+    e, nu, strain = 100.0, 0.2, np.linspace(0, 1e-3, 5)
+    path = np.column_stack([0 * strain, strain, 0 * strain])
+    answer = diptych.integrate({"law": "linear_elastic", "youngs_modulus": e, "poisson_ratio": nu}, path)
+    gain = e * (1 - nu) / ((1 + nu) * (1 - 2 * nu)) * strain
+    np.testing.assert_allclose(answer.stress[:, 1, 1], 1 + gain, rtol=1e-12)
+    np.testing.assert_allclose(answer.stress[:, 0, 0], 1 + nu / (1 - nu) * gain, rtol=1e-12)
+    np.testing.assert_allclose(answer.stress_zz, answer.stress[:, 0, 0], rtol=1e-12)
+    shear = diptych.integrate({"law": "linear_elastic", "youngs_modulus": e, "poisson_ratio": nu}, [[0, 0, 0], [0, 0, 1e-3]])
+    assert shear.stress[-1, 0, 1] == pytest.approx(e / (1 + nu) * 1e-3)  # 2 G eps_xy
+
+
+def test_mohr_coulomb_has_its_strength_and_its_path_again():
+    """t = s sin(phi) + c cos(phi) at a constant lateral stress of 1 = s - t."""
+    law = {"law": "mohr_coulomb", "hardening": "constant", "friction_angle_peak": 30, "dilatancy_angle_peak": 10, "cohesion": 0.1}
+    path = diptych.biaxial(law, axial_strain=0.05)
+    t = (np.sin(np.radians(30)) + 0.1 * np.cos(np.radians(30))) / (1 - np.sin(np.radians(30)))
+    assert 0.5 * (path["syy"] - path["sxx"])[-1] == pytest.approx(t, rel=1e-6)
+    strain = np.column_stack([-np.log1p(-path["lateral_strain"]), -np.log1p(-path["axial_strain"]), 0 * path["sxx"]])
+    again = diptych.integrate(law, strain)
+    np.testing.assert_allclose(again.stress[:, 1, 1], path["syy"], rtol=1e-8)
+    np.testing.assert_allclose(again.stress[:, 0, 0], 1, rtol=1e-8)
+    np.testing.assert_allclose(again.equivalent_plastic_strain, path["equivalent_plastic_strain"], atol=1e-10)
+    assert again.reliable.all()
+
+
+def test_one_contact_is_solved_by_hand():
+    """W = diag(2, 3), q = (-1, 0.5), mu = 0.3: r_n = 0.5; sticking needs r_t = -1/6, more than mu r_n = 0.15: it slips."""
+    for w in (np.diag([2.0, 3.0]), scipy.sparse.csr_matrix(np.diag([2.0, 3.0]))):
+        solution = diptych.solve((w, [-1.0, 0.5], [0.3]))
+        np.testing.assert_allclose(solution.r, [[0.5, -0.15]], rtol=1e-12)
+        np.testing.assert_allclose(solution.u, [[0, 0.05]], atol=1e-12)
+        assert solution.status == "converged"
+
+
+def test_stored_problems_are_solved_as_by_the_program():
+    path = sorted(glob.glob(os.path.join(SOURCE, "tests", "discrete", "contact_problems", "*.h5")))[0]
+    told = dict(line.split(": ", 1) for line in program("solve", path, "--tolerance", "2e-5").splitlines() if ": " in line)
+    solution = diptych.solve(path)
+    assert solution.sweeps == int(told["sweeps"]) and solution.status == told["status"]
+    assert solution.residual == pytest.approx(float(told["residual"]), rel=1e-5) and solution.residual <= 2e-5
+    again = diptych.solve(path, guess=solution.r)
+    assert again.sweeps <= solution.sweeps
+
+
+@pytest.mark.parametrize("call, error, words", [
+    (lambda: diptych.map_stress({"position": [[0, 0, 0]], "radius": [1]}, column(2, 1)[1]), ValueError, r"position: .*\(n, 2\)"),
+    (lambda: diptych.map_stress({"position": [[0, 0]], "radius": [-1]}, column(2, 1)[1]), ValueError, "radius: 1 positive numbers"),
+    (lambda: diptych.map_stress({"radius": [1]}, column(2, 1)[1]), ValueError, "position"),
+    (lambda: diptych.map_stress(column(2, 1)[0], {"i": [0]}), ValueError, "'j' is missing"),
+    (lambda: diptych.map_stress(column(1, 1)[0], column(2, 1)[1], diptych.grid((0, 0), (1, 1), 1)), ValueError, "contact 1 joins"),
+    (lambda: diptych.map_stress(*column(2, 1), method="magic"), diptych.SceneError, "averaging = 'magic'"),
+    (lambda: diptych.map_stress(*column(2, 1), averaging_width=99, method="kernel"), diptych.SceneError, "averaging_width"),
+    (lambda: diptych.map_stress(*column(2, 1), mesh=([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2, 9]])), ValueError, "node 9 of 4"),
+    (lambda: diptych.grid((0, 0), (1, 1), -1), ValueError, "size"),
+    (lambda: diptych.find_bands(np.zeros((5, 2)), np.zeros((4, 2)), 1), ValueError, "displacement"),
+    (lambda: diptych.find_bands(*band_of(50, 12)[:2], 1.0, max_bands=7), diptych.SceneError, "comparison/max_bands"),
+    (lambda: diptych.find_bands(*band_of(50, 12)[:2], 1.0, bands=1), diptych.SceneError, "unknown key 'comparison/bands'"),
+    (lambda: diptych.find_bands(np.full((50, 2), np.nan), np.ones((50, 2)), 1.0), ValueError, "finite"),
+    (lambda: diptych.probe(column(2, 1)[0], [(0, 0), (0, 1), (1, 0)], column(2, 1)[1]), ValueError, "anticlockwise"),
+    (lambda: diptych.integrate({"law": "rubber"}, [[0, 0, 0]]), diptych.SceneError, "continuum/law"),
+    (lambda: diptych.integrate({}, [[[0, 1], [0, 0]]]), ValueError, r"strain_path\[0\] must be finite and symmetric"),
+    (lambda: diptych.solve((np.eye(3), [1, 2], [0.3])), ValueError, "must have 2 rows"),
+    (lambda: diptych.solve((np.diag([0.0, 1.0]), [1, 2], [0.3])), ValueError, r"W\[0, 0\] must be positive"),
+    (lambda: diptych.solve("nowhere.h5"), ValueError, "nowhere.h5"),
+    (lambda: diptych.solve((np.eye(2), [1, 2], [0.3]), solver="gauss"), diptych.SceneError, "discrete/solver"),
+])
+def test_wrong_arguments_are_named(call, error, words):
+    with pytest.raises(error, match=words):
+        call()

@@ -1,0 +1,220 @@
+# diptych: panels as objects: the program's bits, callbacks, interruption, threads
+# SPDX-License-Identifier: LGPL-2.1-or-later
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import h5py
+import numpy as np
+import pytest
+
+import diptych
+from conftest import QUICK, SMALL, program, words
+
+GRAIN_FIELDS = ("position", "displacement", "velocity", "rotation", "spin", "internal_moment", "mean_internal_moment", "rattler")
+
+
+def same_history(a, b):
+    for name in a:
+        if not name.endswith("cpu_s"):
+            np.testing.assert_array_equal(a[name], b[name], name)
+
+
+def same_snapshots(a, b, fields):
+    assert len(a) == len(b) > 1
+    for one, other in zip(a, b):
+        for name in fields:
+            np.testing.assert_array_equal(getattr(one, name), getattr(other, name), name)
+
+
+def test_the_quick_scene_has_the_bits_of_the_program(tmp_path):
+    short = {"loading": {"axial_strain": 0.005}, "comparison": {"window_edges": [0, 0.005]}}
+    program("discrete", QUICK, *words(short), "--output", tmp_path / "out", "--quiet")
+    panel = diptych.DiscretePanel(diptych.scene(QUICK, **short))
+    assert panel.run() == "finished" and panel.stage == 1
+    mine = tmp_path / "mine"
+    mine.mkdir()
+    panel.write(mine)
+    assert (mine / "discrete.csv").read_bytes() == (tmp_path / "out" / "discrete.csv").read_bytes()
+    with h5py.File(mine / "discrete.h5") as a, h5py.File(tmp_path / "out" / "discrete.h5") as b:
+        names = []
+        b.visititems(lambda name, what: names.append(name) if isinstance(what, h5py.Dataset) else None)
+        assert len(names) > 40
+        for name in names:
+            np.testing.assert_array_equal(a[name], b[name], name)
+
+
+def test_both_panels_have_the_bits_of_the_program(panels, folder):
+    left = diptych.load(folder)
+    for panel, results, fields in zip(panels, (left.discrete, left.continuum, left.coarse),
+                                      (GRAIN_FIELDS, *2 * (("position", "displacement", "rotation", "stress", "strain", "cells"),))):
+        same_history(panel.history, results.history)
+        same_snapshots(panel.snapshots, results.snapshots, fields)
+
+
+def test_a_callback_sees_every_step_and_may_look_at_the_panel(small, panels):
+    seen = []
+    panel = diptych.DiscretePanel(small)
+    panel.on_step = lambda row: seen.append((row["step"], row["axial_strain"], panel.snapshot().axial_strain))
+    panel.run()
+    history = panel.history
+    assert [step for step, *_ in seen] == list(history["step"]) == list(range(1, len(seen) + 1))
+    for step, strain, at in seen:
+        assert at == pytest.approx(strain, abs=1e-12), step
+    same_history(history, panels[0].history)
+
+
+def test_a_run_that_a_callback_stops_goes_on_with_the_same_bits(small, panels):
+    for make, whole in ((lambda: diptych.DiscretePanel(small), panels[0]),
+                        (lambda: diptych.ContinuumPanel(small, panels[0].snapshots[0]), panels[1])):
+        panel = make()
+        panel.on_step = lambda row: row["step"] < 4
+        assert panel.run() == "stopped" and panel.history["step"][-1] == 4 and panel.stage < 2
+        panel.on_step = None
+        assert panel.run() == "finished"
+        same_history(panel.history, whole.history)
+        np.testing.assert_array_equal(panel.snapshot().position, whole.snapshot().position)
+
+
+def test_an_exception_in_a_callback_comes_out_and_leaves_the_panel_whole(small, panels):
+    def fail(row):
+        if row["step"] == 3:
+            raise KeyError("mine")
+
+    panel = diptych.DiscretePanel(small, on_step=fail)
+    with pytest.raises(KeyError, match="mine"):
+        panel.run()
+    assert panel.status == "stopped"
+    panel.on_step = None
+    assert panel.run() == "finished"
+    same_history(panel.history, panels[0].history)
+
+
+@pytest.mark.parametrize("delay", [0.05, 0.9])  # while the sample of 2000 is prepared (0.9 s alone) or a little later
+def test_ctrl_c_ends_a_run_and_the_panel_goes_on(delay):
+    panel = diptych.DiscretePanel(QUICK)
+    timer = threading.Timer(delay, lambda: os.kill(os.getpid(), signal.SIGINT))
+    timer.start()
+    begin = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        panel.run()
+    assert time.monotonic() - begin < delay + 5 and panel.status == "stopped"
+    panel.on_step = lambda row: False
+    assert panel.run() == "stopped" and len(panel.history["step"]) > 0
+
+
+def test_other_threads_run_while_a_panel_works(small):
+    panel, ticks = diptych.DiscretePanel(small), 0
+    worker = threading.Thread(target=panel.run)
+    worker.start()
+    while worker.is_alive():
+        time.sleep(0.001)
+        ticks += 1
+    assert panel.status == "finished" and ticks > 20  # the run takes 0.2 s and more
+
+
+def test_two_panels_in_two_threads_have_the_bits_of_one(small, panels):
+    two = [diptych.DiscretePanel(small) for _ in range(2)]
+    workers = [threading.Thread(target=panel.run) for panel in two]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    for panel in two:
+        same_history(panel.history, panels[0].history)
+
+
+def test_a_panel_at_work_refuses_a_second_driver(small):
+    panel, refused = diptych.DiscretePanel(small), []
+
+    def again(_):
+        for call in (panel._panel.prepare, lambda on_step: panel._panel.advance(1, on_step)):
+            with pytest.raises(RuntimeError, match="already at work"):
+                call(None)
+        reader = threading.Thread(target=read)
+        reader.start()
+        reader.join()
+        return False
+
+    def read():
+        with pytest.raises(RuntimeError, match="another thread"):
+            panel.snapshot()
+        refused.append(True)
+
+    panel.on_step = again
+    assert panel.run() == "stopped" and refused == [True]
+
+
+def test_arrays_share_the_memory_of_their_snapshot_and_outlive_it(panels):
+    snapshot = panels[0].snapshots[-1]
+    assert np.shares_memory(snapshot.position, snapshot.position) and np.shares_memory(snapshot.window.force, snapshot.window.force)
+    assert not snapshot.position.flags.writeable and not snapshot.contacts.force.flags.writeable
+    force, kept = panels[0].snapshot().contacts.force, snapshot.contacts.force.copy()
+    np.testing.assert_array_equal(force, kept)  # its snapshot and its list are gone
+    assert len(snapshot) == 300 and snapshot.position.shape == (300, 2) and snapshot.internal_moment.shape == (300, 2, 2)
+    with pytest.raises(AttributeError, match="snapshot.window"):
+        _ = snapshot.contacts.dissipation
+
+
+def test_contacts_hold_the_moments_of_the_grains(panels):
+    """M = -sum f (x) (point - centre) of each grain, its symmetric part, less the spin term. The contact point is that of the
+    stage's end, the branch moved meanwhile: thousandths of the largest moment."""
+    s = panels[0].snapshots[-1]
+    c, moment = s.window, np.zeros((len(s), 2, 2))
+    np.subtract.at(moment, c.i, c.force[:, :, None] * (c.point - s.position[c.i])[:, None, :])
+    pair = c.j < len(s)
+    np.add.at(moment, c.j[pair], c.force[pair][:, :, None] * (c.point - s.position[np.minimum(c.j, len(s) - 1)])[pair][:, None, :])
+    moment = 0.5 * (moment + moment.transpose(0, 2, 1)) - s.mean_spin_term[:, None, None] * np.eye(2)
+    np.testing.assert_allclose(moment, s.mean_internal_moment, atol=2e-3 * np.abs(s.mean_internal_moment).max())
+
+
+def test_own_grains_are_taken_as_they_are():
+    """Rows of equal discs between smooth walls: they settle where they stand."""
+    x, y = np.meshgrid(np.arange(6.0), np.arange(6.0))
+    position = np.column_stack([x.ravel(), y.ravel()])
+    panel = diptych.DiscretePanel({"discrete": {"lateral": "rigid_walls"}, "loading": {"horizontal_over_vertical": 0}},
+                                  grains={"position": position, "radius": np.full(36, 0.5)})
+    assert panel.prepare() == "finished"
+    moved = panel.snapshot().position - position
+    assert np.abs(moved - moved.mean(0)).max() < 1e-2
+    with pytest.raises(ValueError, match="radius: one entry a grain"):
+        diptych.DiscretePanel({}, grains={"position": position, "radius": np.ones(3)})
+
+
+def test_what_does_not_converge_says_so(small):
+    panel = diptych.DiscretePanel(diptych.scene(small, discrete={"max_sweeps": 1, "tolerance": 1e-9}))
+    with pytest.raises(diptych.NotConverged):
+        panel.run()
+    assert panel.status == "not_converged" and panel.report.message
+
+
+def test_the_continuum_asks_for_what_it_needs(small):
+    with pytest.raises(diptych.SceneError, match="snapshot") as thrown:
+        diptych.ContinuumPanel(small)
+    assert thrown.value.key == "continuum/mesh"
+    fixed = diptych.scene(small, discrete={"lateral": "rigid_walls", "drive_left_y": "velocity 1"})
+    with pytest.raises(diptych.SceneError, match="no counterpart") as thrown:
+        diptych.ContinuumPanel(fixed, None)
+    with pytest.raises(ValueError, match="stages 1 ... 2"):
+        diptych.DiscretePanel(small).advance(3)
+
+
+def test_a_rectangle_needs_no_grains():
+    """Elastic, smooth walls pressed at 1: at rest the stress is the pressure everywhere."""
+    panel = diptych.ContinuumPanel({"continuum": {"law": "linear_elastic", "mesh": "rectangle", "rectangle_width": 8,
+                                                  "rectangle_height": 12, "element_size": 2},
+                                    "discrete": {"lateral": "rigid_walls", "platen_friction": 0},
+                                    "loading": {"axial_strain": 0.001, "stage_strain": 0.001, "horizontal_over_vertical": 0}})
+    panel.prepare()
+    np.testing.assert_allclose(panel.snapshot().stress[:, :2, :2], np.broadcast_to(np.eye(2), (24, 2, 2)), atol=1e-8)
+
+
+def test_a_process_ends_cleanly_with_panels_alive():
+    script = ("import diptych, h5py\n"
+              "p = diptych.ContinuumPanel({'continuum': {'mesh': 'rectangle', 'rectangle_width': 8, 'rectangle_height': 8}})\n"
+              "p.prepare(); print(p.snapshot().area)")
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert done.returncode == 0 and float(done.stdout) == pytest.approx(64) and done.stderr == ""
