@@ -41,7 +41,7 @@ namespace diptych::coupling
       return out;
     }
 
-    ExportedFiles as_csv(const Snapshot &s)
+    ExportedFiles as_csv(const Snapshot &s, const int stage)
     {
       std::ostringstream particles = exact_stream(), contacts = exact_stream(), walls = exact_stream();
       particles << "id,x,y,r,mass,vx,vy,omega\n";
@@ -55,11 +55,12 @@ namespace diptych::coupling
           contacts << c.i << ',' << (c.j < n ? c.j : n - c.j - 1) << ',' << c.force.x() << ',' << c.force.y() << ','
                    << c.point.x() << ',' << c.point.y() << '\n';
       const ExportBox box = box_of(s);
-      walls << "frame," << (box.has_sides() ? "left_x,right_x," : "") << "lower_y,upper_y\n0,";
+      walls << "frame," << (box.has_sides() ? "left_x,right_x," : "") << "lower_y,upper_y,upper_travel\n" << stage << ',';
       if (box.has_sides())
         walls << box.left << ',' << box.right << ',';
-      walls << box.lower << ',' << box.upper << '\n';
-      return {{"particles_0.csv", particles.str()}, {"contacts_0.csv", contacts.str()}, {"walls.csv", walls.str()}};
+      walls << box.lower << ',' << box.upper << ',' << s.upper_platen_displacement.x() << '\n';
+      const std::string number = std::to_string(stage) + ".csv";
+      return {{"particles_" + number, particles.str()}, {"contacts_" + number, contacts.str()}, {"walls_" + number, walls.str()}};
     }
 
     std::string lammps_script(const Scene &scene, const Snapshot &s, const ExportBox &box)
@@ -152,7 +153,10 @@ namespace diptych::coupling
     }
   } // namespace
 
-  ExportedFiles exported_sample(const std::string &format, const Scene &scene, const discrete::Snapshot &snapshot)
+  ExportedFiles exported_sample(const std::string        &format,
+                                const Scene              &scene,
+                                const discrete::Snapshot &snapshot,
+                                const int                 stage)
   {
     if (format == "lammps")
       return as_lammps(scene, snapshot);
@@ -160,6 +164,6 @@ namespace diptych::coupling
       return as_yade(scene, snapshot);
     if (format == "lmgc90")
       return lmgc90_datbox(scene, snapshot);
-    return as_csv(snapshot);
+    return as_csv(snapshot, stage);
   }
 } // namespace diptych::coupling

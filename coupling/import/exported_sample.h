@@ -11,8 +11,8 @@
 namespace diptych::coupling
 {
   // Name and text of every file. `lammps`: data file and script; `yade`: table of spheres and script; `lmgc90`: DATBOX with
-  // DOF.INI (text); `csv`: particles, contacts, walls. Grains, walls, friction and pressure are those of the snapshot and the
-  // scene; contact stiffness and damping, which rigid grains do not have, are said at the head of the scripts. Throws SceneError
-  // where the sample has no walls that the format needs (periodic sides).
-  ExportedFiles exported_sample(const std::string &format, const Scene &scene, const discrete::Snapshot &snapshot);
+  // DOF.INI (text); `csv`: particles, contacts, walls, the stage in their names. Grains, walls, friction and pressure are those
+  // of the snapshot and the scene; contact stiffness and damping, which rigid grains do not have, are said at the head of the
+  // scripts. Throws SceneError where the sample has no walls that the format needs (periodic sides).
+  ExportedFiles exported_sample(const std::string &format, const Scene &scene, const discrete::Snapshot &snapshot, int stage);
 } // namespace diptych::coupling

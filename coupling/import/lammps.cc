@@ -253,8 +253,7 @@ namespace diptych::coupling
     require_same_steps(files, sample);
     for (auto &[step, grains] : files.grains)
       sample.frames.push_back(dump_frame(grains, files, options));
-    for (const std::string &path : files.wall_tables)
-      add_wall_table(sample, read_number_table(path));
+    add_wall_tables(sample, files.wall_tables);
     const auto has_tangential = [](const auto &entry) { return entry.second.table.has("p1"); };
     if (!files.contacts.empty() && !std::any_of(files.contacts.begin(), files.contacts.end(), has_tangential))
       sample.lacking.push_back("tangential forces (fx, fy of compute pair/local are the normal part; p1, p2 the tangential one)");

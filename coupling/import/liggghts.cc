@@ -242,8 +242,7 @@ namespace diptych::coupling
       sample.frames.push_back(liggghts_frame(grains, files, options));
     if (sample.frames.empty())
       throw SceneError("import liggghts: no file holds grains (dump custom with id, x, y, radius)");
-    for (const std::string &path : files.wall_tables)
-      add_wall_table(sample, read_number_table(path));
+    add_wall_tables(sample, files.wall_tables);
     for (ForeignFrame &frame : sample.frames)
       if (const auto plates = files.plates.find(*frame.step); plates != files.plates.end())
         add_stl(plates->second, frame);

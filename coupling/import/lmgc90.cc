@@ -166,8 +166,7 @@ namespace diptych::coupling
     for (const std::string &path : files.unused)
       sample.remarks.push_back(path + ": not needed");
     std::sort(sample.frames.begin(), sample.frames.end(), [](const auto &a, const auto &b) { return *a.time < *b.time; });
-    for (const std::string &path : files.wall_tables)
-      add_wall_table(sample, read_number_table(path));
+    add_wall_tables(sample, files.wall_tables);
     return sample;
   }
 } // namespace diptych::coupling

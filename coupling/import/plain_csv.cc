@@ -84,6 +84,7 @@ namespace diptych::coupling
                          " (the number in the file's name, or a column frame)");
       ForeignFrame frame;
       frame.name       = std::to_string(number);
+      frame.step       = number;
       frame.grain_file = files.particles->path;
       frame.grains     = grains_of(*files.particles);
       if (const auto time = files.particles->find("time"))
@@ -120,8 +121,7 @@ namespace diptych::coupling
     sample.density = not_told;
     for (const auto &[number, files] : frames)
       sample.frames.push_back(csv_frame(number, files));
-    for (const std::string &path : tables)
-      add_wall_table(sample, read_number_table(path));
+    add_wall_tables(sample, tables);
     return sample;
   }
 } // namespace diptych::coupling

@@ -25,16 +25,24 @@ namespace diptych::coupling
     std::size_t row_of(const NumberTable &table, const ForeignFrame &frame, const std::size_t number)
     {
       const auto step = table.find("step"), time = table.find("time"), count = table.find("frame");
-      for (std::size_t row = 0; row < table.n_rows(); ++row)
-        {
-          if (step && frame.step && table.whole(row, *step) == *frame.step)
+      const auto first = [&](const auto &is_of) -> std::optional<std::size_t> {
+        for (std::size_t row = 0; row < table.n_rows(); ++row)
+          if (is_of(row))
             return row;
-          if (!(step && frame.step) && time && frame.time &&
-              std::abs(table.at(row, *time) - *frame.time) <= 1e-9 * std::abs(*frame.time))
-            return row;
-          if (count && table.whole(row, *count) == long(number))
-            return row;
-        }
+        return std::nullopt;
+      };
+      std::optional<std::size_t> found;
+      if (step && frame.step)
+        found = first([&](const std::size_t row) { return table.whole(row, *step) == *frame.step; });
+      else if (time && frame.time)
+        found = first(
+          [&](const std::size_t row) { return std::abs(table.at(row, *time) - *frame.time) <= 1e-9 * std::abs(*frame.time); });
+      if (!found && count && frame.step) // the number in the name of a table
+        found = first([&](const std::size_t row) { return table.whole(row, *count) == *frame.step; });
+      if (!found && count)
+        found = first([&](const std::size_t row) { return table.whole(row, *count) == long(number); });
+      if (found)
+        return *found;
       if (!(step && frame.step) && !(time && frame.time) && !count && number < table.n_rows())
         return number;
       throw SceneError(table.path + ": has no row for frame " + frame.name + " (column step, time or frame)");
@@ -83,6 +91,26 @@ namespace diptych::coupling
           return true;
       }
     return false;
+  }
+
+  void add_wall_tables(ForeignSample &sample, const std::vector<std::string> &paths)
+  {
+    NumberTable all;
+    for (const std::string &path : paths)
+      {
+        const NumberTable table = read_number_table(path);
+        if (all.columns.empty())
+          all = table;
+        else if (all.columns != table.columns)
+          throw SceneError(path + ": other columns than " + all.path);
+        else
+          {
+            all.values.insert(all.values.end(), table.values.begin(), table.values.end());
+            all.line.insert(all.line.end(), table.line.begin(), table.line.end());
+          }
+      }
+    if (!paths.empty())
+      add_wall_table(sample, all);
   }
 
   void add_wall_table(ForeignSample &sample, const NumberTable &table)

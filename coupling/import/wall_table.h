@@ -15,4 +15,7 @@ namespace diptych::coupling
   // or left_x, right_x, lower_y, upper_y (each as far as there is such a wall), upper_travel, and forces left_fx, left_fy, ... of
   // either sign. Adds to the walls of the frames. Throws SceneError naming the file and a frame that has no row.
   void add_wall_table(ForeignSample &sample, const NumberTable &table);
+
+  // The rows of several files with the same columns, as one table.
+  void add_wall_tables(ForeignSample &sample, const std::vector<std::string> &paths);
 } // namespace diptych::coupling

@@ -220,8 +220,7 @@ namespace diptych::coupling
     sample.is_spheres = true;
     for (const auto &[number, files] : frames_of(options, tables))
       sample.frames.push_back(frame_of(files, number));
-    for (const std::string &path : tables)
-      add_wall_table(sample, read_number_table(path));
+    add_wall_tables(sample, tables);
     return sample;
   }
 } // namespace diptych::coupling

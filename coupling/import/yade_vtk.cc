@@ -124,8 +124,7 @@ namespace diptych::coupling
           add_vtk_interactions(interactions[number], frame);
         sample.frames.push_back(std::move(frame));
       }
-    for (const std::string &path : tables)
-      add_wall_table(sample, read_number_table(path));
+    add_wall_tables(sample, tables);
     sample.lacking = {"tangential forces (VTKRecorder keeps absolute components without direction)", "contacts with walls"};
     return sample;
   }

@@ -27,7 +27,7 @@ namespace diptych::coupling
     if (std::size_t(line.stage) >= snapshots.size())
       throw SceneError("--stage " + std::to_string(line.stage) + ": " + file + " holds " + std::to_string(snapshots.size()) +
                        " snapshots, 0 to " + std::to_string(snapshots.size() - 1));
-    const ExportedFiles files  = exported_sample(line.format, scene, snapshots[std::size_t(line.stage)]);
+    const ExportedFiles files  = exported_sample(line.format, scene, snapshots[std::size_t(line.stage)], line.stage);
     const std::string   folder = line.output.empty() ? fs::path(line.target + "/").parent_path().string() + "_for_" + line.format
                                                      : line.output;
     for (const auto &[name, text] : files)

@@ -13,7 +13,7 @@ import unittest
 import h5py
 import numpy
 
-from running import SOURCE, bits, content, diptych, history, listing, main, write
+from running import QUICK, SMALL, SOURCE, bits, content, diptych, history, listing, main, setting, write
 
 FOREIGN = os.path.join(SOURCE, "tests", "foreign")
 COARSE = ["--set", "continuum/element_size=3", "--set", "comparison/coarse_element_size=0", "--set", "output/report=false"]
@@ -159,6 +159,25 @@ class Refused(Case):
 
 
 class Export(Case):
+    def test_our_own_run_exported_and_imported_is_the_same_sample(self):
+        """Free sides, platens that travel: stresses of the last step of every stage, volume of the outline, progress."""
+        self.done("discrete", QUICK, *SMALL, *setting(loading_stage_strain=0.0025, comparison_window_edges="0,0.01"), "--output",
+                  self.path("own"), "--quiet")
+        for stage in range(5):
+            self.done("export", self.path("own"), "--format", "csv", "--stage", str(stage), "--output", self.path("tables"), "--quiet")
+        self.done("import", "csv", *sorted(glob.glob(self.path("tables", "*.csv"))), "--output", self.path("back"), "--pressure", "1",
+                  "--mean-diameter", "1", "--quiet")
+        own, back = history(self.path("own")), history(self.path("back"))
+        at = [numpy.argmin(abs(own["axial_strain"] - strain)) for strain in back["axial_strain"]]
+        self.assertLess(abs(own["axial_strain"][at] - back["axial_strain"])[1:].max(), 1e-12)  # our first row is that of the first step
+        for name in ("sxx", "sxy", "syy", "stress_ratio", "volumetric_strain", "solid_fraction", "shear_strain"):
+            numpy.testing.assert_allclose(back[name][1:], own[name][at][1:], rtol=1e-6, atol=1e-9, err_msg=name)
+        for name in ("upper_fx", "upper_fy", "lower_fy"):
+            numpy.testing.assert_allclose(back[name][1:], own[name][at][1:], rtol=1e-6, err_msg=name)
+        self.done("run", self.path("back", "scene.prm"), "--output", self.path("both"), "--quiet", *COARSE)
+        nodes = history(self.path("both"), "continuum.csv")
+        self.assertAlmostEqual(nodes["shear_strain"][-1], back["shear_strain"][-1], places=9)
+
     def test_what_is_exported_comes_back(self):
         self.done("import", "lammps", *LAMMPS, "--output", self.path("mine"), "--quiet")
         self.done("run", self.path("mine", "scene.prm"), "--output", self.path("both"), "--quiet", *COARSE)
