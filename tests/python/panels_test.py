@@ -127,6 +127,26 @@ def test_two_panels_in_two_threads_have_the_bits_of_one(small, panels):
         same_history(panel.history, panels[0].history)
 
 
+def test_continuum_panels_of_several_threads_take_turns(small, panels):
+    """Each with a callback, for which it needs Python's lock while the other waits for its turn."""
+    rows, results = [], []
+
+    def run(_):
+        panel = diptych.ContinuumPanel(small, panels[0].snapshots[0], on_step=lambda row: rows.append(row["step"]))
+        panel.run()
+        results.append((panel.history, panel.snapshot().stress))
+
+    workers = [threading.Thread(target=run, args=(k,)) for k in range(3)]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join(60)
+    assert len(results) == 3 and len(rows) == 3 * len(panels[1].history["step"])
+    for history, stress in results:
+        same_history(history, panels[1].history)
+        np.testing.assert_array_equal(stress, panels[1].snapshot().stress)
+
+
 def test_a_panel_at_work_refuses_a_second_driver(small):
     panel, refused = diptych.DiscretePanel(small), []
 
