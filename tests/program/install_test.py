@@ -5,6 +5,7 @@
 
 import os
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -59,7 +60,7 @@ class Package(unittest.TestCase):
         place = os.path.join(self.root, "usr", "lib", "python3", "dist-packages")
         script = ("import diptych; p = diptych.ContinuumPanel({'continuum': {'mesh': 'rectangle', 'rectangle_width': 8, "
                   "'rectangle_height': 8}}); print(p.prepare(), diptych.__file__)")
-        done = subprocess.run(["/usr/bin/python3", "-B", "-c", script], capture_output=True, text=True, check=False, cwd=self.work,
+        done = subprocess.run([sys.executable, "-B", "-c", script], capture_output=True, text=True, check=False, cwd=self.work,
                               env={"PATH": "/usr/bin:/bin", "HOME": self.work, "PYTHONPATH": place})
         self.assertEqual(done.stdout.split(), ["finished", os.path.join(place, "diptych", "__init__.py")], done.stderr)
 

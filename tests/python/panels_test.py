@@ -106,6 +106,26 @@ def test_ctrl_c_ends_a_run_and_the_panel_goes_on(delay):
     assert panel.run() == "stopped" and len(panel.history["step"]) > 0
 
 
+def test_ctrl_c_ends_a_continuum_and_it_goes_on_with_the_same_bits():
+    scene = {"continuum": {"mesh": "rectangle", "rectangle_width": 30, "rectangle_height": 30, "law": "linear_elastic",
+                           "initial_step": 5e-4, "max_step": 5e-4}, "loading": {"axial_strain": 0.03}}
+    panel, whole = diptych.ContinuumPanel(scene), diptych.ContinuumPanel(scene)
+    panel.prepare()
+
+    def interrupt(row):
+        if row["step"] == 12:
+            os.kill(os.getpid(), signal.SIGINT)
+
+    panel.on_step = interrupt
+    with pytest.raises(KeyboardInterrupt):
+        panel.run()
+    assert 12 <= panel.history["step"][-1] < 60
+    panel.on_step = None
+    assert panel.run() == whole.run() == "finished"
+    same_history(panel.history, whole.history)
+    np.testing.assert_array_equal(panel.snapshot().stress, whole.snapshot().stress)
+
+
 def test_other_threads_run_while_a_panel_works(small):
     panel, ticks = diptych.DiscretePanel(small), 0
     worker = threading.Thread(target=panel.run)
@@ -218,6 +238,8 @@ def test_the_continuum_asks_for_what_it_needs(small):
     fixed = diptych.scene(small, discrete={"lateral": "rigid_walls", "drive_left_y": "velocity 1"})
     with pytest.raises(diptych.SceneError, match="no counterpart") as thrown:
         diptych.ContinuumPanel(fixed, None)
+    with pytest.raises(FileNotFoundError, match="nowhere"):
+        diptych.DiscretePanel(small).write("nowhere")
     with pytest.raises(ValueError, match="stages 1 ... 2"):
         diptych.DiscretePanel(small).advance(3)
 
