@@ -26,7 +26,7 @@ case "$preset" in
             select+=(-R '^(house[.]House|discrete|coupling|coupling_panels)[.]') ;;
 esac
 packages+=(chromium python3-meshio dpkg-dev clang-format) # the tests alone: they open report.html, read the ParaView files back, make a package
-packages+=(python3-pytest python3-pandas python3-scipy python3-nbconvert python3-ipykernel) # ... use the Python package, run its notebooks
+packages+=(python3-pytest python3-pandas python3-scipy python3-nbconvert python3-ipykernel python3-mpi4py) # ... use the Python package, run its notebooks
 install_missing
 build "$preset" "${targets[@]}"
 ctest --test-dir build/"$preset" --output-on-failure -j "$(cores)" "${select[@]}"
