@@ -28,7 +28,7 @@ esac
 # The tests alone: they open report.html, read the ParaView files back, make a package and the manual, use the Python package and
 # run its notebooks.
 packages+=(chromium python3-meshio dpkg-dev clang-format mkdocs mkdocs-material libjs-katex fish man-db)
-packages+=(python3-pytest python3-pandas python3-scipy python3-nbconvert python3-ipykernel)
+packages+=(python3-pytest python3-pandas python3-scipy python3-nbconvert python3-ipykernel python3-mpi4py)
 install_missing
 build "$preset" "${targets[@]}"
 ctest --test-dir build/"$preset" --output-on-failure -j "$(cores)" "${select[@]}"

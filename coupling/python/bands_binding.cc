@@ -3,6 +3,7 @@
 #include "coupling/bands/band_detection.h"
 #include "coupling/bands/strips.h"
 #include "coupling/bands/theory_lines.h"
+#include "coupling/comparison/increment.h"
 #include "coupling/python/bindings.h"
 #include "coupling/python/inputs.h"
 
@@ -95,6 +96,28 @@ namespace diptych::python
       return dict;
     }
 
+    py::dict increment_dict(coupling::DisplacementField field)
+    {
+      py::dict dict;
+      dict["points"]       = own(std::move(field.position));
+      dict["displacement"] = own(std::move(field.increment));
+      dict["weight"]       = own(std::move(field.weight));
+      return dict;
+    }
+
+    // With the frame of the comparison.
+    py::dict grain_increment(const discrete::Snapshot &from, const discrete::Snapshot &to)
+    {
+      py::dict                    dict  = increment_dict(coupling::displacement_field(from, to));
+      const coupling::SampleFrame frame = coupling::sample_frame(from, to);
+      dict["mean_diameter"]             = frame.mean_diameter;
+      dict["platen_increment"]          = copy(frame.platen_increment);
+      dict["centre"]                    = copy(frame.centre);
+      dict["width"]                     = frame.width;
+      dict["height"]                    = frame.height;
+      return dict;
+    }
+
     py::array shear_strain(const py::dict &arrays, const Numbers &at, const double radius)
     {
       const coupling::DisplacementField  field  = field_of(arrays);
@@ -112,6 +135,10 @@ namespace diptych::python
 
   void bind_bands(py::module_ &m)
   {
+    m.def("increment", &grain_increment);
+    m.def("increment", [](const continuum::Snapshot &from, const continuum::Snapshot &to) {
+      return increment_dict(coupling::displacement_field(from, to));
+    });
     m.def("find_bands", &find_bands);
     m.def("strips", &strips);
     m.def("shear_strain", &shear_strain);

@@ -1,5 +1,6 @@
 // diptych: the module diptych._continuum: the continuum panel and its laws
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <mutex>
 #include <set>
 
 #include <pybind11/functional.h>
@@ -22,62 +23,109 @@ namespace diptych::python
   {
     using SharedGrains = std::shared_ptr<discrete::Snapshot>;
 
+    // MPI and gmsh serve one thread at a time: panels of several threads take turns. The callback of a panel may use others.
+    // Waits without the GIL, which the thread ahead may need for its callback.
+    std::unique_lock<std::recursive_mutex> own_turn()
+    {
+      static std::recursive_mutex            continuum;
+      const py::gil_scoped_release           release;
+      std::unique_lock<std::recursive_mutex> turn(continuum);
+      return turn;
+    }
+
     // One run on the scene's mesh.
     class ContinuumPanel
     {
     public:
       using Driven = DrivenPanel<continuum::Panel, continuum::Hooks, continuum::HistoryRow>;
 
-      ContinuumPanel(const coupling::Scene &scene, SharedGrains grains)
-          : scene(scene),
-            grains(std::move(grains))
+      ContinuumPanel(const coupling::Scene &given, SharedGrains prepared)
+          : scene(given),
+            grains(std::move(prepared))
       {
         coupling::require_continuum(scene);
-        const bool outline = scene.continuum.mesh.kind == continuum::MeshOption::Kind::outline;
-        if (outline && !this->grains)
+        if (needs_grains() && !grains)
           throw coupling::SceneError("continuum/mesh = outline needs the prepared grains: hand over their first snapshot");
+        const auto turn = own_turn();
         start_mpi();
-        const continuum::QuadMesh mesh = coupling::mesh_of(scene, coupling::continuum_parts(scene).front(), this->grains.get());
-        const double              fraction = outline ? coupling::solid_fraction(*this->grains) : scene.sample.solid_fraction;
-        const continuum::Loading  loading  = coupling::continuum_loading(scene, coupling::measured(mesh, fraction));
-        driven                             = std::make_unique<Driven>([&](const continuum::Hooks &hooks) {
-          return continuum::Panel(mesh, coupling::continuum_units(scene), loading, scene.continuum, hooks);
-        });
+        {
+          const py::gil_scoped_release release;
+          driven = made();
+        }
         living().insert(this);
       }
       ContinuumPanel(const ContinuumPanel &)            = delete;
       ContinuumPanel &operator=(const ContinuumPanel &) = delete;
-      ~ContinuumPanel() { living().erase(this); }
+      ~ContinuumPanel()
+      {
+        const auto turn = own_turn();
+        living().erase(this);
+        driven.reset();
+      }
 
       std::string prepare(const py::object &on_step)
       {
-        coupling::map_initial_state(scene, grains.get(), driven->panel());
+        const auto turn = own_turn();
+        {
+          const py::gil_scoped_release release;
+          coupling::map_initial_state(scene, grains.get(), driven->panel());
+        }
         return driven->prepare(on_step);
       }
+
+      std::string advance(const int stage, const py::object &on_step)
+      {
+        driven->demand_rest();
+        const auto turn = own_turn();
+        return driven->advance(stage, on_step);
+      }
+
+      std::shared_ptr<continuum::Snapshot> snapshot() const
+      {
+        driven->demand_rest();
+        const auto turn = own_turn();
+        return std::make_shared<continuum::Snapshot>(driven->snapshot());
+      }
+
+      const Driven &driver() const { return *driven; }
 
       // At the end of the process, before MPI ends.
       static void close_all()
       {
+        const auto turn = own_turn();
         for (ContinuumPanel *panel : living())
           panel->driven->release();
         end_mpi();
       }
 
-      coupling::Scene         scene;
-      SharedGrains            grains;
-      std::unique_ptr<Driven> driven;
-
     private:
+      bool needs_grains() const { return scene.continuum.mesh.kind == continuum::MeshOption::Kind::outline; }
+
+      std::unique_ptr<Driven> made() const
+      {
+        const auto                part     = coupling::continuum_parts(scene).front();
+        const continuum::QuadMesh mesh     = coupling::mesh_of(scene, part, grains.get());
+        const double              fraction = needs_grains() ? coupling::solid_fraction(*grains) : scene.sample.solid_fraction;
+        const continuum::Loading  loading  = coupling::continuum_loading(scene, coupling::measured(mesh, fraction));
+        return std::make_unique<Driven>([&](const continuum::Hooks &hooks) {
+          return continuum::Panel(mesh, coupling::continuum_units(scene), loading, scene.continuum, hooks);
+        });
+      }
+
       static std::set<ContinuumPanel *> &living()
       {
         static std::set<ContinuumPanel *> panels;
         return panels;
       }
+
+      coupling::Scene         scene;
+      SharedGrains            grains;
+      std::unique_ptr<Driven> driven;
     };
 
     py::dict report_of(const ContinuumPanel &panel)
     {
-      const continuum::Report &r = panel.driven->panel().report();
+      const continuum::Report &r = panel.driver().panel().report();
       py::dict                 report;
       report["message"]               = r.message;
       report["progress"]              = r.progress;
@@ -98,15 +146,13 @@ namespace diptych::python
       py::class_<ContinuumPanel>(m, "ContinuumPanel")
         .def(py::init<const coupling::Scene &, SharedGrains>(), py::arg("scene"), py::arg("grains") = py::none())
         .def("prepare", &ContinuumPanel::prepare)
-        .def("advance", [](ContinuumPanel &panel, const int stage,
-                           const py::object &on_step) { return panel.driven->advance(stage, on_step); })
-        .def("snapshot",
-             [](const ContinuumPanel &panel) { return std::make_shared<continuum::Snapshot>(panel.driven->snapshot()); })
-        .def("stage", [](const ContinuumPanel &panel) { return panel.driven->panel().stage(); })
-        .def("history", [](const ContinuumPanel &panel) { return columns_dict(panel.driven->rows()); })
+        .def("advance", &ContinuumPanel::advance)
+        .def("snapshot", &ContinuumPanel::snapshot)
+        .def("stage", [](const ContinuumPanel &panel) { return panel.driver().panel().stage(); })
+        .def("history", [](const ContinuumPanel &panel) { return columns_dict(panel.driver().rows()); })
         .def("report", &report_of)
         .def("results", [](const ContinuumPanel &panel, const ContinuumSnapshots &snapshots) {
-          return ContinuumResults{panel.driven->rows(), snapshots};
+          return ContinuumResults{panel.driver().rows(), snapshots};
         });
     }
   } // namespace

@@ -58,6 +58,12 @@ namespace diptych::python
       return panel().snapshot();
     }
 
+    void demand_rest() const
+    {
+      if (is_working_ && std::this_thread::get_id() != worker_)
+        throw std::runtime_error("the panel is at work in another thread");
+    }
+
     const Panel &panel() const { return const_cast<DrivenPanel *>(this)->panel(); }
     Panel       &panel()
     {
@@ -76,12 +82,6 @@ namespace diptych::python
   private:
     using Clock  = std::chrono::steady_clock;
     using Status = decltype(std::declval<Panel &>().prepare());
-
-    void demand_rest() const
-    {
-      if (is_working_ && std::this_thread::get_id() != worker_)
-        throw std::runtime_error("the panel is at work in another thread");
-    }
 
     template <class Work> std::string run(const py::object &on_step, const Work &work)
     {

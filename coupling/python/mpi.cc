@@ -7,6 +7,7 @@
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/multithread_info.h>
+#include <sc.h>
 
 namespace diptych::python
 {
@@ -27,6 +28,7 @@ namespace diptych::python
     if (has_started())
       {
         dealii::MultithreadInfo::set_thread_limit(1); // as MPI_InitFinalize does: a pool would change nothing but the clock
+        sc_set_log_defaults(nullptr, nullptr, SC_LP_SILENT); // likewise: p4est tells of every mesh
         return;
       }
     struct sigaction interrupt, end;

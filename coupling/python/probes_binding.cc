@@ -21,12 +21,15 @@ namespace diptych::python
       return region;
     }
 
-    // Moments -sum f (x) vector over the halves of the branches of each grain.
-    coupling::GrainNetwork network_of(const py::dict &grain_arrays, const py::dict &contact_arrays)
+    // A snapshot as the comparison sees it, or arrays: moments -sum f (x) vector over the halves of the branches of each grain.
+    coupling::GrainNetwork network_of(const py::object &sample, const py::object &contact_arrays)
     {
-      const GrainInput         grains   = grains_of(grain_arrays);
-      const auto               contacts = contacts_of(contact_arrays, grains);
-      const coupling::Carriers carriers = coupling::moment_carriers(grains.position, grains.radius, contacts);
+      if (contact_arrays.is_none())
+        return coupling::grain_network(sample.cast<const discrete::Snapshot &>());
+      const py::dict           grain_arrays = sample;
+      const GrainInput         grains       = grains_of(grain_arrays);
+      const auto               contacts     = contacts_of(contact_arrays, grains);
+      const coupling::Carriers carriers     = coupling::moment_carriers(grains.position, grains.radius, contacts);
       coupling::GrainNetwork   network;
       network.position = grains.position;
       network.radius   = grains.radius;
@@ -73,11 +76,11 @@ namespace diptych::python
       dict["contacts"]             = fabric.contacts;
     }
 
-    py::dict probe_grains(const py::dict &grains,
-                          const py::dict &contacts,
-                          const Numbers  &corners,
-                          const double    angle_deg,
-                          const py::dict &blocks)
+    py::dict probe_grains(const py::object &grains,
+                          const py::object &contacts,
+                          const Numbers    &corners,
+                          const double      angle_deg,
+                          const py::dict   &blocks)
     {
       const coupling::GrainNetwork     network = network_of(grains, contacts);
       const coupling::ProbeRegion      region  = region_of(corners, angle_deg);
@@ -118,7 +121,7 @@ namespace diptych::python
     }
 
     // circle: x and y of the centre, radius.
-    py::dict probe_circle(const py::dict &grains, const py::dict &contacts, const py::tuple &circle, const py::dict &blocks)
+    py::dict probe_circle(const py::object &grains, const py::object &contacts, const py::tuple &circle, const py::dict &blocks)
     {
       const coupling::GrainNetwork     network = network_of(grains, contacts);
       const coupling::BootstrapOptions options = bootstrap_of(blocks);

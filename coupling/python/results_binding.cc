@@ -141,11 +141,11 @@ namespace diptych::python
   {
     bind_one<GrainResults>(m, "GrainResults");
     bind_one<ContinuumResults>(m, "ContinuumResults");
-    const py::call_guard<py::gil_scoped_release> without_gil;
-    m.def("read_grains", &read_grains, without_gil);
-    m.def("read_nodes", &read_nodes, without_gil);
-    m.def("write_grains", &write_grains, without_gil);
-    m.def("write_nodes", &write_nodes, without_gil);
+    // With the GIL: HDF5 is used by one thread at a time.
+    m.def("read_grains", &read_grains);
+    m.def("read_nodes", &read_nodes);
+    m.def("write_grains", &write_grains);
+    m.def("write_nodes", &write_nodes);
     m.def("compare", &compare);
     m.def("continuum_columns", &column_meanings<continuum::HistoryRow>);
   }

@@ -52,7 +52,7 @@ namespace diptych::python
       for (const auto &[section, key, value] : changes)
         entries.push_back({section, key, value, "scene", std::filesystem::current_path().string(), true}); // may hold every key
       return file ? coupling::read_changed_scene(*file, entries, compares)
-                  : coupling::scene_of_entries("python", entries, compares);
+                  : coupling::scene_of_entries("scene", entries, compares);
     }
 
     py::dict scene_dict(const coupling::Scene &scene)

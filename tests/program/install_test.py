@@ -8,6 +8,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -113,6 +114,14 @@ class Package(unittest.TestCase):
         done = self.run_program("run", scene, *SMALL, *setting(sample_grains=150), "--output", folder, "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertGreater(os.path.getsize(os.path.join(folder, "report.html")), 100000)
+
+    def test_the_python_package(self):
+        place = os.path.join(self.root, "usr", "lib", "python3", "dist-packages")
+        script = ("import diptych; p = diptych.ContinuumPanel({'continuum': {'mesh': 'rectangle', 'rectangle_width': 8, "
+                  "'rectangle_height': 8}}); print(p.prepare(), diptych.__file__)")
+        done = subprocess.run([sys.executable, "-B", "-c", script], capture_output=True, text=True, check=False, cwd=self.work,
+                              env={"PATH": "/usr/bin:/bin", "HOME": self.work, "PYTHONPATH": place})
+        self.assertEqual(done.stdout.split(), ["finished", os.path.join(place, "diptych", "__init__.py")], done.stderr)
 
     def test_an_ensemble(self):
         scene = os.path.join(self.root, "usr", "share", "diptych", "benchmarks", "moreau_quick", "scene.prm")

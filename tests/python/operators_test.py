@@ -100,6 +100,20 @@ def test_a_band_is_found_where_it_was_put():
     assert strips.count.sum() <= len(points) and len(strips.edges) == 17
 
 
+def test_bands_of_snapshots_are_those_of_the_comparison(panels, small):
+    grains, nodes, _ = panels
+    window = diptych.compare(scene=small, discrete=grains, continuum=nodes).numbers["windows"][0]
+    of_grains = diptych.increment(grains.snapshots[0], grains.snapshots[-1])
+    frame = {name: of_grains[name] for name in ("mean_diameter", "platen_increment", "centre", "width", "height")}
+    of_nodes = {**diptych.increment(nodes.snapshots[0], nodes.snapshots[-1]), **frame}
+    for panel, field in (("discrete", of_grains), ("continuum", of_nodes)):
+        report = diptych.find_bands(**field, seed=small["sample"]["seed"])
+        assert report.verdict == window[panel]["band_verdict"], panel
+        np.testing.assert_array_equal(report.bic, np.array(window[panel]["bic_of_0_1_2_bands"], dtype=float))  # None is NaN
+        told = [band["angle_deg"]["value"] for band in window[panel]["bands"]]
+        assert [band.angle_deg for band in report.bands] == told
+
+
 def test_an_affine_field_is_diffuse_and_has_its_own_shear():
     """u = G x with G = [[0.01, 0.004], [0.002, -0.02]]: eps_1 - eps_2 = sqrt(0.03^2 + 0.006^2)."""
     points, _, _ = band_of(50, 12)

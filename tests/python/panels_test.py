@@ -106,6 +106,26 @@ def test_ctrl_c_ends_a_run_and_the_panel_goes_on(delay):
     assert panel.run() == "stopped" and len(panel.history["step"]) > 0
 
 
+def test_ctrl_c_ends_a_continuum_and_it_goes_on_with_the_same_bits():
+    scene = {"continuum": {"mesh": "rectangle", "rectangle_width": 30, "rectangle_height": 30, "law": "linear_elastic",
+                           "initial_step": 5e-4, "max_step": 5e-4}, "loading": {"axial_strain": 0.03}}
+    panel, whole = diptych.ContinuumPanel(scene), diptych.ContinuumPanel(scene)
+    panel.prepare()
+
+    def interrupt(row):
+        if row["step"] == 12:
+            os.kill(os.getpid(), signal.SIGINT)
+
+    panel.on_step = interrupt
+    with pytest.raises(KeyboardInterrupt):
+        panel.run()
+    assert 12 <= panel.history["step"][-1] < 60
+    panel.on_step = None
+    assert panel.run() == whole.run() == "finished"
+    same_history(panel.history, whole.history)
+    np.testing.assert_array_equal(panel.snapshot().stress, whole.snapshot().stress)
+
+
 def test_other_threads_run_while_a_panel_works(small):
     panel, ticks = diptych.DiscretePanel(small), 0
     worker = threading.Thread(target=panel.run)
@@ -125,6 +145,26 @@ def test_two_panels_in_two_threads_have_the_bits_of_one(small, panels):
         worker.join()
     for panel in two:
         same_history(panel.history, panels[0].history)
+
+
+def test_continuum_panels_of_several_threads_take_turns(small, panels):
+    """Each with a callback, for which it needs Python's lock while the other waits for its turn."""
+    rows, results = [], []
+
+    def run(_):
+        panel = diptych.ContinuumPanel(small, panels[0].snapshots[0], on_step=lambda row: rows.append(row["step"]))
+        panel.run()
+        results.append((panel.history, panel.snapshot().stress))
+
+    workers = [threading.Thread(target=run, args=(k,)) for k in range(3)]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join(60)
+    assert len(results) == 3 and len(rows) == 3 * len(panels[1].history["step"])
+    for history, stress in results:
+        same_history(history, panels[1].history)
+        np.testing.assert_array_equal(stress, panels[1].snapshot().stress)
 
 
 def test_a_panel_at_work_refuses_a_second_driver(small):
@@ -198,6 +238,8 @@ def test_the_continuum_asks_for_what_it_needs(small):
     fixed = diptych.scene(small, discrete={"lateral": "rigid_walls", "drive_left_y": "velocity 1"})
     with pytest.raises(diptych.SceneError, match="no counterpart") as thrown:
         diptych.ContinuumPanel(fixed, None)
+    with pytest.raises(FileNotFoundError, match="nowhere"):
+        diptych.DiscretePanel(small).write("nowhere")
     with pytest.raises(ValueError, match="stages 1 ... 2"):
         diptych.DiscretePanel(small).advance(3)
 
@@ -212,8 +254,9 @@ def test_a_rectangle_needs_no_grains():
     np.testing.assert_allclose(panel.snapshot().stress[:, :2, :2], np.broadcast_to(np.eye(2), (24, 2, 2)), atol=1e-8)
 
 
-def test_a_process_ends_cleanly_with_panels_alive():
-    script = ("import diptych, h5py\n"
+@pytest.mark.parametrize("before", ["import h5py", "from mpi4py import MPI"])  # which start HDF5 and MPI themselves
+def test_a_process_ends_cleanly_with_panels_alive(before):
+    script = (before + "\nimport diptych\n"
               "p = diptych.ContinuumPanel({'continuum': {'mesh': 'rectangle', 'rectangle_width': 8, 'rectangle_height': 8}})\n"
               "p.prepare(); print(p.snapshot().area)")
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)

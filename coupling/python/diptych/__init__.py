@@ -14,7 +14,7 @@ from ._diptych import Contacts, ContinuumSnapshot, DiscreteSnapshot, __version__
 from .arrays import Band, BandReport, History, Interval, Mesh, Record, StressMap
 from .errors import NotConverged, SceneError, SceneWarning
 from .laws import biaxial, integrate, principal
-from .operators import contacts, find_bands, grid, map_stress, probe, shear_strain, strips, theory_lines
+from .operators import contacts, find_bands, grid, increment, map_stress, probe, shear_strain, strips, theory_lines
 from .panels import ContinuumPanel, DiscretePanel
 from .problems import solve
 from .results import Comparison, PanelResults, Results, compare, load
@@ -23,6 +23,6 @@ from .scenes import keys, scene
 __all__ = [
     "Band", "BandReport", "Comparison", "Contacts", "ContinuumPanel", "ContinuumSnapshot", "DiscretePanel", "DiscreteSnapshot",
     "History", "Interval", "Mesh", "NotConverged", "PanelResults", "Record", "Results", "SceneError", "SceneWarning", "StressMap",
-    "__version__", "biaxial", "compare", "contacts", "find_bands", "grid", "integrate", "keys", "load", "map_stress", "principal",
+    "__version__", "biaxial", "compare", "contacts", "find_bands", "grid", "increment", "integrate", "keys", "load", "map_stress", "principal",
     "probe", "scene", "shear_strain", "solve", "strips", "theory_lines",
 ]

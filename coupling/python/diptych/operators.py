@@ -108,8 +108,8 @@ def contacts(grains: Any, i: Any, j: Any, force: Any, ids: Any = None,
     return {"i": i, "j": j, "point": point, "normal": normal, "force": force}
 
 
-def map_stress(grains: Any, contacts: Any = None, mesh: Any = None, method: str = "segments", *, period: float = 0.0,
-               **options: Any) -> StressMap:
+def map_stress(grains: Any, contacts: Any = None, mesh: Any = None, method: str = "segments", *,
+               period: float | None = None, **options: Any) -> StressMap:
     """Contact forces of grains on the cells of a mesh: conservative, the sum over the cells is the sum over the contacts.
 
     grains    snapshot of a DiscretePanel, or position (n, 2), or x and y, and radius (or r) [length] in a dict or a DataFrame
@@ -118,7 +118,7 @@ def map_stress(grains: Any, contacts: Any = None, mesh: Any = None, method: str 
               instant where there is no stage yet.
     mesh      (nodes (m, 2), cells (k, 4) anticlockwise), grid(...), a continuum snapshot; default: grid over the grains' box, 3 d
     method    segments (branches cut by the cells), centroid, laguerre, kernel, projection
-    period    width of a periodic cell [length]; 0: none
+    period    width of a periodic cell [length], 0: none; default: that of the snapshot
     options   averaging_kernel, averaging_width [mean diameters]: as in a scene's section comparison
 
     Returns a StressMap, stress (k, 2, 2) positive in compression, row index = component of the force. The spin term, small in
@@ -132,9 +132,19 @@ def map_stress(grains: Any, contacts: Any = None, mesh: Any = None, method: str 
         mesh = grid((position - radius[:, None]).min(0), (position + radius[:, None]).max(0), 6 * radius.mean())
     cells = _mesh(mesh)
     keys = {"averaging": method, **{name: scenes.text_of(value) for name, value in options.items()}}
-    result = _diptych.map_stress(given, pairs, cells._asdict(), period, keys)
+    width = getattr(grains, "cell_width", 0.0) if period is None else period
+    result = _diptych.map_stress(given, pairs, cells._asdict(), width, keys)
     result["covered"] = result["covered"].astype(bool)
     return StressMap(cells, **result)
+
+
+def increment(start: Any, end: Any) -> dict[str, Any]:
+    """Displacements between two snapshots of one panel, as find_bands() takes them: find_bands(**increment(a, b)).
+
+    Returns points (n, 2) at the later instant, displacement (n, 2), weight (n): area of a grain, 0 where it rattles, or of a node;
+    of grains also mean_diameter, platen_increment and centre, width, height of the outline, as in the comparison. Raises
+    ValueError for snapshots of different grains."""
+    return _diptych.increment(start, end)
 
 
 def _frame(points: Array, displacement: Array, mean_diameter: float, given: Mapping[str, Any]) -> dict[str, Any]:
@@ -217,7 +227,8 @@ def probe(sample: Any, where: Any, contacts: Any = None, *, angle_deg: float = 0
           resamples: int = 400, seed: int = 1) -> Record:
     """Mean stress and fabric of a part of the sample, with 95 % intervals (Moreau 1997).
 
-    sample     a snapshot or grains with `contacts` as in map_stress(); or a StressMap, whose cells are then averaged
+    sample     a snapshot (means over the stage, spin term included, as in the comparison), or grains with `contacts` as in
+               map_stress(), without spin term; or a StressMap, whose cells are then averaged
     where      (m, 2): corners of a polygon, anticlockwise; or (x, y, radius) of a circle (grains alone)
     angle_deg  direction of the blocks that are drawn for the intervals [degrees]
     block      their smallest side [length]; default: 5 mean diameters
@@ -225,14 +236,18 @@ def probe(sample: Any, where: Any, contacts: Any = None, *, angle_deg: float = 0
 
     Returns stress (2, 2), s1 >= s2, t_over_s, direction_deg of s1; of a polygon of grains fabric (2, 2), anisotropy,
     fabric_direction_deg, contacts, solid_fraction, count and interval: name -> (value, low, high); of a circle the tractions on
-    its diameters (angles_deg, normal, tangential) and what the mean stress predicts of them. Stress positive in compression; the
-    spin term is not added.
+    its diameters (angles_deg, normal, tangential) and what the mean stress predicts of them. Stress positive in compression. Raises
+    ValueError naming the argument.
     """
     if isinstance(sample, StressMap):
         return Record(_diptych.probe_cells(sample.mesh._asdict(), sample.stress, np.asarray(where, dtype=float)))
-    grains = _grains(sample)
-    pairs = _contacts(contacts, sample)
+    grains: Any = _grains(sample)
     blocks = {"block": 10 * grains["radius"].mean() if block is None else block, "resamples": resamples, "seed": seed}
+    pairs = None
+    if contacts is None and isinstance(sample, _diptych.DiscreteSnapshot) and len(sample.window) > 0:
+        grains = sample
+    else:
+        pairs = _contacts(contacts, sample)
     if np.ndim(where) == 1:
         x, y, radius = (float(number) for number in where)
         result = _diptych.probe_circle(grains, pairs, (x, y, radius), blocks)

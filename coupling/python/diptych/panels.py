@@ -97,7 +97,10 @@ class _Panel:
         return self.advance(len(self.stages))
 
     def write(self, folder: str | os.PathLike[str]) -> None:
-        """Snapshots and history as the program writes them (.h5, .xdmf, .csv), into a folder that is there."""
+        """Snapshots and history as the program writes them (.h5, .xdmf, .csv). Raises FileNotFoundError where there is no such
+        folder."""
+        if not os.path.isdir(folder):
+            raise FileNotFoundError(f"{os.fspath(folder)}: no such folder")
         self._write(self._results(), os.fspath(folder))
 
     def _results(self) -> Any:
@@ -120,8 +123,9 @@ class DiscretePanel(_Panel):
     """A sample of grains loaded through the stages of a scene (Non-Smooth Contact Dynamics, Moreau 1988; Jean 1999).
 
     scene    dict or path, see scene()
-    on_step  called with every row of the history, a dict with the columns of discrete.csv; returns False to stop. The GIL is
-             released while steps are computed and taken for the callback, which may look at snapshot() but not advance.
+    on_step  called with every row of the history (a step; springs: as discrete/history_interval says), a dict with the columns of
+             discrete.csv; returns False to stop. The GIL is released while steps are computed and taken for the callback, which
+             may look at snapshot() but not advance.
     grains   {"position": (n, 2) [length], "radius": (n) [length]}: own grains in the place of a prepared sample, put between
              platens and sides as those of a file are
 

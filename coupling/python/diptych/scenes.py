@@ -10,6 +10,8 @@ from collections.abc import Iterator, Mapping
 from numbers import Integral, Real
 from typing import Any, Union
 
+import numpy as np
+
 from . import _diptych
 from .errors import SceneError, SceneWarning
 
@@ -25,7 +27,7 @@ def text_of(value: Any) -> str:
         return value
     if isinstance(value, os.PathLike):
         return str(os.fspath(value))
-    if isinstance(value, bool) or type(value).__name__ == "bool_":
+    if isinstance(value, (bool, np.bool_)):
         return "true" if value else "false"
     if isinstance(value, Integral):
         return str(int(value))
@@ -83,4 +85,4 @@ def scene(scene: SceneLike, compares: bool = False, **overrides: Any) -> dict[st
 
 def keys(section: str = "") -> dict[str, tuple[str, str, str]]:
     """"section/key" -> (unit, what is allowed, meaning), of all keys or of one section."""
-    return {name: told for name, told in _diptych.described_keys().items() if name.startswith(section)}
+    return {name: told for name, told in _diptych.described_keys().items() if name.startswith(section and section + "/")}

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "continuum/laws/strain_path.h"
 #include "tests/continuum/laws/law_states.h"
 
 namespace
@@ -150,6 +151,48 @@ namespace
     ASSERT_EQ(report.rows.size(), 12u);
     EXPECT_NEAR(report.rows[10].axial_strain, 0.010, 1e-15);
     EXPECT_EQ(report.rows[11].axial_strain, 0.0105);
+  }
+
+  // The strains that the biaxial path found, prescribed: the same increments, thus the same stress. Logarithmic strains, because
+  // those are what the path hands to the law.
+  TEST(StrainPath, StrainsOfTheBiaxialPathGiveItsStress)
+  {
+    for (const LawKind law : plastic_laws)
+      {
+        const LawOptions          options = constant(30, 10, 0.1);
+        const MaterialPointReport report  = drive(law, options, {1, 0.03, 1e-3});
+        StrainPath                path;
+        path.stress    = Eigen::Matrix2d::Identity();
+        path.stress_zz = 1;
+        for (const MaterialPointRow &row : report.rows)
+          path.strain.emplace_back(
+            Eigen::Vector2d(-std::log1p(-row.lateral_strain), -std::log1p(-row.axial_strain)).asDiagonal());
+        const auto rows = drive_strain_path(law, options, {}, path);
+        ASSERT_EQ(rows.size(), report.rows.size()) << name_of(law);
+        for (std::size_t k = 0; k < rows.size(); ++k)
+          {
+            EXPECT_NEAR(rows[k].stress(1, 1), report.rows[k].syy, 1e-8 * report.rows[k].syy) << name_of(law) << ", row " << k;
+            EXPECT_NEAR(rows[k].stress(0, 0), 1, 1e-8) << name_of(law) << ", row " << k;
+            EXPECT_NEAR(rows[k].dissipation, report.rows[k].dissipation, 1e-9) << name_of(law) << ", row " << k;
+          }
+      }
+  }
+
+  TEST(StrainPath, NamesTheStrainThatIsNone)
+  {
+    StrainPath path;
+    EXPECT_THROW((void)drive_strain_path(LawKind::linear_elastic, {}, {}, path), std::invalid_argument);
+    path.strain.assign(3, Eigen::Matrix2d::Zero());
+    path.strain[2](0, 1) = 1;
+    try
+      {
+        (void)drive_strain_path(LawKind::linear_elastic, {}, {}, path);
+        FAIL() << "must throw";
+      }
+    catch (const std::invalid_argument &error)
+      {
+        EXPECT_NE(std::string(error.what()).find("strain_path[2]"), std::string::npos) << error.what();
+      }
   }
 
   // Friction that breaks down within a strain far below the elastic one: the step is not found or called unreliable, never
