@@ -54,7 +54,12 @@ namespace diptych::coupling
 
   std::optional<std::size_t> NumberTable::find(const std::string &column) const
   {
-    const auto found = std::find(columns.begin(), columns.end(), column);
+    const auto same = [](const char a, const char b) {
+      return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+    };
+    const auto found = std::find_if(columns.begin(), columns.end(), [&](const std::string &name) {
+      return name.size() == column.size() && std::equal(name.begin(), name.end(), column.begin(), same);
+    });
     return found == columns.end() ? std::nullopt : std::optional<std::size_t>(found - columns.begin());
   }
 
@@ -121,8 +126,10 @@ namespace diptych::coupling
         const std::string_view text = lines.take("a row"), plain = without_mark(text);
         if (plain.empty())
           continue;
-        const auto words    = words_of(plain);
-        const bool is_names = std::all_of(words.begin(), words.end(), starts_with_a_letter);
+        auto words = words_of(plain);
+        if (words.size() > 1 && words[0].empty() && table.columns.empty())
+          words[0] = "-"; // the index that pandas writes has no name
+        const bool is_names = std::all_of(words.begin() + (words[0] == "-" ? 1 : 0), words.end(), starts_with_a_letter);
         if (is_names && table.n_rows() == 0 && columns.empty())
           table.columns = names_of(words);
         if (is_names || trimmed(text)[0] == '#')

@@ -24,7 +24,7 @@ namespace diptych::coupling
     double      at(std::size_t row, std::size_t column) const { return values[row * columns.size() + column]; }
     bool        has(const std::string &column) const { return find(column).has_value(); }
 
-    std::optional<std::size_t> find(const std::string &column) const;
+    std::optional<std::size_t> find(const std::string &column) const; // capitals or not
     // Of the first of these names that is there.
     std::optional<std::size_t> find_any(const std::vector<std::string> &names) const;
     // Throws SceneError naming the file and what it has.

@@ -12,6 +12,14 @@ namespace diptych::coupling
 {
   namespace
   {
+    std::string listed_names(const std::vector<std::string> &names)
+    {
+      std::string text;
+      for (const std::string &name : names)
+        text += (text.empty() ? "" : ", ") + name;
+      return text;
+    }
+
     struct CsvFrameFiles
     {
       std::optional<NumberTable> particles, contacts;
@@ -110,7 +118,9 @@ namespace diptych::coupling
             const bool is_particles = table.has("x") && table.has("y"), is_contacts = table.has("fx") && table.has("fy");
             if (!is_particles && !is_contacts)
               throw SceneError(
-                path + ": names neither particles (id, x, y, r), contacts (i, j, fx, fy) nor walls (frame, width, height)");
+                path +
+                ": names neither particles (id, x, y, r), contacts (i, j, fx, fy) nor walls (frame, width, height); it has " +
+                listed_names(table.columns));
             std::optional<NumberTable> &place = is_particles ? frames[number].particles : frames[number].contacts;
             if (place)
               throw SceneError(path + ": " + place->path + " is of the same frame " + std::to_string(number));

@@ -33,7 +33,7 @@ namespace diptych::coupling
         throw SceneError(path + ": byte " + std::to_string(zero) + " is 0; a text file was expected");
       if (text.back() != '\n')
         throw SceneError(path + ", line " + std::to_string(1 + std::count(text.begin(), text.end(), '\n')) +
-                         ": has no line end; is the file cut off?");
+                         ": has no line end; is the file cut off? If not, end it with a new line");
       return text;
     }
 
@@ -138,11 +138,11 @@ namespace diptych::coupling
   std::vector<std::string_view> words_of(std::string_view line)
   {
     std::vector<std::string_view> words;
-    if (line.find(',') != std::string_view::npos)
+    if (const char mark = line.find(';') != std::string_view::npos ? ';' : ','; line.find(mark) != std::string_view::npos)
       {
         for (std::size_t start = 0; start != std::string_view::npos;)
           {
-            const std::size_t comma = line.find(',', start);
+            const std::size_t comma = line.find(mark, start);
             words.push_back(trimmed(line.substr(start, comma == std::string_view::npos ? comma : comma - start)));
             start = comma == std::string_view::npos ? comma : comma + 1;
           }

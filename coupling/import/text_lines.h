@@ -39,7 +39,7 @@ namespace diptych::coupling
     std::size_t              next_ = 0;
   };
 
-  // Separated by blanks and tabs; in a line with commas, by these.
+  // Separated by blanks and tabs; in a line with commas or semicolons, by these.
   std::vector<std::string_view> words_of(std::string_view line);
   std::string_view              trimmed(std::string_view text);
 

@@ -94,6 +94,32 @@ namespace
       }
   }
 
+  // Spreadsheets and pandas: semicolons, carriage returns, a byte order mark, capitals, an index without a name.
+  TEST(ImportTruth, TablesOfSpreadsheetsAreTheSameTables)
+  {
+    const Case     c     = case_of("csv");
+    const Arrival  plain = arrival_of(c, options_of(c));
+    const Scratch  scratch;
+    ForeignOptions options;
+    for (const std::string &file : options_of(c).files)
+      {
+        std::istringstream in(text_of_file(file));
+        std::string        text = "\xEF\xBB\xBF";
+        int                row  = -1;
+        for (std::string line; std::getline(in, line); ++row)
+          {
+            std::string changed = (row < 0 ? "" : std::to_string(row)) + "," + line + "\r\n";
+            for (char &letter : changed)
+              letter = letter == ',' ? ';' : row < 0 && letter == 'x' ? 'X' : letter;
+            text += changed;
+          }
+        options.files.push_back(scratch.write(std::filesystem::path(file).filename().string(), text));
+      }
+    const Arrival changed = arrival_of(c, options);
+    for (std::size_t k = 0; k < plain.checks.size(); ++k)
+      EXPECT_EQ(changed.checks[k].contact_stress, plain.checks[k].contact_stress);
+  }
+
   TEST(ImportTruth, TextAndHdf5OfOneRunAreOneSample)
   {
     const Arrival text    = arrival_of(case_of("lmgc90"), options_of(case_of("lmgc90"))),
