@@ -5,12 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <stdexcept>
 
 #include <gmsh.h>
 
+#include "continuum/mesh/geo_script.h"
 #include "continuum/mesh/gmsh_model.h"
+#include "continuum/mesh/mesh_child.h"
 
 namespace diptych::continuum
 {
@@ -176,35 +180,57 @@ namespace diptych::continuum
       throw std::runtime_error(
         "no algorithm of gmsh meshes this outline with sound quadrilaterals only; smooth the outline or change element_size");
     }
+
+    std::string text_of_file(const std::string &file)
+    {
+      std::ifstream in(file, std::ios::binary);
+      return {std::istreambuf_iterator<char>(in), {}};
+    }
   } // namespace
 
-  QuadMesh outline_mesh(const Outline &outline, const double element_size)
+  QuadMesh outline_mesh(const Outline &outline, const double element_size, const std::function<bool()> &stop_requested)
   {
     check_outline(outline, element_size);
-    return guarded<std::runtime_error>("meshing the outline", [&] {
-      const GmshSession session;
-      build_geometry(outline, element_size);
-      QuadMesh mesh = generate_quadrilaterals();
-      check(mesh);
-      return mesh;
-    });
+    const auto make = [&] {
+      return guarded<std::runtime_error>("meshing the outline", [&] {
+        const GmshSession session;
+        build_geometry(outline, element_size);
+        QuadMesh mesh = generate_quadrilaterals();
+        check(mesh);
+        return mesh;
+      });
+    };
+    return made_in_child(make, stop_requested);
   }
 
-  QuadMesh read_mesh(const std::string &file)
+  QuadMesh read_mesh(const std::string &file, const std::function<bool()> &stop_requested)
   {
-    return guarded<std::invalid_argument>(file, [&] {
-      const std::string ending = std::filesystem::path(file).extension().string();
-      if (ending != ".msh" && ending != ".geo")
-        throw std::invalid_argument("a mesh must be a .msh or .geo file");
-      if (!std::filesystem::is_regular_file(file))
-        throw std::invalid_argument("there is no such mesh file");
-      const GmshSession session;
-      gmsh::open(file);
-      if (ending == ".geo")
-        gmsh::model::mesh::generate(2);
-      QuadMesh mesh = mesh_of_open_model();
-      check(mesh);
-      return mesh;
-    });
+    constexpr unsigned int most_cpu_seconds = 120; // a script may run for ever
+    const std::string      ending           = std::filesystem::path(file).extension().string();
+    if (ending != ".msh" && ending != ".geo")
+      throw std::invalid_argument(file + ": a mesh must be a .msh or .geo file");
+    if (!std::filesystem::is_regular_file(file))
+      throw std::invalid_argument(file + ": there is no such mesh file");
+    if (ending == ".geo")
+      check_geo_script(file, text_of_file(file));
+    const auto make = [&] {
+      return guarded<std::invalid_argument>(file, [&] {
+        const GmshSession session;
+        gmsh::open(file);
+        if (ending == ".geo")
+          gmsh::model::mesh::generate(2);
+        QuadMesh mesh = mesh_of_open_model();
+        check(mesh);
+        return mesh;
+      });
+    };
+    try
+      {
+        return made_in_child(make, stop_requested, most_cpu_seconds);
+      }
+    catch (const GmshEnded &end)
+      {
+        throw std::invalid_argument(file + ": " + end.what());
+      }
   }
 } // namespace diptych::continuum

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "continuum/mesh/quad_mesh.h"
@@ -16,7 +17,7 @@ namespace diptych::continuum
   // straight. Sides that are both straight and vertical get vertices at equal heights, as periodic sides need.
   // Throws std::invalid_argument for an outline that is no sample (too few points, points not upward, sides crossing,
   // platens not horizontal) and std::runtime_error when no all-quadrilateral mesh is found.
-  QuadMesh outline_mesh(const Outline &outline, double element_size);
+  QuadMesh outline_mesh(const Outline &outline, double element_size, const std::function<bool()> &stop_requested = {});
 
   // A rectangle with its lower left corner at the origin. [length]
   struct Rectangle
@@ -34,8 +35,9 @@ namespace diptych::continuum
 
   // The user's own mesh (.msh of any version gmsh knows; or a .geo, which gmsh meshes first). Its physical lines count by NAME
   // whatever their numbers; a line without a name counts by its number. Every boundary edge must lie on exactly one of them.
-  // Throws std::invalid_argument naming the file and what is wrong.
-  QuadMesh read_mesh(const std::string &file);
+  // A .geo is a program: what would do more than make shapes is refused (geo_script.h), and it has two minutes of CPU time.
+  // Throws std::invalid_argument naming the file and what is wrong, MeshingStopped (mesh_child.h).
+  QuadMesh read_mesh(const std::string &file, const std::function<bool()> &stop_requested = {});
 
   // MSH 2.2 as deal.II's GridIn and gmsh read it, with the ids and names of BoundaryId and all digits; under a temporary name
   // that is then renamed. Throws std::runtime_error naming the file.

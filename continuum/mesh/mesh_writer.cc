@@ -12,7 +12,7 @@ namespace diptych::continuum
 {
   namespace
   {
-    constexpr int gmsh_line = 1, gmsh_quadrilateral = 3; // element types of the format
+    constexpr int msh_line = 1, msh_quadrilateral = 3; // element types of the format
 
     void write_physical_names(std::ostream &out, const QuadMesh &mesh)
     {
@@ -31,11 +31,11 @@ namespace diptych::continuum
       std::size_t number = 0;
       out << "$Elements\n" << mesh.boundary.size() + mesh.cells.size() << "\n";
       for (const auto &[vertices, id] : mesh.boundary)
-        out << ++number << " " << gmsh_line << " 2 " << id << " " << id << " " << vertices[0] + 1 << " " << vertices[1] + 1
+        out << ++number << " " << msh_line << " 2 " << id << " " << id << " " << vertices[0] + 1 << " " << vertices[1] + 1
             << "\n";
       for (const auto &cell : mesh.cells)
         {
-          out << ++number << " " << gmsh_quadrilateral << " 2 1 1";
+          out << ++number << " " << msh_quadrilateral << " 2 1 1";
           for (const unsigned int vertex : cell)
             out << " " << vertex + 1;
           out << "\n";

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 #include "coupling/calibration/coordinates.h"
 #include "coupling/scene/keys.h"
@@ -312,11 +311,9 @@ namespace diptych::coupling
 
   Calibration read_calibration(const std::string &file)
   {
-    std::ifstream in(file);
-    if (!in || std::filesystem::is_directory(file))
-      throw SceneError(file + ": cannot be read; a calibration is a .json file");
-    const JsonText text = read_json_text(file, in);
-    const Part     root(text, text.root, "");
+    std::istringstream in   = scene_input(file);
+    const JsonText     text = read_json_text(file, in);
+    const Part         root(text, text.root, "");
     root.allow({"title", "targets", "quantities", "bins", "set", "parameters", "noise", "starts", "start_jacobians", "load_step",
                 "coarse_element_size", "check_samples", "seed"});
     const std::filesystem::path path = std::filesystem::absolute(file);

@@ -62,7 +62,7 @@ namespace diptych::coupling
     const std::string &directory = scene.output.directory;
     make_folder(directory);
     const bool is_ensemble = is_ensemble_folder(directory);
-    if (!is_ensemble && !fs::is_empty(directory))
+    if (!is_ensemble && !is_empty_folder(directory))
       throw SceneError("output/directory = '" + directory +
                        "' holds other files and no ensemble of diptych; name a new or an empty folder");
     if (resume && is_ensemble)

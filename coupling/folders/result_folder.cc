@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/folders/result_folder.h"
 
-#include <cerrno>
-#include <cstring>
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 
-#include <unistd.h>
-
+#include "coupling/processes/stop_signal.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
 #include "discrete/files/text_file.h"
@@ -35,29 +33,34 @@ namespace diptych::coupling
       fs::remove_all(directory + "/" + name);
   }
 
-  void make_folder(const std::string &directory)
+  namespace
   {
-    std::error_code error;
-    fs::create_directories(directory, error);
-    if (error)
-      throw std::runtime_error("the folder '" + directory + "' cannot be made: " + error.message());
-    if (access(directory.c_str(), W_OK) != 0)
-      throw std::runtime_error("the folder '" + directory + "' cannot be written to: " + std::strerror(errno));
-  }
+    // Whether a run into the folder removes or writes the file: by its own name, whatever leads there.
+    bool is_replaced(const std::string &file, const std::string &directory)
+    {
+      const fs::path inside = fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(directory));
+      if (inside.empty() || *inside.begin() == "..")
+        return false;
+      const std::string name = inside.begin()->string();
+      const auto        any  = [&](const std::vector<std::string> &names) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+      };
+      return any(panel_files) || any(comparison_files) || name == "scene.prm" || name.rfind("problem_", 0) == 0;
+    }
+  } // namespace
 
   void open_result_folder(const Scene &scene, const bool resume)
   {
     const std::string &directory = scene.output.directory;
-    if (const std::string &file = scene.discrete.method.file;
-        scene.discrete.method.method == discrete::Method::imported && fs::exists(directory) &&
-        fs::weakly_canonical(fs::path(file).parent_path()) == fs::weakly_canonical(directory))
-      throw SceneError("output/directory = '" + directory + "' is the folder of discrete/file = '" + file +
-                       "', whose grains would be lost; name another one");
+    for (const auto &[key, file] : input_files(scene))
+      if (is_replaced(file, directory))
+        throw SceneError("output/directory = '" + directory + "': " + key + " = '" + file +
+                         "' is one of the files that this run replaces there; name another folder");
     make_folder(directory);
     // A run replaces files and folders by name: only where an earlier one of its own stands may it do so.
     const std::string echo_file        = directory + "/scene.prm";
     const bool        is_result_folder = is_echo(echo_file);
-    if (!is_result_folder && !fs::is_empty(directory))
+    if (!is_result_folder && !is_empty_folder(directory))
       throw SceneError("output/directory = '" + directory +
                        "' holds other files and no result of diptych; name a new or an empty folder");
     std::string difference;
@@ -99,9 +102,19 @@ namespace diptych::coupling
       {
         throw;
       }
+    catch (const StoppedOnRequest &stopped)
+      {
+        throw StoppedOnRequest(std::string(stopped.what()) + "; " + kept_in(directory));
+      }
     catch (const std::exception &error)
       {
         throw std::runtime_error(std::string(error.what()) + "; " + kept_in(directory));
       }
+  }
+
+  int writing(const std::string &directory, const std::function<int()> &work)
+  {
+    const FolderLock lock(directory);
+    return keeping(directory, work);
   }
 } // namespace diptych::coupling

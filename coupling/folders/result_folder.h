@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/folders/folder_lock.h"
 #include "coupling/scene/scene.h"
 #include "coupling/scene/scene_error.h"
 
@@ -17,12 +18,9 @@ namespace diptych::coupling
   // What was derived from other results of the folder must not outlive them.
   void remove_results(const std::string &directory, const std::vector<std::string> &names);
 
-  // Makes a folder that can be written to. Throws std::runtime_error naming it and what the system says.
-  void make_folder(const std::string &directory);
-
   // Makes the folder and writes the echo, once the whole scene has been found good. Results of another sample are removed.
-  // Throws SceneError where the folder holds foreign content or (resume) belongs to another scene, std::runtime_error where it
-  // cannot be made.
+  // Throws SceneError where the folder holds foreign content, a file that the scene reads and this run would replace, or (resume)
+  // belongs to another scene, std::runtime_error where it cannot be made. The caller holds its lock.
   void open_result_folder(const Scene &scene, bool resume);
 
   // "kept in results/mine: scene.prm, discrete.csv, discrete.h5, checkpoint.h5"
@@ -31,4 +29,7 @@ namespace diptych::coupling
   // Runs `work` for a folder. An error that is neither wrong input nor a broken invariant (a full disk, a library that throws) is
   // passed on as std::runtime_error with what the folder keeps.
   int keeping(const std::string &directory, const std::function<int()> &work);
+
+  // The same with the folder locked meanwhile. On one process.
+  int writing(const std::string &directory, const std::function<int()> &work);
 } // namespace diptych::coupling

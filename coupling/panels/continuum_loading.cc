@@ -227,7 +227,7 @@ namespace diptych::coupling
         return;
       try
         {
-          (void)continuum::read_mesh(mesh.file);
+          (void)users_mesh(mesh.file);
         }
       catch (const std::invalid_argument &error)
         {

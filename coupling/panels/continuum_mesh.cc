@@ -63,12 +63,39 @@ namespace diptych::coupling
     return std::nullopt;
   }
 
+  namespace
+  {
+    continuum::QuadMesh outline_mesh_of(const discrete::Snapshot &grains, const double edge)
+    {
+      try
+        {
+          return continuum::outline_mesh({grains.outline.left, grains.outline.right}, edge, stop_requested);
+        }
+      catch (const continuum::MeshingStopped &stopped)
+        {
+          throw StoppedOnRequest(stopped.what());
+        }
+    }
+  } // namespace
+
   double solid_fraction(const discrete::Snapshot &grains)
   {
     double area = 0;
     for (const double r : grains.radius)
       area += M_PI * r * r;
     return area / grains.area;
+  }
+
+  continuum::QuadMesh users_mesh(const std::string &file)
+  {
+    try
+      {
+        return continuum::read_mesh(file, stop_requested);
+      }
+    catch (const continuum::MeshingStopped &stopped)
+      {
+        throw StoppedOnRequest(file + ": " + stopped.what());
+      }
   }
 
   continuum::QuadMesh mesh_of(const Scene &scene, const ContinuumPart &part, const discrete::Snapshot *grains)
@@ -78,13 +105,13 @@ namespace diptych::coupling
     switch (o.mesh.kind)
       {
       case continuum::MeshOption::Kind::outline:
-        return continuum::outline_mesh({grains->outline.left, grains->outline.right}, edge);
+        return outline_mesh_of(*grains, edge);
       case continuum::MeshOption::Kind::rectangle:
         return continuum::rectangle_mesh({o.rectangle_width, o.rectangle_height, o.platen_width, edge});
       case continuum::MeshOption::Kind::file:
         break;
       }
-    return continuum::read_mesh(o.mesh.file);
+    return users_mesh(o.mesh.file);
   }
 
   std::string identity_of(const continuum::QuadMesh &mesh)

@@ -38,6 +38,9 @@ namespace diptych::coupling
   // Area of the grains over that of their outline.
   double solid_fraction(const discrete::Snapshot &grains);
 
+  // A .msh or .geo file. Throws std::invalid_argument naming it, StoppedOnRequest.
+  continuum::QuadMesh users_mesh(const std::string &file);
+
   // The part's mesh. `grains` is not looked at unless continuum/mesh = outline.
   continuum::QuadMesh mesh_of(const Scene &scene, const ContinuumPart &part, const discrete::Snapshot *grains);
 

@@ -3,10 +3,12 @@
 #include "coupling/processes/child_process.h"
 
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
+#include <thread>
 
 #include <fcntl.h>
 #include <sched.h>
@@ -14,6 +16,8 @@
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include "coupling/processes/stop_signal.h"
 
 namespace diptych::coupling
 {
@@ -104,7 +108,21 @@ namespace diptych::coupling
 
   int run_program(const std::vector<std::string> &words)
   {
-    return wait_for(launched(words, {}));
+    const pid_t program = launched(words, {});
+    int         status  = 0;
+    for (;;)
+      {
+        const pid_t ended = waitpid(program, &status, WNOHANG);
+        if (ended < 0 && errno != EINTR)
+          throw std::runtime_error(words[0] + " is lost: " + std::strerror(errno));
+        if (ended == program && stop_requested())
+          throw StoppedOnRequest(words[0] + ": stopped on request");
+        if (ended == program)
+          return code_of_status(status);
+        if (stop_requested())
+          kill(program, SIGKILL); // it draws into files that it renames at its end
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      }
   }
 
   int wait_for(const pid_t program)

@@ -22,6 +22,7 @@ namespace diptych::coupling
   [[nodiscard]] Answerer start_answerer(const std::vector<std::string> &words);
 
   // With this process's own output and errors, until it has ended. Returns its exit code, 128 + signal where a signal ended it.
+  // Throws StoppedOnRequest once it has been ended because this one was asked to stop.
   [[nodiscard]] int run_program(const std::vector<std::string> &words);
 
   // Exit code of a program, as above, when it has ended.

@@ -10,6 +10,8 @@
 
 #include <mpi.h>
 
+#include "coupling/processes/stop_signal.h"
+
 namespace diptych::coupling
 {
   namespace
@@ -19,6 +21,7 @@ namespace diptych::coupling
       none,
       input,
       invariant,
+      stopped,
       other
     };
 
@@ -26,6 +29,8 @@ namespace diptych::coupling
     {
       if (dynamic_cast<const std::invalid_argument *>(&error) != nullptr)
         return Failure::input;
+      if (dynamic_cast<const StoppedOnRequest *>(&error) != nullptr)
+        return Failure::stopped;
       return dynamic_cast<const std::logic_error *>(&error) != nullptr ? Failure::invariant : Failure::other;
     }
 
@@ -35,6 +40,8 @@ namespace diptych::coupling
         throw std::invalid_argument(text);
       if (kind == Failure::invariant)
         throw std::logic_error(text);
+      if (kind == Failure::stopped)
+        throw StoppedOnRequest(text);
       throw std::runtime_error(text);
     }
 

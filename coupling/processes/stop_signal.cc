@@ -30,4 +30,10 @@ namespace diptych::coupling
   {
     return stop != 0;
   }
+
+  void leave_if_stopped(const std::string &phase)
+  {
+    if (stop_requested())
+      throw StoppedOnRequest(phase + ": stopped on request");
+  }
 } // namespace diptych::coupling

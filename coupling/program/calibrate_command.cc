@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <map>
+#include <optional>
 #include <sstream>
 
 #include "coupling/calibration/calibration_file.h"
@@ -14,6 +15,7 @@
 #include "coupling/panels/continuum_loading.h"
 #include "coupling/plans/plan_text.h"
 #include "coupling/processes/processes.h"
+#include "coupling/processes/stop_signal.h"
 #include "coupling/program/calibration_runs.h"
 #include "coupling/program/report_command.h"
 #include "coupling/scene/keys.h"
@@ -210,7 +212,8 @@ namespace diptych::coupling
         if (record.status == "finished")
           {
             std::cout << summary(record) << std::flush;
-            draw_page(line, Drawing::calibration, directory);
+            if (!stop_requested())
+              draw_page(line, Drawing::calibration, directory);
             say(line, directory + "/calibrated.prm, calibration.json, calibration.csv");
             return int(done);
           }
@@ -227,8 +230,10 @@ namespace diptych::coupling
     const std::string directory   = line.output.empty() ? "results/" + calibration.name + "_calibration" : line.output;
     const Coordinates coordinates = coordinates_of(calibration);
     check_start(calibration, coordinates); // before anything is changed
+    std::optional<FolderLock> lock;
     return keeping(directory, [&] {
       on_first_process([&] {
+        lock.emplace(directory);
         open_runs_folder(directory, folder_of_a_calibration, calibration.file, line.resume);
         return 0;
       });

@@ -12,12 +12,14 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include "coupling/processes/stop_signal.h"
 #include "coupling/program/built_with.h"
 #include "coupling/program/completion.h"
 #include "coupling/program/refused_line.h"
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_file.h"
 #include "discrete/files/nearest_name.h"
+#include "discrete/files/text_file.h"
 
 namespace diptych::coupling
 {
@@ -323,6 +325,13 @@ namespace diptych::coupling
         parsed.exit_code = words.empty() ? wrong_input : done;
         return parsed;
       }
+    for (const std::string &word : words)
+      if (discrete::first_non_utf8(word) != std::string::npos || word.find('\n') != std::string::npos)
+        {
+          std::cerr << "diptych: a word of the command line is no single line of UTF-8: '" << word << "'" << std::endl;
+          parsed.exit_code = wrong_input;
+          return parsed;
+        }
     try
       {
         const std::vector<std::string> joined_words = with_joined_per_cent(words);
@@ -373,6 +382,8 @@ namespace diptych::coupling
   {
     if (dynamic_cast<const std::invalid_argument *>(&error) != nullptr)
       return wrong_input;
+    if (dynamic_cast<const StoppedOnRequest *>(&error) != nullptr)
+      return not_converged;
     return dynamic_cast<const std::logic_error *>(&error) != nullptr ? invariant : system_failure;
   }
 } // namespace diptych::coupling

@@ -82,11 +82,11 @@ namespace diptych::coupling
   int compare_again(const CommandLine &line)
   {
     if (is_ensemble_folder(line.target))
-      return keeping(line.target, [&] { return compare_ensemble_again(line); });
+      return writing(line.target, [&] { return compare_ensemble_again(line); });
     const Scene scene = scene_of_folder(line);
     if (std::filesystem::exists(line.target + "/import.json") && !std::filesystem::exists(line.target + "/continuum.csv"))
       throw SceneError(line.target + ": holds an imported sample and no continuum yet; diptych run " + line.target +
                        "/scene.prm computes it beside the grains and compares");
-    return keeping(line.target, [&] { return compare_and_report(line, scene); });
+    return writing(line.target, [&] { return compare_and_report(line, scene); });
   }
 } // namespace diptych::coupling

@@ -13,6 +13,7 @@
 #include "coupling/panels/continuum_loading.h"
 #include "coupling/processes/processes.h"
 #include "coupling/program/recorded_continuum.h"
+#include "coupling/program/run_room.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
 #include "discrete/panel/snapshot_file.h"
@@ -216,9 +217,12 @@ namespace diptych::coupling
   {
     const Scene scene = scene_of(line);
     require_continuum(scene);
+    demand_room(scene, {false, true});
+    std::optional<FolderLock> lock;
     return keeping(scene.output.directory, [&] {
       ContinuumTask task;
       task.resume = on_first_process([&] {
+        lock.emplace(scene.output.directory);
         const bool resume = line.resume && may_resume_continuum(scene);
         open_result_folder(scene, line.resume);
         return int(resume);

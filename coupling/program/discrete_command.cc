@@ -16,7 +16,9 @@
 #include "coupling/processes/progress.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/program/imported_grains.h"
+#include "coupling/program/recorded_grains.h"
 #include "coupling/program/report_command.h"
+#include "coupling/program/run_room.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_error.h"
 #include "discrete/files/table_file.h"
@@ -74,11 +76,6 @@ namespace diptych::coupling
       return f;
     }
 
-    std::string checkpoint_file(const Scene &scene)
-    {
-      return scene.output.directory + "/checkpoint.h5";
-    }
-
     // What an interrupted run left, or nothing where it left nothing of use.
     std::optional<discrete::StoredCheckpoint> found_checkpoint(const Scene &scene)
     {
@@ -95,25 +92,6 @@ namespace diptych::coupling
     {
       return read_run_facts(scene.output.directory).discrete.finished &&
              std::filesystem::exists(scene.output.directory + "/discrete.h5");
-    }
-
-    // Tells of every sampled snapshot how accurate its grain stress is.
-    std::string accuracy_text(const discrete::Snapshot &s, const double wanted)
-    {
-      if (std::isnan(s.stress_error))
-        return "";
-      std::ostringstream out;
-      out.precision(2);
-      out << "snapshot at " << text_of(s.walk, s.progress) << ": residual " << s.residual << ", error of grain stress ";
-      if (std::isfinite(s.stress_error))
-        out << 100 * s.stress_error << " % (estimated)";
-      else
-        out << "not known (it still changed by " << 100 * s.stress_change << " % in the last doubling of the sweeps)";
-      if (!std::isnan(s.error_over_residual))
-        out << ", error/residual " << s.error_over_residual;
-      if (!(s.stress_error <= wanted))
-        out << "; snapshot_accuracy " << 100 * wanted << " % not reached in snapshot_max_sweeps";
-      return out.str();
     }
 
     // What makes a finished run doubtful goes to standard error, quiet or not.
@@ -164,121 +142,6 @@ namespace diptych::coupling
         out << "error over residual " << report.error_over_residual;
       return out.str() + "\n";
     }
-
-    // The panel with its files: rows and snapshots as they come, a checkpoint when it is time.
-    class RecordedPanel
-    {
-      using Clock = std::chrono::steady_clock;
-
-    public:
-      RecordedPanel(const CommandLine &line, const Scene &scene, const std::optional<discrete::StoredCheckpoint> &checkpoint)
-          : line(line),
-            scene(scene),
-            identity(text_of(sample_identity(scene))),
-            progress(line.quiet),
-            panel(scene.sample, discrete_loading(scene.loading), scene.discrete, hooks())
-      {
-        if (!checkpoint)
-          return;
-        table.emplace(path("discrete.csv"), discrete::csv_header<discrete::HistoryRow>(), checkpoint->n_rows);
-        snapshots.emplace(path("discrete"), std::size_t(checkpoint->panel.stage) + 1);
-        panel.resume(checkpoint->panel);
-      }
-
-      std::string warnings;
-
-      const discrete::Report &run()
-      {
-        if (!table)
-          prepare();
-        for (int stage = panel.stage() + 1; panel.report().status == discrete::Status::finished && stage <= n_stages(); ++stage)
-          {
-            const bool reached = panel.advance_to(stage) == discrete::Status::finished;
-            if (reached || panel.has_snapshot())
-              add_snapshot();
-          }
-        progress.finish();
-        if (table)
-          table->flush();
-        if (panel.report().status == discrete::Status::stopped_by_user && table)
-          save();
-        if (panel.report().status == discrete::Status::finished)
-          {
-            snapshots->close();
-            remove_results(scene.output.directory, {"checkpoint.h5"});
-          }
-        return panel.report();
-      }
-
-    private:
-      std::string path(const std::string &name) const { return scene.output.directory + "/" + name; }
-      int         n_stages() const { return int(stages(scene.loading).size()); }
-
-      discrete::Hooks hooks()
-      {
-        discrete::Hooks hooks;
-        hooks.stop_requested = stop_requested;
-        hooks.on_progress    = [this](const std::string &phase, const double fraction) { progress.update(phase, fraction); };
-        hooks.before_step    = [this] { save_if_due(); };
-        hooks.on_row         = [this](const discrete::HistoryRow &row) { add_row(row); };
-        hooks.on_problem     = [this](const int stage, const discrete::ContactProblem &problem,
-                                  const discrete::StoredGeometry &geometry, const std::vector<discrete::Impulse> &impulses) {
-          discrete::write_fclib(scene.output.directory + problem_name(stage), problem,
-                                    {scene.name + ", stage " + std::to_string(stage), line.text}, geometry, impulses);
-        };
-        return hooks;
-      }
-
-      void prepare()
-      {
-        if (panel.prepare() != discrete::Status::finished)
-          return;
-        table.emplace(path("discrete.csv"), discrete::csv_header<discrete::HistoryRow>());
-        snapshots.emplace(path("discrete"));
-        add_snapshot();
-      }
-
-      void add_row(const discrete::HistoryRow &row)
-      {
-        table->add(discrete::csv_line(row));
-        if (Clock::now() - flushed < std::chrono::seconds(1))
-          return;
-        table->flush();
-        flushed = Clock::now();
-      }
-
-      void add_snapshot()
-      {
-        const discrete::Snapshot snapshot = panel.snapshot();
-        table->flush();
-        snapshots->add(snapshot);
-        if (const std::string text = accuracy_text(snapshot, scene.discrete.sampling.snapshot_accuracy); !text.empty())
-          warnings += text + "\n";
-      }
-
-      void save_if_due()
-      {
-        if (std::chrono::duration<double>(Clock::now() - saved).count() >= 60 * scene.discrete.method.checkpoint_minutes)
-          save();
-      }
-
-      // Rows first: the checkpoint says how many are its own.
-      void save()
-      {
-        table->flush();
-        discrete::write_checkpoint(checkpoint_file(scene), {panel.checkpoint(), table->n_rows(), identity});
-        saved = Clock::now();
-      }
-
-      const CommandLine                    &line;
-      const Scene                          &scene;
-      const std::string                     identity;
-      Progress                              progress;
-      std::optional<discrete::TableFile>    table; // from the prepared sample on
-      std::optional<discrete::SnapshotFile> snapshots;
-      Clock::time_point                     saved = Clock::now(), flushed = saved;
-      discrete::Panel                       panel;
-    };
 
     void record(const CommandLine      &line,
                 const Scene            &scene,
@@ -364,7 +227,7 @@ namespace diptych::coupling
       forget_earlier_run(scene);
 
     const PhaseTimer        timer("discrete");
-    RecordedPanel           recorded(line, scene, checkpoint);
+    RecordedGrains          recorded(line, scene, checkpoint);
     const discrete::Report &report = recorded.run();
     const std::string       csv    = directory + "/discrete.csv";
     const Rows              rows   = std::filesystem::exists(csv) ? discrete::read_rows<discrete::HistoryRow>(csv) : Rows();
@@ -385,7 +248,8 @@ namespace diptych::coupling
       check_study(scene);
     if (scene.discrete.method.method == discrete::Method::imported)
       (void)load_imported(scene);
-    return keeping(scene.output.directory, [&] {
+    demand_room(scene, {true, false});
+    return writing(scene.output.directory, [&] {
       open_result_folder(scene, line.resume);
       return line.study_of_step ? step_study(line, scene) : discrete_panel(line, scene);
     });

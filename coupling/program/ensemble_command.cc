@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <optional>
 
 #include "coupling/ensembles/ensemble_folder.h"
 #include "coupling/ensembles/seed_list.h"
@@ -14,6 +15,7 @@
 #include "coupling/program/compare_command.h"
 #include "coupling/program/ensemble_record.h"
 #include "coupling/program/report_command.h"
+#include "coupling/program/run_room.h"
 #include "coupling/program/worker_command.h"
 #include "coupling/scene/scene_error.h"
 
@@ -143,6 +145,12 @@ namespace diptych::coupling
   {
     const std::vector<int> seeds = read_seeds(line.seeds);
     const Scene            scene = ensemble_scene(line);
+    demand_room(scene, {true, true, int(seeds.size())});
+    std::optional<FolderLock> lock;
+    on_first_process([&] {
+      lock.emplace(scene.output.directory);
+      return 0;
+    });
     const PhaseTimer       timer("ensemble");
     const std::vector<int> pending = prepared_seeds(line, scene, seeds);
     TaskQueue              queue   = queue_of(line, scene, pending);

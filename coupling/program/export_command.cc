@@ -33,7 +33,7 @@ namespace diptych::coupling
     for (const auto &[name, text] : files)
       if (fs::exists(folder + "/" + name))
         throw SceneError("--output " + folder + ": " + name + " stands there; name a new folder");
-    return keeping(folder, [&] {
+    return writing(folder, [&] {
       for (const auto &[name, text] : files)
         {
           make_folder(fs::path(folder + "/" + name).parent_path().string());

@@ -44,7 +44,7 @@ namespace diptych::coupling
         throw SceneError("diptych import: --output DIR says where the sample goes");
       if (fs::exists(directory) && !fs::is_directory(directory))
         throw SceneError("--output " + directory + ": is a file, not a folder");
-      if (fs::exists(directory) && !fs::is_empty(directory) && !fs::exists(directory + "/import.json"))
+      if (fs::exists(directory) && !is_empty_folder(directory) && !fs::exists(directory + "/import.json"))
         throw SceneError("--output " + directory + ": holds other files and no import; name a new or an empty folder");
       for (const std::string &file : files)
         if (fs::weakly_canonical(fs::path(file).parent_path().empty() ? "." : fs::path(file).parent_path()) ==
@@ -120,7 +120,7 @@ namespace diptych::coupling
     const DiscreteResults results = imported_results(arrival);
     const bool            loaded  = results.snapshots.size() > 1;
     const std::string     scene   = loaded ? imported_scene(arrival, results, line.foreign.pressure) : "";
-    return keeping(line.output, [&] {
+    return writing(line.output, [&] {
       write_imported(line, arrival, results, scene);
       Scene described;
       described.name             = fs::path(line.output).filename().string();

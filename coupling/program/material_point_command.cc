@@ -48,7 +48,7 @@ namespace diptych::coupling
       {
         throw SceneError(line.target + ": loading/pressure, loading/axial_strain or continuum/initial_step: " + error.what());
       }
-    return keeping(scene.output.directory, [&] {
+    return writing(scene.output.directory, [&] {
       open_result_folder(scene, false);
       const PhaseTimer                     timer("material_point");
       const continuum::MaterialPointReport report = continuum::drive_material_point(law, path);

@@ -286,7 +286,7 @@ namespace diptych::coupling
     if (!question.continuum.empty())
       require_continuum(scene);
     const std::string directory = line.output.empty() ? "results/" + scene.name + "_plan" : line.output;
-    return keeping(directory, [&] {
+    return writing(directory, [&] {
       open_runs_folder(directory, folder_of_a_plan, question.scene, line.resume);
       try
         {

@@ -9,6 +9,7 @@
 #include "coupling/folders/result_folder.h"
 #include "coupling/processes/child_process.h"
 #include "coupling/processes/progress.h"
+#include "coupling/processes/stop_signal.h"
 #include "coupling/scene/scene_error.h"
 #include "coupling/studies/study_folder.h"
 #include "coupling/version.h"
@@ -52,7 +53,19 @@ namespace diptych::coupling
   void draw(const Drawing drawing, const std::string &directory)
   {
     const std::string script = drawing_script();
-    if (const int code = run_program({python, script, word_of(drawing), directory}); code != 0)
+    int               code   = 0;
+    try
+      {
+        code = run_program({python, script, word_of(drawing), directory});
+      }
+    catch (const StoppedOnRequest &)
+      {
+        for (const auto &entry : fs::directory_iterator(directory)) // what it was writing
+          if (entry.path().extension() == ".part" && entry.is_regular_file())
+            fs::remove(entry.path());
+        throw StoppedOnRequest("drawing the report: stopped on request; to draw it: diptych report " + directory);
+      }
+    if (code != 0)
       throw std::runtime_error("the report could not be drawn: " + std::string(python) + " " + script + " " + word_of(drawing) +
                                " " + directory + " ended with exit code " + std::to_string(code));
   }
@@ -76,7 +89,7 @@ namespace diptych::coupling
                                                                  : Drawing::page;
     if (drawing == Drawing::page && !fs::exists(line.target + "/comparison.json"))
       throw SceneError(line.target + ": holds no comparison.json, nor is it the folder of an ensemble, a study or a calibration");
-    return keeping(line.target, [&] {
+    return writing(line.target, [&] {
       draw_page(line, drawing, line.target);
       return int(done);
     });

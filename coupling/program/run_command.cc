@@ -7,6 +7,7 @@
 #include "coupling/program/compare_command.h"
 #include "coupling/program/continuum_command.h"
 #include "coupling/program/discrete_command.h"
+#include "coupling/program/run_room.h"
 
 namespace diptych::coupling
 {
@@ -15,7 +16,8 @@ namespace diptych::coupling
     const Scene scene = scene_of(line);
     require_continuum(scene);
     check_comparable(scene);
-    return keeping(scene.output.directory, [&] {
+    demand_room(scene, {true, true});
+    return writing(scene.output.directory, [&] {
       const bool resume_continuum = line.resume && may_resume_continuum(scene);
       open_result_folder(scene, line.resume);
       if (const int code = discrete_panel(line, scene); code != done)

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "coupling/scene/scene_error.h"
+#include "discrete/files/hdf5_file.h"
 #include "discrete/problem_files/fclib.h"
 #include "discrete/solvers/solver.h"
 
@@ -44,6 +45,18 @@ namespace diptych::coupling
       std::cout << "\n";
     }
 
+    bool holds_solution(const std::string &path)
+    {
+      try
+        {
+          return discrete::Hdf5Reader(path).has("/solution/r");
+        }
+      catch (const std::invalid_argument &)
+        {
+          return false;
+        }
+    }
+
     std::string status_of(const discrete::SolveReport &report)
     {
       return discrete::name_of(report.status);
@@ -69,6 +82,9 @@ namespace diptych::coupling
     std::error_code               error;
     if (!line.output.empty() && std::filesystem::equivalent(line.target, line.output, error))
       throw SceneError("--output " + line.output + " is the problem itself: name another file");
+    if (!line.output.empty() && std::filesystem::exists(line.output) && !holds_solution(line.output))
+      throw SceneError("--output " + line.output +
+                       " stands there and holds no solution that could be replaced: name another file");
     const discrete::StoredProblem problem = discrete::read_fclib(line.target);
     const discrete::ProblemForm   form    = form_of(line, problem);
 

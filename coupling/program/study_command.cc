@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <iostream>
 #include <map>
+#include <optional>
 #include <sstream>
 
 #include "coupling/folders/result_folder.h"
 #include "coupling/processes/processes.h"
+#include "coupling/processes/stop_signal.h"
 #include "coupling/program/report_command.h"
 #include "coupling/program/study_runs.h"
 #include "coupling/studies/study_curves.h"
@@ -90,8 +92,10 @@ namespace diptych::coupling
 
   int run_study(const CommandLine &line)
   {
-    const StudyPoints asked = asked_by(line);
+    const StudyPoints         asked = asked_by(line);
+    std::optional<FolderLock> lock;
     on_first_process([&] {
+      lock.emplace(asked.directory);
       open_runs_folder(asked.directory, folder_of_a_study, asked.study.file, line.resume);
       return 0;
     });
@@ -101,7 +105,8 @@ namespace diptych::coupling
         const StudyResults results = results_of(asked);
         const StudyRecord  record  = evaluate(asked.study, asked.points, results);
         write_tables(asked, results, record);
-        draw_page(line, Drawing::study, asked.directory);
+        if (!stop_requested())
+          draw_page(line, Drawing::study, asked.directory);
         return conclude(line, asked, outcomes, record);
       });
     });

@@ -76,6 +76,50 @@ namespace diptych::coupling
     }
   } // namespace
 
+  namespace
+  {
+    struct NamedFiles
+    {
+      std::string                                       section;
+      std::vector<std::pair<std::string, std::string>> &files;
+
+      template <class Number> void operator()(const char *, const Number &, const char *, Range, const char *) const {}
+      template <class Value> void  operator()(const char *, const Value &, const char *, const char *) const {}
+      void                         operator()(const char *name, const discrete::FileName &file, const char *, const char *) const
+      {
+        put(name, file.path);
+      }
+      void operator()(const char *name, const discrete::DriveOption &drive, const char *, const char *) const
+      {
+        put(name, drive.names_a_file() ? drive.value : "");
+      }
+      void operator()(const char *name, const continuum::MeshOption &mesh, const char *, const char *) const
+      {
+        put(name, mesh.kind == continuum::MeshOption::Kind::file ? mesh.file : "");
+      }
+
+    private:
+      void put(const std::string &name, const std::string &path) const
+      {
+        if (!path.empty())
+          files.emplace_back(section + "/" + name, path);
+      }
+    };
+  } // namespace
+
+  std::vector<std::pair<std::string, std::string>> input_files(const Scene &scene)
+  {
+    std::vector<std::pair<std::string, std::string>> files;
+    Scene                                            copy = scene;
+    for_each_section(copy, [&](const std::string &section, auto &options) {
+      visit_parameters(options, NamedFiles{section, files});
+    });
+    for (auto &[key, file] : files)
+      if (const std::size_t mark = file.find("{seed}"); mark != std::string::npos)
+        file.replace(mark, 6, std::to_string(scene.sample.seed));
+    return files;
+  }
+
   std::uint64_t digest_of(const std::string &bytes)
   {
     std::uint64_t hash = 14695981039346656037ull;

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "coupling/scene/scene.h"
 
@@ -17,6 +19,9 @@ namespace diptych::coupling
   Identity sample_identity(const Scene &scene);    // which sample both panels show, and how the grains are loaded
   Identity continuum_identity(const Scene &scene); // that, and what the continuum shows of it
   Identity member_identity(const Scene &scene);    // all that members of an ensemble have in common: not seed and margins
+
+  // Files that a run of the scene reads, by section/key; {seed} in a path is filled in.
+  std::vector<std::pair<std::string, std::string>> input_files(const Scene &scene);
 
   // FNV-1a, 64 bits, of bytes.
   std::uint64_t digest_of(const std::string &bytes);

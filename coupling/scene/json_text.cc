@@ -11,19 +11,25 @@ namespace diptych::coupling
   {
     using nlohmann::ordered_json;
 
+    constexpr int most_levels = 32;    // of objects and lists in each other; values are walked recursively
+    constexpr int most_keys   = 10000; // an object finds its keys one after the other
+
     // The parser keeps no lines: texts are found again in the order in which they stand.
     struct FindLines
     {
       const std::string          &text;
       std::map<std::string, int> &lines;
-      std::size_t                 at = 0;
+      std::size_t                 at   = 0;
+      int                         line = 1; // that `at` stands on
 
       void pass(const std::string &quoted)
       {
-        if (const std::size_t found = text.find(quoted, at); found != std::string::npos)
-          at = found + quoted.size();
+        const std::size_t found = text.find(quoted, at);
+        if (found == std::string::npos)
+          return;
+        line += int(std::count(text.begin() + std::ptrdiff_t(at), text.begin() + std::ptrdiff_t(found + quoted.size()), '\n'));
+        at = found + quoted.size();
       }
-      int line() const { return int(1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(at), '\n')); }
 
       void walk(const ordered_json &value, const std::string &pointer)
       {
@@ -36,14 +42,14 @@ namespace diptych::coupling
               std::string name = key;
               for (std::size_t slash = name.find('/'); slash != std::string::npos; slash = name.find('/', slash + 2))
                 name.replace(slash, 1, "~1");
-              lines[pointer + "/" + name] = line();
+              lines[pointer + "/" + name] = line;
               walk(member, pointer + "/" + name);
             }
         else if (value.is_array())
           for (std::size_t k = 0; k < value.size(); ++k)
             {
               walk(value[k], pointer + "/" + std::to_string(k));
-              lines.emplace(pointer + "/" + std::to_string(k), line());
+              lines.emplace(pointer + "/" + std::to_string(k), line);
             }
       }
     };
@@ -66,12 +72,23 @@ namespace diptych::coupling
     JsonText          result{file, {}, {}};
     try
       {
-        result.root = ordered_json::parse(text, nullptr, true, /* comments */ true);
+        int        n_keys      = 0;
+        const auto not_endless = [&](const int depth, const ordered_json::parse_event_t event, const ordered_json &) {
+          n_keys += event == ordered_json::parse_event_t::key;
+          if (depth > most_levels)
+            throw SceneError(file + ": nests more than " + std::to_string(most_levels) + " levels");
+          if (n_keys > most_keys)
+            throw SceneError(file + ": holds more than " + std::to_string(most_keys) + " keys");
+          return true;
+        };
+        result.root = ordered_json::parse(text, not_endless, true, /* comments */ true);
       }
     catch (const nlohmann::json::parse_error &error)
       {
         const auto line = 1 + std::count(text.begin(), text.begin() + std::min(text.size(), std::size_t(error.byte)), '\n');
-        throw SceneError(file + ", line " + std::to_string(line) + ": no JSON: " + error.what());
+        const std::string what = error.what(); // the library's name and number of the error stand in brackets before it
+        throw SceneError(file + ", line " + std::to_string(line) +
+                         ": no JSON: " + what.substr(std::min(what.size(), what.find("] ") + 2)));
       }
     if (!result.root.is_object())
       throw SceneError(file + ", line 1: an object is needed, { ... }");

@@ -67,6 +67,12 @@ namespace diptych::coupling
       else if (!time && (std::abs(count - std::round(count)) > 1e-6 || count < 0.5))
         throw std::invalid_argument("loading/axial_strain = " + text_of(loading.axial_strain) +
                                     " is not a whole number of loading/stage_strain = " + text_of(loading.stage_strain));
+      constexpr double most_stages = 1e5;
+      if (loading.stages.empty() && count > most_stages * (1 + 1e-9))
+        throw std::invalid_argument(std::string("loading/") + (time ? "duration" : "axial_strain") + " = " + text_of(last) +
+                                    " over loading/" + (time ? "stage_time" : "stage_strain") + " = " +
+                                    text_of(time ? loading.stage_time : loading.stage_strain) + " are " + text_of(count) +
+                                    " stages; at most 100000");
       const std::vector<double> &edges = scene.comparison.window_edges;
       if (edges.size() < 2 || std::adjacent_find(edges.begin(), edges.end(), std::greater_equal<double>()) != edges.end())
         throw std::invalid_argument(

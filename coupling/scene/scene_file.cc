@@ -52,10 +52,10 @@ namespace diptych::coupling
       refuse_key(entry);
     }
 
-    void demand_no_comment(const Entry &entry)
+    void demand_one_line(const Entry &entry)
     {
-      if (entry.value.find_first_of("#\n") != std::string::npos)
-        throw SceneError(entry.place + ": " + entry.section + "/" + entry.key + " holds a # or a line break; # begins a comment");
+      if (entry.value.find_first_of("\n\r") != std::string::npos || entry.value.find('\0') != std::string::npos)
+        throw SceneError(entry.place + ": " + entry.section + "/" + entry.key + " holds a line break or a zero byte");
     }
 
     void set(Scene &scene, const Entry &entry)
@@ -99,14 +99,14 @@ namespace diptych::coupling
 
   void check_entry(const Entry &entry)
   {
-    demand_no_comment(entry);
+    demand_one_line(entry);
     Scene scratch;
     set(scratch, entry);
   }
 
   std::vector<std::string> sections_set_in(const std::string &file)
   {
-    std::ifstream            in(file);
+    std::istringstream       in = scene_input(file);
     std::vector<std::string> sections;
     for (const Entry &entry : entries_of(file, in))
       if (std::find(sections.begin(), sections.end(), entry.section) == sections.end())
@@ -126,9 +126,7 @@ namespace diptych::coupling
   {
     if (std::filesystem::is_directory(file))
       throw SceneError(file + ": is a folder; a scene file, .prm or .json, is needed");
-    std::ifstream in(file);
-    if (!in)
-      throw SceneError(file + ": cannot be read");
+    std::istringstream in      = scene_input(file);
     std::vector<Entry> entries = entries_of(file, in);
     if (is_echo(file))
       for (Entry &entry : entries)
@@ -142,7 +140,7 @@ namespace diptych::coupling
     Scene scene;
     for (const Entry &entry : entries)
       {
-        demand_no_comment(entry);
+        demand_one_line(entry);
         set(scene, entry);
       }
     scene.name = scene_name(file);
@@ -155,9 +153,7 @@ namespace diptych::coupling
 
   std::vector<Entry> read_fragment(const std::string &file)
   {
-    std::ifstream in(file);
-    if (!in || std::filesystem::is_directory(file))
-      throw SceneError(file + " cannot be read; --set-file takes keys as calibrate writes them (.prm)");
+    std::istringstream       in      = scene_input(file);
     const std::vector<Entry> entries = entries_of_prm(file, in);
     for (const Entry &entry : entries)
       check_entry(entry);
@@ -175,10 +171,10 @@ namespace diptych::coupling
   {
     if (!is_echo(file))
       return std::nullopt;
-    std::ifstream in(file);
     try
       {
-        Scene scene;
+        std::istringstream in = scene_input(file);
+        Scene              scene;
         for (const Entry &entry : entries_of_prm(file, in))
           set(scene, entry);
         return scene;
@@ -199,8 +195,8 @@ namespace diptych::coupling
       visit_parameters(options, DescribeKeys{section, keys});
       out << "\nsubsection " << section << '\n';
       for (const KeyDescription &key : keys)
-        out << "  # " << key.meaning << " [" << key.unit << "]; " << key.allowed << "\n  set " << key.name << " = " << key.value
-            << '\n';
+        out << "  # " << key.meaning << " [" << key.unit << "]; " << key.allowed << "\n  set " << key.name << " = "
+            << prm_value(key.value) << '\n';
       out << "end\n";
     });
     return out.str();

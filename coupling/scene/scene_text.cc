@@ -8,6 +8,7 @@
 #include <strings.h>
 
 #include "coupling/scene/scene_error.h"
+#include "discrete/files/text_file.h"
 
 namespace diptych::coupling
 {
@@ -19,9 +20,26 @@ namespace diptych::coupling
       return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
     }
 
+    // Up to the first # without a \ before it; \# becomes #.
     std::string without_comment(const std::string &line)
     {
-      return trimmed(line.substr(0, line.find('#')));
+      std::string kept;
+      for (const char c : line)
+        {
+          const bool escaped = !kept.empty() && kept.back() == '\\';
+          if (c == '#' && !escaped)
+            break;
+          if (c == '#')
+            kept.pop_back();
+          kept += c;
+        }
+      return trimmed(kept);
+    }
+
+    std::size_t n_last_backslashes(const std::string &text)
+    {
+      const std::size_t other = text.find_last_not_of('\\');
+      return text.size() - (other == std::string::npos ? 0 : other + 1);
     }
 
     // What follows a keyword, in letters of either case, and at least one blank; nothing where the line begins otherwise.
@@ -34,6 +52,19 @@ namespace diptych::coupling
     }
   } // namespace
 
+  std::istringstream scene_input(const std::string &file)
+  {
+    constexpr std::size_t most_bytes = 16 << 20;
+    try
+      {
+        return std::istringstream(discrete::read_input(file, most_bytes));
+      }
+    catch (const std::invalid_argument &error)
+      {
+        throw SceneError(error.what());
+      }
+  }
+
   std::vector<Entry> entries_of_prm(const std::string &file, std::istream &in)
   {
     const std::string  folder = std::filesystem::path(file).parent_path().string();
@@ -44,8 +75,11 @@ namespace diptych::coupling
       {
         const std::string place = file + ", line " + std::to_string(++number);
         std::string       line  = without_comment(raw);
-        while (!line.empty() && line.back() == '\\' && std::getline(in, raw))
+        while (n_last_backslashes(line) % 2 == 1 && std::getline(in, raw))
           line = trimmed(line.substr(0, line.size() - 1)) + " " + without_comment(raw), ++number;
+        if (n_last_backslashes(line) % 2 == 1)
+          throw SceneError(place + ": ends with \\, which continues it on the next line, but the file ends");
+        line.resize(line.size() - n_last_backslashes(line) / 2);
         if (line.empty())
           continue;
         if (const auto name = after("subsection", line))
@@ -71,12 +105,23 @@ namespace diptych::coupling
     return entries;
   }
 
+  std::string prm_value(const std::string &value)
+  {
+    if (value.find_first_of("\n\r") != std::string::npos)
+      throw SceneError("'" + value + "' holds a line break");
+    std::string text;
+    for (const char c : value)
+      text += c == '#' ? "\\#" : std::string(1, c);
+    return text + std::string(n_last_backslashes(value), '\\');
+  }
+
   Entry entry_of_override(const std::string &text)
   {
     const std::size_t slash = text.find('/'), equals = text.find('=');
     if (slash == std::string::npos || equals == std::string::npos || slash == 0 || equals <= slash + 1 ||
         text.substr(slash + 1, equals - slash - 1).find('/') != std::string::npos)
       throw SceneError("--set " + text + ": not of the form section/key=value");
-    return {text.substr(0, slash), text.substr(slash + 1, equals - slash - 1), text.substr(equals + 1), "--set " + text, ""};
+    return {text.substr(0, slash), text.substr(slash + 1, equals - slash - 1), trimmed(text.substr(equals + 1)), "--set " + text,
+            ""};
   }
 } // namespace diptych::coupling

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <istream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -17,12 +18,18 @@ namespace diptych::coupling
     bool        of_echo = false; // of a file that holds every key, wanted or not
   };
 
-  // subsection NAME / set KEY = VALUE / end, '#' comments and '\\' continuation: the format of deal.II's parameter files. Throws
-  // SceneError naming file and line.
+  // The text of a file with keys, as read_input checks it. Throws SceneError naming the file.
+  std::istringstream scene_input(const std::string &file);
+
+  // subsection NAME / set KEY = VALUE / end, '#' comments and '\\' continuation: the format of deal.II's parameter files. In
+  // values \# is a # and \\ at the end of a line a \. Throws SceneError naming file and line.
   std::vector<Entry> entries_of_prm(const std::string &file, std::istream &in);
 
   // {"section": {"key": value}}; the value may also stand as {"value": ...}. Throws SceneError naming file and line.
   std::vector<Entry> entries_of_json(const std::string &file, std::istream &in);
+
+  // A value as it stands in such a text. Throws SceneError where it holds a line break.
+  std::string prm_value(const std::string &value);
 
   // "section/key=value" of the command line. Throws SceneError.
   Entry entry_of_override(const std::string &text);

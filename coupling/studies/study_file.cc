@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_file.h"
@@ -245,11 +244,9 @@ namespace diptych::coupling
 
   Study read_study(const std::string &file, const std::vector<std::string> &overrides)
   {
-    std::ifstream in(file);
-    if (!in || std::filesystem::is_directory(file))
-      throw SceneError(file + ": cannot be read; a study is a .json file");
-    const JsonText text = read_json_text(file, in);
-    const Part     root(text, text.root, "");
+    std::istringstream in   = scene_input(file);
+    const JsonText     text = read_json_text(file, in);
+    const Part         root(text, text.root, "");
     root.allow(
       {"title", "scene", "command", "set", "seeds", "reference", "families", "axes", "combine", "quantities", "cost", "borders"});
     Study study;

@@ -63,7 +63,7 @@ namespace diptych::coupling
   void open_runs_folder(const std::string &directory, const RunsFolder &kind, const std::string &file, const bool resume)
   {
     make_folder(directory);
-    if (!fs::exists(directory + "/" + kind.input) && !fs::is_empty(directory))
+    if (!fs::exists(directory + "/" + kind.input) && !is_empty_folder(directory))
       throw SceneError("--output " + directory + ": holds other files and no " + kind.noun +
                        " of diptych; name a new or an empty folder");
     // Killed before its end, this one must not leave the tables of an earlier one.

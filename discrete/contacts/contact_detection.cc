@@ -40,7 +40,7 @@ namespace diptych::discrete
       if (state.cell)
         {
           grid.period        = state.cell->width;
-          grid.columns       = std::max(1, int(grid.period / smallest_size));
+          grid.columns       = int(std::clamp(grid.period / smallest_size, 1., 4. * double(grains.size()) + 16.));
           grid.cell_size.x() = grid.period / grid.columns;
           high.x()           = low.x() + grid.period;
         }

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 #include "discrete/files/nearest_name.h"
+#include "discrete/files/text_file.h"
 
 namespace diptych::discrete
 {
@@ -41,22 +42,16 @@ namespace diptych::discrete
     // Lines that are neither blank nor a comment.
     std::vector<Line> lines_of(const std::string &path)
     {
-      std::ifstream file(path);
-      if (!file)
-        throw std::invalid_argument(path + ": cannot be opened; is it there and readable?");
-      std::vector<Line> lines;
-      std::string       text;
+      constexpr std::size_t most_bytes = std::size_t(4) << 30; // ten million grains need a tenth of it
+      std::istringstream    file(read_input(path, most_bytes));
+      std::vector<Line>     lines;
+      std::string           text;
       for (int number = 1; std::getline(file, text); ++number)
         {
-          // Some spreadsheet programs put a byte order mark before the first name.
-          if (number == 1 && text.compare(0, 3, "\xEF\xBB\xBF") == 0)
-            text.erase(0, 3);
           text = trimmed(text);
           if (!text.empty() && text[0] != '#')
             lines.push_back({number, text});
         }
-      if (file.bad())
-        throw std::invalid_argument(path + ": cannot be read; is it a file?");
       if (lines.empty())
         throw std::invalid_argument(path + ": is empty; its first line must name the columns");
       return lines;

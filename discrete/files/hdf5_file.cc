@@ -25,11 +25,23 @@ namespace diptych::discrete
 
   namespace
   {
-    // In pieces of up to 4096 rows with a checksum, so that a damaged file is refused rather than read. Scalars and empty arrays
-    // have no pieces.
-    bool set_checksum(const hid_t properties, std::vector<hsize_t> extents)
+    // The file format of HDF5 1.10, whose headers, attributes and indices of pieces carry checksums.
+    hid_t checked_access()
     {
-      if (extents.empty() || std::count(extents.begin(), extents.end(), 0u) > 0)
+      const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+      if (access < 0 || H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110) < 0)
+        throw std::runtime_error("HDF5: the file format of 1.10 is not known");
+      return access;
+    }
+
+    // In pieces of up to 4096 rows with a checksum, so that a damaged file is refused rather than read. A scalar has no pieces:
+    // it stands in its header, which has a checksum, unless it is too long.
+    bool set_checksum(const hid_t properties, std::vector<hsize_t> extents, const std::size_t n_bytes)
+    {
+      constexpr std::size_t most_bytes_of_a_header = 60000;
+      if (extents.empty())
+        return n_bytes > most_bytes_of_a_header || H5Pset_layout(properties, H5D_COMPACT) >= 0;
+      if (std::count(extents.begin(), extents.end(), 0u) > 0)
         return true;
       extents[0] = std::min<hsize_t>(extents[0], 4096);
       return H5Pset_chunk(properties, int(extents.size()), extents.data()) >= 0 && H5Pset_fletcher32(properties) >= 0;
@@ -49,7 +61,7 @@ namespace diptych::discrete
       const Id                   space(H5Screate_simple(int(dimensions.size()), dimensions.data(), nullptr), H5Sclose);
       const Id groups(H5Pcreate(H5P_LINK_CREATE), H5Pclose), properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
       H5Pset_create_intermediate_group(groups, 1);
-      if (!set_checksum(properties, dimensions))
+      if (!set_checksum(properties, dimensions, H5Tget_size(type)))
         fail("set a checksum for", path, name);
       const Id data(H5Dcreate2(file, name.c_str(), type, space, groups, properties, H5P_DEFAULT), H5Dclose);
       if (data < 0 || (n_values > 0 && H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0))
@@ -85,10 +97,54 @@ namespace diptych::discrete
         fail("write attribute " + name + " of", path, object);
     }
 
+    // The checksum of headers: lookup3 of Bob Jenkins (2006, public domain), for a length that is no multiple of 12.
+    std::uint32_t lookup3(const unsigned char *bytes, std::size_t length)
+    {
+      const auto turned = [](const std::uint32_t x, const int k) { return (x << k) | (x >> (32 - k)); };
+      const auto word   = [&](const std::size_t k) {
+        std::uint32_t value = 0;
+        for (std::size_t b = 0; b < 4 && k + b < length; ++b)
+          value |= std::uint32_t(bytes[k + b]) << (8 * b);
+        return value;
+      };
+      std::uint32_t a = 0xdeadbeef + std::uint32_t(length), b = a, c = a;
+      for (; length > 12; bytes += 12, length -= 12)
+        {
+          a += word(0), b += word(4), c += word(8);
+          a -= c, a ^= turned(c, 4), c += b;
+          b -= a, b ^= turned(a, 6), a += c;
+          c -= b, c ^= turned(b, 8), b += a;
+          a -= c, a ^= turned(c, 16), c += b;
+          b -= a, b ^= turned(a, 19), a += c;
+          c -= b, c ^= turned(b, 4), b += a;
+        }
+      a += word(0), b += word(4), c += word(8);
+      c ^= b, c -= turned(b, 14);
+      a ^= c, a -= turned(c, 11);
+      b ^= a, b -= turned(a, 25);
+      c ^= b, c -= turned(b, 16);
+      a ^= c, a -= turned(c, 4);
+      b ^= a, b -= turned(a, 14);
+      c ^= b, c -= turned(b, 24);
+      return c;
+    }
+
+    // The first block of an image still says that somebody is writing, or has lost that mark and kept the checksum with it.
+    void set_first_block(std::string &image)
+    {
+      constexpr std::size_t n_checked = 44, version_at = 8, mark_at = 11;
+      if (image.size() < n_checked + 4 || image[version_at] != 3)
+        throw std::logic_error("HDF5 wrote another file format than it was asked for");
+      image[mark_at]          = 0;
+      const std::uint32_t sum = lookup3(reinterpret_cast<const unsigned char *>(image.data()), n_checked);
+      for (std::size_t b = 0; b < 4; ++b)
+        image[n_checked + b] = char(sum >> (8 * b));
+    }
+
     hid_t file_in_memory(const std::string &name)
     {
       constexpr std::size_t increment = 1 << 20;
-      const Id              access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+      const Id              access(checked_access(), H5Pclose);
       if (H5Pset_fapl_core(access, increment, /* backing store */ 0) < 0)
         return -1;
       return H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
@@ -110,8 +166,9 @@ namespace diptych::discrete
   {
     silence();
     const std::string part = path + ".part";
+    const Id          access(checked_access(), H5Pclose);
     {
-      const Id file(H5Fcreate(part.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+      const Id file(H5Fcreate(part.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
       if (file < 0)
         fail("create the file", path_, "/");
     }
@@ -122,7 +179,7 @@ namespace diptych::discrete
     if (descriptor >= 0)
       ::close(descriptor);
     if (error == 0)
-      file_ = H5Fopen(part.c_str(), H5F_ACC_RDWR, H5P_DEFAULT); // closing cuts off what is left over
+      file_ = H5Fopen(part.c_str(), H5F_ACC_RDWR, access); // closing cuts off what is left over
     if (file_ < 0)
       {
         std::remove(part.c_str());
@@ -233,6 +290,7 @@ namespace diptych::discrete
       fail("finish the file", path_, "/");
     H5Fclose(file_);
     file_ = -1;
+    set_first_block(image);
     write_text(path_, image);
   }
 

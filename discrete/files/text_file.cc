@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/files/text_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -39,6 +40,52 @@ namespace diptych::discrete
   {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  std::size_t first_non_utf8(const std::string &text)
+  {
+    const auto byte = [&](const std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u; };
+    for (std::size_t k = 0; k < text.size();)
+      {
+        const unsigned int lead   = byte(k);
+        const std::size_t  length = lead < 0x80 ? 1 : lead < 0xC2 ? 0 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : lead < 0xF5 ? 4 : 0;
+        // The second byte of the longest forms has a narrower range: no overlong one, no surrogate, nothing beyond U+10FFFF.
+        const unsigned int low  = lead == 0xE0 ? 0xA0 : lead == 0xF0 ? 0x90 : 0x80;
+        const unsigned int high = lead == 0xED ? 0x9F : lead == 0xF4 ? 0x8F : 0xBF;
+        if (lead == 0 || length == 0 || (length > 1 && (byte(k + 1) < low || byte(k + 1) > high)))
+          return k;
+        for (std::size_t more = 2; more < length; ++more)
+          if ((byte(k + more) & 0xC0) != 0x80)
+            return k;
+        k += length;
+      }
+    return std::string::npos;
+  }
+
+  std::string read_input(const std::string &path, const std::size_t most_bytes)
+  {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0)
+      throw std::invalid_argument(path + ": cannot be read: " + std::strerror(errno));
+    std::string text, piece(1 << 16, '\0');
+    ssize_t     n = 0;
+    while (text.size() <= most_bytes && ((n = ::read(file, piece.data(), piece.size())) > 0 || (n < 0 && errno == EINTR)))
+      if (n > 0)
+        text.append(piece, 0, std::size_t(n));
+    const int error = n < 0 ? errno : 0;
+    ::close(file);
+    if (error != 0)
+      throw std::invalid_argument(path + ": cannot be read: " + std::strerror(error));
+    if (const std::size_t bad = first_non_utf8(text); bad < most_bytes && bad != std::string::npos)
+      throw std::invalid_argument(
+        path + ", line " + std::to_string(1 + std::count(text.begin(), text.begin() + off_t(bad), '\n')) +
+        ": holds a byte of value " + std::to_string(static_cast<unsigned char>(text[bad])) + " that is no text in UTF-8");
+    if (text.size() > most_bytes)
+      throw std::invalid_argument(path + ": is longer than the " + std::to_string(most_bytes) +
+                                  " bytes that such a file may have");
+    if (text.compare(0, 3, "\xEF\xBB\xBF") == 0)
+      text.erase(0, 3);
+    return text;
   }
 
   void write_text(const std::string &path, const std::string &text)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace diptych::discrete
@@ -12,6 +13,14 @@ namespace diptych::discrete
 
   // The whole file, byte by byte; empty where it cannot be read.
   std::string read_text(const std::string &path);
+
+  // A text that somebody else wrote: at most `most_bytes` of UTF-8 without zeros. A byte order mark at its begin is left out.
+  // Throws std::invalid_argument naming the file and, for a byte that is none of a text, its line.
+  std::string read_input(const std::string &path, std::size_t most_bytes);
+
+  // Index of the first byte that is none of a text in UTF-8 (a zero, a sequence that is cut, overlong or a surrogate); npos:
+  // none.
+  std::size_t first_non_utf8(const std::string &text);
 
   // Adds whole lines to the end of a file, in one write; no earlier byte is touched. Throws std::runtime_error naming the file;
   // what was written of the lines is cut off again.

@@ -9,6 +9,13 @@ namespace diptych::discrete
   std::string unrest_text(const PreparationReport &report)
   {
     std::ostringstream text;
+    if (!report.touches)
+      {
+        text << "after " << report.steps
+             << " preparation steps no grain touches another: nothing carries loading/pressure (solid "
+             << "fraction " << report.solid_fraction << ")";
+        return text.str();
+      }
     text << "the sample was not quiet after " << report.steps << " preparation steps";
     if (report.settling_steps > 0)
       text << " and " << report.settling_steps << " from rest";

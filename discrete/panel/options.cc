@@ -3,7 +3,10 @@
 #include "discrete/panel/options.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
+
+#include "discrete/files/csv_file.h"
 
 namespace diptych::discrete
 {
@@ -89,6 +92,24 @@ namespace diptych::discrete
     return keys;
   }
 
+  namespace
+  {
+    constexpr double most_steps = 1e9; // months, even of a hundred grains
+
+    // Of the whole loading, as far as the scene alone tells: 0 where the step is the program's choice.
+    double fewest_steps(const SampleOptions &sample, const Loading &loading, const Options &options)
+    {
+      const double duration = loading.stages.back() / strain_rate(loading, sample.mean_diameter, sample.density);
+      if (options.method.method == Method::nscd)
+        return options.time.step ? duration / *options.time.step : 0;
+      if (options.method.method != Method::penalty || !(loading.pressure > 0))
+        return 0;
+      Grains largest;
+      add_grain(largest, {0, 0}, sample.mean_diameter, sample.density);
+      return duration / penalty_step(largest, options.penalty.stiffness * loading.pressure, options.penalty.step_fraction);
+    }
+  } // namespace
+
   void validate(const SampleOptions &sample, const Loading &loading, const Options &options)
   {
     validate(sample);
@@ -112,6 +133,11 @@ namespace diptych::discrete
                                   "what rebounds there follows from penalty_damping");
     if (penalty && options.method.store_problems)
       throw std::invalid_argument("discrete/method = penalty has no contact problems: discrete/store_problems must be false");
+    if (const double steps = fewest_steps(sample, loading, options); steps > most_steps)
+      throw std::invalid_argument(
+        "the loading would take " + exact_text(std::ceil(steps)) + " steps, at most 1e+09: " +
+        (penalty ? "discrete/penalty_stiffness and penalty_step_fraction" : "discrete/step = " + exact_text(*options.time.step)) +
+        " against the duration that loading/inertial_number or strain_rate give it");
     if (penalty && !(loading.pressure > 0))
       throw std::invalid_argument(
         "discrete/method = penalty: the stiffness is penalty_stiffness x loading/pressure, which must be positive");

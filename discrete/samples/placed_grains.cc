@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/samples/placed_grains.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -95,6 +96,8 @@ namespace diptych::discrete
         state.walls.resize(2);
       }
     check_grains(file, box, o.allowed_overlap);
+    if (const auto &fixed = file.grains.fixed; std::all_of(fixed.begin(), fixed.end(), [](const auto held) { return held != 0; }))
+      throw std::invalid_argument("every grain is fixed (column or dataset `fixed`): nothing could move");
     state.grains = std::move(file.grains);
     set_sides(state, preparation);
     validate_walls(state);

@@ -128,4 +128,7 @@ namespace diptych::discrete
     double           pressure = 1;
     Eigen::Vector2d  gravity  = Eigen::Vector2d::Zero();
   };
+
+  // How many grains a generated sample has: sample/grains, or as many as fill width x height. Not rounded.
+  double expected_grains(const SampleOptions &options);
 } // namespace diptych::discrete

@@ -54,15 +54,13 @@ namespace diptych::discrete
       return area;
     }
 
-    // Number of grains that fill width x height.
-    int count(const SampleOptions &o)
+    // Of a thousand of them. [length]
+    std::vector<double> typical_radii(const SampleOptions &o)
     {
-      if (o.width <= 0 || o.height <= 0)
-        return o.grains;
-      const int           trial  = 1000;
-      std::vector<double> radius = radius_quantiles(distribution(o), trial, RadiusScale::mean_diameter_one);
-      const double        mean   = disc_area(radius) / trial * o.mean_diameter * o.mean_diameter;
-      return std::max(1, int(std::lround(o.width * o.height * o.solid_fraction / mean)));
+      std::vector<double> radius = radius_quantiles(distribution(o), 1000, RadiusScale::mean_diameter_one);
+      for (double &r : radius)
+        r *= o.mean_diameter;
+      return radius;
     }
 
     // Width and height of the sample, from grain area and what the user gave.
@@ -82,7 +80,7 @@ namespace diptych::discrete
     State random_box(const SampleOptions &o, const LateralCondition &lateral)
     {
       std::mt19937_64           random(o.seed);
-      const std::vector<double> radius   = radii(o, count(o), random);
+      const std::vector<double> radius   = radii(o, int(std::lround(expected_grains(o))), random);
       const double              area     = disc_area(radius);
       const Eigen::Vector2d     size     = sample_size(o, area);
       const auto               *periodic = std::get_if<PeriodicSides>(&lateral);
@@ -301,6 +299,34 @@ namespace diptych::discrete
     }
   } // namespace
 
+  double expected_grains(const SampleOptions &o)
+  {
+    if (o.width <= 0 || o.height <= 0)
+      return o.grains;
+    const std::vector<double> radius = typical_radii(o);
+    return o.width * o.height * o.solid_fraction / (disc_area(radius) / double(radius.size()));
+  }
+
+  namespace
+  {
+    // A generated sample has some grains and room for them side by side.
+    void check_size(const SampleOptions &o)
+    {
+      constexpr double fewest = 10, most = 1e7;
+      if (const double n = expected_grains(o); !(n >= fewest && n <= most))
+        throw std::invalid_argument("sample/width = " + exact_text(o.width) + " and sample/height = " + exact_text(o.height) +
+                                    " hold " + exact_text(std::round(n)) + " grains; allowed: 10 to 1e+07");
+      const std::vector<double> radius = typical_radii(o);
+      const double              area   = disc_area(radius) / double(radius.size()) * expected_grains(o);
+      const Eigen::Vector2d     size   = sample_size(o, area);
+      if (const double least = 2 * radius.back(); !(size.minCoeff() >= least))
+        throw std::invalid_argument("sample/width = " + exact_text(o.width) + ", sample/height = " + exact_text(o.height) +
+                                    " and sample/width_over_height = " + exact_text(o.width_over_height) + " make a sample of " +
+                                    exact_text(size.x()) + " x " + exact_text(size.y()) +
+                                    "; neither may be less than the largest grain's diameter, " + exact_text(least));
+    }
+  } // namespace
+
   void validate(const SampleOptions &o)
   {
     if (o.radius_distribution == RadiusKind::uniform_by_number && std::abs(o.radius_min + o.radius_max - 1) > 1e-9)
@@ -317,6 +343,8 @@ namespace diptych::discrete
                                   name_of(o.radius_distribution));
     if (o.radius_distribution == RadiusKind::table)
       (void)read_for("radius_table", o.radius_table, read_radius_table);
+    if (o.file.empty())
+      check_size(o);
     if (o.lower_platen && o.upper_platen && *o.lower_platen >= *o.upper_platen)
       throw std::invalid_argument("sample/lower_platen " + exact_text(*o.lower_platen) + " is not below sample/upper_platen " +
                                   exact_text(*o.upper_platen));
@@ -343,6 +371,9 @@ namespace diptych::discrete
                    : relaxed_and_compacted(options, setting, options.preparation_friction, progress);
         bring_to_rest(sample.state);
       }
+    PreparationReport &report = sample.report;
+    report.touches = report.steps == 0 || std::holds_alternative<NoSides>(setting.lateral) || !sample.last_step.contacts.empty();
+    report.quiet   = report.quiet && report.touches;
     if (options.rough_platens)
       roughen_platens(sample.state);
     return sample;

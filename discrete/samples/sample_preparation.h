@@ -19,6 +19,7 @@ namespace diptych::discrete
   struct PreparationReport
   {
     bool   quiet    = false;
+    bool   touches  = true; // false: pressed for `steps`, but nothing carries anything
     int    steps    = 0;
     double residual = 0, unbalanced_force = 0; // of the last step
     double solid_fraction  = 0;                // grain area / sample area

@@ -90,7 +90,7 @@ class Failures(unittest.TestCase):
         def with_little_memory():
             resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30))
         words = setting(continuum_mesh="rectangle", continuum_rectangle_width=400, continuum_rectangle_height=600,
-                        continuum_element_size=0.5, comparison_coarse_element_size=0)
+                        continuum_element_size=1.2, comparison_coarse_element_size=0)
         result = diptych("continuum", QUICK, *FEW, *words, "--output", self.folder, "--quiet", preexec_fn=with_little_memory)
         self.expect_system_failure(result, "kept in")
 

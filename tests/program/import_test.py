@@ -149,7 +149,7 @@ class Refused(Case):
         self.done("import", "lammps", *LAMMPS, "--output", self.path("mine"), "--quiet")
         scene = self.path("mine", "scene.prm")
         self.refused("compare", self.path("mine"), says="no continuum yet")
-        self.refused("run", scene, "--output", self.path("mine"), says="grains would be lost")
+        self.refused("run", scene, "--output", self.path("mine"), says="files that this run replaces")
         self.refused("run", scene, "--output", self.path("out"), "--set", "discrete/file=absent.h5", says="absent.h5")
         self.refused("run", scene, "--output", self.path("out"), "--set", "loading/stages=0.01,0.03", "--set", "loading/axial_strain=0.03", "--set",
                      "comparison/window_edges=0,0.03", says="frames")

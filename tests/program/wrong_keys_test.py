@@ -99,7 +99,7 @@ class WrongKeys(unittest.TestCase):
             self.expect_wrong(["--set", "discrete/drive_upper_x=" + text], text, "discrete/drive_upper_x")
 
     def test_a_drive_with_a_blank_in_the_place_of_its_number(self):
-        self.expect_wrong(["--set", "discrete/drive_upper_x=force "], "discrete/drive_upper_x", "'force '")
+        self.expect_wrong(["--set", "discrete/drive_upper_x=force "], "discrete/drive_upper_x", "'force'")
 
     def test_a_drive_of_a_wall_that_is_not_there(self):
         self.expect_wrong(["--set", "discrete/drive_left_x=velocity 1"], "discrete/drive_left_x", "rigid_walls")

@@ -1,6 +1,7 @@
 // diptych: meshes of the user's own and the templates: read by name, or refused with the reason
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -8,6 +9,9 @@
 #include <gmsh.h>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
+#include "continuum/mesh/mesh_child.h"
 #include "tests/continuum/mesh/grid_of_file.h"
 
 namespace
@@ -248,5 +252,61 @@ namespace
     EXPECT_NEAR(grid.length[left_side], 1, 1e-9);
     EXPECT_NEAR(grid.length[right_side], 20 * 2 * std::sin(M_PI / 80), 1e-9);
     EXPECT_NEAR(grid.length[upper_platen], 20 * 4 * std::sin(M_PI / 80), 1e-9);
+  }
+
+  std::string geometry(const Folder &folder, const std::string &text)
+  {
+    const std::string file = folder.file("hostile.geo");
+    std::ofstream(file) << text;
+    return file;
+  }
+
+  TEST(Mesh, AGeometryThatDoesMoreThanMakeShapesIsRefusedWithItsLine)
+  {
+    const Folder folder;
+    for (const char *command : {"SystemCall \"touch X\";", "NonBlockingSystemCall \"touch X\";", "OnelabRun(\"a\", \"b\");",
+                                "Exit;", "Abort;", "Save \"X\";", "Print \"X\";", "Merge \"a.msh\";", "Include \"a.geo\";",
+                                "Printf(\"x\") > \"X\";", "Printf(\"%g\", 1 > 0) >> \"X\";", "Plugin(Skin).Run;",
+                                "General.ErrorFileName = \"X\";", "Solver.AutoMesh = 1;", "x = 1; /* */ Exit;"})
+      try
+        {
+          (void)read_mesh(geometry(folder, std::string("// a geometry\n\n") + command + "\n"));
+          ADD_FAILURE() << command;
+        }
+      catch (const std::invalid_argument &error)
+        {
+          EXPECT_NE(std::string(error.what()).find("hostile.geo, line 3: "), std::string::npos) << error.what();
+        }
+    // Harmless: in comments, in texts, as part of a word, as a comparison, to the terminal.
+    for (const char *command :
+         {"// Exit;", "/* Save \"X\"; */", "Printf(\"Exit; > SystemCall\");", "Exit_width = 3 > 2;", "Mesh.Algorithm = 6;"})
+      expect_refused(geometry(folder, command), "quadrilateral");
+    expect_refused(geometry(folder, "Point(1) = {0, 0, 0};\nFoo;\n"), "line 2");
+    EXPECT_FALSE(std::filesystem::exists("X"));
+  }
+
+  TEST(Mesh, NothingThatHappensInItsOwnProcessEndsThisOne)
+  {
+    const QuadMesh mesh = rectangle_mesh({10, 6.2, 1.3, 0.5});
+    const QuadMesh same = made_in_child([&] { return mesh; }, {});
+    EXPECT_EQ(same.vertices, mesh.vertices);
+    EXPECT_EQ(same.cells, mesh.cells);
+    EXPECT_EQ(same.boundary.size(), mesh.boundary.size());
+    EXPECT_THROW((void)made_in_child([]() -> QuadMesh { throw std::invalid_argument("no"); }, {}), std::invalid_argument);
+    EXPECT_THROW((void)made_in_child([]() -> QuadMesh { throw std::runtime_error("no"); }, {}), std::runtime_error);
+    EXPECT_THROW((void)made_in_child(
+                   []() -> QuadMesh {
+                     std::raise(SIGSEGV);
+                     return {};
+                   },
+                   {}),
+                 GmshEnded);
+    EXPECT_THROW((void)made_in_child([]() -> QuadMesh { _exit(0); }, {}), GmshEnded);
+    const auto endless = []() -> QuadMesh {
+      for (volatile int k = 0;; k = k + 1)
+        {}
+    };
+    EXPECT_THROW((void)made_in_child(endless, [] { return true; }), MeshingStopped);
+    EXPECT_THROW((void)made_in_child(endless, {}, 1), GmshEnded);
   }
 } // namespace

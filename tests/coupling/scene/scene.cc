@@ -127,6 +127,57 @@ namespace
     expect_words(error_of("", {"sample.grains=3"}), {"--set sample.grains=3", "section/key=value"});
   }
 
+  TEST(Scene, WhatIsNoTextIsRefusedWithItsLine)
+  {
+    expect_words(error_of("subsection output\n  set directory = m\xfc\nend\n"), {".prm", "line 2", "value 252", "UTF-8"});
+    expect_words(error_of(std::string("# one\n\n\0", 8)), {".prm", "line 3", "value 0"});
+    expect_words(error_of("{\"sample\":\n {\"seed\": \"\xed\xa0\x80\"}}", {}, ".json"),
+                 {".json", "line 2", "value 237"}); // a surrogate
+    EXPECT_EQ(error_of("# \xc3\xa4 \xe2\x82\xac \xf0\x9f\x98\x80\n"), "");
+    EXPECT_EQ(error_of("\xef\xbb\xbfsubsection sample\r\n  set seed = 2\r\nend\r\n"), ""); // of an editor on Windows
+    expect_words(error_of(std::string(17 << 20, ' ')), {".prm", "longer than"});
+    EXPECT_THROW(read_scene("/dev/zero", {}), SceneError);
+    EXPECT_THROW(read_scene("/no/such/scene.prm", {}), SceneError);
+    EXPECT_THROW(read_scene("/proc/self/mem", {}), SceneError); // opens, but cannot be read
+  }
+
+  TEST(Scene, DeepLongAndCrowdedJsonIsRefusedOrReadAtOnce)
+  {
+    const auto nested = [](const int n) {
+      std::string text;
+      for (int k = 0; k < n; ++k)
+        text += "{\"a\":";
+      return text + "1" + std::string(std::size_t(n), '}');
+    };
+    expect_words(error_of(nested(60000), {}, ".json"), {".json", "32 levels"});
+    expect_words(error_of("{\"a\":" + std::string(60000, '[') + std::string(60000, ']') + "}", {}, ".json"),
+                 {".json", "32 levels"});
+    std::string keys, numbers;
+    for (int k = 0; k < 20000; ++k)
+      keys += (k > 0 ? ",\"k" : "\"k") + std::to_string(k) + "\":1";
+    expect_words(error_of("{\"sample\":{" + keys + "}}", {}, ".json"), {".json", "10000 keys"});
+    for (int k = 0; k < 100000; ++k)
+      numbers += (k > 0 ? ",\n" : "") + std::to_string(k);
+    expect_words(error_of("{\"comparison\":{\"window_edges\":[" + numbers + "]}}", {}, ".json"), {"window_edges"});
+    expect_words(error_of("subsection sample\n set seed = " + std::string(26000, '1') + "\nend\n"), {"line 2", "sample/seed"});
+  }
+
+  TEST(Scene, EveryValueSurvivesTheEcho)
+  {
+    const std::string backslash = "\\";
+    for (const std::string &name :
+         std::vector<std::string>{"a#b", "#", "a" + backslash, "a" + backslash + backslash, "a" + backslash + "#b",
+                                  "b " + backslash + "# c", std::string("\xc3\xa4 mit Leerzeichen")})
+      {
+        const Scene     scene = read_scene(SceneFile("").path, {"output/directory=" + name});
+        const SceneFile again(echo(scene));
+        EXPECT_EQ(read_scene(again.path, {}).output.directory, scene.output.directory) << name;
+      }
+    EXPECT_EQ(read_scene(SceneFile("subsection output\n  set directory = a\\#b # mine\nend\n").path, {}).output.directory, "a#b");
+    EXPECT_EQ(read_scene(SceneFile("subsection output\n  set directory = a\\\n b\nend\n").path, {}).output.directory, "a b");
+    expect_words(error_of("subsection output\n  set directory = a\\"), {"line 2", "the file ends"});
+  }
+
   TEST(Scene, ContradictionsBetweenKeysAreNamed)
   {
     expect_words(error_of("subsection loading\n  set axial_strain = 0.012\nend\n"),

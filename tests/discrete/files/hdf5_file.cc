@@ -77,6 +77,55 @@ namespace
 
   // A limit on the size of files acts as a full disk does: the write fails half way. The file of that name stays as it was, the
   // program goes on, and the next file can be written.
+  // Arrays, scalars, attributes, names and indices: one bit of every byte turned over gives an error or the same content.
+  TEST_F(Hdf5, NoTurnedBitAnywhereChangesWhatIsRead)
+  {
+    const auto content = [&] {
+      const Hdf5Reader          file(path);
+      std::vector<double>       all = file.read("stage/values");
+      const std::vector<double> one = file.attributes("stage", "progress"), several = file.attributes("stage", "several");
+      const std::vector<int>    body = file.read_int("stage/body");
+      all.insert(all.end(), one.begin(), one.end()), all.insert(all.end(), several.begin(), several.end());
+      all.insert(all.end(), body.begin(), body.end());
+      for (const std::string &text : {file.read_string("scene"), file.text_attribute("stage", "unit")})
+        all.insert(all.end(), text.begin(), text.end());
+      const std::vector<std::string> names = file.members("stage");
+      all.push_back(double(names.size()));
+      return all;
+    };
+    {
+      Hdf5Writer file(path);
+      file.write("stage/values", std::vector<double>{0.1, 0.2, 0.3});
+      file.write("stage/body", std::vector<int>{1, 2, 3, 4}, {2, 2});
+      file.write_string("scene", "sample/grains = 300");
+      for (int k = 0; k < 12; ++k) // more than an object's header holds
+        file.attribute("stage", "number_" + std::to_string(k), double(k));
+      file.attribute("stage", "progress", 0.25);
+      file.attribute("stage", "several", std::vector<double>{1, 2});
+      file.attribute("stage", "unit", "length");
+      file.finish();
+    }
+    const std::vector<double> whole = content();
+    std::ifstream             in(path, std::ios::binary);
+    const std::string         bytes{std::istreambuf_iterator<char>(in), {}};
+    int                       refused = 0;
+    for (std::size_t k = 0; k < bytes.size(); ++k)
+      {
+        std::string damaged = bytes;
+        damaged[k]          = char(damaged[k] ^ (1 << (k * 5 % 8)));
+        std::ofstream(path, std::ios::binary) << damaged;
+        try
+          {
+            EXPECT_EQ(content(), whole) << "byte " << k;
+          }
+        catch (const std::invalid_argument &)
+          {
+            ++refused;
+          }
+      }
+    EXPECT_GT(refused, 1000);
+  }
+
   TEST_F(Hdf5, AFullDiskLeavesTheOldFileAndTheProgram)
   {
     write();

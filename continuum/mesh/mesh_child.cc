@@ -1,0 +1,146 @@
+// diptych: gmsh in a process of its own, so that nothing that it does ends the run
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "continuum/mesh/mesh_child.h"
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <string>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace diptych::continuum
+{
+  namespace
+  {
+    enum Answer : char
+    {
+      has_mesh,
+      was_refused, // std::invalid_argument
+      has_failed
+    };
+
+    template <class T> void put(std::string &bytes, const std::vector<T> &list)
+    {
+      const std::size_t n = list.size();
+      bytes.append(reinterpret_cast<const char *>(&n), sizeof n);
+      bytes.append(reinterpret_cast<const char *>(list.data()), n * sizeof(T));
+    }
+
+    template <class T> void take(const std::string &bytes, std::size_t &at, std::vector<T> &list)
+    {
+      std::size_t n = 0;
+      std::memcpy(&n, bytes.data() + at, sizeof n);
+      list.resize(n);
+      std::memcpy(static_cast<void *>(list.data()), bytes.data() + at + sizeof n, n * sizeof(T));
+      at += sizeof n + n * sizeof(T);
+    }
+
+    std::string answer_of(const std::function<QuadMesh()> &make)
+    {
+      try
+        {
+          const QuadMesh mesh = make();
+          std::string    bytes(1, has_mesh);
+          put(bytes, mesh.vertices), put(bytes, mesh.cells), put(bytes, mesh.boundary);
+          return bytes;
+        }
+      catch (const std::invalid_argument &error)
+        {
+          return std::string(1, was_refused) + error.what();
+        }
+      catch (const std::exception &error)
+        {
+          return std::string(1, has_failed) + error.what();
+        }
+    }
+
+    // Of the copy: its end closes the pipe, whatever it comes from.
+    [[noreturn]] void answer_and_end(const std::function<QuadMesh()> &make, const int pipe, const unsigned int most_cpu_seconds)
+    {
+      prctl(PR_SET_PDEATHSIG, SIGKILL);
+      for (const int signal : {SIGINT, SIGTERM, SIGXCPU, SIGSEGV, SIGABRT})
+        std::signal(signal, SIG_DFL);
+      setpgid(0, 0); // Ctrl-C is for the parent, which ends this one
+      const rlimit cpu = {most_cpu_seconds, most_cpu_seconds};
+      if (most_cpu_seconds > 0)
+        setrlimit(RLIMIT_CPU, &cpu);
+      const rlimit no_core = {0, 0};
+      setrlimit(RLIMIT_CORE, &no_core);
+      if (const int nowhere = open("/dev/null", O_WRONLY); nowhere >= 0)
+        dup2(nowhere, STDOUT_FILENO), dup2(nowhere, STDERR_FILENO); // a script's own words
+      const std::string bytes = answer_of(make);
+      for (std::size_t done = 0; done < bytes.size();)
+        {
+          const ssize_t n = write(pipe, bytes.data() + done, bytes.size() - done);
+          if (n < 0 && errno != EINTR)
+            break;
+          done += n > 0 ? std::size_t(n) : 0;
+        }
+      _exit(0);
+    }
+
+    QuadMesh mesh_of(const std::string &bytes, const int status)
+    {
+      if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
+        throw GmshEnded("gmsh was ended: it took more time or memory than it may");
+      if (WIFSIGNALED(status))
+        throw GmshEnded("gmsh was ended by signal " + std::to_string(WTERMSIG(status)));
+      if (bytes.empty())
+        throw GmshEnded("gmsh ended before there was a mesh");
+      if (bytes[0] == was_refused)
+        throw std::invalid_argument(bytes.substr(1));
+      if (bytes[0] == has_failed)
+        throw std::runtime_error(bytes.substr(1));
+      QuadMesh    mesh;
+      std::size_t at = 1;
+      take(bytes, at, mesh.vertices), take(bytes, at, mesh.cells), take(bytes, at, mesh.boundary);
+      return mesh;
+    }
+  } // namespace
+
+  QuadMesh made_in_child(const std::function<QuadMesh()> &make,
+                         const std::function<bool()>     &stop_requested,
+                         const unsigned int               most_cpu_seconds)
+  {
+    constexpr int patience_ms = 50;
+    int           ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0)
+      throw std::runtime_error(std::string("no process for gmsh: ") + std::strerror(errno));
+    const pid_t child = fork();
+    if (child == 0)
+      answer_and_end(make, ends[1], most_cpu_seconds);
+    close(ends[1]);
+    if (child < 0)
+      {
+        close(ends[0]);
+        throw std::runtime_error(std::string("no process for gmsh: ") + std::strerror(errno));
+      }
+    std::string bytes, piece(1 << 16, '\0');
+    bool        stopped = false;
+    for (bool open = true; open;)
+      {
+        stopped = stopped || (stop_requested && stop_requested());
+        if (stopped)
+          kill(child, SIGKILL);
+        pollfd wait = {ends[0], POLLIN, 0};
+        if (poll(&wait, 1, patience_ms) <= 0)
+          continue;
+        const ssize_t n = read(ends[0], piece.data(), piece.size());
+        open            = n > 0 || (n < 0 && errno == EINTR);
+        bytes.append(piece, 0, n > 0 ? std::size_t(n) : 0);
+      }
+    close(ends[0]);
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR)
+      {}
+    if (stopped)
+      throw MeshingStopped();
+    return mesh_of(bytes, status);
+  }
+} // namespace diptych::continuum

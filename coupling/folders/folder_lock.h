@@ -1,0 +1,38 @@
+// diptych: one writer of a folder at a time
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace diptych::coupling
+{
+  // Held as long as it lives: the folder is this process's to write to. The file `folder_lock_name` in it names process and
+  // machine; what holds is the system's lock on that file (flock), which ends with the process, however that ends: what a killed
+  // one leaves is stale, and taken over. A folder that is not there is made, and removed again if nothing has come into it.
+  class FolderLock
+  {
+  public:
+    // Throws std::runtime_error naming the folder and who writes to it, or what the system says.
+    explicit FolderLock(const std::string &directory);
+    ~FolderLock();
+    FolderLock(const FolderLock &)            = delete;
+    FolderLock &operator=(const FolderLock &) = delete;
+
+  private:
+    bool lock();
+    void remove_made() const;
+
+    std::string              directory, file;
+    std::vector<std::string> made; // folders, the innermost first
+    int                      descriptor = -1;
+  };
+
+  extern const char *const folder_lock_name;
+
+  // Nothing but a lock is in it.
+  bool is_empty_folder(const std::string &directory);
+
+  // Makes a folder that can be written to. Throws std::runtime_error naming it and what the system says.
+  void make_folder(const std::string &directory);
+} // namespace diptych::coupling

@@ -1,0 +1,55 @@
+// diptych: the discrete panel with its files
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "coupling/processes/progress.h"
+#include "coupling/program/command_line.h"
+#include "discrete/files/table_file.h"
+#include "discrete/panel/checkpoint.h"
+#include "discrete/panel/panel.h"
+#include "discrete/panel/snapshot_file.h"
+
+namespace diptych::coupling
+{
+  std::string checkpoint_file(const Scene &scene);
+
+  // Rows and snapshots go into the folder's files as they come, a checkpoint when it is time.
+  class RecordedGrains
+  {
+  public:
+    RecordedGrains(const CommandLine &line, const Scene &scene, const std::optional<discrete::StoredCheckpoint> &checkpoint);
+    RecordedGrains(const RecordedGrains &)            = delete; // the panel's hooks call this one
+    RecordedGrains &operator=(const RecordedGrains &) = delete;
+
+    std::string warnings; // of its snapshots, a line each
+
+    const discrete::Report &run();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    std::string     path(const std::string &name) const { return scene.output.directory + "/" + name; }
+    int             n_stages() const;
+    discrete::Hooks hooks();
+    void            prepare();
+    void            announce() const;
+    void            add_row(const discrete::HistoryRow &row);
+    void            add_snapshot();
+    void            before_step();
+    void            save();
+
+    const CommandLine                    &line;
+    const Scene                          &scene;
+    const std::string                     identity;
+    Progress                              progress;
+    std::optional<discrete::TableFile>    table; // from the prepared sample on
+    std::optional<discrete::SnapshotFile> snapshots;
+    Clock::time_point                     saved = Clock::now(), flushed = saved;
+    bool                                  announced = false;
+    discrete::Panel                       panel;
+  };
+} // namespace diptych::coupling

@@ -1,0 +1,165 @@
+# diptych: one case of the robustness tests: its dice, its folder, the runs of the program in it
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A case is made again from its kind and seed alone."""
+
+import itertools
+import os
+import random
+import resource
+import shutil
+import signal
+import subprocess
+import threading
+import time
+
+import bases
+import damage
+import judge
+from running import ENVIRONMENT, PROGRAM
+
+MEMORY = 4 << 30  # bytes of address space that a run may have: no case may take the machine
+PATIENCE = 4  # seconds until a run that goes on is asked to stop; ending by itself or then are both right
+HANG = 60  # seconds from there to the end: hundreds of times what any case here needs
+
+
+def limit(memory=MEMORY, **limits):
+    """For preexec_fn: as on a full disk (an error of write(), not a signal), in little memory, with few files."""
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
+    for name, value in limits.items():
+        resource.setrlimit(getattr(resource, name), (value, value))
+
+
+class Listener(threading.Thread):
+    """Reads a pipe to its end. What outlives the program and holds the pipe is not waited for."""
+
+    def __init__(self, pipe):
+        super().__init__(daemon=True)
+        self.pipe, self.pieces = pipe, []
+        self.start()
+
+    def run(self):
+        with self.pipe:
+            for piece in iter(lambda: self.pipe.read1(1 << 16), b""):
+                self.pieces.append(piece)
+
+    def text(self):
+        self.join(10)
+        return b"".join(self.pieces).decode("utf-8", "replace")
+
+
+class Case:
+    """`work` is all that the program sees; beside it lies what was run and said, where something is violated."""
+
+    def __init__(self, kind, seed, keep):
+        self.kind, self.seed = kind, seed
+        self.dice = random.Random(f"{kind}:{seed}")
+        self.keep = keep
+        self.folder = os.path.join(keep, f"{kind}_{seed}")
+        self.work = os.path.join(self.folder, "work")
+        self.violations, self.codes, self.commands, self.said, self.done = [], [], [], [], []
+        shutil.rmtree(self.folder, ignore_errors=True)
+        os.makedirs(self.work)
+
+    def path(self, *names):
+        return os.path.join(self.work, *names)
+
+    def write(self, name, content):
+        with open(self.path(name), "wb") as file:
+            file.write(content if isinstance(content, bytes) else content.encode("utf-8", "surrogateescape"))
+        return self.path(name)
+
+    def damage_arrays(self, name, often=""):
+        """True where it can be told from a whole file."""
+        what, is_plain = damage.damage_arrays(self.dice, self.path(name), often)
+        self.done.append(f"{name}: {what}")
+        return is_plain
+
+    def base(self, name):
+        """A folder that was made once, not to be changed."""
+        return bases.prepared(self.keep, name)
+
+    def copy(self, name, to):
+        shutil.copytree(self.base(name), self.path(to), dirs_exist_ok=True, symlinks=True)
+        return self.path(to)
+
+    def violate(self, sentence):
+        self.violations.append(sentence)
+
+    def start(self, *words, env=None, cwd=None, preexec=limit, stdout=subprocess.PIPE):
+        """The process; its texts come through pipes, which no limit of files ends, and are not waited for longer than it runs."""
+        self.commands.append([os.fsdecode(word) for word in words])
+        process = subprocess.Popen([PROGRAM, *words], env=env or ENVIRONMENT, cwd=cwd or self.work, stdin=subprocess.DEVNULL, stdout=stdout,
+                                   stderr=subprocess.PIPE, preexec_fn=preexec, start_new_session=True)
+        process.words, process.sent = self.commands[-1], 0
+        process.told = {name: Listener(pipe) for name, pipe in (("out", process.stdout), ("errors", process.stderr)) if pipe}
+        return process
+
+    def finish(self, process, patience=PATIENCE):
+        """Waits; asks to stop after `patience` seconds. True where it hung and had to be killed."""
+        for wait, number in ((patience, signal.SIGTERM), (HANG, signal.SIGKILL)):
+            try:
+                process.wait(wait)
+                return False
+            except subprocess.TimeoutExpired:
+                try:
+                    os.killpg(process.pid, number)
+                except ProcessLookupError:
+                    pass
+                process.sent = process.sent or number
+        process.wait()
+        return True
+
+    def outcome(self, process, before, output, is_hung=False):
+        texts = {name: process.told[name].text() if name in process.told else "" for name in ("out", "errors")}
+        self.said.append(texts["out"][-3000:] + texts["errors"][-3000:])
+        return judge.Outcome(words=process.words, code=process.returncode, out=texts["out"], errors=texts["errors"], before=before,
+                             after=judge.digest(self.work), output=output, root=self.work, is_hung=is_hung, sent=process.sent)
+
+    def judge(self, outcome, **expected):
+        expected.setdefault("documented", bases.documented(self.keep))
+        self.codes.append(outcome.code)
+        for sentence in judge.judge(outcome, judge.Expected(**expected)):
+            self.violate(sentence)
+        return outcome
+
+    def run(self, *words, output="", patience=PATIENCE, names=(), **options):
+        """Runs the program and judges it. `names`, `all_names`, `codes`, `may_change`: of judge.Expected; others of start()."""
+        expected = {key: tuple(options.pop(key)) for key in ("all_names", "codes", "may_change") if key in options}
+        if not self.commands:
+            shutil.copytree(self.work, os.path.join(self.folder, "input"), symlinks=True)  # what it begins with, to be run again
+        before = judge.digest(self.work)
+        process = self.start(*words, **options)
+        is_hung = self.finish(process, patience)
+        return self.judge(self.outcome(process, before, output, is_hung), names=tuple(names), **expected)
+
+    def close(self):
+        """Removes the folder of a case without a violation; else says in it what was run."""
+        if not self.violations:
+            shutil.rmtree(self.folder, ignore_errors=True)
+            return
+        with open(os.path.join(self.folder, "case.txt"), "w", encoding="utf-8", errors="surrogateescape") as file:
+            file.write(f"{self.kind}:{self.seed}\n" + "\n".join(self.violations + self.done) + "\n")
+            for words, said in itertools.zip_longest(self.commands, self.said):
+                file.write("\n" + " ".join(map(repr, words)) + f"\n{said}\n")
+
+
+def run_case(kind, function, seed, keep):
+    """(violations, codes, commands, CPU seconds) of one case."""
+    began = resource.getrusage(resource.RUSAGE_CHILDREN)
+    case = Case(kind, seed, keep)
+    function(case)
+    ended = resource.getrusage(resource.RUSAGE_CHILDREN)
+    case.close()
+    return case.violations + (case.done if case.violations else []), case.codes, case.commands, ended.ru_utime + ended.ru_stime - began.ru_utime - began.ru_stime
+
+
+def wait_for(path, process, seconds=HANG):
+    """Until a file is there. False where the process ended without, or never wrote it."""
+    end = time.monotonic() + seconds
+    while process.poll() is None and time.monotonic() < end:
+        if os.path.exists(path):
+            return True
+        time.sleep(0.002)
+    return os.path.exists(path)

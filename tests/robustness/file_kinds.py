@@ -1,0 +1,179 @@
+# diptych: files that the program reads: tables, snapshots, contact problems, other codes' files, meshes
+# SPDX-License-Identifier: LGPL-2.1-or-later
+
+import os
+import shutil
+
+import bases
+import damage
+import keys
+import same
+from bases import FORMATS, NODES, PROBLEM, TINY
+from running import QUICK, bits, setting
+
+
+def read(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def tables(case):
+    """Samples, drive tables and gradings as CSV."""
+    name = case.dice.choice(["grains.csv", "grains.csv", "speed.csv", "radii.csv"])
+    case.write(name, damage.damage_text(case.dice, read(os.path.join(case.base("grains"), name))))
+    words = {
+        "grains.csv": setting(sample_file=name),
+        "speed.csv": setting(loading_mode="time", loading_duration=1, loading_stage_time=0.5, comparison_window_edges="0,1")
+        + ["--set", f"discrete/drive_upper_y=velocity {name}"],
+        "radii.csv": setting(sample_radius_distribution="table", sample_radius_table=name, sample_radius_min=0.3, sample_radius_max=0.7),
+    }[name]
+    out = case.path("out")
+    case.run("discrete", QUICK, *TINY, *words, "--output", out, "--quiet", output=out, names=(name, *keys.names()))
+
+
+def expect_same_as_whole(case, kind, make, found):
+    """What the undamaged file gives; made once for each kind of use."""
+    whole = os.path.join(case.keep, "bases", "whole_" + kind)
+    if not os.path.isdir(whole):
+        temporary = case.path("whole")
+        make(temporary)
+        shutil.copytree(temporary, whole, dirs_exist_ok=True)
+        shutil.rmtree(temporary)
+    wrong = same.differences(same.results(whole), same.results(found))
+    if wrong:
+        case.violate("exit code 0, but not the bits that the undamaged file gives: " + "; ".join(wrong[:4]))
+
+
+def snapshots(case):
+    """Our own snapshots as a sample. What is damaged is refused, or it is not read."""
+    name, out = "snapshots.h5", case.path("out")
+    shutil.copy(os.path.join(case.base("grains"), "out", "discrete.h5"), case.path(name))
+    is_plain = True
+    if case.dice.random() < 0.7:
+        is_plain = case.damage_arrays(name, "grains/(position|radius|velocity|spin|rotation|fixed|mass)")
+    else:
+        case.write(name, damage.damage_bytes(case.dice, read(case.path(name))))
+    words = ["discrete", QUICK, *TINY, *setting(sample_file=name), "--quiet"]
+    outcome = case.run(*words, "--output", out, output=out, names=(name,))
+    if outcome.code == 0 and is_plain:
+        def make(folder):
+            shutil.copy(os.path.join(case.base("grains"), "out", "discrete.h5"), case.path(name))
+            bases.done(case.work, *words, "--output", folder)
+        expect_same_as_whole(case, "snapshot", make, out)
+
+
+def problems(case):
+    """FCLIB files for `diptych solve`. What lacks something is refused, or it is not read."""
+    name, out, is_plain = "problem.h5", case.path("solved.h5"), False
+    shutil.copy(PROBLEM, case.path(name))
+    if case.dice.random() < 0.7:
+        is_plain = case.damage_arrays(name, "fclib|nscd")
+    else:
+        case.write(name, damage.damage_bytes(case.dice, read(PROBLEM)))
+    form = case.dice.choice(["local", "body"])
+    outcome = case.run("solve", name, "--form", form, "--max-sweeps", "20000", "--output", out, output=out, names=(name,))
+    if outcome.code == 0 and is_plain:
+        whole = case.path("whole.h5")
+        bases.done(case.work, "solve", PROBLEM, "--form", form, "--max-sweeps", "20000", "--output", whole)
+        one, other = ({key: value for key, value in bits(path).items() if key in ("solution/r", "solution/u")} for path in (whole, out))
+        if one != other:
+            case.violate("exit code 0, but not the solution of the undamaged problem")
+
+
+def imports(case):
+    """One of another code's files damaged, or not there, or there twice."""
+    kind = case.dice.choice(sorted(FORMATS))
+    os.mkdir(case.path("theirs"))
+    names = []
+    for path in bases.foreign(kind):
+        names.append("theirs/" + os.path.basename(path))
+        shutil.copy(path, case.path(names[-1]))
+    victim = case.dice.choice(names)
+    if victim.endswith(".h5"):
+        if case.dice.random() < 0.6:
+            case.damage_arrays(victim)
+        else:
+            case.write(victim, damage.damage_bytes(case.dice, read(case.path(victim))))
+    else:
+        case.write(victim, damage.damage_text(case.dice, read(case.path(victim))))
+    if case.dice.random() < 0.1:
+        names.remove(victim)
+    elif case.dice.random() < 0.05:
+        names.append(victim)
+    if not names:
+        names = [victim]
+    case.dice.shuffle(names)
+    out = case.path("mine")
+    case.run("import", kind, *names, *FORMATS[kind][1], "--output", out, "--quiet", output=out,
+             names=(*names, victim, "the files", "--", "import " + kind), patience=20)
+
+
+HOSTILE = ["Exit;", "Abort;", 'SystemCall "touch touched";', 'NonBlockingSystemCall "touch touched";', 'Merge "other.geo";',
+           'Include "other.geo";', 'Save "touched.msh";', 'Printf("x") > "touched";', 'Printf("x") >> "touched";',
+           "For i In {1:1000000000}\n  a = i;\nEndFor", "For i In {1:2:0}\n  a = i;\nEndFor", 'Delete All;', "OptimizeMesh \"x\";",
+           'General.BuildOptions', 'Plugin("x").Run;', 'CreateDir "touched";', "a = Sqrt(-1);", "Mesh.CharacteristicLengthMin = -1;",
+           "Mesh 2;", "Point(1) = {nan, 0, 0};", "Macro m\n  Call m;\nReturn\nCall m;", 'UnlinkFile "mesh.geo";', 'Error("x");',
+           'a = GetString("x", "y");', 'SetFactory("OpenCASCADE");', "RenumberMeshNodes;", 'PrintScreen "touched.png";', 'Print "touched.png";',
+           'General.ErrorFileName = "touched";', 'General.TmpFileName = "touched"; Printf("x") > Str(General.TmpFileName);',
+           'Solver.Executable0 = "touch touched"; Solver.AutoCheck = 1;', "Mesh.SecondOrderLinear = 1; Mesh.ElementOrder = 9;"]
+
+
+def hostile_lines(case, content):
+    lines = content.split(b"\n")
+    for _ in range(case.dice.choice([1, 1, 2])):
+        lines.insert(case.dice.randrange(len(lines) + 1), case.dice.choice(HOSTILE).encode())
+    case.write("other.geo", 'SystemCall "touch touched";\n')
+    return b"\n".join(lines)
+
+
+def hostile_mesh(dice, content):
+    """A .msh 2.2 file whose numbers cannot be: tags, coordinates, counts, elements inverted, twice or of no node."""
+    lines = content.decode().split("\n")
+    nodes, elements = lines.index("$Nodes"), lines.index("$Elements")
+    kind = dice.choice(["tag", "coordinate", "count", "inverted", "twice", "no_node", "physical", "type", "order", "node_twice"])
+    node = dice.randrange(nodes + 2, lines.index("$EndNodes"))
+    quads = [k for k in range(elements + 2, lines.index("$EndElements")) if lines[k].split()[1] == "3"]
+    k = dice.choice(quads)
+    words = (lines[node] if kind in ("tag", "coordinate", "node_twice") else lines[k]).split()
+    huge = dice.choice(["2147483648", "4294967297", "9223372036854775807", "18446744073709551617", "nan", "-1", "0", "1e9", "x"])
+    if kind == "tag":
+        words[0] = huge
+    elif kind == "coordinate":
+        words[dice.choice([1, 2, 3])] = dice.choice(["nan", "inf", "1e308", "-1e308", "x", "1e400", ""])
+    elif kind == "count":
+        lines[dice.choice([nodes, elements]) + 1] = huge
+    elif kind == "inverted":
+        words[-4:] = words[:-5:-1]
+    elif kind == "twice":
+        lines.insert(k, lines[k])
+    elif kind == "no_node":
+        words[dice.choice([-1, -2])] = huge
+    elif kind == "physical":
+        words[3] = huge
+    elif kind == "type":
+        words[1] = dice.choice(["2", "1", "16", "99", "-3", huge])
+    elif kind == "order":
+        words[-2], words[-1] = words[-1], words[-2]
+    else:
+        lines.insert(node, lines[node])
+    place = node if kind in ("tag", "coordinate") else k
+    if kind not in ("count", "twice", "node_twice"):
+        lines[place] = " ".join(words)
+    return "\n".join(lines).encode()
+
+
+def meshes(case):
+    dice = case.dice
+    if dice.random() < 0.5:
+        name, content = "mesh.geo", read(os.path.join(bases.SOURCE, "meshes", "sample.geo"))
+        content = content.replace(b"width = 52, height = 75, size = 2", b"width = 12, height = 18, size = 3")
+        content = hostile_lines(case, content) if dice.random() < 0.6 else damage.damage_text(dice, content)
+    else:
+        name, content = "mesh.msh", read(os.path.join(case.base("nodes"), "out", "sample.msh"))
+        content = hostile_mesh(dice, content) if dice.random() < 0.6 else damage.damage_text(dice, content)
+    case.write(name, content)
+    out = case.path("out")
+    case.run("continuum", QUICK, *NODES, *setting(continuum_mesh=name), "--output", out, "--quiet", output=out, names=(name,), patience=8)
+
+
+KINDS = {"csv": tables, "snapshots": snapshots, "problems": problems, "imports": imports, "meshes": meshes}

@@ -1,0 +1,157 @@
+# diptych: full disks, little memory, and surroundings that are not those of a developer
+# SPDX-License-Identifier: LGPL-2.1-or-later
+
+import functools
+import os
+
+import bases
+from bases import BOTH, NODES, TINY
+from cases import limit
+from folder_kinds import expect_same_as_base
+from running import ENVIRONMENT, QUICK, setting
+
+
+def disk(case):
+    """No file may grow beyond a random size, as on a full disk, from the beginning."""
+    dice = case.dice
+    room = dice.choice([0, 100, 4096]) if dice.random() < 0.2 else int(10 ** dice.uniform(2, 6))
+    command = dice.choice(["discrete"] * 5 + ["run", "continuum", "compare", "compare", "import", "import", "export", "export", "solve"])
+    out, names = case.path("out"), ()
+    if command in ("compare", "report", "export"):
+        case.copy("both", "done")
+        done = case.path("done", "out")
+        line = [command, done, "--quiet"] + (["--format", dice.choice(["csv", "yade", "lammps", "lmgc90"]), "--output", out]
+                                             if command == "export" else [])
+        out = done if command != "export" else out
+    elif command == "import":
+        line = [command, "csv", *bases.foreign("csv"), "--output", out, "--quiet"]
+    elif command == "solve":
+        out = case.path("solved.h5")
+        line = [command, bases.PROBLEM, "--output", out]
+    else:
+        words = {"discrete": TINY, "run": BOTH, "continuum": NODES}[command]
+        line = [command, QUICK, *words, "--output", out, "--quiet"]
+    names = (out, "TMPDIR", "TMP")
+    case.run(*line, output=out, names=names, codes=(0, 4), patience=30, preexec=functools.partial(limit, RLIMIT_FSIZE=room))
+
+
+def changed_environment(**values):
+    environment = dict(ENVIRONMENT, **{name: value for name, value in values.items() if value is not None})
+    for name, value in values.items():
+        if value is None:
+            environment.pop(name, None)
+    return environment
+
+
+def without_h5py(case):
+    """A folder for PYTHONPATH whose h5py cannot be imported."""
+    os.makedirs(case.path("modules", "h5py"))
+    case.write("modules/h5py/__init__.py", "raise ImportError('No module named h5py')\n")
+    return case.path("modules")
+
+
+def odd_environment(case):
+    kind = case.dice.choice(["home", "locale", "tmp", "threads", "empty", "columns", "blanks"])
+    os.mkdir(case.path("no home"))
+    return {
+        "home": changed_environment(HOME=None),
+        "locale": changed_environment(LANG=case.dice.choice(["tr_TR.UTF-8", "de_DE.UTF-8", "xx_XX", "C"]), LC_ALL=case.dice.choice(
+            ["tr_TR.UTF-8", "de_DE.UTF-8", "nonsense", ""]), LC_NUMERIC="de_DE.UTF-8"),
+        "tmp": changed_environment(TMPDIR=case.path("nowhere")),
+        "threads": changed_environment(OMP_NUM_THREADS=case.dice.choice(["abc", "-1", "0", "", "99999999999", "1,2"])),
+        "empty": {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"},
+        "columns": changed_environment(COLUMNS="-1", TERM="", TZ="Nowhere/Land", PYTHONHASHSEED="x"),
+        "blanks": changed_environment(HOME=case.path("no home"), XDG_CACHE_HOME="/dev/null", HDF5_PLUGIN_PATH="/dev/null", HDF5_USE_FILE_LOCKING="x"),
+    }[kind]
+
+
+def surroundings(case):
+    way = case.dice.choice((in_odd_environment, in_odd_environment, with_no_reader, in_little, in_little, in_a_locked_folder, without_python))
+    way(case)
+
+
+def some_command(case):
+    command = case.dice.choice(["discrete"] * 3 + ["continuum", "run"])
+    return [command, QUICK, *{"discrete": TINY, "run": BOTH, "continuum": NODES}[command]]
+
+
+def in_odd_environment(case):
+    out = case.path("out")
+    line = some_command(case)
+    outcome = case.run(*line, "--output", out, "--quiet", output=out, env=odd_environment(case), names=("TMPDIR", "OMP_NUM_THREADS", "HOME"),
+                       codes=(0, 2, 4), patience=30)
+    if outcome.code == 0:
+        base = {"discrete": "grains", "continuum": "nodes", "run": "both"}[line[0]]
+        expect_same_as_base(case, base, out)
+
+
+def with_no_reader(case):
+    """Its own output closed, full, or of nobody any more: the results do not care."""
+    out = case.path("out")
+    kind = case.dice.choice(["full", "closed", "pipe"])
+    line = case.dice.choice([["discrete", QUICK, *TINY, "--output", out], ["explain"], ["--help"], ["solve", bases.PROBLEM], ["explain", "results"]])
+    if kind == "full":
+        with open("/dev/full", "wb") as full:
+            case.run(*line, output=out, stdout=full, names=("output",), codes=(0, 4))
+    elif kind == "pipe":
+        reader, writer = os.pipe()
+        os.close(reader)
+        with open(writer, "wb") as pipe:
+            case.run(*line, output=out, stdout=pipe, names=("output",), codes=(0, 4))
+    else:
+        def closed():
+            limit()
+            os.close(1)
+        case.run(*line, output=out, preexec=closed, names=("output",), codes=(0, 4))
+
+
+def in_little(case):
+    """Few files or little memory. Below 200 MB not even the libraries load, which is not the program's to tell."""
+    out, line = case.path("out"), some_command(case)
+    if case.dice.random() < 0.4:
+        preexec = functools.partial(limit, RLIMIT_NOFILE=case.dice.choice([8, 12, 16, 32]))
+    else:
+        preexec = functools.partial(limit, memory=case.dice.randrange(400, 1500) << 20)
+    case.run(*line, "--output", out, "--quiet", output=out, preexec=preexec, names=(out, "memory", "file", "TMPDIR"), codes=(0, 3, 4), patience=30)
+
+
+def in_a_locked_folder(case):
+    """A folder that is gone, a mask that denies all, or, for users who are not root, a folder that is read alone."""
+    kind = case.dice.choice(["gone", "mask"] if os.geteuid() == 0 else ["gone", "mask", "read"])
+    out = case.path("out")
+    line = ["discrete", QUICK, *TINY, "--quiet"]
+    if kind == "gone":
+        os.mkdir(case.path("gone"))
+
+        def leave():
+            limit()
+            os.rmdir(case.path("gone"))
+        case.run(*line, "--output", case.dice.choice([out, "relative"]), output=case.work, cwd=case.path("gone"), preexec=leave,
+                 names=("relative", "folder", "director"), codes=(0, 2, 4))
+    elif kind == "mask":
+        def mask():
+            limit()
+            os.umask(0o777)
+        case.run(*line, "--output", out, output=out, preexec=mask, names=(out,), codes=(0, 4))
+    else:
+        os.mkdir(out, 0o500)
+        case.run(*line, "--output", out, output=out, names=(out,), codes=(4,))
+
+
+def without_python(case):
+    """The report cannot be drawn: what was computed stays, and that is said."""
+    folder = os.path.join(case.copy("both", "done"), "out")
+    os.mkdir(case.path("empty"))
+    environment = case.dice.choice([changed_environment(PATH=case.path("empty")), changed_environment(PYTHONPATH=without_h5py(case)),
+                                    changed_environment(PYTHONHOME=case.path("empty"))])
+    if case.dice.random() < 0.7:
+        case.run("report", folder, "--quiet", output=folder, env=environment, names=(folder,), codes=(4,), patience=30)
+        return
+    out = case.path("out")
+    case.run("run", QUICK, *BOTH, *setting(output_report="true"), "--output", out, "--quiet", output=out, env=environment, names=(out,),
+             codes=(4,), patience=30)
+    if not os.path.exists(os.path.join(out, "comparison.json")):
+        case.violate("the comparison is not kept")
+
+
+KINDS = {"disk": disk, "surroundings": surroundings}
