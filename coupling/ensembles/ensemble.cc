@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "coupling/cells/principal_axes.h"
+#include "coupling/numbers/record_file.h"
 
 namespace diptych::coupling
 {
@@ -273,7 +274,7 @@ namespace diptych::coupling
       }
     catch (const json::exception &error)
       {
-        throw std::invalid_argument(std::string("no comparison of two panels: ") + error.what());
+        throw std::invalid_argument(std::string("no comparison of two panels: ") + plain_text(error));
       }
     return member;
   }

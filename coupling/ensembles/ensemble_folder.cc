@@ -87,11 +87,19 @@ namespace diptych::coupling
     if (scene.output.report && !fs::exists(folder + "/report.html"))
       return false;
     const json comparison = json::parse(discrete::read_text(folder + "/comparison.json"), nullptr, /* exceptions */ false);
-    if (!comparison.is_object() || comparison.value("seed", -1) != seed)
-      return false;
-    for (const json &stage : comparison.value("stages", json::array()))
-      if (!(stage.value("/mapping/total_relative_error"_json_pointer, 1.) < largest_error_of_the_total))
+    try
+      {
+        if (!comparison.is_object() || comparison.value("seed", -1) != seed)
+          return false;
+        const auto is_exact = [](const json &stage) {
+          return stage.value("/mapping/total_relative_error"_json_pointer, 1.) < largest_error_of_the_total;
+        };
+        const json stages = comparison.value("stages", json::array());
+        return stages.is_array() && std::all_of(stages.begin(), stages.end(), is_exact);
+      }
+    catch (const json::exception &) // of another type than this version writes: not its own
+      {
         return false;
-    return true;
+      }
   }
 } // namespace diptych::coupling

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/files/continuum_checkpoint_file.h"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
+#include <type_traits>
 
 #include "discrete/files/hdf5_file.h"
 
@@ -14,7 +17,8 @@ namespace diptych::coupling
     using discrete::Hdf5Writer;
     using Lines = std::vector<std::string>;
 
-    const std::string format = "diptych continuum checkpoint 2";
+    constexpr double  most_count = 1e9;
+    const std::string format     = "diptych continuum checkpoint 2";
 
     // Cells' names hold no blank.
     std::string text_of(const Lines &lines)
@@ -69,7 +73,10 @@ namespace diptych::coupling
       template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
       void operator()(const std::string &name, Number &value) const
       {
-        value = Number(file.attribute("/", name));
+        const double number = file.attribute("/", name);
+        if (std::is_integral_v<Number> && !(number == std::floor(number) && std::abs(number) <= most_count))
+          throw std::invalid_argument(file.path() + ": '" + name + "' is no whole number");
+        value = Number(number);
       }
       void operator()(const std::string &name, std::optional<double> &value) const
       {
@@ -85,9 +92,10 @@ namespace diptych::coupling
       void                    operator()(const std::string &name, Lines &lines) const { lines = split(file.read_string(name)); }
       template <class T> void operator()(const std::string &name, std::vector<std::vector<T>> &lists) const
       {
-        lists.resize(std::size_t(file.attribute("/", name + "_count")));
-        for (std::size_t k = 0; k < lists.size(); ++k)
-          (*this)(numbered(name, k), lists[k]);
+        int n = 0;
+        (*this)(name + "_count", n);
+        while (lists.size() < std::size_t(std::max(n, 0))) // not at once: the file may lie
+          (*this)(numbered(name, lists.size()), lists.emplace_back());
       }
 
     private:
@@ -125,8 +133,10 @@ namespace diptych::coupling
     ContinuumCheckpoint c;
     c.scene  = file.read_string("scene");
     c.sample = file.read_string("sample");
-    c.n_rows = long(file.attribute("/", "n_rows"));
+    Get{file}("n_rows", c.n_rows);
     continuum::visit_entries(c.panel, Get{file});
+    if (c.n_rows < 0 || c.panel.stage < 0 || c.panel.values_per_cell < 0)
+      throw std::invalid_argument(path + ": 'n_rows', 'stage' or 'values_per_cell' is negative");
     if (c.panel.values.size() != c.panel.cells.size() * std::size_t(c.panel.values_per_cell))
       throw std::invalid_argument(path + ": 'values' does not hold one row for each of " + std::to_string(c.panel.cells.size()) +
                                   " cells");

@@ -3,6 +3,7 @@
 #include "coupling/folders/provenance.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <thread>
@@ -11,6 +12,7 @@
 
 #include "coupling/folders/origin.h"
 #include "coupling/numbers/number_json.h"
+#include "coupling/numbers/record_file.h"
 #include "discrete/files/text_file.h"
 
 namespace diptych::coupling
@@ -82,13 +84,8 @@ namespace diptych::coupling
 
     json read_record(const std::string &directory)
     {
-      std::ifstream file(path_of(directory));
-      if (!file)
-        return json::object();
-      json record = json::parse(file, nullptr, /* exceptions */ false);
-      if (!record.is_object())
-        throw std::invalid_argument(path_of(directory) + ": is no JSON object; take it away to go on without it");
-      return record;
+      const std::string path = path_of(directory);
+      return std::filesystem::exists(path) ? read_record_file(path) : json::object();
     }
 
     void write_record(const std::string &directory, const json &record)
@@ -111,6 +108,20 @@ namespace diptych::coupling
         {
           NumbersFromJson reader{*found};
           list_numbers(facts, reader);
+        }
+      return facts;
+    }
+
+    RunFacts run_facts_of(const json &record)
+    {
+      RunFacts facts{get_facts<DiscreteFacts>(record, "discrete"),
+                     get_facts<ContinuumFacts>(record, "continuum"),
+                     get_facts<ContinuumFacts>(record, "continuum_coarse"),
+                     {}};
+      for (const json &row : record.value("phases", json::array()))
+        {
+          NumbersFromJson reader{row};
+          list_numbers(facts.phases.emplace_back(), reader);
         }
       return facts;
     }
@@ -148,7 +159,9 @@ namespace diptych::coupling
         json          row = json::object();
         NumbersToJson writer{row, 1};
         list_numbers(phase, writer);
-        const auto old = std::find_if(stored.begin(), stored.end(), [&](const json &one) { return one["name"] == phase.name; });
+        const auto old = std::find_if(stored.begin(), stored.end(), [&](const json &one) {
+          return one.is_object() && one.value("name", json()) == phase.name;
+        });
         if (old != stored.end())
           *old = row;
         else
@@ -170,20 +183,12 @@ namespace diptych::coupling
   RunFacts read_run_facts(const std::string &directory)
   {
     const json record = read_record(directory);
-    RunFacts   facts{get_facts<DiscreteFacts>(record, "discrete"),
-                   get_facts<ContinuumFacts>(record, "continuum"),
-                   get_facts<ContinuumFacts>(record, "continuum_coarse"),
-                   {}};
-    for (const json &row : record.value("phases", json::array()))
-      {
-        NumbersFromJson reader{row};
-        list_numbers(facts.phases.emplace_back(), reader);
-      }
-    return facts;
+    return from_record(path_of(directory), [&] { return run_facts_of(record); });
   }
 
   std::string recorded_scene(const std::string &directory)
   {
-    return read_record(directory).value("scene", "");
+    const json record = read_record(directory);
+    return from_record(path_of(directory), [&] { return record.value("scene", ""); });
   }
 } // namespace diptych::coupling

@@ -49,7 +49,7 @@ namespace diptych::coupling
     }
   } // namespace
 
-  void open_result_folder(const Scene &scene, const bool resume)
+  void open_result_folder(const Scene &scene, const bool resume, const std::function<void()> &check)
   {
     const std::string &directory = scene.output.directory;
     for (const auto &[key, file] : input_files(scene))
@@ -73,6 +73,8 @@ namespace diptych::coupling
     if (resume && !difference.empty())
       throw SceneError("--resume: the scene is not that of " + echo_file + ", which was interrupted: " + difference +
                        "; resume with the same scene or start without --resume");
+    if (check)
+      check();
     // Results of another sample must not be compared with what this run will make.
     if (!difference.empty())
       remove_results(directory, panel_files);

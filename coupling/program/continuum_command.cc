@@ -12,6 +12,7 @@
 #include "coupling/folders/result_folder.h"
 #include "coupling/panels/continuum_loading.h"
 #include "coupling/processes/processes.h"
+#include "coupling/program/interrupted_continuum.h"
 #include "coupling/program/recorded_continuum.h"
 #include "coupling/program/run_room.h"
 #include "coupling/scene/identity.h"
@@ -224,7 +225,10 @@ namespace diptych::coupling
       task.resume = on_first_process([&] {
         lock.emplace(scene.output.directory);
         const bool resume = line.resume && may_resume_continuum(scene);
-        open_result_folder(scene, line.resume);
+        open_result_folder(scene, line.resume, [&] {
+          if (resume)
+            check_interrupted_continuum(scene);
+        });
         return int(resume);
       });
       return continuum_panel(line, scene, task);

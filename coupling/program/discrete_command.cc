@@ -16,6 +16,7 @@
 #include "coupling/processes/progress.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/program/imported_grains.h"
+#include "coupling/program/interrupted_grains.h"
 #include "coupling/program/recorded_grains.h"
 #include "coupling/program/report_command.h"
 #include "coupling/program/run_room.h"
@@ -74,18 +75,6 @@ namespace diptych::coupling
       f.reached_shear_strain               = r.shear_strain;
       f.message                            = r.message;
       return f;
-    }
-
-    // What an interrupted run left, or nothing where it left nothing of use.
-    std::optional<discrete::StoredCheckpoint> found_checkpoint(const Scene &scene)
-    {
-      const std::string path = checkpoint_file(scene);
-      if (!std::filesystem::exists(path))
-        return std::nullopt;
-      discrete::StoredCheckpoint checkpoint = discrete::read_checkpoint(path);
-      if (checkpoint.scene != text_of(sample_identity(scene)))
-        throw SceneError("--resume: " + path + " belongs to another scene: the sections sample, loading or discrete differ");
-      return checkpoint;
     }
 
     bool is_finished(const Scene &scene)
@@ -184,6 +173,12 @@ namespace diptych::coupling
         throw SceneError("--study step: discrete/step must be a number to be halved, not auto");
     }
 
+    void check_resumed(const CommandLine &line, const Scene &scene)
+    {
+      if (line.resume)
+        (void)interrupted_grains(scene);
+    }
+
     // The same prepared sample at h, h/2 and h/4 in the folders step_1, step_2, step_4; study_step.csv, .json and .png compare
     // energy and stress ratio against time and give a verdict.
     int step_study(const CommandLine &line, const Scene &scene)
@@ -194,7 +189,7 @@ namespace diptych::coupling
           Scene part            = scene;
           part.output.directory = scene.output.directory + "/step_" + std::to_string(divisor);
           *part.discrete.time.step /= divisor;
-          open_result_folder(part, line.resume);
+          open_result_folder(part, line.resume, [&] { check_resumed(line, part); });
           if (const int code = discrete_panel(line, part); code != done)
             return code;
           runs.push_back({*part.discrete.time.step,
@@ -214,7 +209,7 @@ namespace diptych::coupling
     if (scene.discrete.method.method == discrete::Method::imported)
       return take_imported(line, scene);
     const std::string &directory  = scene.output.directory;
-    const auto         checkpoint = line.resume ? found_checkpoint(scene) : std::nullopt;
+    const auto         checkpoint = line.resume ? interrupted_grains(scene) : std::nullopt;
     if (line.resume && !checkpoint && is_finished(scene))
       {
         say(line, "the grains are finished in " + directory + ": not run again");
@@ -250,7 +245,7 @@ namespace diptych::coupling
       (void)load_imported(scene);
     demand_room(scene, {true, false});
     return writing(scene.output.directory, [&] {
-      open_result_folder(scene, line.resume);
+      open_result_folder(scene, line.resume, [&] { check_resumed(line, scene); });
       return line.study_of_step ? step_study(line, scene) : discrete_panel(line, scene);
     });
   }

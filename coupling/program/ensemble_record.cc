@@ -11,6 +11,7 @@
 
 #include "coupling/ensembles/ensemble_curves.h"
 #include "coupling/ensembles/ensemble_folder.h"
+#include "coupling/numbers/record_file.h"
 #include "coupling/processes/worker.h"
 #include "coupling/program/report_command.h"
 #include "coupling/scene/scene_file.h"
@@ -23,16 +24,16 @@ namespace diptych::coupling
 
     Member read_member(const Scene &scene, const int seed)
     {
-      const std::string path = member_folder(scene.output.directory, seed) + "/comparison.json";
+      const std::string path   = member_folder(scene.output.directory, seed) + "/comparison.json";
+      const json        record = read_record_file(path);
       try
         {
-          std::ifstream file(path);
-          Member        member = member_of(json::parse(file));
+          Member member = member_of(record);
           if (is_mirror_symmetric(scene))
             fold(member);
           return member;
         }
-      catch (const std::exception &error)
+      catch (const std::invalid_argument &error)
         {
           throw std::invalid_argument(path + ": " + error.what());
         }
@@ -106,16 +107,17 @@ namespace diptych::coupling
   {
     const Scene                scene = scene_of_ensemble(line);
     const PhaseTimer           timer("statistics");
-    std::ifstream              file(line.target + "/ensemble.json");
-    const json                 earlier = json::parse(file, nullptr, /* exceptions */ false);
+    const std::string          path    = line.target + "/ensemble.json";
+    const json                 earlier = read_record_file(path);
     std::vector<MemberOutcome> outcomes;
-    if (!earlier.is_object() || !earlier.contains("seeds"))
-      throw SceneError(line.target + "/ensemble.json is missing or broken");
-    for (const json &failed : earlier.value("failed", json::array()))
-      outcomes.push_back({failed.at("seed"), failed.at("exit_code")});
-    for (const int seed : earlier.value("interrupted", std::vector<int>()))
-      outcomes.push_back({seed, 0, true});
-    write_record(line, scene, record_of(scene, earlier["seeds"], outcomes), timer);
+    const auto                 seeds = from_record(path, [&] {
+      for (const json &failed : earlier.value("failed", json::array()))
+        outcomes.push_back({failed.at("seed"), failed.at("exit_code")});
+      for (const int seed : earlier.value("interrupted", std::vector<int>()))
+        outcomes.push_back({seed, 0, true});
+      return earlier.at("seeds").get<std::vector<int>>();
+    });
+    write_record(line, scene, record_of(scene, seeds, outcomes), timer);
     if (scene.output.report)
       draw_page(line, Drawing::ensemble, scene.output.directory);
     return done;

@@ -8,6 +8,7 @@
 #include "coupling/folders/result_folder.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/program/imported_grains.h"
+#include "coupling/program/interrupted_grains.h"
 #include "coupling/scene/identity.h"
 
 namespace diptych::coupling
@@ -33,11 +34,6 @@ namespace diptych::coupling
       return out.str();
     }
   } // namespace
-
-  std::string checkpoint_file(const Scene &scene)
-  {
-    return scene.output.directory + "/checkpoint.h5";
-  }
 
   RecordedGrains::RecordedGrains(const CommandLine                               &line,
                                  const Scene                                     &scene,

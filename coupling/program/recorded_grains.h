@@ -15,8 +15,6 @@
 
 namespace diptych::coupling
 {
-  std::string checkpoint_file(const Scene &scene);
-
   // Rows and snapshots go into the folder's files as they come, a checkpoint when it is time.
   class RecordedGrains
   {

@@ -7,6 +7,8 @@
 #include "coupling/program/compare_command.h"
 #include "coupling/program/continuum_command.h"
 #include "coupling/program/discrete_command.h"
+#include "coupling/program/interrupted_continuum.h"
+#include "coupling/program/interrupted_grains.h"
 #include "coupling/program/run_room.h"
 
 namespace diptych::coupling
@@ -19,7 +21,12 @@ namespace diptych::coupling
     demand_room(scene, {true, true});
     return writing(scene.output.directory, [&] {
       const bool resume_continuum = line.resume && may_resume_continuum(scene);
-      open_result_folder(scene, line.resume);
+      open_result_folder(scene, line.resume, [&] {
+        if (line.resume)
+          (void)interrupted_grains(scene);
+        if (resume_continuum)
+          check_interrupted_continuum(scene);
+      });
       if (const int code = discrete_panel(line, scene); code != done)
         return code;
       if (const int code = continuum_panel(line, scene, {true, resume_continuum}); code != done)

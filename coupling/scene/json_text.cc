@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "coupling/numbers/record_file.h"
+
 namespace diptych::coupling
 {
   namespace
@@ -86,9 +88,7 @@ namespace diptych::coupling
     catch (const nlohmann::json::parse_error &error)
       {
         const auto line = 1 + std::count(text.begin(), text.begin() + std::min(text.size(), std::size_t(error.byte)), '\n');
-        const std::string what = error.what(); // the library's name and number of the error stand in brackets before it
-        throw SceneError(file + ", line " + std::to_string(line) +
-                         ": no JSON: " + what.substr(std::min(what.size(), what.find("] ") + 2)));
+        throw SceneError(file + ", line " + std::to_string(line) + ": no JSON: " + plain_text(error));
       }
     if (!result.root.is_object())
       throw SceneError(file + ", line 1: an object is needed, { ... }");

@@ -84,10 +84,16 @@ namespace diptych::coupling
   std::optional<RunEnd> found_end(const std::string &directory, const StudyRun &run)
   {
     const json end = json::parse(discrete::read_text(path_of(directory, run, ".json")), nullptr, /* exceptions */ false);
-    if (!end.is_object() || !end.contains("exit_code"))
-      return std::nullopt;
-    RunEnd result{end.value("exit_code", 1), end.value("revision", ""), end["load"].is_number() ? double(end["load"]) : NAN,
+    RunEnd     result;
+    try
+      {
+        result = {end.at("exit_code"), end.at("revision"), end.at("load").is_number() ? double(end["load"]) : NAN,
                   end.value("at_once", 1)};
+      }
+    catch (const json::exception &) // not of this version: it is run again
+      {
+        return std::nullopt;
+      }
     if (result.exit_code > last_exit_code_of_a_result || result.revision != git_revision)
       return std::nullopt;
     return result;
@@ -95,9 +101,10 @@ namespace diptych::coupling
 
   bool prepare_run(const std::string &directory, const StudyRun &run)
   {
-    const std::string end_file = path_of(directory, run, ".json");
-    const json        earlier  = json::parse(discrete::read_text(end_file), nullptr, /* exceptions */ false);
-    const bool was_begun = earlier.is_object() && !earlier.contains("exit_code") && earlier.value("begun", "") == git_revision;
+    const std::string end_file  = path_of(directory, run, ".json");
+    const json        earlier   = json::parse(discrete::read_text(end_file), nullptr, /* exceptions */ false);
+    const bool        was_begun = earlier.is_object() && !earlier.contains("exit_code") &&
+                           earlier.value("begun", json()) == git_revision;
     if (!was_begun)
       fs::remove_all(run_folder(directory, run));
     fs::remove(run_log(directory, run));

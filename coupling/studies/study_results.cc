@@ -14,6 +14,7 @@
 #include "continuum/laws/material_point_row.h"
 #include "coupling/ensembles/ensemble.h"
 #include "coupling/folders/provenance.h"
+#include "coupling/numbers/record_file.h"
 #include "coupling/processes/worker.h"
 #include "discrete/files/table_file.h"
 #include "discrete/panel/history.h"
@@ -50,8 +51,7 @@ namespace diptych::coupling
       {
         if (!member)
           {
-            std::ifstream file(path + "/comparison.json");
-            member = member_of(nlohmann::json::parse(file));
+            member = member_of(read_record_file(path + "/comparison.json"));
             if (is_mirror_symmetric(scene))
               fold(*member);
           }

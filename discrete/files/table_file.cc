@@ -16,9 +16,7 @@ namespace diptych::discrete
     write_text(this->path, header + '\n');
   }
 
-  TableFile::TableFile(std::string path_, const std::string &header, const long n_rows)
-      : path(std::move(path_)),
-        n(n_rows)
+  void check_table(const std::string &path, const std::string &header, const long n_rows)
   {
     std::ifstream in(path);
     std::string   line;
@@ -27,10 +25,16 @@ namespace diptych::discrete
     long found = 0;
     while (std::getline(in, line) && !in.eof()) // a last line without its end is none
       ++found;
-    if (found < n)
-      throw std::invalid_argument(path + ": holds " + std::to_string(found) + " rows, not the " + std::to_string(n) +
+    if (found < n_rows)
+      throw std::invalid_argument(path + ": holds " + std::to_string(found) + " rows, not the " + std::to_string(n_rows) +
                                   " that the checkpoint beside it goes on from");
-    in.close();
+  }
+
+  TableFile::TableFile(std::string path_, const std::string &header, const long n_rows)
+      : path(std::move(path_)),
+        n(n_rows)
+  {
+    check_table(path, header, n);
     keep_lines(path, std::size_t(n) + 1);
   }
 

@@ -19,8 +19,7 @@ namespace diptych::discrete
   public:
     TableFile(std::string path, const std::string &header); // begins anew
 
-    // Goes on after the first n_rows of a file that stands there. Throws std::invalid_argument naming it where it has other
-    // columns or fewer rows.
+    // Goes on after the first n_rows of a file that stands there. Throws as check_table().
     TableFile(std::string path, const std::string &header, long n_rows);
 
     void add(const std::string &line); // without its end; kept until flush()
@@ -32,6 +31,9 @@ namespace diptych::discrete
     std::string path, waiting;
     long        n = 0;
   };
+
+  // Throws std::invalid_argument naming the file where it is missing, has other columns or fewer rows.
+  void check_table(const std::string &path, const std::string &header, long n_rows);
 
   // The header and the line of a row whose type has a visit_columns beside it: visit(name, value, unit, meaning).
   template <class Row> std::string csv_header()

@@ -3,7 +3,9 @@
 #include "discrete/panel/checkpoint.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
+#include <type_traits>
 
 #include "discrete/files/hdf5_file.h"
 
@@ -140,6 +142,28 @@ namespace diptych::discrete
       p.window.spin = file.read("window/spin");
     }
 
+    template <class Number> Number read_number(const Hdf5Reader &file, const std::string &name)
+    {
+      constexpr double          most   = 1e15; // fits a long and is exact
+      const std::vector<double> number = file.read(name);
+      const bool is_whole              = number.size() == 1 && number[0] == std::floor(number[0]) && std::abs(number[0]) <= most;
+      if (number.size() != 1 || (std::is_integral_v<Number> && !is_whole))
+        throw std::invalid_argument(file.path() + ": '" + name + "' is no single " +
+                                    (std::is_integral_v<Number> ? "whole number" : "number"));
+      return Number(number[0]);
+    }
+
+    bool are_finite(const Grains &g)
+    {
+      const auto number = [](const double x) { return std::isfinite(x); };
+      const auto vector = [](const Eigen::Vector2d &x) { return x.allFinite(); };
+      const auto size   = [](const double x) { return std::isfinite(x) && x > 0; };
+      return std::all_of(g.position.begin(), g.position.end(), vector) &&
+             std::all_of(g.velocity.begin(), g.velocity.end(), vector) &&
+             std::all_of(g.rotation.begin(), g.rotation.end(), number) && std::all_of(g.spin.begin(), g.spin.end(), number) &&
+             std::all_of(g.radius.begin(), g.radius.end(), size) && std::all_of(g.mass.begin(), g.mass.end(), size);
+    }
+
     // Every list is as long as the grains are many, and every pair names bodies that exist.
     void check_sizes(const std::string &path, const Checkpoint &p, const bool row_is_whole)
     {
@@ -155,6 +179,8 @@ namespace diptych::discrete
                          std::all_of(p.window.sums.begin(), p.window.sums.end(), both);
       if (!whole)
         throw std::invalid_argument(path + " is no checkpoint of this version: its lists do not fit each other");
+      if (!are_finite(g))
+        throw std::invalid_argument(path + ": 'grains' hold a number that is not finite, or a size that is not positive");
     }
   } // namespace
 
@@ -194,10 +220,12 @@ namespace diptych::discrete
       const std::size_t         width = numbers({}).size();
       check_sizes(path, p, row.size() == width);
       p.row             = row_of(row.data());
-      checkpoint.n_rows = long(file.read("n_rows").at(0));
+      checkpoint.n_rows = read_number<long>(file, "n_rows");
       visit_scalars(p, [&](const char *name, auto &value) {
-        value = std::decay_t<decltype(value)>(file.read(std::string("scalars/") + name).at(0));
+        value = read_number<std::decay_t<decltype(value)>>(file, std::string("scalars/") + name);
       });
+      if (checkpoint.n_rows < 0 || p.stage < 0)
+        throw std::invalid_argument(path + ": 'n_rows' or 'scalars/stage' is negative");
       checkpoint.scene    = file.read_string("scene");
       p.report.step_bound = file.read_string("step_bound");
       return checkpoint;

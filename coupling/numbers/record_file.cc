@@ -1,0 +1,45 @@
+// diptych: files in JSON that this program wrote, read back with doubt
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/numbers/record_file.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "discrete/files/text_file.h"
+
+namespace diptych::coupling
+{
+  using nlohmann::json;
+
+  json read_record_file(const std::string &path)
+  {
+    constexpr int most_levels = 64; // values are walked recursively
+    const auto    not_endless = [](const int depth, json::parse_event_t, const json &) {
+      if (depth > most_levels)
+        throw std::invalid_argument("nests more than " + std::to_string(most_levels) + " levels");
+      return true;
+    };
+    try
+      {
+        json record = json::parse(discrete::read_text(path), not_endless);
+        if (record.is_object())
+          return record;
+        throw std::invalid_argument("is no JSON object");
+      }
+    catch (const json::exception &error)
+      {
+        throw std::invalid_argument(path + (std::filesystem::exists(path) ? ": no JSON: " + plain_text(error) : ": is missing"));
+      }
+    catch (const std::invalid_argument &error)
+      {
+        throw std::invalid_argument(path + ": " + error.what());
+      }
+  }
+
+  std::string plain_text(const json::exception &error)
+  {
+    const std::string what = error.what(); // name and number stand in brackets before it
+    const std::size_t end  = what.find("] ");
+    return end == std::string::npos ? what : what.substr(end + 2);
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,21 @@
+// diptych: what --resume finds of interrupted grains, looked at before anything is changed
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "coupling/scene/scene.h"
+#include "discrete/panel/checkpoint.h"
+
+namespace diptych::coupling
+{
+  std::string checkpoint_file(const Scene &scene);
+
+  // The checkpoint, or nothing where there is none. Throws SceneError where it belongs to another scene, std::invalid_argument
+  // naming the file that is damaged: the checkpoint, the table or the snapshots that it goes on from, provenance.json.
+  std::optional<discrete::StoredCheckpoint> interrupted_grains(const Scene &scene);
+
+  // Throws std::invalid_argument where `file` holds fewer stages than a checkpoint goes on from.
+  void check_stage_count(const std::string &file, std::size_t found, std::size_t needed);
+} // namespace diptych::coupling
