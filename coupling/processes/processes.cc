@@ -3,6 +3,7 @@
 #include "coupling/processes/processes.h"
 
 #include <chrono>
+#include <cstdlib>
 #include <iostream>
 #include <stdexcept>
 #include <string>
@@ -85,6 +86,12 @@ namespace diptych::coupling
       return false;
     }
   } // namespace
+
+  void need_no_daemon()
+  {
+    if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr && std::getenv("PMI_SIZE") == nullptr)
+      setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  }
 
   bool is_first_process()
   {

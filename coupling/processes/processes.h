@@ -8,7 +8,11 @@
 
 namespace diptych::coupling
 {
-  // All need an initialised MPI and are collective, but for the first three.
+  // Before MPI is initialised: a process that was not started as one of several needs no daemon of MPI beside it, which asks for
+  // a PATH, for ssh, for files in TMPDIR, and ends the process where one is missing.
+  void need_no_daemon();
+
+  // All need an initialised MPI and are collective, but for the next three.
   bool         is_first_process();
   unsigned int n_processes();
   unsigned int own_number(); // of this process, from 0

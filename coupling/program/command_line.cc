@@ -283,8 +283,12 @@ namespace diptych::coupling
     {
       std::vector<std::string> overrides;
       for (const std::string &file : line.set_files)
-        for (const Entry &entry : read_fragment(file))
-          overrides.push_back(entry.section + "/" + entry.key + "=" + entry.value);
+        {
+          if (!std::filesystem::exists(file))
+            throw SceneError("--set-file " + file + ": there is no such file");
+          for (const Entry &entry : read_fragment(file))
+            overrides.push_back(entry.section + "/" + entry.key + "=" + entry.value);
+        }
       line.overrides.insert(line.overrides.begin(), overrides.begin(), overrides.end());
     }
   } // namespace

@@ -82,7 +82,10 @@ namespace diptych::coupling
           record_phases(scene.output.directory, scene, line.text, {timer.stop()});
         }
       if (with_grains && !grains.snapshot)
-        return not_converged;
+        {
+          std::cerr << kept_in(scene.output.directory) << std::endl;
+          return not_converged;
+        }
       grains.solid_fraction = with_grains ? solid_fraction(*grains.snapshot) : scene.sample.solid_fraction;
       return done;
     }

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <stdexcept>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "coupling/processes/child_process.h"
@@ -35,6 +36,17 @@ namespace
     return compare_again(line);
   }
 
+  // Where MPI cannot open what it needs it ends the process by itself, with exit code 1.
+  void require_open_files()
+  {
+    constexpr rlim_t least = 32;
+    rlimit           limit{};
+    if (getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur < least)
+      throw std::runtime_error("this process may open " + std::to_string(limit.rlim_cur) +
+                               " files (ulimit -n); the libraries of the continuum need " + std::to_string(least) +
+                               "; nothing was written");
+  }
+
   // MPI keeps files of its own there, and where it cannot it ends the process by itself, with exit code 1.
   void require_temporary_room()
   {
@@ -57,6 +69,7 @@ namespace
   // diptych-panels beside this program, or in PREFIX/libexec where it is installed.
   [[noreturn]] void become_the_panels(char **argv)
   {
+    require_open_files();
     require_temporary_room();
     namespace fs             = std::filesystem;
     const fs::path    folder = fs::path(own_path()).parent_path();

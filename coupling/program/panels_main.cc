@@ -53,6 +53,7 @@ namespace
 
 int main(int argc, char **argv)
 {
+  need_no_daemon();
   if (argc == 2 && std::string(argv[1]) == worker_word)
     {
       dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);

@@ -9,6 +9,8 @@
 #include <deal.II/base/multithread_info.h>
 #include <sc.h>
 
+#include "coupling/processes/processes.h"
+
 namespace diptych::python
 {
   namespace
@@ -31,6 +33,7 @@ namespace diptych::python
         sc_set_log_defaults(nullptr, nullptr, SC_LP_SILENT); // likewise: p4est tells of every mesh
         return;
       }
+    coupling::need_no_daemon();
     struct sigaction interrupt, end;
     sigaction(SIGINT, nullptr, &interrupt);
     sigaction(SIGTERM, nullptr, &end);

@@ -93,10 +93,14 @@ namespace diptych::discrete
     }
     constexpr std::size_t numbers_a_wall = 8;
 
-    std::vector<Wall> walls_of(const std::vector<double> &v)
+    std::vector<Wall> walls_of(const Hdf5Reader &file)
     {
+      const std::vector<double> v = file.read("walls");
+      if (v.size() % numbers_a_wall != 0 || !std::all_of(v.begin(), v.end(), [](const double x) { return std::isfinite(x); }))
+        throw std::invalid_argument(file.path() + ": 'walls' does not hold rows of " + std::to_string(numbers_a_wall) +
+                                    " finite numbers");
       std::vector<Wall> walls;
-      for (std::size_t k = 0; k + numbers_a_wall <= v.size(); k += numbers_a_wall)
+      for (std::size_t k = 0; k < v.size(); k += numbers_a_wall)
         {
           Wall wall{{v[k], v[k + 1]}, {v[k + 2], v[k + 3]}, {v[k + 4], v[k + 5]}, {}, {}, v[k + 6], WallKind::platen};
           wall.kind = v[k + 7] == 0 ? WallKind::platen : WallKind::side;
@@ -131,14 +135,18 @@ namespace diptych::discrete
       const std::vector<double> impulse = file.read("impulses/impulse"), change = file.read("impulses/change"),
                                 window_impulse     = file.read("window/impulse"),
                                 window_dissipation = file.read("window/dissipation"), window_impact = file.read("window/impact");
-      for (std::size_t k = 0; k + 1 < body.size(); k += 2)
-        p.state.impulses.push_back({body[k], body[k + 1], impulse.at(k), impulse.at(k + 1), change.at(k), change.at(k + 1)});
-      for (std::size_t k = 0; k + 1 < window_body.size(); k += 2)
+      const std::size_t n = body.size(), n_window = window_body.size();
+      if (n % 2 != 0 || impulse.size() != n || change.size() != n || n_window % 2 != 0 || window_impulse.size() != n_window ||
+          window_dissipation.size() != n_window / 2 || window_impact.size() != n_window / 2)
+        throw std::invalid_argument(file.path() + ": the lists in 'impulses' or 'window' do not fit each other");
+      for (std::size_t k = 0; k < n; k += 2)
+        p.state.impulses.push_back({body[k], body[k + 1], impulse[k], impulse[k + 1], change[k], change[k + 1]});
+      for (std::size_t k = 0; k < n_window; k += 2)
         p.window.sums.push_back({window_body[k],
                                  window_body[k + 1],
-                                 window_dissipation.at(k / 2),
-                                 window_impact.at(k / 2),
-                                 {window_impulse.at(k), window_impulse.at(k + 1)}});
+                                 window_dissipation[k / 2],
+                                 window_impact[k / 2],
+                                 {window_impulse[k], window_impulse[k + 1]}});
       p.window.spin = file.read("window/spin");
     }
 
@@ -211,9 +219,11 @@ namespace diptych::discrete
       StoredCheckpoint checkpoint;
       Checkpoint      &p = checkpoint.panel;
       p.state.grains     = read_grains(file);
-      p.state.walls      = walls_of(file.read("walls"));
-      if (const std::vector<double> cell = file.read("cell"); cell.size() == 3)
+      p.state.walls      = walls_of(file);
+      if (const std::vector<double> cell = file.read("cell"); cell.size() == 3 && cell[0] > 0)
         p.state.cell = PeriodicCell{cell[0], cell[1], {}, cell[2]};
+      else if (!cell.empty())
+        throw std::invalid_argument(path + ": 'cell' does not hold width, velocity and mass");
       read_pairs(file, p);
       p.reference.position            = file.read_vectors("reference/position");
       const std::vector<double> row   = file.read("row");

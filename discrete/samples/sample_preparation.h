@@ -19,7 +19,6 @@ namespace diptych::discrete
   struct PreparationReport
   {
     bool   quiet    = false;
-    bool   touches  = true; // false: pressed for `steps`, but nothing carries anything
     int    steps    = 0;
     double residual = 0, unbalanced_force = 0; // of the last step
     double solid_fraction  = 0;                // grain area / sample area
@@ -27,6 +26,7 @@ namespace diptych::discrete
     int    settling_steps  = 0;                // after `steps`, from rest, that took out the overlaps
     double largest_overlap = 0;                // between grains and with walls, at the end [mean diameters]
     double friction        = 0;                // of the preparation
+    bool   touches         = true;             // false: pressed for `steps`, but nothing carries anything
   };
 
   struct PreparedSample

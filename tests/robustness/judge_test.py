@@ -122,9 +122,9 @@ class Folders(Judged):
 class Numbers(Judged):
     def test_tables(self):
         for word in ("nan", "-inf", "1e400"):
-            self.expect("no numbers in out/discrete.csv: stress_ratio",
-                        f'mkdir "$out"; printf "axial_strain,stress_ratio\\n0,{word}\\n" > "$out/discrete.csv"')
-        self.expect_nothing('mkdir "$out"; printf "walk,stress_ratio\\ninfinite,\\n" > "$out/discrete.csv"')
+            self.expect("no numbers in out/discrete.csv: solid_fraction",
+                        f'mkdir "$out"; printf "axial_strain,solid_fraction\\n0,{word}\\n" > "$out/discrete.csv"')
+        self.expect_nothing('mkdir "$out"; printf "walk,solid_fraction\\ninfinite,\\n" > "$out/discrete.csv"')
         self.expect_nothing('mkdir "$out"; printf "a\\nnan\\n" > "$out/discrete.csv"; echo "kept in $out" >&2; exit 3')
 
     def test_records(self):

@@ -9,13 +9,13 @@ import os
 from judge import OWN_STATE
 from running import bits
 
-CLOCKS = ("cpu_s", "wall_s", "seconds", "_mb", "of_cpu", "disturbed")
+CLOCKS = ("ns_per_update", "cpu_s", "wall_s", "seconds", "_mb", "of_cpu", "disturbed")
 NOT_COMPARED = ("provenance.json", "study_cost.json", "calibration_cost.json", "import.json")  # paths, clocks, dates
 
 
 def without_clocks(item):
     if isinstance(item, dict):
-        return {key: without_clocks(value) for key, value in item.items() if not key.endswith(CLOCKS)}
+        return {key: without_clocks(value) for key, value in item.items() if not str(key).endswith(CLOCKS)}
     return [without_clocks(one) for one in item if not is_clock(one)] if isinstance(item, list) else item
 
 

@@ -120,6 +120,7 @@ namespace
       const double mantissa = double(std::int64_t(random())) * 0x1.0p-63;
       return std::ldexp(mantissa, int(random() % 200) - 100);
     }
+    double          size() { return std::abs((*this)()); }
     int             whole() { return int(random() % 1000000); }
     Eigen::Vector2d vector() { return {(*this)(), (*this)()}; }
   };
@@ -143,9 +144,9 @@ namespace
   {
     for (int k = 0; k < 9; ++k)
       {
-        add_grain(state.grains, dice.vector(), dice(), 1.);
+        add_grain(state.grains, dice.vector(), dice.size(), 1.);
         state.grains.velocity.back() = dice.vector();
-        state.grains.rotation.back() = dice(), state.grains.spin.back() = dice(), state.grains.mass.back() = dice();
+        state.grains.rotation.back() = dice(), state.grains.spin.back() = dice(), state.grains.mass.back() = dice.size();
         state.grains.fixed.back() = k % 3 == 0;
       }
     for (int w = 0; w < 4; ++w)
@@ -154,7 +155,7 @@ namespace
         wall.kind = w < 2 ? WallKind::platen : WallKind::side;
         state.walls.push_back(wall);
       }
-    state.cell = PeriodicCell{dice(), dice(), {}, dice()};
+    state.cell = PeriodicCell{dice.size(), dice(), {}, dice()};
     for (int k = 0; k < 5; ++k)
       state.impulses.push_back({k, k + 3, dice(), dice(), dice(), dice()});
     state.time = dice();

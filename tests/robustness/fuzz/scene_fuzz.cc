@@ -1,0 +1,37 @@
+// diptych: scenes, fragments, studies and calibrations of any bytes
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/scene/scene_file.h"
+#include "coupling/studies/study_file.h"
+#include "fuzz.h"
+
+namespace
+{
+  using namespace diptych;
+
+  // What was taken is the same scene again by its echo.
+  void check_echo(const fuzz::Folder &folder, const coupling::Scene &scene)
+  {
+    const std::string first  = coupling::echo(scene);
+    const auto        second = coupling::echoed_scene(folder.put("echo.prm", first));
+    if (!second)
+      fuzz::finding("the echo is no scene:\n" + first);
+    else if (coupling::echo(*second) != first)
+      fuzz::finding("the echo of the echo differs:\n" + first + "\n" + coupling::echo(*second));
+  }
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, const std::size_t size)
+{
+  static const fuzz::Folder folder;
+  const fuzz::Choice        choice(data, size, 4);
+  const std::string         file = folder.put(choice.way % 2 == 0 ? "input.prm" : "input.json", choice.content);
+  fuzz::is_taken(folder.path, [&] {
+    if (choice.way < 2)
+      check_echo(folder, coupling::read_scene(file, {}));
+    else if (choice.way == 2)
+      (void)coupling::read_fragment(file);
+    else
+      (void)coupling::read_study(file, {});
+  });
+  return 0;
+}
