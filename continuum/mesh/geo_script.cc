@@ -13,8 +13,8 @@ namespace diptych::continuum
   {
     // Keywords of the language (gmsh's reference manual, "General commands", "Other plugins", "Options").
     const std::set<std::string> refused = {
-      "SystemCall", "NonBlockingSystemCall", "OnelabRun", "OnelabAction", "Exit", "Abort", "Save", "Print", "Merge",
-      "Include",    "ShapeFromFile",         "Plugin"};
+      "SystemCall", "NonBlockingSystemCall", "OnelabRun", "OnelabAction", "Exit",  "Abort", "Save", "Print", "Merge",
+      "Include",    "ShapeFromFile",         "Plugin",    "CreateDir",    "Sleep", "UnlinkFile"};
     const std::set<std::string> families = {"General", "Solver", "Print", "PostProcessing", "View", "Plugin"};
 
     // The text with comments, and what stands between quotes, as blanks; lines stay.

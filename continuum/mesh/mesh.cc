@@ -183,6 +183,9 @@ namespace diptych::continuum
 
     std::string text_of_file(const std::string &file)
     {
+      std::error_code none;
+      if (!std::filesystem::is_regular_file(file, none))
+        throw std::invalid_argument(file + ": is no file that can be read");
       std::ifstream in(file, std::ios::binary);
       return {std::istreambuf_iterator<char>(in), {}};
     }

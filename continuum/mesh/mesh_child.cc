@@ -70,8 +70,11 @@ namespace diptych::continuum
       const rlimit cpu = {most_cpu_seconds, most_cpu_seconds};
       if (most_cpu_seconds > 0)
         setrlimit(RLIMIT_CPU, &cpu);
-      const rlimit no_core = {0, 0};
-      setrlimit(RLIMIT_CORE, &no_core);
+      const rlimit nothing = {0, 0};
+      setrlimit(RLIMIT_CORE, &nothing);
+      std::signal(SIGXFSZ, SIG_IGN);
+      if (most_cpu_seconds > 0)
+        setrlimit(RLIMIT_FSIZE, &nothing); // a user's script writes no file, whatever it says
       if (const int nowhere = open("/dev/null", O_WRONLY); nowhere >= 0)
         dup2(nowhere, STDOUT_FILENO), dup2(nowhere, STDERR_FILENO); // a script's own words
       const std::string bytes = answer_of(make);

@@ -21,9 +21,9 @@ namespace diptych::coupling
   {
     visit(ArrayEntry{"members", "every member", "-", "running mean, a row a seed; nan where a history does not reach"},
           c.members);
-    visit(ArrayEntry{"mean", "mean", "-", "of all members, where all have a value"}, c.mean);
-    visit(ArrayEntry{"low", "lower end", "-", "of the 95 % Student interval of the mean"}, c.low);
-    visit(ArrayEntry{"high", "upper end", "-", "of the same interval"}, c.high);
+    visit(ArrayEntry{"mean", "mean", "-", "of all members; nan where not all have a value"}, c.mean);
+    visit(ArrayEntry{"low", "lower end", "-", "of the 95 % Student interval of the mean; nan as there"}, c.low);
+    visit(ArrayEntry{"high", "upper end", "-", "of the same interval; nan as there"}, c.high);
   }
 
   // What all curves have in common.

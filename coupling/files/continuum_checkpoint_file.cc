@@ -88,7 +88,12 @@ namespace diptych::coupling
         const std::vector<double> pair = numbers(name, 2);
         value                          = {pair[0], pair[1]};
       }
-      void                    operator()(const std::string &name, std::vector<double> &values) const { values = file.read(name); }
+      void operator()(const std::string &name, std::vector<double> &values) const
+      {
+        if (file.extents(name).size() != 1)
+          throw std::invalid_argument(file.path() + ": '" + name + "' is no list");
+        values = file.read(name);
+      }
       void                    operator()(const std::string &name, Lines &lines) const { lines = split(file.read_string(name)); }
       template <class T> void operator()(const std::string &name, std::vector<std::vector<T>> &lists) const
       {
@@ -127,7 +132,7 @@ namespace diptych::coupling
 
   ContinuumCheckpoint read_continuum_checkpoint(const std::string &path)
   {
-    const Hdf5Reader file(path);
+    const Hdf5Reader file(path, Hdf5Reader::From::this_program);
     if (!file.has("format") || file.read_string("format") != format)
       throw std::invalid_argument(path + ": is no '" + format + "'; was it written by another version?");
     ContinuumCheckpoint c;

@@ -34,6 +34,13 @@ namespace diptych::coupling
       return {s.left_x, s.right_x, s.lower_y, s.upper_y};
     }
 
+    struct Untold
+    {
+      bool operator()(const double x) const { return std::isnan(x); }
+      bool operator()(const Eigen::Vector2d &x) const { return x.array().isNaN().any(); }
+    };
+    constexpr Untold is_untold;
+
     std::ostringstream exact_stream()
     {
       std::ostringstream out;
@@ -44,10 +51,21 @@ namespace diptych::coupling
     ExportedFiles as_csv(const Snapshot &s, const int stage)
     {
       std::ostringstream particles = exact_stream(), contacts = exact_stream(), walls = exact_stream();
-      particles << "id,x,y,r,mass,vx,vy,omega\n";
+      // What an imported sample was not told is left out.
+      const auto told = [](const auto &values) { return std::none_of(values.begin(), values.end(), is_untold); };
+      const bool mass = told(s.mass), motion = told(s.velocity), spin = told(s.spin);
+      particles << "id,x,y,r" << (mass ? ",mass" : "") << (motion ? ",vx,vy" : "") << (spin ? ",omega" : "") << '\n';
       for (std::size_t i = 0; i < s.radius.size(); ++i)
-        particles << i << ',' << s.position[i].x() << ',' << s.position[i].y() << ',' << s.radius[i] << ',' << s.mass[i] << ','
-                  << s.velocity[i].x() << ',' << s.velocity[i].y() << ',' << s.spin[i] << '\n';
+        {
+          particles << i << ',' << s.position[i].x() << ',' << s.position[i].y() << ',' << s.radius[i];
+          if (mass)
+            particles << ',' << s.mass[i];
+          if (motion)
+            particles << ',' << s.velocity[i].x() << ',' << s.velocity[i].y();
+          if (spin)
+            particles << ',' << s.spin[i];
+          particles << '\n';
+        }
       contacts << "# force on i; j = -1 lower, -2 upper, -3 left, -4 right wall\ni,j,fx,fy,px,py\n";
       const int n = int(s.radius.size());
       for (const discrete::ContactForce &c : s.contacts)
@@ -125,8 +143,8 @@ namespace diptych::coupling
       std::ostringstream table = exact_stream(), out = exact_stream();
       table << "#format x_y_z_r_attrs\n# x y z r id mass\n";
       for (std::size_t i = 0; i < s.radius.size(); ++i)
-        table << s.position[i].x() << '\t' << s.position[i].y() << "\t0\t" << s.radius[i] << '\t' << i << '\t' << s.mass[i]
-              << '\n';
+        table << s.position[i].x() << '\t' << s.position[i].y() << "\t0\t" << s.radius[i] << '\t' << i << '\t'
+              << (std::isnan(s.mass[i]) ? scene.sample.density * M_PI * s.radius[i] * s.radius[i] : s.mass[i]) << '\n';
       out << "# Discs of sample.txt as one layer of spheres between walls at rest. Yade's spheres have masses of spheres: each "
              "is set to that of\n"
           << "# its disc. Springs 1e4 P (rigid grains have none).\n"

@@ -19,8 +19,10 @@ namespace diptych::coupling
 
     std::string content_of(const std::string &path)
     {
-      if (std::filesystem::is_directory(path))
-        throw SceneError(path + ": is a folder; a file is needed");
+      std::error_code none;
+      if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none))
+        throw SceneError(path + ": is no file but a " + (std::filesystem::is_directory(path, none) ? "folder" : "device") +
+                         "; a file is needed");
       std::ifstream in(path, std::ios::binary);
       if (!in)
         throw SceneError(path + ": cannot be opened; is it there and readable?");

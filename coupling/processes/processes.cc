@@ -165,7 +165,9 @@ namespace diptych::coupling
     return any == 1;
   }
 
-  int answer_for(const std::function<int()> &work, int (*code_of)(const std::exception &))
+  int answer_for(const std::function<int()> &work,
+                 int (*code_of)(const std::exception &),
+                 std::string (*text_of)(const std::exception &))
   {
     // A communicator of its own: the barrier must not be taken for one of those that `work` waits in.
     MPI_Comm communicator = MPI_COMM_NULL;
@@ -180,7 +182,7 @@ namespace diptych::coupling
         code              = code_of(error);
         const bool shared = all_arrive(communicator);
         if (is_first_process() || !shared)
-          std::cerr << "diptych: " << error.what() << std::endl;
+          std::cerr << text_of(error) << std::endl;
         if (!shared)
           MPI_Abort(MPI_COMM_WORLD, code);
       }

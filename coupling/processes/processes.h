@@ -4,6 +4,7 @@
 
 #include <exception>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace diptych::coupling
@@ -30,5 +31,7 @@ namespace diptych::coupling
   // Runs `work` and returns its exit code. An exception is told on standard error and becomes what `code_of` makes of it: once
   // where all processes meet the same one. One that some processes do not share ends all of them (MPI_Abort): they would wait for
   // ever.
-  int answer_for(const std::function<int()> &work, int (*code_of)(const std::exception &));
+  int answer_for(const std::function<int()> &work,
+                 int (*code_of)(const std::exception &),
+                 std::string (*text_of)(const std::exception &));
 } // namespace diptych::coupling

@@ -382,6 +382,14 @@ namespace diptych::coupling
       std::cout << text << std::endl;
   }
 
+  std::string text_of_end(const std::exception &error)
+  {
+    const std::string what    = error.what();
+    const bool        is_told = what.find("kept") != std::string::npos || what.find("nothing was written") != std::string::npos;
+    return "diptych: " + what +
+           (dynamic_cast<const StoppedOnRequest *>(&error) != nullptr && !is_told ? "; nothing was written" : "");
+  }
+
   int code_of(const std::exception &error)
   {
     if (dynamic_cast<const std::invalid_argument *>(&error) != nullptr)

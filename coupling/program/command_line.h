@@ -86,4 +86,7 @@ namespace diptych::coupling
 
   // 1 for a broken invariant, 2 for wrong input, 4 for everything else that is thrown.
   [[nodiscard]] int code_of(const std::exception &error);
+
+  // What standard error says at the end: the error, and that nothing was written where a request to stop came before that.
+  std::string text_of_end(const std::exception &error);
 } // namespace diptych::coupling

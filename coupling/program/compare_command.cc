@@ -19,6 +19,19 @@ namespace diptych::coupling
 {
   namespace
   {
+    // What is wrong is wrong with the folder's files.
+    Comparison compared(const Scene &scene, const Results &results)
+    {
+      try
+        {
+          return compare(scene, results);
+        }
+      catch (const std::invalid_argument &error)
+        {
+          throw std::invalid_argument(scene.output.directory + ": " + error.what());
+        }
+    }
+
     int comparison_of(const CommandLine &line, const Scene &scene)
     {
       const std::string &directory = scene.output.directory;
@@ -26,7 +39,7 @@ namespace diptych::coupling
       progress.update("comparing", 0);
       const PhaseTimer timer("comparison");
       Results          results = load_results(directory);
-      Comparison       c       = compare(scene, results);
+      Comparison       c       = compared(scene, results);
       write_comparison_h5(directory, scene, c, results);
       write_fields_vtu(directory, c);
       record_phases(directory, scene, line.text, {timer.stop()});

@@ -230,7 +230,7 @@ namespace diptych::coupling
         const bool resume = line.resume && may_resume_continuum(scene);
         open_result_folder(scene, line.resume, [&] {
           if (resume)
-            check_interrupted_continuum(scene);
+            check_earlier_continuum(scene);
         });
         return int(resume);
       });

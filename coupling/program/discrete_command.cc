@@ -77,12 +77,6 @@ namespace diptych::coupling
       return f;
     }
 
-    bool is_finished(const Scene &scene)
-    {
-      return read_run_facts(scene.output.directory).discrete.finished &&
-             std::filesystem::exists(scene.output.directory + "/discrete.h5");
-    }
-
     // What makes a finished run doubtful goes to standard error, quiet or not.
     void warn(const Rows &rows, const discrete::Report &report, const discrete::Options &options)
     {
@@ -176,7 +170,7 @@ namespace diptych::coupling
     void check_resumed(const CommandLine &line, const Scene &scene)
     {
       if (line.resume)
-        (void)interrupted_grains(scene);
+        check_earlier_grains(scene);
     }
 
     // The same prepared sample at h, h/2 and h/4 in the folders step_1, step_2, step_4; study_step.csv, .json and .png compare
@@ -210,7 +204,7 @@ namespace diptych::coupling
       return take_imported(line, scene);
     const std::string &directory  = scene.output.directory;
     const auto         checkpoint = line.resume ? interrupted_grains(scene) : std::nullopt;
-    if (line.resume && !checkpoint && is_finished(scene))
+    if (line.resume && !checkpoint && grains_are_finished(scene))
       {
         say(line, "the grains are finished in " + directory + ": not run again");
         return done;

@@ -18,10 +18,14 @@ namespace diptych::coupling
 {
   namespace
   {
-    void check_part(const Scene &scene, const ContinuumPart &part)
+    void check_results(const ContinuumPart &part)
     {
-      if (!std::filesystem::exists(part.checkpoint()))
-        return;
+      (void)discrete::read_rows<continuum::HistoryRow>(part.directory + "/continuum.csv");
+      (void)read_continuum_snapshots(part.directory + "/continuum.h5");
+    }
+
+    void check_interrupted(const Scene &scene, const ContinuumPart &part)
+    {
       const ContinuumCheckpoint checkpoint = read_continuum_checkpoint(part.checkpoint());
       if (checkpoint.scene != text_of(continuum_identity(scene)))
         throw SceneError("--resume: " + part.checkpoint() + " belongs to another scene");
@@ -34,10 +38,14 @@ namespace diptych::coupling
     }
   } // namespace
 
-  void check_interrupted_continuum(const Scene &scene)
+  void check_earlier_continuum(const Scene &scene)
   {
-    (void)read_run_facts(scene.output.directory);
+    const RunFacts facts = read_run_facts(scene.output.directory);
     for (const ContinuumPart &part : continuum_parts(scene))
-      check_part(scene, part);
+      if (std::filesystem::exists(part.checkpoint()))
+        check_interrupted(scene, part);
+      else if ((part.is_coarse ? facts.continuum_coarse : facts.continuum).finished &&
+               std::filesystem::exists(part.directory + "/continuum.h5"))
+        check_results(part);
   }
 } // namespace diptych::coupling

@@ -6,8 +6,8 @@
 
 namespace diptych::coupling
 {
-  // Of all its parts that have a checkpoint. Throws SceneError where it belongs to another scene or mesh (that of an outline is
-  // known only when it is made), std::invalid_argument naming the file that is damaged: the checkpoint, the table or the
-  // snapshots that it goes on from, provenance.json.
-  void check_interrupted_continuum(const Scene &scene);
+  // Reads all that --resume goes on from, or takes for finished, of all parts: checkpoint, table, snapshots, provenance.json.
+  // Throws SceneError where a checkpoint belongs to another scene or mesh (that of an outline is known only when it is made),
+  // std::invalid_argument naming the file that is damaged.
+  void check_earlier_continuum(const Scene &scene);
 } // namespace diptych::coupling

@@ -28,17 +28,33 @@ namespace diptych::coupling
 
   std::optional<discrete::StoredCheckpoint> interrupted_grains(const Scene &scene)
   {
-    (void)read_run_facts(scene.output.directory);
     const std::string path = checkpoint_file(scene);
     if (!std::filesystem::exists(path))
       return std::nullopt;
     discrete::StoredCheckpoint checkpoint = discrete::read_checkpoint(path);
     if (checkpoint.scene != text_of(sample_identity(scene)))
       throw SceneError("--resume: " + path + " belongs to another scene: the sections sample, loading or discrete differ");
-    discrete::check_table(scene.output.directory + "/discrete.csv", discrete::csv_header<discrete::HistoryRow>(),
-                          checkpoint.n_rows);
-    const std::string snapshots = scene.output.directory + "/discrete.h5";
-    check_stage_count(snapshots, discrete::read_snapshots(snapshots).size(), std::size_t(checkpoint.panel.stage) + 1);
     return checkpoint;
+  }
+
+  bool grains_are_finished(const Scene &scene)
+  {
+    return read_run_facts(scene.output.directory).discrete.finished &&
+           std::filesystem::exists(scene.output.directory + "/discrete.h5");
+  }
+
+  void check_earlier_grains(const Scene &scene)
+  {
+    const bool        finished = grains_are_finished(scene);
+    const auto        found    = interrupted_grains(scene);
+    const std::string rows = scene.output.directory + "/discrete.csv", snapshots = scene.output.directory + "/discrete.h5";
+    if (!found && !finished)
+      return;
+    const std::size_t n_snapshots = discrete::read_snapshots(snapshots).size();
+    (void)discrete::read_rows<discrete::HistoryRow>(rows);
+    if (!found)
+      return;
+    discrete::check_table(rows, discrete::csv_header<discrete::HistoryRow>(), found->n_rows);
+    check_stage_count(snapshots, n_snapshots, std::size_t(found->panel.stage) + 1);
   }
 } // namespace diptych::coupling

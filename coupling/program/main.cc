@@ -1,6 +1,7 @@
 // diptych: the program; what needs the continuum's libraries is done by another one beside it, so that the rest starts at once
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -157,17 +158,31 @@ namespace
   }
 } // namespace
 
+namespace
+{
+  // Every relative name of the command line starts there.
+  void require_working_directory()
+  {
+    std::error_code none;
+    (void)std::filesystem::current_path(none);
+    if (none)
+      throw std::runtime_error("the working directory cannot be found: " + none.message() + "; nothing was written");
+  }
+} // namespace
+
 int main(int argc, char **argv)
 {
+  std::signal(SIGPIPE, SIG_IGN); // nobody reads any more: the results do not care
   try
     {
+      require_working_directory();
       const ParsedLine parsed = parse_command_line({argv + 1, argv + argc});
       return parsed.exit_code ? *parsed.exit_code : execute(parsed.line, argv);
     }
   catch (const std::exception &error)
     {
       if (is_first_process())
-        std::cerr << "diptych: " << error.what() << std::endl;
+        std::cerr << text_of_end(error) << std::endl;
       return code_of(error);
     }
 }

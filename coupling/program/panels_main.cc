@@ -1,5 +1,6 @@
 // diptych: the commands that need the continuum's libraries; `diptych` starts this program for them
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <csignal>
 #include <iostream>
 
 #include <deal.II/base/mpi.h>
@@ -54,11 +55,12 @@ namespace
 int main(int argc, char **argv)
 {
   need_no_daemon();
+  std::signal(SIGPIPE, SIG_IGN); // nobody reads any more: the results do not care
   if (argc == 2 && std::string(argv[1]) == worker_word)
     {
       dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
       install_stop_signals();
-      return answer_for([] { return work_for_parent(execute); }, code_of);
+      return answer_for([] { return work_for_parent(execute); }, code_of, text_of_end);
     }
   // Words of the command line, before there is any other process to answer to.
   ParsedLine parsed = parse_command_line({argv + 1, argv + argc});
@@ -69,5 +71,5 @@ int main(int argc, char **argv)
   parsed.line.quiet          = parsed.line.quiet || !is_first_process();
   parsed.line.tells_warnings = is_first_process();
   install_stop_signals(); // after MPI has started, which takes signals to itself
-  return answer_for([&] { return execute(parsed.line); }, code_of);
+  return answer_for([&] { return execute(parsed.line); }, code_of, text_of_end);
 }

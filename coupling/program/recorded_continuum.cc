@@ -85,11 +85,21 @@ namespace diptych::coupling
       if (checkpoint.scene != scene_identity || checkpoint.sample != sample_identity)
         throw SceneError("--resume: " + part.checkpoint() + " belongs to another " +
                          (checkpoint.scene != scene_identity ? "scene" : "mesh"));
+      return 0;
+    });
+    try
+      {
+        panel->resume(checkpoint.panel);
+      }
+    catch (const std::invalid_argument &error)
+      {
+        throw std::invalid_argument(part.checkpoint() + ": " + error.what());
+      }
+    on_first_process([&] {
       table.emplace(path("continuum.csv"), discrete::csv_header<continuum::HistoryRow>(), checkpoint.n_rows);
       snapshots.emplace(path("continuum"), std::size_t(checkpoint.panel.stage) + 1);
       return 0;
     });
-    panel->resume(checkpoint.panel);
   }
 
   continuum::Hooks RecordedContinuum::hooks()

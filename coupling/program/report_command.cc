@@ -65,6 +65,8 @@ namespace diptych::coupling
             fs::remove(entry.path());
         throw StoppedOnRequest("drawing the report: stopped on request; to draw it: diptych report " + directory);
       }
+    if (code == wrong_input)
+      throw std::invalid_argument(directory + ": the report could not be drawn");
     if (code != 0)
       throw std::runtime_error("the report could not be drawn: " + std::string(python) + " " + script + " " + word_of(drawing) +
                                " " + directory + " ended with exit code " + std::to_string(code));

@@ -23,9 +23,9 @@ namespace diptych::coupling
       const bool resume_continuum = line.resume && may_resume_continuum(scene);
       open_result_folder(scene, line.resume, [&] {
         if (line.resume)
-          (void)interrupted_grains(scene);
+          check_earlier_grains(scene);
         if (resume_continuum)
-          check_interrupted_continuum(scene);
+          check_earlier_continuum(scene);
       });
       if (const int code = discrete_panel(line, scene); code != done)
         return code;

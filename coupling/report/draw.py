@@ -1,17 +1,18 @@
 #!/usr/bin/env python3
 # diptych: pages and pictures of results; usage: draw.py page|ensemble|study|calibration|step-study DIR
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Exit codes: 0 done, 2 wrong input (usage, missing or broken file, another format). What is drawn replaces an older one when
+"""Exit codes: 0 done, 2 wrong input (usage, missing or broken file, another format), 4 a module is missing. What is drawn replaces an older one when
 it is whole."""
 
 import gc
 import os
 import sys
+import traceback
 
 sys.dont_write_bytecode = True  # the source tree may be read-only, and stays clean
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
-from diptych_report.data.files import InputError  # noqa: E402
+from diptych_report.data.input_error import InputError  # noqa: E402
 
 WORDS = ("page", "ensemble", "study", "calibration", "step-study")
 
@@ -46,6 +47,18 @@ def main(arguments):
     except InputError as error:
         print(f"report: {error}", file=sys.stderr)
         return 2
+    except OSError as error:
+        print(f"report: {error}", file=sys.stderr)
+        return 4
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+        place = traceback.extract_tb(error.__traceback__)[-1]
+        print(f"report: {arguments[1]}: its files hold what this version does not write: {type(error).__name__}: {error} "
+              f"({os.path.basename(place.filename)}, line {place.lineno})", file=sys.stderr)
+        return 2
+    except ImportError as error:
+        print(f"report: {sys.executable} lacks what it draws with: {error} (Debian: python3-h5py, python3-matplotlib, python3-jinja2)",
+              file=sys.stderr)
+        return 4
     return 0
 
 

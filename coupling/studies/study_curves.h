@@ -31,7 +31,9 @@ namespace diptych::coupling
     visit(ArrayEntry{"stress_ratio", "stress ratio t/s", "-",
                      "running mean, mean over the samples, a row a point; nan where one has none"},
           c.stress_ratio);
-    visit(ArrayEntry{"volumetric_strain", "volumetric strain", "-", "the same; dilation negative"}, c.volumetric_strain);
+    visit(ArrayEntry{"volumetric_strain", "volumetric strain", "-",
+                     "the same; dilation negative; nan where a history does not reach"},
+          c.volumetric_strain);
   }
 
   // study.h5: a group for each panel that ran (discrete, continuum, material_point).

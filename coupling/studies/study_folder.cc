@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "coupling/folders/provenance.h"
 #include "coupling/folders/result_folder.h"
 #include "coupling/scene/scene_file.h"
 #include "coupling/version.h"
@@ -87,10 +88,11 @@ namespace diptych::coupling
     RunEnd     result;
     try
       {
+        (void)read_run_facts(run_folder(directory, run));
         result = {end.at("exit_code"), end.at("revision"), end.at("load").is_number() ? double(end["load"]) : NAN,
                   end.value("at_once", 1)};
       }
-    catch (const json::exception &) // not of this version: it is run again
+    catch (const std::exception &) // damaged, or of another version: it is run again
       {
         return std::nullopt;
       }

@@ -8,18 +8,17 @@
 
 namespace diptych::discrete
 {
-  typedef double    Four __attribute__((vector_size(32)));
-  typedef long long Mask __attribute__((vector_size(32)));
+  typedef double Four __attribute__((vector_size(32)));
 
   // Transposes a 4x4 block; its own inverse. Turns four records of four numbers into columns.
   DIPTYCH_INLINE void transpose(Four &a, Four &b, Four &c, Four &d)
   {
-    const Four ab_low = __builtin_shuffle(a, b, Mask{0, 4, 2, 6}), ab_high = __builtin_shuffle(a, b, Mask{1, 5, 3, 7});
-    const Four cd_low = __builtin_shuffle(c, d, Mask{0, 4, 2, 6}), cd_high = __builtin_shuffle(c, d, Mask{1, 5, 3, 7});
-    a = __builtin_shuffle(ab_low, cd_low, Mask{0, 1, 4, 5});
-    b = __builtin_shuffle(ab_high, cd_high, Mask{0, 1, 4, 5});
-    c = __builtin_shuffle(ab_low, cd_low, Mask{2, 3, 6, 7});
-    d = __builtin_shuffle(ab_high, cd_high, Mask{2, 3, 6, 7});
+    const Four ab_low = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab_high = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+    const Four cd_low = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd_high = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+    a = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
+    b = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
+    c = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
+    d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
   }
 
   DIPTYCH_INLINE Four read(const void *p)

@@ -40,7 +40,10 @@ namespace diptych::discrete
     void attribute(const std::string &object, const std::string &name, double value);
     void attribute(const std::string &object, const std::string &name, const std::vector<double> &values);
     void attribute(const std::string &object, const std::string &name, const std::string &text);
-    void copy(const Hdf5Reader &from, const std::string &name); // a group with all it holds, or one array
+    void copy(const Hdf5Reader &from, const std::string &name); // of a file of ours: a group with all it holds, or one array
+    // The same of a file of somebody else's, whose damage the library's own copying would carry into memory: what it holds is
+    // read and written. Throws std::invalid_argument where it cannot be read.
+    void copy_values(const Hdf5Reader &from, const std::string &name);
     void link(const std::string &name, const std::string &other_file, const std::string &object); // path relative to this file
     void finish();
 
@@ -55,7 +58,13 @@ namespace diptych::discrete
   class Hdf5Reader
   {
   public:
-    explicit Hdf5Reader(const std::string &path);
+    enum class From
+    {
+      anybody,
+      this_program // numbers of another type than it writes are refused, too
+    };
+
+    explicit Hdf5Reader(const std::string &path, From from = From::anybody);
     ~Hdf5Reader();
     Hdf5Reader(const Hdf5Reader &)            = delete;
     Hdf5Reader &operator=(const Hdf5Reader &) = delete;
@@ -78,7 +87,10 @@ namespace diptych::discrete
   private:
     friend class Hdf5Writer; // copy() needs the open file
 
+    void check_numbers(const std::string &name, std::int64_t data, std::size_t n) const;
+
     std::string  path_;
     std::int64_t file_ = -1;
+    From         from_;
   };
 } // namespace diptych::discrete

@@ -22,8 +22,9 @@ namespace diptych::discrete
     }
   } // namespace
 
-  Hdf5Reader::Hdf5Reader(const std::string &path)
-      : path_(path)
+  Hdf5Reader::Hdf5Reader(const std::string &path, const From from)
+      : path_(path),
+        from_(from)
   {
     silence();
     file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -76,14 +77,26 @@ namespace diptych::discrete
     return {dimensions.begin(), dimensions.end()};
   }
 
+  // Numbers, and no more of them than the file can hold.
+  void Hdf5Reader::check_numbers(const std::string &name, const std::int64_t data, const std::size_t n) const
+  {
+    constexpr double largest_compression = 1100; // of deflate, and a little
+    const Id         type(H5Dget_type(data), H5Tclose);
+    if (!is_number(type))
+      refuse(path_, name, "holds no numbers");
+    if (from_ == From::this_program && H5Tequal(type, H5T_IEEE_F64LE) <= 0 && H5Tequal(type, H5T_STD_I32LE) <= 0)
+      refuse(path_, name, "holds numbers of another type than this program writes");
+    if (n > 0 && H5Dget_storage_size(data) == 0)
+      refuse(path_, name, "was never written");
+    if (double(n) * double(H5Tget_size(type)) > largest_compression * double(H5Dget_storage_size(data)))
+      refuse(path_, name, "claims " + std::to_string(n) + " numbers, more than the file holds");
+  }
+
   std::vector<double> Hdf5Reader::read(const std::string &name) const
   {
     const std::size_t n = product(extents(name));
-    const Id          data(opened(file_, path_, name), H5Dclose), type(H5Dget_type(data), H5Tclose);
-    if (!is_number(type))
-      refuse(path_, name, "holds no numbers");
-    if (n > 0 && H5Dget_storage_size(data) == 0)
-      refuse(path_, name, "was never written");
+    const Id          data(opened(file_, path_, name), H5Dclose);
+    check_numbers(name, data, n);
     std::vector<double> values(n);
     if (n > 0 && H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
       refuse(path_, name, "cannot be read: damaged");

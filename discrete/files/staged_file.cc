@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/files/staged_file.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
@@ -9,6 +10,11 @@
 namespace diptych::discrete
 {
   namespace fs = std::filesystem;
+
+  namespace
+  {
+    const std::string n_stages_name = "stages"; // attribute of the root: how many there are
+  }                                             // namespace
 
   std::string stage_name(const std::size_t stage)
   {
@@ -24,6 +30,11 @@ namespace diptych::discrete
       ++n;
     if (n == 0)
       throw std::invalid_argument(file.path() + ": holds no group " + stage_name(0) + "; is it a result file of a panel?");
+    const std::vector<std::string> members  = file.members("/");
+    const auto                     is_stage = [](const std::string &name) { return name.rfind("stage_", 0) == 0; };
+    const double stages = file.has_attribute("/", n_stages_name) ? file.attribute("/", n_stages_name) : double(n);
+    if (double(n) != stages || std::size_t(std::count_if(members.begin(), members.end(), is_stage)) != n)
+      throw std::invalid_argument(file.path() + ": a group is missing: " + stage_name(n));
     return n;
   }
 
@@ -73,6 +84,7 @@ namespace diptych::discrete
     const std::string folder = fs::path(path).filename().string() + "/";
     for (std::size_t stage = 0; stage < n_stages; ++stage)
       links.link(stage_name(stage), folder + stage_name(stage) + ".h5", "/" + stage_name(stage));
+    links.attribute("/", n_stages_name, double(n_stages));
     links.finish();
   }
 
@@ -84,6 +96,7 @@ namespace diptych::discrete
     Hdf5Writer whole(file(), n_bytes);
     for (std::size_t stage = 0; stage < n_stages; ++stage)
       whole.copy(Hdf5Reader(part(stage)), stage_name(stage));
+    whole.attribute("/", n_stages_name, double(n_stages));
     whole.finish();
     remove_parts(0);
   }

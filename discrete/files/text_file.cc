@@ -38,6 +38,9 @@ namespace diptych::discrete
 
   std::string read_text(const std::string &path)
   {
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(path, none))
+      return {};
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
   }

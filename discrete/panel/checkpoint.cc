@@ -215,7 +215,7 @@ namespace diptych::discrete
   StoredCheckpoint read_checkpoint(const std::string &path)
   try
     {
-      const Hdf5Reader file(path);
+      const Hdf5Reader file(path, Hdf5Reader::From::this_program);
       StoredCheckpoint checkpoint;
       Checkpoint      &p = checkpoint.panel;
       p.state.grains     = read_grains(file);

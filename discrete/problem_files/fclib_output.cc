@@ -173,7 +173,7 @@ namespace diptych::discrete
     Hdf5Writer       writer(to);
     for (const std::string &name : reader.members("/"))
       if (name != "solution")
-        writer.copy(reader, name);
+        writer.copy_values(reader, name);
     writer.write("/solution/r", normal_first(solution.r));
     writer.write("/solution/u", normal_first(solution.u));
     writer.attribute("/solution", "solver", solution.solver);

@@ -176,7 +176,9 @@ def damage_arrays(dice, path, often=""):
     datasets, groups = items(path, h5py.Dataset), items(path, h5py.Group)
     kind = dice.choice(["dataset", "dataset", "dataset", "missing", "group", "attribute", "attribute", "kind", "link"])
     with h5py.File(path, "r+") as file:
-        name = dice.choice([one for one in datasets if re.search(often, one)] if dice.random() < 0.7 else datasets)
+        if not datasets:  # links into other files are all that it holds
+            datasets, kind = list(file), dice.choice(["missing", "kind", "link"])
+        name = dice.choice([one for one in datasets if re.search(often, one)] or datasets if dice.random() < 0.7 else datasets)
         if kind == "missing":
             del file[name]
         elif kind == "group" and groups:

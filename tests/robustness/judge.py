@@ -28,6 +28,7 @@ NO_NUMBER = (
     (r"comparison\.h5", r"histories/\w+/\w+_mean", "running means have none before a whole averaging_strain"),
     (r"comparison\.h5", r"stage_\d+/discrete/(stress_ratio|stress_direction)", "grains without a force have no direction and no ratio"),
     (r"comparison\.h5", r"(stage|window)_\w+/(cells|grid)/\w+", "cells without a grain have no mean of grains"),
+    (r"(ensemble|study)\.h5", r"\w+/(stress_ratio|volumetric_strain).*", "curves where a panel has no point within the running mean"),
     (r"discrete\.(csv|h5)", r".*", "imported: what the other code did not tell"),
 )
 

@@ -7,9 +7,7 @@ import os
 
 import numpy as np
 
-
-class InputError(Exception):
-    """A file is missing, broken or of another format; the message names it."""
+from diptych_report.data.input_error import InputError
 
 
 def require(folder, names):
