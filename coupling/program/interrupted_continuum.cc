@@ -20,7 +20,7 @@ namespace diptych::coupling
   {
     void check_results(const ContinuumPart &part)
     {
-      (void)discrete::read_rows<continuum::HistoryRow>(part.directory + "/continuum.csv");
+      (void)discrete::read_history<continuum::HistoryRow>(part.directory + "/continuum.csv");
       (void)read_continuum_snapshots(part.directory + "/continuum.h5");
     }
 

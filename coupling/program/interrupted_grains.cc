@@ -51,7 +51,7 @@ namespace diptych::coupling
     if (!found && !finished)
       return;
     const std::size_t n_snapshots = discrete::read_snapshots(snapshots).size();
-    (void)discrete::read_rows<discrete::HistoryRow>(rows);
+    (void)discrete::read_history<discrete::HistoryRow>(rows);
     if (!found)
       return;
     discrete::check_table(rows, discrete::csv_header<discrete::HistoryRow>(), found->n_rows);

@@ -15,7 +15,7 @@ namespace diptych::coupling
   {
     ContinuumResults continuum_results(const std::string &folder, const ContinuumFacts &facts)
     {
-      return {discrete::read_rows<continuum::HistoryRow>(folder + "/continuum.csv"),
+      return {discrete::read_history<continuum::HistoryRow>(folder + "/continuum.csv"),
               read_continuum_snapshots(folder + "/continuum.h5"), facts};
     }
   } // namespace
@@ -24,7 +24,7 @@ namespace diptych::coupling
   {
     const RunFacts facts  = read_run_facts(folder);
     const bool     coarse = std::filesystem::exists(folder + "/coarse/continuum.h5");
-    return {{discrete::read_rows<discrete::HistoryRow>(folder + "/discrete.csv"),
+    return {{discrete::read_history<discrete::HistoryRow>(folder + "/discrete.csv"),
              discrete::read_snapshots(folder + "/discrete.h5"), facts.discrete},
             continuum_results(folder, facts.continuum),
             coarse ? continuum_results(folder + "/coarse", facts.continuum_coarse) : ContinuumResults(),

@@ -23,6 +23,11 @@ namespace diptych::discrete
     return name;
   }
 
+  bool is_written_by_us(const Hdf5Reader &file)
+  {
+    return file.has_attribute("/", n_stages_name);
+  }
+
   std::size_t count_stages(const Hdf5Reader &file)
   {
     std::size_t n = 0;
@@ -32,7 +37,7 @@ namespace diptych::discrete
       throw std::invalid_argument(file.path() + ": holds no group " + stage_name(0) + "; is it a result file of a panel?");
     const std::vector<std::string> members  = file.members("/");
     const auto                     is_stage = [](const std::string &name) { return name.rfind("stage_", 0) == 0; };
-    const double stages = file.has_attribute("/", n_stages_name) ? file.attribute("/", n_stages_name) : double(n);
+    const double                   stages   = is_written_by_us(file) ? file.attribute("/", n_stages_name) : double(n);
     if (double(n) != stages || std::size_t(std::count_if(members.begin(), members.end(), is_stage)) != n)
       throw std::invalid_argument(file.path() + ": a group is missing: " + stage_name(n));
     return n;

@@ -40,5 +40,6 @@ namespace diptych::discrete
   };
 
   // How many stages a file holds. Throws std::invalid_argument naming it where there is none.
+  bool        is_written_by_us(const Hdf5Reader &file); // it says how many stages it must hold
   std::size_t count_stages(const Hdf5Reader &file);
 } // namespace diptych::discrete

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <charconv>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -115,6 +116,15 @@ namespace diptych::discrete
             table.refuse(k, name, word);
         });
       }
+    return rows;
+  }
+
+  // The same of what ran: at least one row. Throws where there is none, too.
+  template <class Row> std::vector<Row> read_history(const std::string &path)
+  {
+    std::vector<Row> rows = read_rows<Row>(path);
+    if (rows.empty())
+      throw std::invalid_argument(path + ": holds no row");
     return rows;
   }
 } // namespace diptych::discrete

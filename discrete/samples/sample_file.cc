@@ -177,6 +177,8 @@ namespace diptych::discrete
     std::vector<PairImpulse> read_impulses(const StageReader &stage, const std::size_t n_grains)
     {
       const std::string contacts = stage.group + "/contacts";
+      if (is_written_by_us(stage.file) && !stage.file.has(contacts + "/body"))
+        stage.refuse("contacts/body", "is missing");
       if (!stage.file.has(contacts) || (!stage.file.has(contacts + "/body") && !stage.file.has(contacts + "/impulse")))
         return {};
       const std::vector<double>          body    = stage.file.read(contacts + "/body");
