@@ -90,6 +90,14 @@ namespace diptych::coupling
         const auto line = 1 + std::count(text.begin(), text.begin() + std::min(text.size(), std::size_t(error.byte)), '\n');
         throw SceneError(file + ", line " + std::to_string(line) + ": no JSON: " + plain_text(error));
       }
+    catch (const nlohmann::json::exception &error) // a number beyond all, which it quotes
+      {
+        const std::string what = plain_text(error);
+        const std::size_t from = what.find('\''), to = what.rfind('\'');
+        const std::size_t at  = from < to ? text.find(what.substr(from + 1, to - from - 1)) : std::string::npos;
+        const auto        end = text.begin() + std::ptrdiff_t(at == std::string::npos ? 0 : at);
+        throw SceneError(file + ", line " + std::to_string(1 + std::count(text.begin(), end, '\n')) + ": no JSON: " + what);
+      }
     if (!result.root.is_object())
       throw SceneError(file + ", line 1: an object is needed, { ... }");
     FindLines{text, result.lines}.walk(result.root, "");

@@ -51,23 +51,9 @@ namespace diptych::fuzz
     std::abort();
   }
 
-  // Without what it quotes of the input.
-  inline std::string unquoted(const std::string &text)
-  {
-    std::string out;
-    bool        inside = false;
-    for (const char c : text)
-      {
-        inside = inside != (c == '\'');
-        if (!inside)
-          out += c;
-      }
-    return out;
-  }
-
-  // Wrong input is std::invalid_argument that names what lies in the folder, in words of our own. Whatever else is thrown is a
-  // finding. True where nothing was.
-  template <class Read> bool is_taken(const std::string &folder, Read &&read)
+  // Wrong input is std::invalid_argument that names what lies in the folder (or, where a file is missing, the format or the
+  // frame), in words of our own or of the content. Whatever else is thrown is a finding. True where nothing was.
+  template <class Read> bool is_taken(const std::string &folder, const std::string_view content, Read &&read)
   {
     try
       {
@@ -76,12 +62,12 @@ namespace diptych::fuzz
       }
     catch (const std::invalid_argument &error)
       {
-        const std::string what = error.what(), own = unquoted(what);
+        const std::string what = error.what();
         for (const char *alone : {"[json.exception", "basic_filebuf", "std::bad_alloc", "vector::_M_",
                                   "basic_string::", "regex_error", "stoi", "stod"})
-          if (own.find(alone) != std::string::npos)
+          if (what.find(alone) != std::string::npos && content.find(alone) == std::string_view::npos)
             finding("a library's words: " + what);
-        if (what.find(folder) == std::string::npos && what.find("file") == std::string::npos)
+        if (what.find(folder) == std::string::npos && what.rfind("import ", 0) != 0 && what.rfind("frame ", 0) != 0)
           finding("names no file: " + what);
         return false;
       }
