@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <Eigen/Core>
@@ -14,7 +16,7 @@ namespace diptych::coupling
   class PointBins
   {
   public:
-    // bin_size > 0; no bins at all for no points.
+    // bin_size > 0; no bins at all for no points. Larger bins where points are so far apart that most would be empty.
     PointBins(const std::vector<Eigen::Vector2d> &position, const double bin_size)
     {
       if (position.empty())
@@ -22,7 +24,10 @@ namespace diptych::coupling
       Eigen::Vector2d lower = position.front(), upper = lower;
       for (const Eigen::Vector2d &x : position)
         lower = lower.cwiseMin(x), upper = upper.cwiseMax(x);
-      grid = BinGrid(lower, upper, bin_size);
+      const double          most   = 4096 + 64 * double(position.size());
+      const Eigen::Vector2d extent = upper - lower;
+      const double needed = std::max({bin_size, extent.maxCoeff() / most, std::sqrt(extent.x() / most) * std::sqrt(extent.y())});
+      grid                = BinGrid(lower, upper, needed);
       grid.sort(position.size(), [&](const unsigned int i, const auto &into) { into(grid.bin_of(position[i])); });
     }
 

@@ -118,10 +118,29 @@ namespace diptych::coupling
       return -1;
     }
 
-    void make_windows(const Scene &scene, const Results &results, const std::size_t n, Comparison &c)
+    // Stages, windows, the coarse run's windows and what comes after them: each one piece of the work.
+    class Pieces
+    {
+    public:
+      Pieces(const OnProgress &on_progress, const std::size_t n)
+          : on_progress(on_progress),
+            n(double(n))
+      {}
+      void next()
+      {
+        if (on_progress)
+          on_progress(std::min(1., done++ / n));
+      }
+
+    private:
+      const OnProgress &on_progress;
+      double            n, done = 0;
+    };
+
+    void make_windows(const Scene &scene, const Results &results, const std::size_t n, Pieces &pieces, Comparison &c)
     {
       const std::vector<double> &edges = scene.comparison.window_edges;
-      for (std::size_t w = 0; w + 1 < edges.size(); ++w)
+      for (std::size_t w = 0; w + 1 < edges.size(); ++w, pieces.next())
         if (const int from = snapshot_at(results, n, edges[w]), to = snapshot_at(results, n, edges[w + 1]); from >= 0 && to >= 0)
           {
             c.windows.push_back(make_increment(stage_pair(results, std::size_t(from), std::size_t(to)), scene.comparison.band,
@@ -134,7 +153,8 @@ namespace diptych::coupling
     std::optional<CoarseRun> coarse_run(const Scene                  &scene,
                                         const Results                &results,
                                         const std::size_t             n,
-                                        const std::vector<Increment> &windows)
+                                        const std::vector<Increment> &windows,
+                                        Pieces                       &pieces)
     {
       const std::vector<continuum::Snapshot> &nodes = results.coarse.snapshots;
       CoarseRun                               result;
@@ -147,6 +167,7 @@ namespace diptych::coupling
           const int from = snapshot_at(results, n, window.from), to = snapshot_at(results, n, window.to);
           if (to >= int(nodes.size()))
             break;
+          pieces.next();
           Increment coarse;
           coarse.from = window.from, coarse.to = window.to, coarse.frame = window.frame;
           coarse.continuum = continuum_increment(nodes[std::size_t(from)], nodes[std::size_t(to)], window.frame,
@@ -157,19 +178,22 @@ namespace diptych::coupling
     }
   } // namespace
 
-  Comparison compare(const Scene &scene, const Results &results)
+  Comparison compare(const Scene &scene, const Results &results, const OnProgress &on_progress)
   {
     const std::size_t n = n_common_snapshots(results);
+    Pieces            pieces(on_progress, n + 2 * scene.comparison.window_edges.size());
     Comparison        c;
     c.discrete_history  = history_table(results.discrete.rows);
     c.continuum_history = history_table(results.continuum.rows);
     for (std::size_t k = 1; k < n; ++k)
       {
+        pieces.next();
         c.stages.push_back(make_stage(c, results, k, scene));
         take_angles_to_stress(c.stages.back().increment, c.stages.back());
       }
-    make_windows(scene, results, n, c);
-    c.coarse             = coarse_run(scene, results, n, c.windows);
+    make_windows(scene, results, n, pieces, c);
+    c.coarse = coarse_run(scene, results, n, c.windows, pieces);
+    pieces.next();
     c.resolution         = study_of(c, results.discrete.snapshots[n - 1], scene.comparison);
     const auto &material = scene.continuum.material;
     if (continuum::traits(scene.continuum.law).is_plastic)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,6 +38,8 @@ namespace diptych::coupling
   };
 
   // Both panels of one scene, without any solver and without files. Stages that only one panel reached are left out. Throws
-  // std::invalid_argument where the panels share no stage beyond the start.
-  Comparison compare(const Scene &scene, const Results &results);
+  // std::invalid_argument where the panels share no stage beyond the start. `on_progress`, if given, is called with the share
+  // that is done before every stage and window; what it throws ends the comparison.
+  using OnProgress = std::function<void(double share)>;
+  Comparison compare(const Scene &scene, const Results &results, const OnProgress &on_progress = {});
 } // namespace diptych::coupling

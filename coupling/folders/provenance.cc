@@ -118,7 +118,7 @@ namespace diptych::coupling
                      get_facts<ContinuumFacts>(record, "continuum"),
                      get_facts<ContinuumFacts>(record, "continuum_coarse"),
                      {}};
-      for (const json &row : record.value("phases", json::array()))
+      for (const json &row : record.value("phases", json::array()).get<std::vector<json>>())
         {
           NumbersFromJson reader{row};
           list_numbers(facts.phases.emplace_back(), reader);

@@ -8,6 +8,7 @@
 #include "coupling/scene/scene_error.h"
 #include "discrete/bodies/outline.h"
 #include "discrete/contacts/internal_moment.h"
+#include "discrete/files/csv_file.h"
 
 namespace diptych::coupling
 {
@@ -69,6 +70,10 @@ namespace diptych::coupling
       s.lower_y = f.wall[int(Side::lower)], s.upper_y = f.wall[int(Side::upper)];
       s.left_x = f.wall[int(Side::left)], s.right_x = f.wall[int(Side::right)];
       s.lower_platen_force = f.wall_force[int(Side::lower)], s.upper_platen_force = f.wall_force[int(Side::upper)];
+      constexpr double most_diameters = 1e5;
+      if (const double n = (s.upper_y - s.lower_y) / diameter; !(n >= 1 && n <= most_diameters))
+        throw SceneError("frame " + f.name + ": the lower and the upper wall stand " + discrete::exact_text(n) +
+                         " mean diameters apart; 1 to 100000 are possible");
       const discrete::State state = state_of(f);
       s.outline                   = discrete::make_outline(state, diameter);
       s.area                      = discrete::outline_area(s.outline);

@@ -66,7 +66,7 @@ namespace diptych::coupling
       {
         const std::string_view line  = lines.take("a behaviour");
         const auto             words = words_of(line);
-        if (!words.empty() && words[0][0] != '!' && holds(line, "Umas="))
+        if (!words.empty() && !words[0].empty() && words[0][0] != '!' && holds(line, "Umas="))
           densities[std::string(words[0])] = lmgc90_field(lines, line, "Umas=");
       }
     if (densities.empty())

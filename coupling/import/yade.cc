@@ -87,7 +87,7 @@ namespace diptych::coupling
               frame.time = lines.number(words[k + 1], "time");
             else if (words[k] == "iter")
               frame.step = lines.whole(words[k + 1], "iter");
-          if (words.empty() || words[0][0] == '#')
+          if (words.empty() || words[0].empty() || words[0][0] == '#')
             continue;
           if (words.size() != 7)
             lines.refuse("expected name, id, axis, position (2 numbers) and force (2 numbers) of a wall");

@@ -85,14 +85,15 @@ namespace diptych::coupling
     }
   };
 
-  // Plain members back from an object; those that it lacks, or has as null, stay as they are.
+  // Plain members back from an object; those that it lacks, or has as null, stay as they are. Throws nlohmann::json::exception
+  // where it is none, or a member is of another type.
   struct NumbersFromJson
   {
     const nlohmann::json &in;
 
     template <class T> void operator()(const NumberEntry &entry, T &value) const
     {
-      const auto found = in.find(entry.key);
+      const auto found = in.is_object() ? in.find(entry.key) : in.at(entry.key).end(); // throws: it is no object
       if (found == in.end() || found->is_null())
         return;
       if constexpr (std::is_same_v<T, std::optional<double>>)

@@ -10,6 +10,7 @@
 #include "coupling/folders/provenance.h"
 #include "coupling/folders/result_folder.h"
 #include "coupling/processes/progress.h"
+#include "coupling/processes/stop_signal.h"
 #include "coupling/program/ensemble_record.h"
 #include "coupling/program/report_command.h"
 #include "coupling/scene/scene_file.h"
@@ -20,11 +21,15 @@ namespace diptych::coupling
   namespace
   {
     // What is wrong is wrong with the folder's files.
-    Comparison compared(const Scene &scene, const Results &results)
+    Comparison compared(const Scene &scene, const Results &results, Progress &progress)
     {
+      const auto on_progress = [&](const double share) {
+        leave_if_stopped("comparing");
+        progress.update("comparing", share);
+      };
       try
         {
-          return compare(scene, results);
+          return compare(scene, results, on_progress);
         }
       catch (const std::invalid_argument &error)
         {
@@ -39,7 +44,7 @@ namespace diptych::coupling
       progress.update("comparing", 0);
       const PhaseTimer timer("comparison");
       Results          results = load_results(directory);
-      Comparison       c       = compared(scene, results);
+      Comparison       c       = compared(scene, results, progress);
       write_comparison_h5(directory, scene, c, results);
       write_fields_vtu(directory, c);
       record_phases(directory, scene, line.text, {timer.stop()});

@@ -30,12 +30,21 @@ WEIGHTS = {"long_grains": 10, "long_nodes": 3, "long_both": 3, "ensemble": 1, "s
 def kills(case):
     """Signals at random moments, then the run to its end: the bits of one left alone."""
     base = case.dice.choices(list(WEIGHTS), list(WEIGHTS.values()))[0]
+    killed_and_taken_up(case, base, [case.dice.choice(SIGNALS) for _ in range(case.dice.choice([1, 1, 2]))])
+
+
+def killed_by(base, number):
+    """A kind: one signal of one sort to one sort of run."""
+    return lambda case: killed_and_taken_up(case, base, [number])
+
+
+def killed_and_taken_up(case, base, numbers):
     line, length = KILLED[base]
     for name, content in (("steps.json", bases.STUDY), ("one.json", bases.CALIBRATION)):
         case.write(name, json.dumps(content))
     out, resume = case.path("out"), [] if base == "imported" else ["--resume"]
-    for _ in range(case.dice.choice([1, 1, 2])):
-        killed_once(case, [*line, *resume, "--output", out, "--quiet"], case.dice.uniform(0, length), case.dice.choice(SIGNALS))
+    for number in numbers:
+        killed_once(case, [*line, *resume, "--output", out, "--quiet"], case.dice.uniform(0, length), number)
     case.run(*line, *resume, "--output", out, "--quiet", output=out, codes=(0,), patience=120)
     expect_same_as_base(case, base, out)
     left = [name for name in judge.digest(out) if name.endswith(".part") or judge.LOCK.search(os.path.basename(name))]
@@ -84,3 +93,5 @@ def two(case):
 
 
 KINDS = {"kills": kills, "two": two}
+# Each sort of run by each of two signals, for --kills: where a figure is wanted for each.
+EACH = {f"{name}_{base}": killed_by(base, number) for base in KILLED for name, number in (("kill", signal.SIGKILL), ("term", signal.SIGTERM))}

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # diptych: hostile input, damaged files, full disks, kills: nothing lost, nothing silently wrong
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: robustness.py PROGRAM SOURCE_DIR [--cases N] [--seed S] [--kinds a,b] [--jobs J] [--keep DIR] [--case KIND:SEED]"""
+"""Usage: robustness.py PROGRAM SOURCE_DIR [--cases N] [--seed S] [--kinds a,b] [--jobs J] [--keep DIR] [--kills N] [--case KIND:SEED]"""
 
 import argparse
 import collections
@@ -24,6 +24,7 @@ import interruption_kinds  # noqa: E402
 import machine_kinds  # noqa: E402
 
 KINDS = {**input_kinds.KINDS, **file_kinds.KINDS, **folder_kinds.KINDS, **machine_kinds.KINDS, **interruption_kinds.KINDS}
+ALL = {**KINDS, **interruption_kinds.EACH}
 # How often a kind comes in a hundred and thirty: what is quick, often.
 WEIGHTS = {"scenes": 26, "keys": 38, "pairs": 6, "words": 22, "csv": 6, "snapshots": 6, "problems": 6, "imports": 5, "meshes": 3,
            "folders": 3, "checkpoints": 2, "flips": 3, "disk": 3, "surroundings": 2, "kills": 1, "two": 1}
@@ -41,7 +42,7 @@ def schedule(n_cases, seed, kinds):
 def one(kind, seed, keep):
     """A fault of the harness is one, too."""
     try:
-        return kind, seed, cases.run_case(kind, KINDS[kind], seed, keep)
+        return kind, seed, cases.run_case(kind, ALL[kind], seed, keep)
     except Exception:
         return kind, seed, (["the harness failed:\n" + traceback.format_exc()], [], [], 0.0)
 
@@ -68,12 +69,12 @@ def tell(kind, seed, violations, commands, folder):
 
 def table(kinds, counted):
     head = ("kind", "cases", "0", "2", "3", "4", "other", "violations", "CPU s")
-    print("  ".join(f"{word:>12}" for word in head))
+    print("  ".join(f"{word:>16}" for word in head))
     total = collections.Counter()
     for kind in [*kinds, "all"]:
         count = total if kind == "all" else counted[kind]
         row = [kind, *(str(count[name]) for name in head[1:-1]), f"{count['CPU s']:.1f}"]
-        print("  ".join(f"{word:>12}" for word in row))
+        print("  ".join(f"{word:>16}" for word in row))
         if kind != "all":
             total.update(count)
     return total
@@ -88,10 +89,11 @@ def arguments():
     parser.add_argument("--kinds", default=",".join(KINDS))
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--keep", help="folder of violations (default: a temporary one, named)")
+    parser.add_argument("--kills", type=int, help="instead: this many kills -9 and as many SIGTERM of each sort of run")
     parser.add_argument("--case", action="append", metavar="KIND:SEED", help="this one alone; may be repeated")
     asked = parser.parse_args()
-    asked.kinds = asked.kinds.split(",")
-    unknown = [kind for kind in [*asked.kinds, *(case.split(":")[0] for case in asked.case or [])] if kind not in KINDS]
+    asked.kinds = list(interruption_kinds.EACH) if asked.kills else asked.kinds.split(",")
+    unknown = [kind for kind in [*asked.kinds, *(case.split(":")[0] for case in asked.case or [])] if kind not in ALL]
     if unknown:
         parser.error(f"no kind {unknown[0]}; the kinds are " + ", ".join(KINDS))
     return asked
@@ -104,6 +106,8 @@ def main():
     if asked.case:
         plan = [(case.split(":")[0], int(case.split(":")[1])) for case in asked.case]
         asked.kinds = list(dict.fromkeys(kind for kind, _ in plan))
+    elif asked.kills:
+        plan = [(kind, asked.seed * 100000 + k) for kind in asked.kinds for k in range(asked.kills)]
     else:
         plan = schedule(asked.cases, asked.seed, asked.kinds)
     counted = collections.defaultdict(collections.Counter)

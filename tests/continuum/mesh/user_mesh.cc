@@ -264,10 +264,11 @@ namespace
   TEST(Mesh, AGeometryThatDoesMoreThanMakeShapesIsRefusedWithItsLine)
   {
     const Folder folder;
-    for (const char *command : {"SystemCall \"touch X\";", "NonBlockingSystemCall \"touch X\";", "OnelabRun(\"a\", \"b\");",
-                                "Exit;", "Abort;", "Save \"X\";", "Print \"X\";", "Merge \"a.msh\";", "Include \"a.geo\";",
-                                "Printf(\"x\") > \"X\";", "Printf(\"%g\", 1 > 0) >> \"X\";", "Plugin(Skin).Run;",
-                                "General.ErrorFileName = \"X\";", "Solver.AutoMesh = 1;", "x = 1; /* */ Exit;"})
+    for (const char *command :
+         {"SystemCall \"touch X\";", "NonBlockingSystemCall \"touch X\";", "OnelabRun(\"a\", \"b\");", "Exit;", "Abort;",
+          "Save \"X\";", "Print \"X\";", "Merge \"a.msh\";", "Include \"a.geo\";", "Printf(\"x\") > \"X\";", "CreateDir \"X\";",
+          "Sleep 1000;", "Printf(\"%g\", 1 > 0) >> \"X\";", "Plugin(Skin).Run;", "General.ErrorFileName = \"X\";",
+          "Solver.AutoMesh = 1;", "x = 1; /* */ Exit;"})
       try
         {
           (void)read_mesh(geometry(folder, std::string("// a geometry\n\n") + command + "\n"));

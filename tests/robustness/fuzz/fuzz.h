@@ -51,9 +51,9 @@ namespace diptych::fuzz
     std::abort();
   }
 
-  // Wrong input is std::invalid_argument that names what lies in the folder (or, where a file is missing, the format or the
-  // frame), in words of our own or of the content. Whatever else is thrown is a finding. True where nothing was.
-  template <class Read> bool is_taken(const std::string &folder, const std::string_view content, Read &&read)
+  // Wrong input is std::invalid_argument that names what lies in the folder or, where a file is missing, the format or the frame:
+  // no library's exception does. Whatever else is thrown is a finding. True where nothing was.
+  template <class Read> bool is_taken(const std::string &folder, Read &&read)
   {
     try
       {
@@ -63,10 +63,6 @@ namespace diptych::fuzz
     catch (const std::invalid_argument &error)
       {
         const std::string what = error.what();
-        for (const char *alone : {"[json.exception", "basic_filebuf", "std::bad_alloc", "vector::_M_",
-                                  "basic_string::", "regex_error", "stoi", "stod"})
-          if (what.find(alone) != std::string::npos && content.find(alone) == std::string_view::npos)
-            finding("a library's words: " + what);
         if (what.find(folder) == std::string::npos && what.rfind("import ", 0) != 0 && what.rfind("frame ", 0) != 0)
           finding("names no file: " + what);
         return false;

@@ -63,7 +63,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, const std::size_
   options.files = put_files(folder, choice.content);
   if (choice.way % 2 == 1) // spheres need it, and some files have no masses
     options.thickness = 1, options.density = 1, options.timestep = 1;
-  fuzz::is_taken(folder.path, choice.content,
+  fuzz::is_taken(folder.path,
                  [&] { check_results(coupling::imported_results(coupling::arrive(readers[choice.way / 2](options), options))); });
   for (const std::string &file : options.files)
     std::filesystem::remove(file);

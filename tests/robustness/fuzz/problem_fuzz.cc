@@ -111,6 +111,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, const std::size_
   const std::string         file = folder.put("input.h5", choice.way == 0 ? whole_problem() : change_bytes(choice.content));
   if (choice.way == 0)
     change_arrays(file, choice.content);
-  fuzz::is_taken(folder.path, choice.content, [&] { solve(discrete::read_fclib(file)); });
+  fuzz::is_taken(folder.path, [&] { solve(discrete::read_fclib(file)); });
   return 0;
 }

@@ -25,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, const std::size_
   static const fuzz::Folder folder;
   const fuzz::Choice        choice(data, size, 3);
   const std::string         file = folder.put(choice.way % 2 == 0 ? "input.prm" : "input.json", choice.content);
-  fuzz::is_taken(folder.path, choice.content, [&] {
+  fuzz::is_taken(folder.path, [&] {
     if (choice.way < 2)
       check_echo(folder, coupling::read_scene(file, {}));
     else

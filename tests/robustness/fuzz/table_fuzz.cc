@@ -31,7 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, const std::size_
   static const fuzz::Folder folder;
   const fuzz::Choice        choice(data, size, 3);
   const std::string         file = folder.put("input.csv", choice.content);
-  fuzz::is_taken(folder.path, choice.content, [&] {
+  fuzz::is_taken(folder.path, [&] {
     if (choice.way == 0)
       check_grains(folder, discrete::read_grains_csv(file, 1).grains);
     else if (choice.way == 1)

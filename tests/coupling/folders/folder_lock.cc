@@ -1,0 +1,110 @@
+// diptych: one writer of a folder, whoever asks and however he ends
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/folders/folder_lock.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace
+{
+  namespace fs = std::filesystem;
+  using diptych::coupling::FolderLock;
+
+  struct Lock : testing::Test
+  {
+    fs::path top = fs::path(testing::TempDir()) / ("folder_lock" + std::to_string(getpid()));
+    fs::path out = top / "results" / "one";
+
+    void     SetUp() override { fs::create_directories(top); }
+    void     TearDown() override { fs::remove_all(top); }
+    fs::path file() const { return out / diptych::coupling::folder_lock_name; }
+
+    // What a process of its own is told that wants the folder: "" where it got it.
+    std::string asked_by_another() const
+    {
+      int ends[2];
+      if (pipe(ends) != 0)
+        return "no pipe";
+      const pid_t child = fork();
+      if (child == 0)
+        {
+          std::string told;
+          try
+            {
+              const FolderLock lock(out);
+            }
+          catch (const std::runtime_error &error)
+            {
+              told = error.what();
+            }
+          _exit(write(ends[1], told.data(), told.size()) == ssize_t(told.size()) ? 0 : 1);
+        }
+      close(ends[1]);
+      std::string told(4096, '\0');
+      told.resize(std::size_t(std::max<ssize_t>(0, read(ends[0], told.data(), told.size()))));
+      close(ends[0]);
+      waitpid(child, nullptr, 0);
+      return told;
+    }
+  };
+
+  TEST_F(Lock, ASecondWriterIsToldWhoTheFirstIs)
+  {
+    const FolderLock  lock(out);
+    const std::string told = asked_by_another();
+    EXPECT_NE(told.find(out.string()), std::string::npos) << told;
+    EXPECT_NE(told.find("process " + std::to_string(getpid())), std::string::npos) << told;
+    EXPECT_NE(told.find("nothing was written"), std::string::npos) << told;
+  }
+
+  TEST_F(Lock, IsGivenBack)
+  {
+    {
+      const FolderLock lock(out);
+      std::ofstream(out / "result") << "kept";
+    }
+    EXPECT_FALSE(fs::exists(file()));
+    EXPECT_EQ(asked_by_another(), "");
+    EXPECT_TRUE(fs::exists(out / "result"));
+  }
+
+  TEST_F(Lock, WhatAKilledProcessLeavesIsTakenOver)
+  {
+    fs::create_directories(out);
+    std::ofstream(file()) << "process 1 on nowhere since yesterday";
+    const FolderLock lock(out);
+    std::ifstream    in(file());
+    std::string      held;
+    std::getline(in, held);
+    EXPECT_NE(held.find(std::to_string(getpid())), std::string::npos) << held;
+  }
+
+  TEST_F(Lock, FoldersThatWereMadeForNothingAreRemoved)
+  {
+    {
+      const FolderLock lock(out);
+      EXPECT_TRUE(fs::is_directory(out));
+      EXPECT_TRUE(diptych::coupling::is_empty_folder(out));
+    }
+    EXPECT_FALSE(fs::exists(top / "results"));
+    EXPECT_TRUE(fs::exists(top));
+  }
+
+  TEST_F(Lock, AFileInThePlaceOfTheFolderIsNamed)
+  {
+    std::ofstream(top / "results") << "a file";
+    try
+      {
+        const FolderLock lock(out);
+        FAIL() << "it was taken";
+      }
+    catch (const std::runtime_error &error)
+      {
+        EXPECT_NE(std::string(error.what()).find((top / "results").string()), std::string::npos) << error.what();
+      }
+  }
+} // namespace
