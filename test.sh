@@ -5,17 +5,21 @@
 #   ./test.sh discrete   all of the discrete panel alone (no deal.II)
 #   ./test.sh debug      tests of units, in discrete/, continuum/ and coupling/, with assertions of deal.II, Eigen and our own
 #   ./test.sh sanitize   tests of units, in discrete/ and coupling/, with address and undefined-behaviour sanitizers
+#   ./test.sh thread     solver, stepping and panel under the thread sanitizer
+#   ./test.sh fuzz [S]   fuzzers of what reads other people's files, S seconds each (60); their inputs in build/fuzz/inputs
 set -euo pipefail
 cd "$(dirname "$0")"
 source ./.build.sh
 
 preset=release
 select=(-LE slow)
+seconds=60
 for word in "$@"; do
   case "$word" in
     --all) select=() ;;
-    release | debug | sanitize | discrete) preset=$word ;;
-    *) echo "usage: ./test.sh [--all] [release|debug|sanitize|discrete]" >&2; exit 2 ;;
+    release | debug | sanitize | discrete | thread | fuzz) preset=$word ;;
+    [1-9]*) seconds=$word ;;
+    *) echo "usage: ./test.sh [--all] [release|debug|sanitize|discrete|thread|fuzz [SECONDS]]" >&2; exit 2 ;;
   esac
 done
 targets=(all)
@@ -24,6 +28,10 @@ case "$preset" in
          select+=(-R '^(house[.]House|discrete|continuum|coupling|coupling_panels)[.]') ;;
   sanitize) targets=(house_tests discrete_tests coupling_tests coupling_panel_tests)
             select+=(-R '^(house[.]House|discrete|coupling|coupling_panels)[.]') ;;
+  thread) targets=(discrete_tests diptych)
+          select+=(-R '^discrete[.](Solvers|StalledContacts|ManyPanels)$') ;;
+  fuzz) targets=(fuzz_scene fuzz_table fuzz_problem fuzz_import)
+        packages+=(clang) ;;
 esac
 # The tests alone: they open report.html, read the ParaView files back, make a package and the manual, use the Python package and
 # run its notebooks.
@@ -31,4 +39,25 @@ packages+=(chromium python3-meshio dpkg-dev clang-format mkdocs mkdocs-material 
 packages+=(python3-pytest python3-pandas python3-scipy python3-nbconvert python3-ipykernel python3-mpi4py)
 install_missing
 build "$preset" "${targets[@]}"
-ctest --test-dir build/"$preset" --output-on-failure -j "$(cores)" "${select[@]}"
+if [ "$preset" = fuzz ]; then
+  for parser in scene table problem import; do
+    mkdir -p "build/fuzz/inputs/$parser"
+    ASAN_OPTIONS=detect_leaks=0 "build/fuzz/tests/robustness/fuzz/fuzz_$parser" -max_total_time="$seconds" -timeout=25 -rss_limit_mb=4000 \
+      -print_final_stats=1 -artifact_prefix="build/fuzz/finding_${parser}_" "build/fuzz/inputs/$parser" "tests/robustness/fuzz/kept/$parser"
+  done
+  exit 0
+fi
+# The thread sanitizer knows no addresses but those of a process without random places.
+around=()
+[ "$preset" != thread ] || around=(setarch "$(uname -m)" -R)
+"${around[@]}" ctest --test-dir build/"$preset" --output-on-failure -j "$(cores)" "${select[@]}"
+if [ "$preset" = thread ]; then
+  folder=$(mktemp -d)
+  trap 'rm -rf "$folder"' EXIT
+  for threads in 2 4; do
+    "${around[@]}" build/thread/diptych discrete benchmarks/moreau_quick/scene.prm --set loading/axial_strain=0.005 --set comparison/window_edges=0,0.005 \
+      --set output/report=false --threads $threads --output "$folder/$threads" --quiet
+  done
+  cmp "$folder/2/discrete.csv" "$folder/4/discrete.csv"
+  echo "thread sanitizer: 2 and 4 threads, no report"
+fi

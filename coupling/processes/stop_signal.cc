@@ -1,4 +1,4 @@
-// diptych: Ctrl-C and SIGTERM end the run at the next step
+// diptych: Ctrl-C, SIGTERM and a terminal that goes (SIGHUP) end the run at the next step
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/processes/stop_signal.h"
 
@@ -24,6 +24,8 @@ namespace diptych::coupling
   {
     std::signal(SIGINT, request_stop);
     std::signal(SIGTERM, request_stop);
+    if (std::signal(SIGHUP, request_stop) == SIG_IGN) // nohup: the terminal may go
+      std::signal(SIGHUP, SIG_IGN);
   }
 
   bool stop_requested()

@@ -64,7 +64,7 @@ namespace diptych::coupling
     // The scene that a result folder was made with, with overrides for what the comparison may change.
     Scene scene_of_folder(const CommandLine &line)
     {
-      if (!std::filesystem::is_directory(line.target))
+      if (std::error_code none; !std::filesystem::is_directory(line.target, none))
         throw SceneError(line.target + ": no result folder");
       if (is_study_folder(line.target))
         throw SceneError(line.target + ": holds a study; diptych study with its file and --resume evaluates it again");

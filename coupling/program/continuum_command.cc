@@ -75,6 +75,8 @@ namespace diptych::coupling
       const bool with_grains = scene.continuum.mesh.kind == continuum::MeshOption::Kind::outline;
       if (with_grains && task.grains_from_file)
         grains.snapshot = discrete::read_snapshots(scene.output.directory + "/discrete.h5").front();
+      else if (with_grains && task.prepared)
+        grains.snapshot = task.prepared;
       else if (with_grains)
         {
           const PhaseTimer timer("preparation");
@@ -231,6 +233,8 @@ namespace diptych::coupling
         open_result_folder(scene, line.resume, [&] {
           if (resume)
             check_earlier_continuum(scene);
+          else if (scene.sample.target_solid_fraction > 0 && scene.continuum.mesh.kind == continuum::MeshOption::Kind::outline)
+            task.prepared = prepared_grains(scene, line.quiet); // which shows whether it is in reach
         });
         return int(resume);
       });

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <optional>
+
 #include "coupling/program/command_line.h"
+#include "discrete/snapshot.h"
 #include "coupling/scene/scene_error.h"
 
 namespace diptych::coupling
@@ -15,6 +18,7 @@ namespace diptych::coupling
   {
     bool grains_from_file = false; // the sample is stage 0 of discrete.h5; else it is prepared where the mesh needs it
     bool resume           = false; // from checkpoints; finished parts are not run again
+    std::optional<discrete::Snapshot> prepared; // the first process's sample, where it is already there
   };
 
   // Runs the continuum panel into scene.output.directory, and once more on the coarse mesh into its folder coarse/ (not for a

@@ -131,12 +131,12 @@ namespace diptych::coupling
                 const discrete::Report &report,
                 const Rows             &rows,
                 const PhaseTimer       &timer,
-                const bool              resumed)
+                const bool              prepared_before)
     {
       PhaseCost loading = timer.stop(), preparation = loading;
       preparation.name  = "preparation";
       preparation.cpu_s = preparation.wall_s = report.preparation_cpu_s;
-      if (!resumed)
+      if (!prepared_before)
         loading.cpu_s -= report.preparation_cpu_s, loading.wall_s -= report.preparation_cpu_s;
       record_phases(scene.output.directory, scene, line.text, {preparation, loading});
       record_facts(scene.output.directory, facts_of(report, rows));
@@ -198,7 +198,18 @@ namespace diptych::coupling
     }
   } // namespace
 
-  int discrete_panel(const CommandLine &line, const Scene &scene)
+  std::unique_ptr<RecordedGrains> prepared_early(const CommandLine &line, const Scene &scene)
+  {
+    const bool is_there = line.resume && (std::filesystem::exists(checkpoint_file(scene)) || grains_are_finished(scene));
+    if (is_there || !(scene.sample.target_solid_fraction > 0) || !scene.sample.file.empty() ||
+        scene.discrete.method.method == discrete::Method::imported)
+      return {};
+    auto prepared = std::make_unique<RecordedGrains>(line, scene, std::nullopt);
+    prepared->prepare();
+    return prepared;
+  }
+
+  int discrete_panel(const CommandLine &line, const Scene &scene, std::unique_ptr<RecordedGrains> prepared)
   {
     if (scene.discrete.method.method == discrete::Method::imported)
       return take_imported(line, scene);
@@ -215,12 +226,13 @@ namespace diptych::coupling
     if (!checkpoint)
       forget_earlier_run(scene);
 
-    const PhaseTimer        timer("discrete");
-    RecordedGrains          recorded(line, scene, checkpoint);
+    const PhaseTimer timer("discrete");
+    const bool       before   = checkpoint.has_value() || prepared != nullptr; // the timer began
+    RecordedGrains  &recorded = prepared ? *prepared : *(prepared = std::make_unique<RecordedGrains>(line, scene, checkpoint));
     const discrete::Report &report = recorded.run();
     const std::string       csv    = directory + "/discrete.csv";
     const Rows              rows   = std::filesystem::exists(csv) ? discrete::read_rows<discrete::HistoryRow>(csv) : Rows();
-    record(line, scene, report, rows, timer, checkpoint.has_value());
+    record(line, scene, report, rows, timer, before);
     recorded.warnings += reference_text(report);
     warn(rows, report, scene.discrete);
     if (!recorded.warnings.empty() && report.snapshots_accurate < report.snapshots_sampled)
@@ -239,8 +251,13 @@ namespace diptych::coupling
       (void)load_imported(scene);
     demand_room(scene, {true, false});
     return writing(scene.output.directory, [&] {
-      open_result_folder(scene, line.resume, [&] { check_resumed(line, scene); });
-      return line.study_of_step ? step_study(line, scene) : discrete_panel(line, scene);
+      std::unique_ptr<RecordedGrains> prepared;
+      open_result_folder(scene, line.resume, [&] {
+        check_resumed(line, scene);
+        if (!line.study_of_step)
+          prepared = prepared_early(line, scene);
+      });
+      return line.study_of_step ? step_study(line, scene) : discrete_panel(line, scene, std::move(prepared));
     });
   }
 } // namespace diptych::coupling

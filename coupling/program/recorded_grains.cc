@@ -59,8 +59,10 @@ namespace diptych::coupling
 
   const discrete::Report &RecordedGrains::run()
   {
-    if (!table)
+    if (!table && !is_prepared)
       prepare();
+    if (!table && panel.report().status == discrete::Status::finished)
+      begin_files();
     for (int stage = panel.stage() + 1; panel.report().status == discrete::Status::finished && stage <= n_stages(); ++stage)
       {
         const bool reached = panel.advance_to(stage) == discrete::Status::finished;
@@ -97,8 +99,12 @@ namespace diptych::coupling
 
   void RecordedGrains::prepare()
   {
-    if (panel.prepare() != discrete::Status::finished)
-      return;
+    (void)panel.prepare(); // its report says how it ended
+    is_prepared = true;
+  }
+
+  void RecordedGrains::begin_files()
+  {
     table.emplace(path("discrete.csv"), discrete::csv_header<discrete::HistoryRow>());
     snapshots.emplace(path("discrete"));
     add_snapshot();

@@ -25,6 +25,7 @@ namespace diptych::coupling
 
     std::string warnings; // of its snapshots, a line each
 
+    void                    prepare(); // the sample, without any file
     const discrete::Report &run();
 
   private:
@@ -33,7 +34,7 @@ namespace diptych::coupling
     std::string     path(const std::string &name) const { return scene.output.directory + "/" + name; }
     int             n_stages() const;
     discrete::Hooks hooks();
-    void            prepare();
+    void            begin_files();
     void            announce() const;
     void            add_row(const discrete::HistoryRow &row);
     void            add_snapshot();
@@ -47,7 +48,7 @@ namespace diptych::coupling
     std::optional<discrete::TableFile>    table; // from the prepared sample on
     std::optional<discrete::SnapshotFile> snapshots;
     Clock::time_point                     saved = Clock::now(), flushed = saved;
-    bool                                  announced = false;
+    bool                                  announced = false, is_prepared = false;
     discrete::Panel                       panel;
   };
 } // namespace diptych::coupling

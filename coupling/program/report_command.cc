@@ -83,7 +83,7 @@ namespace diptych::coupling
 
   int report_again(const CommandLine &line)
   {
-    if (!fs::is_directory(line.target))
+    if (std::error_code none; !fs::is_directory(line.target, none))
       throw SceneError(line.target + ": no result folder");
     const Drawing drawing = is_study_folder(line.target)         ? Drawing::study
                             : is_calibration_folder(line.target) ? Drawing::calibration

@@ -20,14 +20,16 @@ namespace diptych::coupling
     check_comparable(scene);
     demand_room(scene, {true, true});
     return writing(scene.output.directory, [&] {
-      const bool resume_continuum = line.resume && may_resume_continuum(scene);
+      const bool                      resume_continuum = line.resume && may_resume_continuum(scene);
+      std::unique_ptr<RecordedGrains> prepared;
       open_result_folder(scene, line.resume, [&] {
         if (line.resume)
           check_earlier_grains(scene);
         if (resume_continuum)
           check_earlier_continuum(scene);
+        prepared = prepared_early(line, scene);
       });
-      if (const int code = discrete_panel(line, scene); code != done)
+      if (const int code = discrete_panel(line, scene, std::move(prepared)); code != done)
         return code;
       if (const int code = continuum_panel(line, scene, {true, resume_continuum}); code != done)
         return code;

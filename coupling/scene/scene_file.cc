@@ -124,7 +124,7 @@ namespace diptych::coupling
 
   Scene read_changed_scene(const std::string &file, const std::vector<Entry> &changes, const bool compares)
   {
-    if (std::filesystem::is_directory(file))
+    if (std::error_code none; std::filesystem::is_directory(file, none))
       throw SceneError(file + ": is a folder; a scene file, .prm or .json, is needed");
     std::istringstream in      = scene_input(file);
     std::vector<Entry> entries = entries_of(file, in);
