@@ -13,7 +13,7 @@ namespace diptych::continuum
   {
     // Keywords of the language (gmsh's reference manual, "General commands", "Other plugins", "Options").
     const std::set<std::string> refused = {
-      "SystemCall", "NonBlockingSystemCall", "OnelabRun", "OnelabAction", "Exit",  "Abort", "Save", "Print", "Merge",
+      "SystemCall", "NonBlockingSystemCall", "OnelabRun", "OnelabAction", "Exit",  "Abort",     "Save", "Print", "Merge",
       "Include",    "ShapeFromFile",         "Plugin",    "CreateDir",    "Sleep", "UnlinkFile"};
     const std::set<std::string> families = {"General", "Solver", "Print", "PostProcessing", "View", "Plugin"};
 

@@ -99,8 +99,8 @@ namespace diptych::coupling
       {
         int n = 0;
         (*this)(name + "_count", n);
-        while (lists.size() < std::size_t(std::max(n, 0))) // not at once: the file may lie
-          (*this)(numbered(name, lists.size()), lists.emplace_back());
+        for (int k = 0; k < n; ++k) // not resized at once: the file may lie
+          (*this)(numbered(name, std::size_t(k)), lists.emplace_back());
       }
 
     private:

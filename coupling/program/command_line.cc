@@ -79,10 +79,7 @@ namespace diptych::coupling
         to->add_option("--set-file", line.set_files, "file of keys as calibrate writes it (.prm); --set goes before it")
           ->allow_extra_args(false)->type_name("FILE");
       }
-      void add_threads(CLI::App *to)
-      {
-        to->add_option("--threads", line.threads, "of the contact solver; the same bits for every number")->check(CLI::Range(1, 1024));
-      }
+      void add_threads(CLI::App *to) { to->add_option("--threads", line.threads, "of the contact solver; the same bits for every number")->check(CLI::Range(1, 1024)); }
       void add_resume(CLI::App *to, const std::string &of) { to->add_flag("--resume", line.resume, "go on from the checkpoint of an interrupted run, " + of); }
       void add_quiet(CLI::App *to) { to->add_flag("--quiet", line.quiet, "no progress"); }
       // clang-format on

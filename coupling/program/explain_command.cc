@@ -19,6 +19,7 @@ namespace diptych::coupling
     using namespace discrete;
     ResultList result;
     add_columns<discrete::HistoryRow>("discrete.csv", result);
+    result.push_back({"discrete.h5", "stages", "attribute, whole number", "-", "number of groups stage_NNNN"});
     const std::string  h5 = "discrete.h5, group stage_NNNN";
     discrete::Snapshot s;
     const auto         add = [&](const std::string &name, const auto &values, const char *unit, const char *meaning) {

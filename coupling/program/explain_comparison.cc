@@ -20,6 +20,7 @@ namespace diptych::coupling
   {
     void add_continuum_file(ResultList &result)
     {
+      result.push_back({"continuum.h5", "stages", "attribute, whole number", "-", "number of groups stage_NNNN"});
       const std::string         h5 = "continuum.h5, group stage_NNNN; continuum/stage_NNNN.vtu";
       const continuum::Snapshot s;
       continuum::visit_attributes(s, [&](const char *name, const auto &value, const char *unit, const char *meaning) {

@@ -95,18 +95,18 @@ namespace diptych::coupling
     {
       const std::string &directory = line.output;
       make_folder(directory);
-      remove_results(directory,
-                     {"import.json", "scene.prm", "discrete.h5", "discrete.xdmf", "discrete.csv", "discrete", "provenance.json"});
+      remove_results(directory, {"discrete.h5", "discrete.xdmf", "discrete.csv", "discrete", "scene.prm", "provenance.json"});
+      nlohmann::json     json;
+      const ImportRecord record{line.foreign.files, arrival};
+      NumbersToJson      into{json, 1};
+      list_numbers(record, into);
+      discrete::write_text(directory + "/import.json",
+                           json.dump(2) + "\n"); // first: the folder is an import's, even if killed now
       discrete::TableFile table(directory + "/discrete.csv", discrete::csv_header<discrete::HistoryRow>());
       for (const discrete::HistoryRow &row : results.rows)
         table.add(discrete::csv_line(row));
       table.flush();
       discrete::write_snapshots(directory + "/discrete", results.snapshots);
-      nlohmann::json     json;
-      const ImportRecord record{line.foreign.files, arrival};
-      NumbersToJson      into{json, 1};
-      list_numbers(record, into);
-      discrete::write_text(directory + "/import.json", json.dump(2) + "\n");
       if (!scene_text.empty())
         discrete::write_text(directory + "/scene.prm", scene_text);
     }

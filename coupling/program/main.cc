@@ -48,6 +48,17 @@ namespace
                                "; nothing was written");
   }
 
+  // Where they are not all mapped, MPI goes on without some and ends the process in any way, by a signal too.
+  void require_address_space()
+  {
+    constexpr rlim_t megabyte = 1 << 20, least = 512 * megabyte; // measured: 464 for a continuum of 24 cells
+    rlimit           limit{};
+    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur < least)
+      throw std::runtime_error("this process may use " + std::to_string(limit.rlim_cur / megabyte) +
+                               " MB of memory (ulimit -v); the libraries of the continuum need " +
+                               std::to_string(least / megabyte) + "; nothing was written");
+  }
+
   // MPI keeps files of its own there, and where it cannot it ends the process by itself, with exit code 1.
   void require_temporary_room()
   {
@@ -71,6 +82,7 @@ namespace
   [[noreturn]] void become_the_panels(char **argv)
   {
     require_open_files();
+    require_address_space();
     require_temporary_room();
     namespace fs             = std::filesystem;
     const fs::path    folder = fs::path(own_path()).parent_path();

@@ -152,7 +152,7 @@ namespace diptych::discrete
 
     template <class Number> Number read_number(const Hdf5Reader &file, const std::string &name)
     {
-      constexpr double          most   = 1e15; // fits a long and is exact
+      constexpr double          most   = 9007199254740992.; // 2^53: whole numbers are exact up to here
       const std::vector<double> number = file.read(name);
       const bool is_whole              = number.size() == 1 && number[0] == std::floor(number[0]) && std::abs(number[0]) <= most;
       if (number.size() != 1 || (std::is_integral_v<Number> && !is_whole))
