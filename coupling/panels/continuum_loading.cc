@@ -259,6 +259,16 @@ namespace diptych::coupling
       else if (!walls.right_pressure.time.empty())
         loading.side_pressure = [table = walls.right_pressure](const double progress) { return table.at(progress); };
     }
+
+    void check_load_steps(const Scene &scene)
+    {
+      constexpr double most   = 1e7; // a day and more of the smallest mesh
+      const double     fewest = stages(scene.loading).back() / scene.continuum.max_step;
+      if (fewest > most)
+        throw SceneError("continuum/max_step = " + text_of(scene.continuum.max_step) + ": the loading would take " +
+                         text_of(std::ceil(fewest)) + " load steps or more, at most 1e+07: raise it, or lower loading/" +
+                         (scene.loading.mode == LoadingMode::time ? "duration" : "axial_strain"));
+    }
   } // namespace
 
   void require_continuum(const Scene &scene)
@@ -271,6 +281,7 @@ namespace diptych::coupling
     check_platen_drives(scene);
     check_side_drives(scene);
     check_mesh_key(scene);
+    check_load_steps(scene);
   }
 
   ContinuumSample measured(const continuum::QuadMesh &mesh, const double solid_fraction)

@@ -51,7 +51,8 @@ namespace diptych::coupling
     if (!found && !finished)
       return;
     const std::size_t n_snapshots = discrete::read_snapshots(snapshots).size();
-    (void)discrete::read_history<discrete::HistoryRow>(rows);
+    if (!found || found->n_rows > 0) // stopped before the first step there is none
+      (void)discrete::read_history<discrete::HistoryRow>(rows);
     if (!found)
       return;
     discrete::check_table(rows, discrete::csv_header<discrete::HistoryRow>(), found->n_rows);

@@ -65,12 +65,14 @@ namespace diptych::discrete
 
     std::vector<Eigen::Vector2d> side(const State &state, const double mean_diameter, const int sign)
     {
-      const double              bottom = state.walls[0].point.y(), height = state.walls[1].point.y() - bottom;
-      const int                 n  = std::max(2, int(std::lround(height / (0.1 * mean_diameter))) + 1);
-      const double              dy = height / (n - 1);
+      const double bottom = state.walls[0].point.y(), height = state.walls[1].point.y() - bottom;
+      // Where the platens are farther apart than ten times all diameters together, nothing joins them: coarser then.
+      const double              most = std::max(1e4, 100. * double(state.grains.size()));
+      const int                 n    = std::max(2, int(std::lround(std::min(most, height / (0.1 * mean_diameter)))) + 1);
+      const double              dy   = height / (n - 1);
       const std::vector<double> x = raw_envelope(state.grains, bottom, dy, n, sign), weight = gauss_weights(mean_diameter / dy);
 
-      const int                    n_points = std::max(2, int(std::lround(height / (2 * mean_diameter))) + 1);
+      const int n_points = std::max(2, int(std::lround(std::min(0.05 * most, height / (2 * mean_diameter)))) + 1);
       std::vector<Eigen::Vector2d> points;
       for (int p = 0; p < n_points; ++p)
         {

@@ -4,83 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 #include <stdexcept>
 
-#include "discrete/contacts/counted_bins.h"
+#include "discrete/contacts/cell_grid.h"
 
 namespace diptych::discrete
 {
   namespace
   {
-    // Grains sorted into cells; cell (a, b) is bin b * columns + a. With a period the columns wrap around.
-    struct CellGrid
-    {
-      Eigen::Vector2d origin, cell_size;
-      int             columns = 1, rows = 1;
-      double          period = 0; // 0: none
-      CountedBins     grains;
-
-      // Not clamped and, with a period, not wrapped.
-      int raw_column(const double x) const { return int(std::floor((x - origin.x()) / cell_size.x())); }
-      int column(const double x) const { return period > 0 ? wrapped(raw_column(x)) : std::clamp(raw_column(x), 0, columns - 1); }
-      int wrapped(const int c) const { return ((c % columns) + columns) % columns; }
-      int row(const double y) const { return std::clamp(int(std::floor((y - origin.y()) / cell_size.y())), 0, rows - 1); }
-    };
-
-    CellGrid sort_into_cells(const State &state, const double smallest_size)
-    {
-      const Grains   &grains = state.grains;
-      CellGrid        grid;
-      Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity()), high = -low;
-      for (const Eigen::Vector2d &x : grains.position)
-        low = low.cwiseMin(x), high = high.cwiseMax(x);
-      grid.origin    = low;
-      grid.cell_size = Eigen::Vector2d::Constant(smallest_size);
-      if (state.cell)
-        {
-          grid.period        = state.cell->width;
-          grid.columns       = int(std::clamp(grid.period / smallest_size, 1., 4. * double(grains.size()) + 16.));
-          grid.cell_size.x() = grid.period / grid.columns;
-          high.x()           = low.x() + grid.period;
-        }
-      // A grain that has flown far away must not blow the grid up: cells grow instead.
-      const double most_cells = 16. * grains.size() + 64.;
-      while (((high.x() - low.x()) / grid.cell_size.x() + 1) * ((high.y() - low.y()) / grid.cell_size.y() + 1) > most_cells)
-        {
-          grid.cell_size.y() *= 2;
-          if (!state.cell)
-            grid.cell_size.x() *= 2;
-        }
-      if (!state.cell)
-        grid.columns = int((high.x() - low.x()) / grid.cell_size.x()) + 1;
-      grid.rows = int((high.y() - low.y()) / grid.cell_size.y()) + 1;
-
-      std::vector<std::size_t> cell;
-      cell.reserve(grains.size());
-      for (const Eigen::Vector2d &x : grains.position)
-        cell.push_back(std::size_t(grid.row(x.y())) * grid.columns + grid.column(x.x()));
-      grid.grains.sort(std::size_t(grid.columns) * grid.rows, grains.size(),
-                       [&cell](const unsigned int i, const auto &into) { into(cell[i]); });
-      return grid;
-    }
-
-    // Calls visit(j) for all grains in cells within `reach` of x, each once.
-    template <class Visit> void visit_around(const CellGrid &grid, const Eigen::Vector2d &x, const double reach, Visit &&visit)
-    {
-      int from = grid.raw_column(x.x() - reach), to = grid.raw_column(x.x() + reach);
-      if (grid.period > 0 && to - from >= grid.columns)
-        from = 0, to = grid.columns - 1;
-      if (!(grid.period > 0))
-        from = std::max(0, std::min(from, grid.columns - 1)), to = std::max(0, std::min(to, grid.columns - 1));
-      for (int b = grid.row(x.y() - reach); b <= grid.row(x.y() + reach); ++b)
-        for (int a = from; a <= to; ++a)
-          {
-            grid.grains.for_each_in(std::size_t(b) * grid.columns + (grid.period > 0 ? grid.wrapped(a) : a),
-                                    [&visit](const unsigned int j) { visit(int(j)); });
-          }
-    }
-
     // What of a grain decides whether it is near another one, side by side in memory.
     struct Disc
     {
@@ -150,10 +82,11 @@ namespace diptych::discrete
     const Grains &g              = state.grains;
     const int     n              = int(g.size());
     const double  largest_radius = *std::max_element(g.radius.begin(), g.radius.end());
-    // The list lasts while a grain moves by a quarter of the largest radius beyond its margin.
-    reach_ = margin;
+    // The list lasts while a grain moves by a quarter of the largest radius, or of the mean diameter, beyond its margin.
+    const double slack = 0.25 * std::min(largest_radius, 2 * std::accumulate(g.radius.begin(), g.radius.end(), 0.) / n);
+    reach_             = margin;
     for (double &reach : reach_)
-      reach = 1.5 * reach + 0.25 * largest_radius;
+      reach = 1.5 * reach + slack;
     position_ = g.position;
     wall_point_.clear();
     for (const Wall &wall : state.walls)
@@ -164,11 +97,11 @@ namespace diptych::discrete
                                   std::to_string(largest_radius) + " at their present speed");
 
     pairs_.clear();
-    const CellGrid grid = sort_into_cells(state, 2 * largest_radius);
+    const std::vector<SizedGrid> grids = sort_by_size(state);
     for (int i = 0; i < n; ++i)
       {
         // A pair is found from its member with the larger reach, whose search circle therefore needs to know only its own.
-        visit_around(grid, g.position[i], g.radius[i] + largest_radius + 2 * reach_[i], [&](const int j) {
+        const auto meet = [&](const int j) {
           if (reach_[j] > reach_[i] || (reach_[j] == reach_[i] && j <= i))
             return;
           const double    alert  = g.radius[i] + g.radius[j] + reach_[i] + reach_[j];
@@ -176,7 +109,9 @@ namespace diptych::discrete
           branch.x() -= nearest_image(state.cell, g.position[i].x(), g.position[j].x()) * width_;
           if (branch.squaredNorm() < alert * alert && may_act(state, i, j))
             pairs_.push_back({std::min(i, j), std::max(i, j)});
-        });
+        };
+        for (const SizedGrid &sized : grids)
+          sized.grid.visit_around(g.position[i], g.radius[i] + sized.largest_radius + 2 * reach_[i], meet);
         for (int w = 0; w < int(state.walls.size()); ++w)
           if (make_contact(state, i, n + w).gap < reach_[i] && may_act(state, i, n + w))
             pairs_.push_back({i, n + w});

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "discrete/contacts/cell_grid.h"
 #include "discrete/contacts/contact_detection.h"
 #include "discrete/files/csv_file.h"
 #include "discrete/files/hdf5_file.h"
@@ -239,6 +240,19 @@ namespace diptych::discrete
                                   (n_pairs == 1 ? " such pair)" : " such pairs; this is the worst)"));
     }
 
+    // Before pairs are looked for, which may be as many as all: grains of about one size of which a cell of theirs cannot hold as
+    // many, whatever overlaps are allowed.
+    void check_crowds(const GrainFile &file, const State &state)
+    {
+      constexpr std::size_t most = 1000; // side by side fewer than 40
+      for (const SizedGrid &sized : sort_by_size(state))
+        if (const std::vector<int> crowd = sized.grid.fullest_cell(); crowd.size() > most)
+          throw std::invalid_argument(file.place(crowd[0]) + " and " + (file.line.empty() ? "grain " : "line ") +
+                                      std::to_string(file.line.empty() ? crowd[1] : file.line[crowd[1]]) + ": " +
+                                      std::to_string(crowd.size()) + " grains of about one size lie in one square of the side " +
+                                      exact_text(2 * sized.largest_radius) + ": they lie upon each other");
+    }
+
     void check_overlaps(const GrainFile &file, const std::optional<double> &cell_width, const double allowed)
     {
       const Grains &g = file.grains;
@@ -246,6 +260,7 @@ namespace diptych::discrete
       state.grains = g;
       if (cell_width)
         state.cell = PeriodicCell{*cell_width};
+      check_crowds(file, state);
       int                    n_pairs = 0;
       std::optional<Contact> worst;
       for (const Contact &c : find_contacts(state, std::vector<double>(g.size(), 0.)))

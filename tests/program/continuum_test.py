@@ -290,6 +290,19 @@ class Resume(Folder):
         self.assertEqual(os.stat(os.path.join(self.folder, "continuum.h5")).st_mtime_ns, before)  # the fine one was finished
         self.expect_same_curves()
 
+    def test_killed_in_the_first_steps(self):
+        """The stages of the rest are those of the loading, not of a walk that knows none."""
+        self.interrupt(signal.SIGKILL, "continuum_checkpoint.h5", 0, *setting(continuum_checkpoint_minutes=0))
+        self.assertLess(len(self.rows()["axial_strain"]), 20)
+        self.continuum(*LONG, "--resume")
+        self.expect_same_curves()
+        stages = []
+        for folder in (self.alone, self.folder):
+            with h5py.File(os.path.join(folder, "continuum.h5"), "r") as file:
+                stages.append([float(group.attrs["axial_strain"]) for group in file.values()])
+        self.assertEqual(*stages)
+        self.assertEqual(sorted(set(stages[1])), stages[1])
+
     def test_a_finished_run_is_not_run_again_but_one_with_other_keys_is(self):
         shutil.copytree(self.alone, self.folder)
         path = os.path.join(self.folder, "continuum.csv")
@@ -334,7 +347,7 @@ class Resume(Folder):
 class Processes(Folder):
     def on_two(self, *words):
         return subprocess.run(["mpirun", "-np", "2", "--oversubscribe", PROGRAM, *words, "--output", self.folder], env=ENVIRONMENT,
-                              capture_output=True, text=True, timeout=120)
+                              capture_output=True, text=True, timeout=1500)  # processes that wait for each other are slow beside a third
 
     def expect_same_curve(self, words):
         together = self.on_two("continuum", QUICK, *words, "--quiet")

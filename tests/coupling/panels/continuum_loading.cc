@@ -158,6 +158,7 @@ namespace
          s.loading.mode            = LoadingMode::time;
          s.discrete.drives.lower_y = "force 1", s.discrete.drives.upper_y = "force -1";
        }},
+      {"continuum/max_step", [](Scene &s) { s.loading.axial_strain = 100, s.continuum.min_step = s.continuum.max_step = 9e-6; }},
       {"discrete/drive_lower_y",
        [](Scene &s) { s.loading.mode = LoadingMode::plane_shear, s.discrete.drives.lower_y = "force 1"; }},
       {"discrete/drive_lower_x",

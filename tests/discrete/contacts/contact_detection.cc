@@ -1,5 +1,6 @@
 // diptych: every pair within reach is found, once
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <cmath>
 #include <random>
 #include <set>
 
@@ -44,6 +45,55 @@ namespace
     EXPECT_EQ(found, expected);
     EXPECT_EQ(found.size(), contacts.size()) << "a pair was found twice";
     EXPECT_GT(expected.size(), 400u);
+  }
+
+  std::set<std::pair<int, int>> touching(const State &state, const std::vector<double> &margin)
+  {
+    std::set<std::pair<int, int>> pairs;
+    for (int i = 0; i < int(state.grains.size()); ++i)
+      for (int j = i + 1; j < int(state.grains.size()); ++j)
+        if (make_contact(state, i, j).gap < margin[i] + margin[j])
+          pairs.insert({i, j});
+    return pairs;
+  }
+
+  // Sizes over four decades, clusters that are far apart, grains that fly, with a period and without: cells share bins then.
+  TEST(ContactDetection, AgreesWithTheTestOfAllPairsForAnySizesAndPlaces)
+  {
+    std::mt19937 random(11);
+    const auto   uniform = [&](const double a, const double b) { return a + (b - a) * double(random()) / random.max(); };
+    std::size_t  n_found = 0;
+    for (int trial = 0; trial < 40; ++trial)
+      {
+        State        state;
+        const double apart = std::pow(10., uniform(0, 9)), spread = std::pow(10., uniform(0, 2));
+        for (int i = 0; i < 300; ++i)
+          add_grain(state.grains,
+                    {uniform(0, spread) + apart * double(random() % 3), uniform(0, spread) - apart * double(random() % 2)},
+                    std::pow(10., trial % 2 == 0 ? uniform(-3, 1) : uniform(-0.2, 0.2)), 1.);
+        std::vector<double> margin(300, 0.01);
+        margin[7] = trial % 5 == 0 ? apart : 1;
+        if (trial % 4 > 1)
+          state.cell = PeriodicCell{8 * (10 + 1.5 * margin[7] + 3) + spread};
+        std::set<std::pair<int, int>> found;
+        for (const Contact &c : find_contacts(state, margin))
+          EXPECT_TRUE(found.insert({c.i, c.j}).second) << "twice";
+        EXPECT_EQ(found, touching(state, margin)) << "trial " << trial;
+        n_found += found.size();
+      }
+    EXPECT_GT(n_found, 10000u);
+  }
+
+  // Were each of them held against all, this would take minutes.
+  TEST(ContactDetection, OneGrainFarAwayOrHugeDoesNotMakeAllPairsNear)
+  {
+    State state;
+    for (int i = 0; i < 200000; ++i)
+      add_grain(state.grains, {i % 500 + 0.5, i / 500 + 0.5}, 0.5, 1.);
+    add_grain(state.grains, {1e9, 1e9}, 0.5, 1.);
+    add_grain(state.grains, {-700, 200}, 700, 1.);
+    const std::size_t lattice = 499 * 400 + 500 * 399;
+    EXPECT_GE(find_contacts(state, std::vector<double>(state.grains.size(), 1e-9)).size(), lattice);
   }
 
   TEST(ContactDetection, AGrainThatFlewFarAwayDoesNotExhaustMemory)

@@ -102,6 +102,17 @@ namespace
               "2; allowed: an overlap of 0 to 0 (2 such pairs; this is the worst)");
   }
 
+  // Held or not: their pairs would be as many as their number squared.
+  TEST(GrainCheck, ACrowdInOnePlaceIsRefusedBeforeItsPairsAreSought)
+  {
+    std::string rows;
+    for (int i = 0; i < 100000; ++i)
+      rows += "5,5,0.5,0\n";
+    const std::string said = check(rows, {}, 1);
+    EXPECT_NE(said.find("line 2 and line 3: 100000 grains of about one size lie in one square of the side 1"), std::string::npos)
+      << said;
+  }
+
   TEST(GrainCheck, TouchingGrainsAndWallsAreNoOverlap)
   {
     EXPECT_EQ(check("1,1,1,0\n3,1,1,0\n", {0., 2., 0., 4.}, 0.), "no error");
