@@ -1,0 +1,76 @@
+// diptych: grains of about one size sorted into cells
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/contacts/cell_grid.h"
+
+#include <limits>
+#include <map>
+
+namespace diptych::discrete
+{
+  CellGrid::CellGrid(const State &state, std::vector<int> members, const double cell_size)
+      : members_(std::move(members)),
+        cell_size_(Eigen::Vector2d::Constant(cell_size))
+  {
+    const double    n   = double(members_.size());
+    Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (const int i : members_)
+      low = low.cwiseMin(state.grains.position[i]), high = high.cwiseMax(state.grains.position[i]);
+    origin_ = low;
+    if (state.cell)
+      {
+        period_        = state.cell->width;
+        columns_       = std::int64_t(std::clamp(period_ / cell_size, 1., 4 * n + 16));
+        cell_size_.x() = period_ / double(columns_);
+      }
+    else
+      columns_ = raw_column(high.x()) + 1;
+    rows_      = std::int64_t(bounded(std::floor((high.y() - low.y()) / cell_size))) + 1;
+    is_shared_ = double(columns_) * double(rows_) > 16 * n + 64;
+    n_bins_    = is_shared_ ? 2 * members_.size() + 1 : std::size_t(columns_ * rows_);
+    cell_.reserve(members_.size());
+    for (const int i : members_)
+      cell_.push_back({column(state.grains.position[i].x()), row(state.grains.position[i].y())});
+    bins_.sort(n_bins_, members_.size(), [this](const unsigned int k, const auto &into) { into(bin(cell_[k][0], cell_[k][1])); });
+  }
+
+  std::size_t CellGrid::bin(const std::int64_t column, const std::int64_t row) const
+  {
+    if (!is_shared_)
+      return std::size_t(row * columns_ + column);
+    // Multiplicative hashing of both (D. E. Knuth, The Art of Computer Programming 3, 6.4): neighbours part.
+    std::uint64_t h = std::uint64_t(column) * 0x9e3779b97f4a7c15u;
+    h               = (h ^ (h >> 32) ^ std::uint64_t(row)) * 0xd6e8feb86659fd93u;
+    return std::size_t((h ^ (h >> 32)) % n_bins_);
+  }
+
+  std::vector<int> CellGrid::fullest_cell() const
+  {
+    std::map<Cell, std::size_t> count;
+    for (const Cell &cell : cell_)
+      ++count[cell];
+    const auto       fullest = std::max_element(count.begin(), count.end(),
+                                                [](const auto &a, const auto &b) { return a.second < b.second; });
+    std::vector<int> inside;
+    visit_cell(fullest->first[0], fullest->first[1], [&](const int grain) { inside.push_back(grain); });
+    return inside;
+  }
+
+  std::vector<SizedGrid> sort_by_size(const State &state)
+  {
+    constexpr double                ratio = 4;
+    const std::vector<double>      &r     = state.grains.radius;
+    std::map<int, std::vector<int>> classes; // the largest first
+    const double                    largest = r.empty() ? 0 : *std::max_element(r.begin(), r.end());
+    for (std::size_t i = 0; i < r.size(); ++i)
+      classes[int(std::log(largest / r[i]) / std::log(ratio))].push_back(int(i));
+    std::vector<SizedGrid> grids;
+    for (auto &[size, members] : classes)
+      {
+        double radius = 0;
+        for (const int i : members)
+          radius = std::max(radius, r[i]);
+        grids.push_back({radius, CellGrid(state, std::move(members), 2 * radius)});
+      }
+    return grids;
+  }
+} // namespace diptych::discrete
