@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "discrete/problem_files/fclib_input.h"
 
@@ -45,6 +46,9 @@ namespace diptych::discrete
       group.offset       = file.numbers("/nscd/w", 2 * n);
       group.body_i       = read_bodies(file, "/nscd/body_i", n, group.n_bodies());
       group.body_j       = read_bodies(file, "/nscd/body_j", n, group.n_bodies());
+      for (const auto &[name, size] : {std::pair("/nscd/gap", n), std::pair("/nscd/dt", std::size_t(1))})
+        if (file.has(name)) // for those who read a solved file
+          (void)file.numbers(name, size);
       return group;
     }
 

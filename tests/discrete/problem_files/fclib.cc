@@ -92,6 +92,28 @@ namespace
     refused([](LocalFile &f) { f.w.x[3] = -6; }, {"/fclib_local/W", "diagonal entry 1", "-6"});
   }
 
+  // Not used in solving, but handed on with the solution.
+  TEST(Fclib, GapsThatAreNoNumbersAreRefused)
+  {
+    const TemporaryFile file;
+    {
+      const Hdf5Reader reader(stored("small.h5"));
+      Hdf5Writer       writer(file.path);
+      for (const std::string &name : reader.members("/"))
+        if (name != "nscd")
+          writer.copy(reader, name);
+      std::vector<double> gap = reader.read("/nscd/gap");
+      gap[5]                  = std::nan("");
+      writer.write("/nscd/gap", gap);
+      for (const std::string &name : reader.members("/nscd"))
+        if (name != "gap")
+          writer.copy(reader, "nscd/" + name);
+      writer.finish();
+    }
+    const std::string said = refusal(file.path);
+    EXPECT_NE(said.find("/nscd/gap"), std::string::npos) << said;
+  }
+
   TEST(Fclib, FilesThatAreNoneAreRefused)
   {
     const TemporaryFile file;
