@@ -90,7 +90,12 @@ namespace diptych::coupling
   void need_no_daemon()
   {
     if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr && std::getenv("PMI_SIZE") == nullptr)
-      setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+      {
+        setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+        // Without a daemon all processes of a user would share one folder of session files, and the first one that ends removes
+        // it.
+        setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
+      }
   }
 
   bool is_first_process()

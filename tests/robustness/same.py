@@ -10,12 +10,13 @@ from judge import OWN_STATE
 from running import bits
 
 CLOCKS = ("ns_per_update", "cpu_s", "wall_s", "seconds", "_mb", "of_cpu", "disturbed")
+OF_THE_MACHINE = ("load", )  # processes that ran beside
 NOT_COMPARED = ("provenance.json", "study_cost.json", "calibration_cost.json", "import.json")  # paths, clocks, dates
 
 
 def without_clocks(item):
     if isinstance(item, dict):
-        return {key: without_clocks(value) for key, value in item.items() if not str(key).endswith(CLOCKS)}
+        return {key: without_clocks(value) for key, value in item.items() if not str(key).endswith(CLOCKS) and key not in OF_THE_MACHINE}
     return [without_clocks(one) for one in item if not is_clock(one)] if isinstance(item, list) else item
 
 
