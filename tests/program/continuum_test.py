@@ -9,6 +9,7 @@ import math
 import os
 import shutil
 import signal
+import socket
 import subprocess
 import tempfile
 import time
@@ -366,6 +367,15 @@ class Processes(Folder):
         """Only the first process prepares grains and maps their stress."""
         together = self.expect_same_curve(SMALL + setting(continuum_initial_stress="mapped"))
         self.assertEqual(together.stdout, "")
+
+    def test_one_by_itself_shares_no_session_folder(self):
+        """With one, those that start at once fail: the first that ends removes the folder of all."""
+        with tempfile.TemporaryDirectory() as temporary:
+            taken = write(os.path.join(temporary, f"ompi.{socket.gethostname()}.{os.geteuid()}"), "not a folder")
+            result = subprocess.run([PROGRAM, "material-point", QUICK, "--output", self.folder, "--quiet"], capture_output=True, text=True,
+                                    env=dict(ENVIRONMENT, TMPDIR=temporary))
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(content(taken), b"not a folder")
 
     def test_wrong_input_is_told_once_and_nothing_is_written(self):
         result = self.on_two("continuum", QUICK, "--set", "sample/grians=3")
