@@ -96,11 +96,11 @@ namespace diptych::continuum
   {
     forget();
     if (!is_on_one_process(pattern) || method == LinearMethod::mumps)
-      return true; // nothing was promised
-    bool fits = true;
-    if (method == LinearMethod::umfpack && !kept.analysed.empty())
+      return true;                                         // nothing was promised
+    bool fits = kept.is_stale || !kept.factorised.empty(); // what is not stale preconditions the next solve
+    if (fits && method == LinearMethod::umfpack && !(kept.analysed.empty() && kept.factorised.empty()))
       fits = umfpack.take_up(pattern, kept.analysed, kept.factorised);
-    if (method == LinearMethod::amg && !kept.factorised.empty())
+    if (fits && method == LinearMethod::amg && !kept.factorised.empty())
       {
         factorised = std::make_unique<TrilinosWrappers::SparseMatrix>();
         factorised->copy_from(pattern);
@@ -176,7 +176,10 @@ namespace diptych::continuum
     ++n_factorisations;
     is_stale = false;
     if (method == LinearMethod::umfpack)
-      return umfpack.factorise(matrix);
+      {
+        is_stale = !umfpack.factorise(matrix);
+        return !is_stale;
+      }
     mumps.reset();
     amg.reset();
     factorised = std::make_unique<TrilinosWrappers::SparseMatrix>();

@@ -107,14 +107,14 @@ namespace diptych::continuum
     forget_pattern();
     take_pattern(pattern);
     const std::size_t n_entries = values.size();
-    bool              done      = analysed.size() == n_entries;
+    bool              done      = analysed.size() == n_entries && (factorised.empty() || factorised.size() == n_entries);
     if (done)
       {
         values = analysed;
         done   = analyse();
       }
     values.clear();
-    if (done && factorised.size() == n_entries)
+    if (done && !factorised.empty())
       {
         values = factorised;
         done   = make_factors();

@@ -313,4 +313,26 @@ namespace diptych::coupling
           loading.platens[p][c] = drive_of(drives[p][c], rate_of(scene));
     return loading;
   }
+
+  void require_platen_travel(const Scene &scene)
+  {
+    if (scene.loading.mode != LoadingMode::time || scene.discrete.method.method == discrete::Method::imported)
+      return; // the others move it
+    const continuum::Loading loading = continuum_loading(scene, {1, 1, 1});
+    const auto               rests   = [&](const double from, const double to) {
+      return std::all_of(loading.platens[1].begin(), loading.platens[1].end(), [&](const continuum::Drive &drive) {
+        return !drive.value || (!drive.is_force && drive.value(to) == drive.value(from));
+      });
+    };
+    double from = 0;
+    for (const double to : loading.stages)
+      {
+        if (rests(from, to))
+          throw SceneError("discrete/drive_upper_x = " + text_of(scene.discrete.drives.upper_x) +
+                           ", discrete/drive_upper_y = " + text_of(scene.discrete.drives.upper_y) +
+                           ": the upper platen rests from time " + text_of(from) + " to " + text_of(to) +
+                           ", and by its way the two panels are compared; `diptych discrete` and `diptych continuum` run");
+        from = to;
+      }
+  }
 } // namespace diptych::coupling

@@ -15,6 +15,10 @@ namespace diptych::coupling
   // write files.
   void require_continuum(const Scene &scene);
 
+  // Throws SceneError where the scene leaves the upper platen where it is over a whole stage: the two panels' displacements are
+  // compared in units of its way.
+  void require_platen_travel(const Scene &scene);
+
   // What the loading must know of the continuum's sample.
   struct ContinuumSample
   {

@@ -59,6 +59,7 @@ namespace diptych::coupling
       check_imported_seeds(line, scene);
       require_continuum(scene);
       check_comparable(scene);
+      require_platen_travel(scene);
       // A single run of the scene may stand in its own folder.
       if (line.output.empty() && scene.output.directory == "results/" + scene.name)
         scene.output.directory += "_ensemble";

@@ -18,6 +18,7 @@ namespace diptych::coupling
     const Scene scene = scene_of(line);
     require_continuum(scene);
     check_comparable(scene);
+    require_platen_travel(scene);
     demand_room(scene, {true, true});
     return writing(scene.output.directory, [&] {
       const bool                      resume_continuum = line.resume && may_resume_continuum(scene);
@@ -31,7 +32,7 @@ namespace diptych::coupling
       });
       if (const int code = discrete_panel(line, scene, std::move(prepared)); code != done)
         return code;
-      if (const int code = continuum_panel(line, scene, {true, resume_continuum}); code != done)
+      if (const int code = continuum_panel(line, scene, {true, resume_continuum, {}}); code != done)
         return code;
       return compare_and_report(line, scene);
     });

@@ -110,6 +110,14 @@ namespace diptych::discrete
         delassus, h.transpose() * inverse_mass.times(Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(f.data(), n))) + w, mu);
     }
 
+    // Of a file that carries both forms the local one is solved; the other goes into the file of the solution as it stands.
+    void require_numbers_of_global(const FclibInput &file)
+    {
+      for (const char *part : {"/M/x", "/H/x", "/vectors/f", "/vectors/w", "/vectors/mu"})
+        if (const std::string name = std::string("/fclib_global") + part; file.has(name))
+          (void)file.numbers(name);
+    }
+
     std::vector<Impulse> read_impulses(const FclibInput &file, const std::string &name, const std::size_t n_contacts)
     {
       const std::vector<double> r = file.numbers(name, 2 * n_contacts);
@@ -136,6 +144,7 @@ namespace diptych::discrete
     if (!file.has("/fclib_local") && !file.has("/fclib_global"))
       file.refuse("/", "has neither /fclib_local nor /fclib_global");
     StoredProblem problem;
+    require_numbers_of_global(file);
     problem.local       = file.has("/fclib_local") ? read_local(file) : read_global(file);
     const BodyForm form = read_body_form(file, problem.local);
     problem.bodies      = form.bodies;

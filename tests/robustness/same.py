@@ -14,9 +14,14 @@ OF_THE_MACHINE = ("load", )  # processes that ran beside
 NOT_COMPARED = ("provenance.json", "study_cost.json", "calibration_cost.json", "import.json")  # paths, clocks, dates
 
 
+def is_of_clock(name):
+    """A study.csv names its columns `cpu_s of discrete`."""
+    return name.endswith(CLOCKS) or name.startswith("cpu_s of ") or name in OF_THE_MACHINE
+
+
 def without_clocks(item):
     if isinstance(item, dict):
-        return {key: without_clocks(value) for key, value in item.items() if not str(key).endswith(CLOCKS) and key not in OF_THE_MACHINE}
+        return {key: without_clocks(value) for key, value in item.items() if not is_of_clock(str(key))}
     return [without_clocks(one) for one in item if not is_clock(one)] if isinstance(item, list) else item
 
 

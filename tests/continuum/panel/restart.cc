@@ -111,6 +111,38 @@ namespace
     expect_that_it_goes_on(rectangle(30, 30, 3.75), loading, with_steps(options_of(LawKind::cosserat_mohr_coulomb, false), 5e-3));
   }
 
+  // What preconditions the next solve decides its bits: factors of a matrix that is not there are not made anew in silence.
+  TEST(Restart, MatricesOfAnotherLengthAreRefused)
+  {
+    const Loading loading = straight_loading(1, {14, -20}, {0.002});
+    for (const LinearChoice choice : {LinearChoice::direct, LinearChoice::amg})
+      {
+        Options options       = options_of(LawKind::mohr_coulomb, false);
+        options.linear_solver = choice;
+        const auto resumed    = [&](const Checkpoint &checkpoint) {
+          Wishes further;
+          further.resume = &checkpoint;
+          (void)course(rectangle(14, 20, 2.), loading, options, further);
+        };
+        const Checkpoint whole = course(rectangle(14, 20, 2.), loading, options).checkpoint;
+        ASSERT_FALSE(whole.preconditioner_is_stale);
+        ASSERT_FALSE(whole.factorised_matrix.empty());
+        EXPECT_NO_THROW(resumed(whole));
+        for (const std::size_t length : {std::size_t(0), std::size_t(5), whole.factorised_matrix.size() - 1})
+          {
+            Checkpoint cut = whole;
+            cut.factorised_matrix.resize(length);
+            EXPECT_THROW(resumed(cut), std::invalid_argument) << length;
+          }
+        Checkpoint without_analysis = whole;
+        without_analysis.analysed_matrix.clear();
+        if (choice == LinearChoice::direct)
+          {
+            EXPECT_THROW(resumed(without_analysis), std::invalid_argument);
+          }
+      }
+  }
+
   TEST(Restart, ACheckpointOfAnotherMeshIsRefused)
   {
     const Loading loading = straight_loading(1, {8, -8}, {0.002});

@@ -199,6 +199,39 @@ namespace
       }
   }
 
+  TEST(ContinuumLoading, AComparisonNeedsAPlatenThatMovesInEveryStage)
+  {
+    const auto refusal = [](const Scene &scene) -> std::string {
+      try
+        {
+          require_platen_travel(scene);
+        }
+      catch (const SceneError &error)
+        {
+          return error.what();
+        }
+      return "";
+    };
+    Scene scene          = scene_with(LoadingMode::time);
+    scene.loading.stages = {0.5, 1};
+    EXPECT_NE(refusal(scene).find("rests from time 0 to 0.5"), std::string::npos) << refusal(scene);
+    scene.discrete.drives.upper_y = "velocity 0";
+    EXPECT_NE(refusal(scene).find("discrete/drive_upper_y"), std::string::npos) << refusal(scene);
+    scene.discrete.drives.upper_y = "force -3";
+    EXPECT_EQ(refusal(scene), "");
+    scene.discrete.drives.upper_y = "velocity -0.1";
+    EXPECT_EQ(refusal(scene), "");
+
+    const std::filesystem::path table = std::filesystem::temp_directory_path() / ("diptych_rest_" + std::to_string(::getpid()));
+    std::ofstream(table) << "time,velocity\n0,-0.1\n0.4,-0.1\n0.45,0\n2,0\n";
+    scene.discrete.drives.upper_y = "velocity " + table.string();
+    EXPECT_NE(refusal(scene).find("rests from time 0.5 to 1"), std::string::npos) << refusal(scene);
+    scene.loading.stages = {0.3, 1};
+    EXPECT_EQ(refusal(scene), "");
+    std::filesystem::remove(table);
+    EXPECT_EQ(refusal(scene_with(LoadingMode::descent)), "");
+  }
+
   TEST(ContinuumLoading, AMeshIsMeasuredWithItsPlaten)
   {
     const ContinuumSample sample = measured(continuum::rectangle_mesh({12, 8, 4, 1}), 0.8);

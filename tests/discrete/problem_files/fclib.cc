@@ -114,6 +114,24 @@ namespace
     EXPECT_NE(said.find("/nscd/gap"), std::string::npos) << said;
   }
 
+  // The local form is solved, but the other goes into the file of the solution.
+  TEST(Fclib, NumbersOfTheGlobalFormAreLookedAtBesideTheLocalOne)
+  {
+    for (const std::string name : {"/fclib_global/M/x", "/fclib_global/vectors/f"})
+      {
+        const TemporaryFile file;
+        std::filesystem::copy_file(stored("small.h5"), file.path, std::filesystem::copy_options::overwrite_existing);
+        ASSERT_TRUE(Hdf5Reader(file.path).has("/fclib_local"));
+        const hid_t         handle = H5Fopen(file.path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+        std::vector<double> values = Hdf5Reader(stored("small.h5")).read(name);
+        values[2]                  = INFINITY;
+        const hid_t array          = H5Dopen2(handle, name.c_str(), H5P_DEFAULT);
+        ASSERT_GE(H5Dwrite(array, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0);
+        H5Dclose(array), H5Fclose(handle);
+        EXPECT_NE(refusal(file.path).find(name), std::string::npos) << refusal(file.path);
+      }
+  }
+
   TEST(Fclib, FilesThatAreNoneAreRefused)
   {
     const TemporaryFile file;
