@@ -18,7 +18,8 @@ namespace diptych::coupling
     using Lines = std::vector<std::string>;
 
     constexpr double  most_count = 1e9;
-    const std::string format     = "diptych continuum checkpoint 2";
+    const char       *length     = "length";
+    const std::string format     = "diptych continuum checkpoint 3";
 
     // Cells' names hold no blank.
     std::string text_of(const Lines &lines)
@@ -42,7 +43,8 @@ namespace diptych::coupling
       return name + "/" + std::to_string(k);
     }
 
-    // A file holds every entry under its name: numbers as attributes of the root, the rest as datasets.
+    // A file holds every entry under its name: numbers as attributes of the root, the rest as datasets that say how long they
+    // are: what came to be shorter is refused before the mesh is there that would show it.
     struct Put
     {
       Hdf5Writer &file;
@@ -56,8 +58,17 @@ namespace diptych::coupling
       {
         file.attribute("/", name, std::vector<double>{value.x(), value.y()});
       }
-      void operator()(const std::string &name, const std::vector<double> &values) const { file.write(name, values); }
-      void operator()(const std::string &name, const Lines &lines) const { file.write_string(name, text_of(lines)); }
+      void operator()(const std::string &name, const std::vector<double> &values) const
+      {
+        file.write(name, values);
+        file.attribute(name, length, double(values.size()));
+      }
+      void operator()(const std::string &name, const Lines &lines) const
+      {
+        const std::string text = text_of(lines);
+        file.write_string(name, text);
+        file.attribute(name, length, double(text.size()));
+      }
       template <class T> void operator()(const std::string &name, const std::vector<std::vector<T>> &lists) const
       {
         (*this)(name + "_count", double(lists.size()));
@@ -93,8 +104,14 @@ namespace diptych::coupling
         if (file.extents(name).size() != 1)
           throw std::invalid_argument(file.path() + ": '" + name + "' is no list");
         values = file.read(name);
+        check_length(name, values.size());
       }
-      void                    operator()(const std::string &name, Lines &lines) const { lines = split(file.read_string(name)); }
+      void operator()(const std::string &name, Lines &lines) const
+      {
+        const std::string text = file.read_string(name);
+        check_length(name, text.size());
+        lines = split(text);
+      }
       template <class T> void operator()(const std::string &name, std::vector<std::vector<T>> &lists) const
       {
         int n = 0;
@@ -104,6 +121,12 @@ namespace diptych::coupling
       }
 
     private:
+      void check_length(const std::string &name, const std::size_t found) const
+      {
+        if (const double told = file.attribute(name, length); told != double(found))
+          throw std::invalid_argument(file.path() + ": '" + name + "' holds " + std::to_string(found) + " values where " +
+                                      std::to_string(std::llround(told)) + " were written");
+      }
       std::vector<double> numbers(const std::string &name, const std::size_t n) const
       {
         std::vector<double> values = file.attributes("/", name);

@@ -192,6 +192,25 @@ namespace
       }
   }
 
+  TEST(ContinuumCheckpointFile, AnArrayOfAnotherLengthIsNamed)
+  {
+    const Folder      folder;
+    const std::string file = folder / "checkpoint.h5";
+    for (const std::string name : {"factorised_matrix", "analysed_matrix", "rigid_modes/1", "divisions/1"})
+      {
+        write_continuum_checkpoint(file, example_checkpoint());
+        const hid_t handle = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+        const hid_t array = H5Dopen2(handle, name.c_str(), H5P_DEFAULT), attribute = H5Aopen(array, "length", H5P_DEFAULT);
+        double      length = 0;
+        ASSERT_GE(H5Aread(attribute, H5T_NATIVE_DOUBLE, &length), 0);
+        EXPECT_GT(length, 1);
+        length -= 1;
+        ASSERT_GE(H5Awrite(attribute, H5T_NATIVE_DOUBLE, &length), 0);
+        H5Aclose(attribute), H5Dclose(array), H5Fclose(handle);
+        expect_refusal_naming(file, name);
+      }
+  }
+
   TEST(ContinuumCheckpointFile, ContentsThatContradictEachOtherAreNotWritten)
   {
     const Folder        folder;
