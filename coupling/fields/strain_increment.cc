@@ -72,9 +72,12 @@ namespace diptych::coupling
     const auto        rattles = [](const discrete::Snapshot &s, const std::size_t i) {
       return i < s.rattler.size() && s.rattler[i] != 0;
     };
+    bool counts_earlier = false;
+    for (std::size_t i = 0; i < field.position.size(); ++i)
+      counts_earlier = counts_earlier || !rattles(from, i);
     field.weight.resize(field.position.size());
     for (std::size_t i = 0; i < field.weight.size(); ++i)
-      field.weight[i] = rattles(from, i) || rattles(to, i) ? 0 : M_PI * to.radius[i] * to.radius[i];
+      field.weight[i] = (counts_earlier && rattles(from, i)) || rattles(to, i) ? 0 : M_PI * to.radius[i] * to.radius[i];
     return field;
   }
 

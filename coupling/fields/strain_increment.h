@@ -19,7 +19,8 @@ namespace diptych::coupling
     std::vector<double>          weight;    // area the point stands for; 0: ignore
   };
 
-  // Grains weigh their disc's area; rattlers of either instant weigh nothing. Throws std::invalid_argument when the numbers of
+  // Grains weigh their disc's area; rattlers of either instant weigh nothing, but where at the earlier one nothing touches yet
+  // (a table of grains, loaded as it stands) the later one decides. Throws std::invalid_argument when the numbers of
   // grains differ. The mesh of the continuum may have been refined between the instants (node_transfer.h).
   DisplacementField displacement_field(const discrete::Snapshot &from, const discrete::Snapshot &to);
   DisplacementField displacement_field(const continuum::Snapshot &from, const continuum::Snapshot &to);

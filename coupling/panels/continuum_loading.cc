@@ -209,6 +209,19 @@ namespace diptych::coupling
                          " must not exceed continuum/rectangle_width = " + text_of(o.rectangle_width));
     }
 
+    // What a generated sample will have is known to some percent.
+    void check_outline(const Scene &scene)
+    {
+      if (!scene.sample.file.empty() || scene.discrete.method.method == discrete::Method::imported)
+        return;
+      const double height = discrete::expected_size(scene.sample).y();
+      for (const auto &[key, size] : {std::pair{"continuum/element_size", scene.continuum.element_size},
+                                      {"comparison/coarse_element_size", scene.comparison.coarse_element_size}})
+        if (const double edge = first_edge(scene, size); edge > 1.3 * height)
+          throw SceneError(std::string(key) + " = " + text_of(size) + ": elements of " + text_of(edge) +
+                           " [length] at first do not fit into a sample that will be about " + text_of(height) + " high");
+    }
+
     // A mesh of the user's is read whole, before a result folder is opened for it.
     void check_mesh_key(const Scene &scene)
     {
@@ -221,6 +234,8 @@ namespace diptych::coupling
       if (mesh.kind != Kind::outline && scene.continuum.initial_stress == continuum::InitialStress::mapped)
         throw SceneError("continuum/initial_stress = mapped with continuum/mesh = " + text_of(mesh) +
                          ": only outline, the mesh of the grain sample, has its stress");
+      if (mesh.kind == Kind::outline)
+        check_outline(scene);
       if (mesh.kind == Kind::rectangle)
         check_rectangle(scene);
       if (mesh.kind != Kind::file)

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/program/run_command.h"
 
+#include <iostream>
+#include <stdexcept>
+
 #include "coupling/folders/result_folder.h"
 #include "coupling/panels/continuum_loading.h"
 #include "coupling/program/compare_command.h"
@@ -13,6 +16,23 @@
 
 namespace diptych::coupling
 {
+  namespace
+  {
+    // Once the grains have run the folder is not as it was: what is wrong then ends the run with what it keeps.
+    template <class Part> int after_the_grains(const Scene &scene, const Part &part)
+    {
+      try
+        {
+          return part();
+        }
+      catch (const std::invalid_argument &error)
+        {
+          std::cerr << "diptych: " << error.what() << "; " << kept_in(scene.output.directory) << std::endl;
+          return not_converged;
+        }
+    }
+  } // namespace
+
   int run_both(const CommandLine &line)
   {
     const Scene scene = scene_of(line);
@@ -32,9 +52,10 @@ namespace diptych::coupling
       });
       if (const int code = discrete_panel(line, scene, std::move(prepared)); code != done)
         return code;
-      if (const int code = continuum_panel(line, scene, {true, resume_continuum, {}}); code != done)
-        return code;
-      return compare_and_report(line, scene);
+      return after_the_grains(scene, [&] {
+        const int code = continuum_panel(line, scene, {true, resume_continuum, {}});
+        return code == done ? compare_and_report(line, scene) : code;
+      });
     });
   }
 } // namespace diptych::coupling

@@ -211,7 +211,7 @@ namespace diptych::coupling
     }
   } // namespace
 
-  void check_scene(const Scene &scene, const std::string &file, const std::vector<Entry> &entries, const bool compares)
+  void check_comparison(const Scene &scene, const std::string &file, const std::vector<Entry> &entries, const bool compares)
   {
     in_section(file, "", entries, [&] {
       if (const double coarse = scene.comparison.coarse_element_size; coarse > 0 && coarse < 0.1)
@@ -219,6 +219,11 @@ namespace diptych::coupling
       check_stages(scene, compares);
     });
     in_section(file, "comparison", entries, [&] { check_probe_options(scene.comparison.probes); });
+  }
+
+  void check_scene(const Scene &scene, const std::string &file, const std::vector<Entry> &entries, const bool compares)
+  {
+    check_comparison(scene, file, entries, compares);
     in_section(file, "", entries, [&] {
       const discrete::Loading loading = discrete_loading(scene.loading);
       discrete::validate(scene.sample, loading, scene.discrete);

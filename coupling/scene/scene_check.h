@@ -14,6 +14,9 @@ namespace diptych::coupling
   // Throws SceneError naming file, lines, keys and values that contradict each other.
   void check_scene(const Scene &scene, const std::string &file, const std::vector<Entry> &entries, bool compares);
 
+  // The same of what a comparison reads alone, of a scene that has been computed: files that it names may be gone.
+  void check_comparison(const Scene &scene, const std::string &file, const std::vector<Entry> &entries, bool compares);
+
   // Keys that the scene sets to another value than the default and that nothing reads, each with the key that says so; moduli and
   // cohesions that are probably meant in another unit.
   std::vector<std::string> warnings_of(const Scene &scene, const std::vector<Entry> &entries);

@@ -114,41 +114,66 @@ namespace diptych::coupling
     return sections;
   }
 
+  namespace
+  {
+    std::vector<Entry> entries_with(const std::string &file, const std::vector<Entry> &changes)
+    {
+      if (std::error_code none; std::filesystem::is_directory(file, none))
+        throw SceneError(file + ": is a folder; a scene file, .prm or .json, is needed");
+      std::istringstream in      = scene_input(file);
+      std::vector<Entry> entries = entries_of(file, in);
+      if (is_echo(file))
+        for (Entry &entry : entries)
+          entry.of_echo = true;
+      entries.insert(entries.end(), changes.begin(), changes.end());
+      return entries;
+    }
+
+    std::vector<Entry> entries_of_overrides(const std::vector<std::string> &overrides)
+    {
+      std::vector<Entry> changes;
+      for (const std::string &text : overrides)
+        changes.push_back(entry_of_override(text));
+      return changes;
+    }
+
+    // `check`: check_scene() or part of it.
+    template <class Check> Scene checked_scene(const std::string &file, const std::vector<Entry> &entries, const Check &check)
+    {
+      Scene scene;
+      for (const Entry &entry : entries)
+        {
+          demand_one_line(entry);
+          set(scene, entry);
+        }
+      scene.name = scene_name(file);
+      if (scene.output.directory.empty())
+        scene.output.directory = "results/" + scene.name;
+      check(scene);
+      scene.warnings = warnings_of(scene, entries);
+      return scene;
+    }
+  } // namespace
+
   Scene read_scene(const std::string &file, const std::vector<std::string> &overrides, const bool compares)
   {
-    std::vector<Entry> changes;
-    for (const std::string &text : overrides)
-      changes.push_back(entry_of_override(text));
-    return read_changed_scene(file, changes, compares);
+    return read_changed_scene(file, entries_of_overrides(overrides), compares);
   }
 
   Scene read_changed_scene(const std::string &file, const std::vector<Entry> &changes, const bool compares)
   {
-    if (std::error_code none; std::filesystem::is_directory(file, none))
-      throw SceneError(file + ": is a folder; a scene file, .prm or .json, is needed");
-    std::istringstream in      = scene_input(file);
-    std::vector<Entry> entries = entries_of(file, in);
-    if (is_echo(file))
-      for (Entry &entry : entries)
-        entry.of_echo = true;
-    entries.insert(entries.end(), changes.begin(), changes.end());
-    return scene_of_entries(file, entries, compares);
+    return scene_of_entries(file, entries_with(file, changes), compares);
   }
 
   Scene scene_of_entries(const std::string &file, const std::vector<Entry> &entries, const bool compares)
   {
-    Scene scene;
-    for (const Entry &entry : entries)
-      {
-        demand_one_line(entry);
-        set(scene, entry);
-      }
-    scene.name = scene_name(file);
-    if (scene.output.directory.empty())
-      scene.output.directory = "results/" + scene.name;
-    check_scene(scene, file, entries, compares);
-    scene.warnings = warnings_of(scene, entries);
-    return scene;
+    return checked_scene(file, entries, [&](const Scene &scene) { check_scene(scene, file, entries, compares); });
+  }
+
+  Scene read_computed_scene(const std::string &file, const std::vector<std::string> &overrides)
+  {
+    const std::vector<Entry> entries = entries_with(file, entries_of_overrides(overrides));
+    return checked_scene(file, entries, [&](const Scene &scene) { check_comparison(scene, file, entries, true); });
   }
 
   std::vector<Entry> read_fragment(const std::string &file)

@@ -17,7 +17,11 @@ namespace diptych::coupling
   // whether both panels will be compared, so that the windows must be stages.
   Scene read_scene(const std::string &file, const std::vector<std::string> &overrides, bool compares = true);
 
-  // The same with changes that say where they were made and where their files are.
+  // The scene that a result folder was made with, by its scene.prm, with overrides of what a comparison reads: nothing else is
+  // checked again, and files that it names may be gone. Throws SceneError.
+  Scene read_computed_scene(const std::string &file, const std::vector<std::string> &overrides);
+
+  // As read_scene(), with changes that say where they were made and where their files are.
   Scene read_changed_scene(const std::string &file, const std::vector<Entry> &changes, bool compares);
 
   // A scene that stands in no file: `file` is what messages call it and gives its name. Throws SceneError.

@@ -10,6 +10,11 @@
 
 namespace diptych::discrete
 {
+  namespace
+  {
+    constexpr std::size_t most_waiting = 1 << 20; // bytes
+  }
+
   TableFile::TableFile(std::string path, const std::string &header)
       : path(std::move(path))
   {
@@ -42,6 +47,8 @@ namespace diptych::discrete
   {
     waiting += line + '\n';
     ++n;
+    if (waiting.size() > most_waiting)
+      flush();
   }
 
   void TableFile::flush()

@@ -23,7 +23,7 @@ namespace diptych::discrete
     // Goes on after the first n_rows of a file that stands there. Throws as check_table().
     TableFile(std::string path, const std::string &header, long n_rows);
 
-    void add(const std::string &line); // without its end; kept until flush()
+    void add(const std::string &line); // without its end; kept until flush(), or until a megabyte waits
     void flush();
 
     long n_rows() const { return n; }

@@ -95,20 +95,27 @@ namespace diptych::discrete
   namespace
   {
     constexpr double most_steps = 1e9; // months, even of a hundred grains
+  }                                    // namespace
 
-    // Of the whole loading, as far as the scene alone tells: 0 where the step is the program's choice.
-    double fewest_steps(const SampleOptions &sample, const Loading &loading, const Options &options)
-    {
-      const double duration = loading.stages.back() / strain_rate(loading, sample.mean_diameter, sample.density);
-      if (options.method.method == Method::nscd)
-        return options.time.step ? duration / *options.time.step : 0;
-      if (options.method.method != Method::penalty || !(loading.pressure > 0))
-        return 0;
-      Grains largest;
-      add_grain(largest, {0, 0}, sample.mean_diameter, sample.density);
-      return duration / penalty_step(largest, options.penalty.stiffness * loading.pressure, options.penalty.step_fraction);
-    }
-  } // namespace
+  double fewest_steps(const SampleOptions &sample, const Loading &loading, const Options &options)
+  {
+    const double duration = loading.stages.back() / strain_rate(loading, sample.mean_diameter, sample.density);
+    if (options.method.method == Method::nscd)
+      return options.time.step ? duration / *options.time.step : 0;
+    if (options.method.method != Method::penalty || !(loading.pressure > 0))
+      return 0;
+    Grains largest;
+    add_grain(largest, {0, 0}, sample.mean_diameter, sample.density);
+    return duration / penalty_step(largest, options.penalty.stiffness * loading.pressure, options.penalty.step_fraction);
+  }
+
+  double fewest_rows(const SampleOptions &sample, const Loading &loading, const Options &options)
+  {
+    const double steps = fewest_steps(sample, loading, options);
+    if (options.method.history_interval > 0)
+      return steps / options.method.history_interval;
+    return options.method.method == Method::penalty ? std::min(steps, 1000. * double(loading.stages.size())) : steps;
+  }
 
   void validate(const SampleOptions &sample, const Loading &loading, const Options &options)
   {

@@ -89,5 +89,10 @@ namespace diptych::discrete
   // Throws std::invalid_argument on options that contradict each other or name wrong files.
   void validate(const SampleOptions &sample, const Loading &loading, const Options &options);
 
+  // Of the whole loading, as far as the scene alone tells: steps, and rows of the history. 0 where the step is the program's
+  // choice. Needs stages, not the rest of what validate() demands.
+  double fewest_steps(const SampleOptions &sample, const Loading &loading, const Options &options);
+  double fewest_rows(const SampleOptions &sample, const Loading &loading, const Options &options);
+
   PreparationSetting preparation_setting(const Loading &loading, const Options &options);
 } // namespace diptych::discrete

@@ -131,4 +131,7 @@ namespace diptych::discrete
 
   // How many grains a generated sample has: sample/grains, or as many as fill width x height. Not rounded.
   double expected_grains(const SampleOptions &options);
+
+  // Width and height of a generated sample at sample/solid_fraction [length]; prepared, it has them to some percent.
+  Eigen::Vector2d expected_size(const SampleOptions &options);
 } // namespace diptych::discrete

@@ -307,6 +307,12 @@ namespace diptych::discrete
     return o.width * o.height * o.solid_fraction / (disc_area(radius) / double(radius.size()));
   }
 
+  Eigen::Vector2d expected_size(const SampleOptions &o)
+  {
+    const std::vector<double> radius = typical_radii(o);
+    return sample_size(o, disc_area(radius) / double(radius.size()) * expected_grains(o));
+  }
+
   namespace
   {
     // A generated sample has some grains and room for them side by side.
@@ -316,10 +322,8 @@ namespace diptych::discrete
       if (const double n = expected_grains(o); !(n >= fewest && n <= most))
         throw std::invalid_argument("sample/width = " + exact_text(o.width) + " and sample/height = " + exact_text(o.height) +
                                     " hold " + exact_text(std::round(n)) + " grains; allowed: 10 to 1e+07");
-      const std::vector<double> radius = typical_radii(o);
-      const double              area   = disc_area(radius) / double(radius.size()) * expected_grains(o);
-      const Eigen::Vector2d     size   = sample_size(o, area);
-      if (const double least = 2 * radius.back(); !(size.minCoeff() >= least))
+      const Eigen::Vector2d size = expected_size(o);
+      if (const double least = 2 * typical_radii(o).back(); !(size.minCoeff() >= least))
         throw std::invalid_argument("sample/width = " + exact_text(o.width) + ", sample/height = " + exact_text(o.height) +
                                     " and sample/width_over_height = " + exact_text(o.width_over_height) + " make a sample of " +
                                     exact_text(size.x()) + " x " + exact_text(size.y()) +

@@ -93,6 +93,11 @@ namespace
     EXPECT_DOUBLE_EQ(field.weight[0], M_PI / 4);
     EXPECT_EQ(field.weight[1], 0);
     EXPECT_EQ(field.weight[2], 0);
+    from.rattler        = {1, 1, 1}; // nothing touches yet
+    const auto put_down = displacement_field(from, to);
+    EXPECT_DOUBLE_EQ(put_down.weight[0], M_PI / 4);
+    EXPECT_EQ(put_down.weight[1], 0);
+    EXPECT_DOUBLE_EQ(put_down.weight[2], M_PI / 4);
     from.displacement.pop_back();
     EXPECT_THROW(displacement_field(from, to), std::invalid_argument);
   }

@@ -187,6 +187,8 @@ namespace
          s.continuum.mesh            = "rectangle";
          s.continuum.rectangle_width = s.continuum.rectangle_height = 5, s.continuum.platen_width = 6;
        }},
+      {"continuum/element_size", [](Scene &s) { s.sample.grains = 60, s.continuum.element_size = 15; }},
+      {"comparison/coarse_element_size", [](Scene &s) { s.sample.grains = 60, s.comparison.coarse_element_size = 100; }},
       {"continuum/mesh", [](Scene &s) { s.continuum.mesh = "somewhere"; }},
       {"continuum/initial_stress",
        [](Scene &s) { s.continuum.mesh = "rectangle", s.continuum.initial_stress = continuum::InitialStress::mapped; }}};

@@ -44,6 +44,24 @@ namespace
       }
   }
 
+  // Every step of a history has a row, and all rows are read when the facts of the run are told.
+  TEST(RunRoom, LongHistoriesTakeRoom)
+  {
+    Scene scene                   = scene_of(100);
+    scene.discrete.time.step      = 0.01;
+    scene.loading.inertial_number = 1e-3;
+    const RunRoom every           = expected_room(scene, {true, false});
+    EXPECT_EQ(expected_room(scene, {true, false, 5}).memory, every.memory);
+    scene.discrete.method.history_interval = 10;
+    const RunRoom tenth                    = expected_room(scene, {true, false});
+    EXPECT_GT(every.disk, tenth.disk);
+    EXPECT_GT(every.memory, tenth.memory);
+    scene.discrete.method.history_interval = 0;
+    scene.loading.inertial_number          = 1e-8;
+    EXPECT_THROW(demand_room(scene, {true, false}), std::runtime_error);
+    EXPECT_NO_THROW(demand_room(scene, {false, true}));
+  }
+
   TEST(RunRoom, AnUsualRunIsNotRefused)
   {
     EXPECT_NO_THROW(demand_room(scene_of(2000), {true, true}));

@@ -42,6 +42,17 @@ namespace
     EXPECT_EQ(table.n_rows(), 3);
   }
 
+  TEST_F(Table, ManyRowsDoNotWaitInMemory)
+  {
+    TableFile         table(path, "a,b");
+    const std::string row(999, '1');
+    for (int k = 0; k < 5000; ++k)
+      table.add(row);
+    EXPECT_GT(text().size(), 3u << 20);
+    table.flush();
+    EXPECT_EQ(text().size(), 4 + 5000u * 1000u);
+  }
+
   TEST_F(Table, IsTakenUpAfterTheRowOfTheCheckpoint)
   {
     std::ofstream(path) << "a,b\n1,2\n3,4\n5,"; // killed while a row was written

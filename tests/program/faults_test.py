@@ -1,0 +1,206 @@
+#!/usr/bin/env python3
+# diptych: faults that were once found, each by itself: what would lose results or go wrong in silence is told
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: faults_test.py PROGRAM SOURCE_DIR [unittest arguments]. Random relatives of these: tests/robustness."""
+
+import os
+import resource
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import h5py
+
+from running import ENVIRONMENT, PROBLEMS, PROGRAM, QUICK, SMALL, bits, content, diptych, listing, main, setting, write
+
+FEW = SMALL + setting(sample_grains=60, output_report="false")
+BOTH = FEW + setting(continuum_element_size=2.5, continuum_initial_step=0.0025, continuum_max_step=0.0025,
+                     comparison_coarse_element_size=0, comparison_band_resamples=0, comparison_probe_resamples=0)
+
+
+class Folder(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.keep = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.keep.cleanup)
+        cls.whole = os.path.join(cls.keep.name, "whole")
+        result = diptych("run", QUICK, *BOTH, "--output", cls.whole, "--quiet")
+        if result.returncode != 0:
+            raise RuntimeError(result.stderr)
+
+    def setUp(self):
+        keep = tempfile.TemporaryDirectory()
+        self.addCleanup(keep.cleanup)
+        self.work, self.folder = keep.name, os.path.join(keep.name, "out")
+
+    def contents(self):
+        return {name: content(os.path.join(self.folder, name)) for name in listing(self.folder) if name != "provenance.json"}
+
+    def expect(self, code, words, *texts, **options):
+        """Ends with that code and a message that holds those texts, and for 2 leaves every file as it was."""
+        before = {name: content(os.path.join(self.work, name)) for name in listing(self.work)}
+        result = diptych(*words, cwd=self.work, **options)
+        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
+        for text in texts:
+            self.assertIn(text, result.stderr)
+        self.assertNotIn("Traceback", result.stderr)
+        after = {name: content(os.path.join(self.work, name)) for name in listing(self.work)}
+        if code == 2:
+            self.assertEqual(after, before)
+        self.assertEqual([name for name in after if name.endswith((".part", ".lock"))], [])
+        return result
+
+
+class Inputs(Folder):
+    def test_a_run_does_not_remove_its_own_input(self):
+        shutil.copytree(self.whole, self.folder)
+        sample = os.path.join(self.folder, "discrete.h5")
+        for command in ("discrete", "run", "continuum"):
+            self.expect(2, [command, QUICK, *BOTH, *setting(sample_file=sample), "--output", self.folder, "--quiet"], sample)
+
+    def test_values_that_no_machine_could_compute(self):
+        for words, text in ((setting(sample_width=1e12), "sample/width"), (setting(discrete_step=1e-12), "discrete/step"),
+                            (setting(loading_inertial_number=1e-12), "loading/inertial_number"), (["--threads", "100000"], "--threads")):
+            self.expect(2, ["discrete", QUICK, *FEW, *words, "--output", self.folder, "--quiet"], text)
+        result = self.expect(4, ["discrete", QUICK, *FEW, *setting(loading_inertial_number=1e-9, discrete_step=0.011), "--output", self.folder, "--quiet"],
+                             "rows of discrete.csv", "discrete/history_interval", "nothing was written")
+        self.assertFalse(os.path.exists(self.folder), result.stderr)
+
+    def test_solutions_replace_solutions_alone(self):
+        scene = write(os.path.join(self.work, "scene.prm"), "# mine\n")
+        problem = os.path.join(PROBLEMS, "small.h5")
+        self.expect(2, ["solve", problem, "--output", scene], scene)
+        solution = os.path.join(self.work, "solved.h5")
+        for _ in range(2):
+            self.assertEqual(diptych("solve", problem, "--output", solution).returncode, 0)
+
+    def test_a_comparison_goes_where_its_folder_is(self):
+        self.expect(2, ["compare", self.whole, "--output", os.path.join(self.work, "other")], "--output")
+
+    def test_platens_that_rest_are_told_before_anything_is_computed(self):
+        words = setting(loading_mode="time", loading_duration=1, loading_stage_time=0.5, comparison_window_edges="0,1",
+                        discrete_lateral="rigid_walls")
+        self.expect(2, ["run", QUICK, *BOTH, *words, "--output", self.folder, "--quiet"], "discrete/drive_upper_y")
+
+
+class Folders(Folder):
+    def test_damaged_records_and_tables_are_named(self):
+        text = content(os.path.join(self.whole, "provenance.json"))
+        header = content(os.path.join(self.whole, "discrete.csv"))
+        for name, damaged in (("provenance.json", b""), ("provenance.json", text[:len(text) // 2]), ("provenance.json", b'{"phases": 1}'),
+                              ("discrete.csv", header.replace(b"stress_ratio", b"strength", 1))):
+            with self.subTest(name=name, length=len(damaged)):
+                shutil.rmtree(self.folder, ignore_errors=True)
+                shutil.copytree(self.whole, self.folder)
+                with open(os.path.join(self.folder, name), "wb") as file:
+                    file.write(damaged)
+                self.expect(2, ["compare", self.folder, "--quiet"], os.path.join(self.folder, name))
+
+    def test_damaged_comparisons_are_named_by_the_report(self):
+        for name in ("comparison.h5", "comparison.json"):
+            for damaged in (b"", content(os.path.join(self.whole, name))[:700], b"foreign"):
+                with self.subTest(name=name, length=len(damaged)):
+                    shutil.rmtree(self.folder, ignore_errors=True)
+                    shutil.copytree(self.whole, self.folder)
+                    with open(os.path.join(self.folder, name), "wb") as file:
+                        file.write(damaged)
+                    self.expect(2, ["report", self.folder, "--quiet"], name)
+
+    def test_an_array_cut_short_does_not_change_the_comparison(self):
+        shutil.copytree(self.whole, self.folder)
+        stage = os.path.join(self.folder, "discrete", "stage_0001.h5")
+        path = stage if os.path.exists(stage) else os.path.join(self.folder, "discrete.h5")
+        with h5py.File(path, "r+") as file:
+            group = file[sorted(name for name in file if name.startswith("stage_"))[1]]
+            force = group["contacts/force"][:5]
+            del group["contacts/force"]
+            group["contacts/force"] = force
+        self.expect(2, ["compare", self.folder, "--quiet"], "contacts/force", path)
+
+    def test_one_flipped_bit_is_told(self):
+        shutil.copytree(self.whole, self.folder)
+        path = os.path.join(self.folder, "discrete.h5")
+        damaged = bytearray(content(path))
+        with h5py.File(path, "r") as file:
+            stages = sorted(name for name in file if name.startswith("stage_"))
+            pieces = file[stages[-1] + "/contacts/force"].id
+            place = pieces.get_chunk_info(0).byte_offset if pieces.get_num_chunks() else pieces.get_offset()
+        damaged[place + 11] ^= 16
+        with open(path, "wb") as file:
+            file.write(damaged)
+        self.expect(2, ["compare", self.folder, "--quiet"], path)
+
+    def table_of(self, folder):
+        with h5py.File(os.path.join(folder, "discrete.h5"), "r") as file:
+            grains = file["stage_0000/grains"]
+            rows = [f"{x!r},{y!r},{r!r}" for (x, y, _), r in zip(grains["position"][()].tolist(), grains["radius"][()].tolist())]
+        return write(os.path.join(self.work, "grains.csv"), "\n".join(["x,y,r", *rows]) + "\n")
+
+    def test_a_comparison_that_cannot_be_made_leaves_both_panels(self):
+        words = setting(comparison_probe_circle="100,100,5")
+        self.expect(3, ["run", QUICK, *BOTH, *words, "--output", self.folder, "--quiet"], "comparison/probe_circle", "kept in " + self.folder)
+        self.assertIn("continuum.h5", listing(self.folder))
+
+    def test_a_folder_made_of_a_table_needs_the_table_no_more(self):
+        prepared = os.path.join(self.work, "prepared")
+        self.expect(0, ["discrete", QUICK, *BOTH, *setting(sample_grains=120), "--output", prepared, "--quiet"])
+        table = self.table_of(prepared)
+        self.expect(0, ["run", QUICK, *BOTH, *setting(sample_file=table), "--output", self.folder, "--quiet"])
+        before = self.contents()
+        os.remove(table)
+        self.expect(0, ["compare", self.folder, "--quiet"])
+        self.assertEqual(self.contents()["comparison.csv"], before["comparison.csv"])
+        self.expect(0, ["report", self.folder, "--quiet"])
+
+    def test_a_second_run_is_told_who_writes(self):
+        words = [PROGRAM, "discrete", QUICK, *FEW, *setting(loading_axial_strain=0.2, comparison_window_edges="0,0.2"), "--output", self.folder]
+        first = subprocess.Popen([*words, "--quiet"], env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            while first.poll() is None and not os.path.exists(os.path.join(self.folder, "scene.prm")):
+                time.sleep(0.002)
+            self.assertIsNone(first.poll())
+            os.kill(first.pid, signal.SIGSTOP)
+            held = self.contents()
+            second = subprocess.run([*words, "--quiet"], env=ENVIRONMENT, capture_output=True, text=True)
+            self.assertEqual(second.returncode, 4, second.stderr)
+            for text in (self.folder, str(first.pid), os.uname().nodename):
+                self.assertIn(text, second.stderr)
+            self.assertEqual(self.contents(), held)
+        finally:
+            first.kill()
+            first.wait()
+        self.assertEqual(diptych("discrete", QUICK, *FEW, "--output", self.folder, "--quiet").returncode, 0)  # the dead one's lock holds nobody
+
+
+class Machine(Folder):
+    def test_little_room_on_the_disk(self):
+        """The library's exit handler once ended every one of these in SIGSEGV."""
+        for room in (0, 64000, 120000, 250000, 500000):
+            def limit(room=room):
+                signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+                resource.setrlimit(resource.RLIMIT_FSIZE, (room, room))
+            with self.subTest(room=room):
+                shutil.rmtree(self.folder, ignore_errors=True)
+                result = diptych("discrete", QUICK, *FEW, "--output", self.folder, "--quiet", preexec_fn=limit)
+                self.assertIn(result.returncode, (0, 4) if room == 500000 else (4,), result.stderr)
+                if result.returncode == 4:
+                    self.assertTrue(self.folder in result.stderr or "nothing was written" in result.stderr, result.stderr)
+
+    def test_without_h5py_what_was_computed_is_kept(self):
+        os.mkdir(os.path.join(self.work, "modules"))
+        write(os.path.join(self.work, "modules", "h5py.py"), "raise ModuleNotFoundError(\"No module named 'h5py'\", name='h5py')\n")
+        environment = dict(ENVIRONMENT, PYTHONPATH=os.path.join(self.work, "modules"))
+        result = subprocess.run([PROGRAM, "run", QUICK, *BOTH, *setting(output_report="true"), "--output", self.folder, "--quiet"],
+                                env=environment, capture_output=True, text=True)
+        self.assertEqual(result.returncode, 4, result.stderr)
+        for text in ("h5py", "kept in"):
+            self.assertIn(text, result.stderr)
+        self.assertNotIn("Traceback", result.stderr)
+        self.assertEqual(bits(os.path.join(self.folder, "comparison.h5")), bits(os.path.join(self.whole, "comparison.h5")))
+
+
+if __name__ == "__main__":
+    main()
