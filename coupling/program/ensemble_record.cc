@@ -61,7 +61,7 @@ namespace diptych::coupling
         if (text.rfind("comparison/margin_", 0) != 0 && text.rfind("output/", 0) != 0)
           throw SceneError("--set " + text +
                            ": only comparison/margin_* and output/ can be changed without running the members again");
-      Scene scene            = read_scene(line.target + "/ensemble.prm", line.overrides);
+      Scene scene            = read_computed_scene(line.target + "/ensemble.prm", line.overrides);
       scene.output.directory = line.target;
       if (const std::string name = recorded_scene(line.target); !name.empty())
         scene.name = name;

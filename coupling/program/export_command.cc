@@ -22,7 +22,7 @@ namespace diptych::coupling
       throw SceneError(line.target + ": has no discrete.h5; diptych discrete or run makes it");
     Scene scene;
     if (fs::exists(line.target + "/scene.prm"))
-      scene = read_scene(line.target + "/scene.prm", {}, false);
+      scene = read_computed_scene(line.target + "/scene.prm", {}, false);
     const std::vector<discrete::Snapshot> snapshots = discrete::read_snapshots(file);
     if (std::size_t(line.stage) >= snapshots.size())
       throw SceneError("--stage " + std::to_string(line.stage) + ": " + file + " holds " + std::to_string(snapshots.size()) +

@@ -170,10 +170,10 @@ namespace diptych::coupling
     return checked_scene(file, entries, [&](const Scene &scene) { check_scene(scene, file, entries, compares); });
   }
 
-  Scene read_computed_scene(const std::string &file, const std::vector<std::string> &overrides)
+  Scene read_computed_scene(const std::string &file, const std::vector<std::string> &overrides, const bool compares)
   {
     const std::vector<Entry> entries = entries_with(file, entries_of_overrides(overrides));
-    return checked_scene(file, entries, [&](const Scene &scene) { check_comparison(scene, file, entries, true); });
+    return checked_scene(file, entries, [&](const Scene &scene) { check_comparison(scene, file, entries, compares); });
   }
 
   std::vector<Entry> read_fragment(const std::string &file)

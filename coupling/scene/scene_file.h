@@ -18,8 +18,8 @@ namespace diptych::coupling
   Scene read_scene(const std::string &file, const std::vector<std::string> &overrides, bool compares = true);
 
   // The scene that a result folder was made with, by its scene.prm, with overrides of what a comparison reads: nothing else is
-  // checked again, and files that it names may be gone. Throws SceneError.
-  Scene read_computed_scene(const std::string &file, const std::vector<std::string> &overrides);
+  // checked again, and files that it names may be gone. `compares` as in read_scene(). Throws SceneError.
+  Scene read_computed_scene(const std::string &file, const std::vector<std::string> &overrides, bool compares = true);
 
   // As read_scene(), with changes that say where they were made and where their files are.
   Scene read_changed_scene(const std::string &file, const std::vector<Entry> &changes, bool compares);
