@@ -20,13 +20,24 @@ from running import ENVIRONMENT, PROGRAM
 MEMORY = 4 << 30  # bytes of address space that a run may have: no case may take the machine
 PATIENCE = 4  # seconds until a run that goes on is asked to stop; ending by itself or then are both right
 HANG = 60  # seconds from there to the end: hundreds of times what any case here needs
+SANITIZER = {}  # what a program that was built with sanitizers is told by its environment; empty: it was not
+
+
+def expect_sanitizers():
+    """Address sanitizer maps terabytes of which it uses little, so it is told the limit itself; what the libraries leave at their end is theirs."""
+    global HANG
+    HANG *= 5
+    SANITIZER["ASAN_OPTIONS"] = f"detect_leaks=0:allocator_may_return_null=1:hard_rss_limit_mb={MEMORY >> 20}"
+    SANITIZER["UBSAN_OPTIONS"] = "print_stacktrace=1"
+    ENVIRONMENT.update(SANITIZER)
 
 
 def limit(memory=MEMORY, **limits):
     """For preexec_fn: as on a full disk (an error of write(), not a signal), in little memory, with few files."""
     signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
+    if not SANITIZER:
+        resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
     for name, value in limits.items():
         resource.setrlimit(getattr(resource, name), (value, value))
 
@@ -90,7 +101,7 @@ class Case:
     def start(self, *words, env=None, cwd=None, preexec=limit, stdout=subprocess.PIPE):
         """The process; its texts come through pipes, which no limit of files ends, and are not waited for longer than it runs."""
         self.commands.append([os.fsdecode(word) for word in words])
-        process = subprocess.Popen([PROGRAM, *words], env=env or ENVIRONMENT, cwd=cwd or self.work, stdin=subprocess.DEVNULL, stdout=stdout,
+        process = subprocess.Popen([PROGRAM, *words], env={**(env or ENVIRONMENT), **SANITIZER}, cwd=cwd or self.work, stdin=subprocess.DEVNULL, stdout=stdout,
                                    stderr=subprocess.PIPE, preexec_fn=preexec, start_new_session=True)
         process.words, process.sent = self.commands[-1], 0
         process.told = {name: Listener(pipe) for name, pipe in (("out", process.stdout), ("errors", process.stderr)) if pipe}
@@ -98,6 +109,7 @@ class Case:
 
     def finish(self, process, patience=PATIENCE):
         """Waits; asks to stop after `patience` seconds. True where it hung and had to be killed."""
+        patience = patience if not SANITIZER else 5 * patience
         for wait, number in ((patience, signal.SIGTERM), (HANG, signal.SIGKILL)):
             try:
                 process.wait(wait)
@@ -155,7 +167,7 @@ def run_case(kind, function, seed, keep):
     return case.violations + (case.done if case.violations else []), case.codes, case.commands, ended.ru_utime + ended.ru_stime - began.ru_utime - began.ru_stime
 
 
-def wait_for(path, process, seconds=HANG):
+def wait_for(path, process, seconds=60):
     """Until a file is there. False where the process ended without, or never wrote it."""
     end = time.monotonic() + seconds
     while process.poll() is None and time.monotonic() < end:

@@ -7,10 +7,11 @@ import signal
 import time
 
 import bases
+import cases
 import judge
 import same
 from bases import BOTH, LONG, LONG_BOTH, LONG_NODES, TINY
-from cases import HANG, wait_for
+from cases import wait_for
 from folder_kinds import expect_same_as_base
 from running import QUICK, setting
 
@@ -60,7 +61,7 @@ def killed_once(case, line, seconds, number):
     if process.poll() is None:
         process.send_signal(number)
         process.sent = number
-    is_hung = case.finish(process, HANG)
+    is_hung = case.finish(process, cases.HANG)
     case.judge(case.outcome(process, before, case.path("out"), is_hung), codes=(0, 3))
 
 
@@ -76,7 +77,7 @@ def two(case):
         wait_for(os.path.join(out, "scene.prm"), first)
     time.sleep(case.dice.choice([0, 0, case.dice.uniform(0, 0.2)]))
     second = case.start(*lines[1])
-    outcomes = [case.outcome(process, before, out, case.finish(process, HANG)) for process in (first, second)]
+    outcomes = [case.outcome(process, before, out, case.finish(process, cases.HANG)) for process in (first, second)]
     for outcome in outcomes:
         outcome.after = judge.digest(case.work)
         if outcome.code == 2:

@@ -16,7 +16,7 @@ import numpy
 
 CODES = (0, 2, 3, 4)
 # Texts of libraries that say nothing to a user: never, or not without a name of his beside them.
-NEVER = ("Traceback (most recent call last)", "terminate called", "what():", "HDF5-DIAG", "Segmentation fault")
+NEVER = ("Traceback (most recent call last)", "terminate called", "what():", "HDF5-DIAG", "Segmentation fault", "AddressSanitizer", "runtime error: ")
 NOT_ALONE = ("[json.exception", "basic_filebuf", "basic_ios::clear", "cannot create std::vector", "std::bad_alloc", "vector::_M_",
              "basic_string::_M_", "regex_error", "stoi", "stod")
 OWN_STATE = ("checkpoint.h5", "continuum_checkpoint.h5")  # not results; of other runs

@@ -6,7 +6,7 @@ import os
 
 import bases
 from bases import BOTH, NODES, TINY
-from cases import limit
+from cases import SANITIZER, limit
 from folder_kinds import expect_same_as_base
 from running import ENVIRONMENT, QUICK, setting
 
@@ -108,7 +108,7 @@ def with_no_reader(case):
 def in_little(case):
     """Few files or little memory. Below 200 MB not even the libraries load, which is not the program's to tell."""
     out, line = case.path("out"), some_command(case)
-    if case.dice.random() < 0.4:
+    if case.dice.random() < 0.4 or SANITIZER:
         preexec = functools.partial(limit, RLIMIT_NOFILE=case.dice.choice([8, 12, 16, 32]))
     else:
         preexec = functools.partial(limit, memory=case.dice.randrange(400, 1500) << 20)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # diptych: hostile input, damaged files, full disks, kills: nothing lost, nothing silently wrong
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: robustness.py PROGRAM SOURCE_DIR [--cases N] [--seed S] [--kinds a,b] [--jobs J] [--keep DIR] [--kills N] [--case KIND:SEED]"""
+"""Usage: robustness.py PROGRAM SOURCE_DIR [--cases N] [--seed S] [--kinds a,b] [--jobs J] [--keep DIR] [--kills N] [--sanitized] [--case KIND:SEED]"""
 
 import argparse
 import collections
@@ -90,6 +90,7 @@ def arguments():
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--keep", help="folder of violations (default: a temporary one, named)")
     parser.add_argument("--kills", type=int, help="instead: this many kills -9 and as many SIGTERM of each sort of run")
+    parser.add_argument("--sanitized", action="store_true", help="PROGRAM was built with sanitizers: a report is a violation, more time is given")
     parser.add_argument("--case", action="append", metavar="KIND:SEED", help="this one alone; may be repeated")
     asked = parser.parse_args()
     asked.kinds = list(interruption_kinds.EACH) if asked.kills else asked.kinds.split(",")
@@ -101,6 +102,8 @@ def arguments():
 
 def main():
     asked = arguments()
+    if asked.sanitized:
+        cases.expect_sanitizers()
     keep = os.path.abspath(asked.keep or tempfile.mkdtemp(prefix="robustness_"))
     os.makedirs(keep, exist_ok=True)
     if asked.case:
