@@ -223,7 +223,7 @@ namespace diptych::coupling
   {
     const Scene scene = scene_of(line);
     require_continuum(scene);
-    demand_room(scene, {false, true});
+    announce_room(line, scene, {false, true});
     std::optional<FolderLock> lock;
     return keeping(scene.output.directory, [&] {
       ContinuumTask task;

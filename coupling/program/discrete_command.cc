@@ -249,7 +249,7 @@ namespace diptych::coupling
       check_study(scene);
     if (scene.discrete.method.method == discrete::Method::imported)
       (void)load_imported(scene);
-    demand_room(scene, {true, false});
+    announce_room(line, scene, {true, false});
     return writing(scene.output.directory, [&] {
       std::unique_ptr<RecordedGrains> prepared;
       open_result_folder(scene, line.resume, [&] {

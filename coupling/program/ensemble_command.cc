@@ -146,7 +146,7 @@ namespace diptych::coupling
   {
     const std::vector<int> seeds = read_seeds(line.seeds);
     const Scene            scene = ensemble_scene(line);
-    demand_room(scene, {true, true, int(seeds.size())});
+    announce_room(line, scene, {true, true, int(seeds.size())});
     std::optional<FolderLock> lock;
     on_first_process([&] {
       lock.emplace(scene.output.directory);

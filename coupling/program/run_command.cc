@@ -39,7 +39,7 @@ namespace diptych::coupling
     require_continuum(scene);
     check_comparable(scene);
     require_platen_travel(scene);
-    demand_room(scene, {true, true});
+    announce_room(line, scene, {true, true});
     return writing(scene.output.directory, [&] {
       const bool                      resume_continuum = line.resume && may_resume_continuum(scene);
       std::unique_ptr<RecordedGrains> prepared;

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <string>
+
+#include "coupling/program/command_line.h"
 #include "coupling/scene/scene.h"
 
 namespace diptych::coupling
@@ -12,14 +15,28 @@ namespace diptych::coupling
     int  samples = 1; // of an ensemble: results of all, memory of one
   };
 
-  // Bytes that a run is expected to take, by what runs of this program took (run_room.cc); 0 where it is not known beforehand.
+  struct CpuRange
+  {
+    double low = 0, high = 0;
+  };
+
+  // What a run is expected to take, by what runs of this program took (run_room.cc). 0 where it is not known beforehand: of what
+  // stands in a file (sample, mesh) and of steps that nothing presses.
   struct RunRoom
   {
-    double memory = 0, disk = 0;
+    double   steps = 0, load_steps = 0; // of the grains and of the continuum, of one sample
+    double   memory = 0, disk = 0;      // [bytes]
+    CpuRange cpu_s;                     // of the panels [s]
   };
   RunRoom expected_room(const Scene &scene, const RunParts &parts);
 
   // Throws std::runtime_error naming what is asked for and what there is, where the machine has not the memory, or the disk of
   // the result folder not the room.
   void demand_room(const Scene &scene, const RunParts &parts);
+
+  // "2000 grains, 660 steps; about 25 MB of memory, 2 MB of files, 9 s to 26 s of CPU time": what is known of it.
+  std::string room_text(const Scene &scene, const RunParts &parts);
+
+  // Both, at the beginning of a command; a run that goes on needs less, so no text then.
+  void announce_room(const CommandLine &line, const Scene &scene, const RunParts &parts);
 } // namespace diptych::coupling

@@ -49,6 +49,15 @@ namespace diptych::discrete
     return text.str();
   }
 
+  std::string endless_text(const int stage, const double steps, const StepChoice &choice)
+  {
+    std::ostringstream text;
+    text << "stage " << stage << " would take " << steps << " steps of " << choice.step << ", a loading at most " << most_steps;
+    if (!choice.bound.empty())
+      text << "; discrete/step = auto is bound there by: " << choice.bound;
+    return text.str();
+  }
+
   std::string failure_text(const FailedStep &failed, const Options &options)
   {
     std::ostringstream text;

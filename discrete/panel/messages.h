@@ -13,6 +13,8 @@ namespace diptych::discrete
   std::string momentum_text(int step, double residual);
   std::string interpenetration_text(int step, double penetration); // [mean diameters]
 
+  std::string endless_text(int stage, double steps, const StepChoice &choice);
+
   // A step that the sweeps left unsolved, or on which springs blew up.
   struct FailedStep
   {

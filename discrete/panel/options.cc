@@ -92,26 +92,35 @@ namespace diptych::discrete
     return keys;
   }
 
-  namespace
+  double expected_step(const SampleOptions &sample, const Loading &loading, const Options &options)
   {
-    constexpr double most_steps = 1e9; // months, even of a hundred grains
-  }                                    // namespace
-
-  double fewest_steps(const SampleOptions &sample, const Loading &loading, const Options &options)
-  {
-    const double duration = loading.stages.back() / strain_rate(loading, sample.mean_diameter, sample.density);
-    if (options.method.method == Method::nscd)
-      return options.time.step ? duration / *options.time.step : 0;
-    if (options.method.method != Method::penalty || !(loading.pressure > 0))
+    if (options.method.method == Method::nscd && options.time.step)
+      return *options.time.step;
+    if (options.method.method == Method::imported || !(loading.pressure > 0))
       return 0;
-    Grains largest;
-    add_grain(largest, {0, 0}, sample.mean_diameter, sample.density);
-    return duration / penalty_step(largest, options.penalty.stiffness * loading.pressure, options.penalty.step_fraction);
+    if (options.method.method == Method::penalty)
+      {
+        Grains largest;
+        add_grain(largest, {0, 0}, sample.mean_diameter, sample.density);
+        return penalty_step(largest, options.penalty.stiffness * loading.pressure, options.penalty.step_fraction);
+      }
+    // Grains that yield under a lateral pressure P carry t/s of about a third: s = (s1 + s2)/2 = P/(1 - t/s) = 1.5 P.
+    const double stress   = (loading.mode == LoadingMode::descent ? 1.5 : 1) * loading.pressure;
+    const double n_grains = sample.file.empty() ? expected_grains(sample) : 0;
+    const double unit     = sample.mean_diameter * std::sqrt(sample.density / stress);
+    const double rate     = loading.mode == LoadingMode::time ? 0 : strain_rate(loading, sample.mean_diameter, sample.density);
+    return step_at_rest({n_grains, unit, options.lateral.lateral == Lateral::end_grains}, {stress, rate, options.accuracy}).step;
   }
 
-  double fewest_rows(const SampleOptions &sample, const Loading &loading, const Options &options)
+  double expected_steps(const SampleOptions &sample, const Loading &loading, const Options &options)
   {
-    const double steps = fewest_steps(sample, loading, options);
+    const double step = expected_step(sample, loading, options);
+    return step > 0 ? loading.stages.back() / strain_rate(loading, sample.mean_diameter, sample.density) / step : 0;
+  }
+
+  double expected_rows(const SampleOptions &sample, const Loading &loading, const Options &options)
+  {
+    const double steps = expected_steps(sample, loading, options);
     if (options.method.history_interval > 0)
       return steps / options.method.history_interval;
     return options.method.method == Method::penalty ? std::min(steps, 1000. * double(loading.stages.size())) : steps;
@@ -140,11 +149,14 @@ namespace diptych::discrete
                                   "what rebounds there follows from penalty_damping");
     if (penalty && options.method.store_problems)
       throw std::invalid_argument("discrete/method = penalty has no contact problems: discrete/store_problems must be false");
-    if (const double steps = fewest_steps(sample, loading, options); steps > most_steps)
-      throw std::invalid_argument(
-        "the loading would take " + exact_text(std::ceil(steps)) + " steps, at most 1e+09: " +
-        (penalty ? "discrete/penalty_stiffness and penalty_step_fraction" : "discrete/step = " + exact_text(*options.time.step)) +
-        " against the duration that loading/inertial_number or strain_rate give it");
+    if (const double steps = expected_steps(sample, loading, options); steps > most_steps)
+      throw std::invalid_argument("the loading would take " + exact_text(std::ceil(steps)) + " steps, at most 1e+09: " +
+                                  (penalty ? "discrete/penalty_stiffness and penalty_step_fraction"
+                                   : options.time.step
+                                     ? "discrete/step = " + exact_text(*options.time.step)
+                                     : "discrete/step = auto gives " + exact_text(expected_step(sample, loading, options)) +
+                                         " for discrete/accuracy = " + exact_text(options.accuracy.accuracy)) +
+                                  " against the duration that loading/inertial_number or strain_rate give it");
     if (penalty && !(loading.pressure > 0))
       throw std::invalid_argument(
         "discrete/method = penalty: the stiffness is penalty_stiffness x loading/pressure, which must be positive");

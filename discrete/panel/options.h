@@ -89,10 +89,14 @@ namespace diptych::discrete
   // Throws std::invalid_argument on options that contradict each other or name wrong files.
   void validate(const SampleOptions &sample, const Loading &loading, const Options &options);
 
-  // Of the whole loading, as far as the scene alone tells: steps, and rows of the history. 0 where the step is the program's
-  // choice. Needs stages, not the rest of what validate() demands.
-  double fewest_steps(const SampleOptions &sample, const Loading &loading, const Options &options);
-  double fewest_rows(const SampleOptions &sample, const Loading &loading, const Options &options);
+  constexpr double most_steps = 1e9; // of a loading: months, even of a hundred grains
+
+  // As far as the scene alone tells: the length of a step [time], steps of the whole loading, rows of its history. step = auto is
+  // taken as for a sample without haste (step_at_rest) that yields under loading/pressure. 0 where nothing presses. Needs stages,
+  // not the rest of what validate() demands.
+  double expected_step(const SampleOptions &sample, const Loading &loading, const Options &options);
+  double expected_steps(const SampleOptions &sample, const Loading &loading, const Options &options);
+  double expected_rows(const SampleOptions &sample, const Loading &loading, const Options &options);
 
   PreparationSetting preparation_setting(const Loading &loading, const Options &options);
 } // namespace diptych::discrete

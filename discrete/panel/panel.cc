@@ -99,8 +99,8 @@ namespace diptych::discrete
         now.report.status = Status::finished; // and now it is to go on
       while (now.stage < stage && now.report.status == Status::finished)
         {
-          if (now.steps_left == 0)
-            plan_stage();
+          if (now.steps_left == 0 && !plan_stage())
+            return;
           while (now.steps_left > 0 && now.report.status == Status::finished)
             {
               if (hooks_.before_step)
@@ -165,16 +165,18 @@ namespace diptych::discrete
       return false;
     }
 
-    // Begins the next stage: its step, in whole numbers, and a new window.
-    void plan_stage()
+    // Begins the next stage: its step, in whole numbers, and a new window. False where its steps have no end.
+    bool plan_stage()
     {
       prepared_.reset();
       now.window.reset();
       const double from     = now.stage == 0 ? 0. : loading_.stages[now.stage - 1];
       const double duration = (loading_.stages[now.stage] - from) / rate_;
       const double wanted   = wanted_step();
-      now.steps_left        = std::max(1L, long(std::ceil(duration / wanted - 1e-9)));
-      const double fitted   = duration / double(now.steps_left);
+      if (duration / wanted > most_steps)
+        return fail(endless_text(now.stage + 1, duration / wanted, {wanted, now.report.step_bound}));
+      now.steps_left      = std::max(1L, long(std::ceil(duration / wanted - 1e-9)));
+      const double fitted = duration / double(now.steps_left);
       if (now.step > 0)
         scale_impulses(now.state, fitted / now.step);
       springs_.impulse_step = fitted;
@@ -184,6 +186,7 @@ namespace diptych::discrete
       now.interval = options_.method.history_interval > 0 ? options_.method.history_interval
                      : penalty()                          ? std::max(1L, now.steps_left / 1000)
                                                           : 1;
+      return true;
     }
 
     double wanted_step()

@@ -86,9 +86,9 @@ namespace diptych::discrete
       return strength_of_step * step / unit + strength_of_strain * rate * step;
     }
 
-    double size_factor(const State &state)
+    double size_factor(const double n_grains)
     {
-      return std::pow(std::max(1., double(state.grains.size()) / grains_of_rule), power_of_grains);
+      return std::pow(std::max(1., n_grains / grains_of_rule), power_of_grains);
     }
 
     // Of 1000 grains; step and tolerance x step / I in the unit of time.
@@ -113,34 +113,40 @@ namespace diptych::discrete
         squares += v.squaredNorm() / double(state.grains.size());
       return std::max(speed, 3 * std::sqrt(squares));
     }
+
+    void bound(StepChoice &choice, const double step, const char *name)
+    {
+      if (step < choice.step)
+        choice = {step, name};
+    }
   } // namespace
 
   StepChoice choose_step(const State &state, const StepSetting &setting, const FlowState &flow)
   {
     const double       d          = setting.mean_diameter;
     const bool         end_grains = std::holds_alternative<EndGrains>(setting.lateral);
-    const double       unit       = unit_of_time(state, setting, flow);
     const DriveDemands demands    = drive_demands(state);
     const double       speed      = std::max(fastest(state), demands.speed),
                  gravity          = std::hypot(setting.time.gravity_x, setting.time.gravity_y);
 
-    StepChoice choice{infinity, "none"};
-    const auto bound = [&](const double step, const char *name) {
-      if (step < choice.step)
-        choice = {step, name};
-    };
-    bound((end_grains ? 1. : 5.) * unit, "forces");
-    if (speed > 0)
-      bound(0.1 * d / speed, "motion");
-    if (demands.acceleration > 0)
-      bound(std::sqrt(0.1 * d / demands.acceleration), "drives");
-    bound(0.1 * demands.interval, "drives");
-    if (gravity > 0)
-      bound(0.3 * std::sqrt(d / gravity), "gravity");
+    StepChoice choice = step_at_rest({double(state.grains.size()), unit_of_time(state, setting, flow), end_grains}, flow);
+    bound(choice, speed > 0 ? 0.1 * d / speed : infinity, "motion");
+    bound(choice, demands.acceleration > 0 ? std::sqrt(0.1 * d / demands.acceleration) : infinity, "drives");
+    bound(choice, 0.1 * demands.interval, "drives");
+    bound(choice, gravity > 0 ? 0.3 * std::sqrt(d / gravity) : infinity, "gravity");
+    return choice;
+  }
+
+  StepChoice step_at_rest(const SampleScales &sample, const FlowState &flow)
+  {
+    const double unit = sample.unit_of_time;
+    StepChoice   choice{infinity, "none"};
+    bound(choice, (sample.end_grains ? 1. : 5.) * unit, "forces");
     if (flow.rate > 0)
-      bound(std::min(accuracy_of(flow) / strength_error(1, unit, flow.rate), longest_loading_step * unit), "strength");
+      bound(choice, std::min(accuracy_of(flow) / strength_error(1, unit, flow.rate), longest_loading_step * unit), "strength");
     if (flow.rate > 0 && std::isfinite(unit))
-      bound(unit * longest_step(dilation_share * accuracy_of(flow) / size_factor(state),
+      bound(choice,
+            unit * longest_step(dilation_share * accuracy_of(flow) / size_factor(sample.n_grains),
                                 flow.accuracy.tolerance.value_or(least_tolerance(flow)) / (flow.rate * unit)),
             "solver");
     return choice;
@@ -155,7 +161,7 @@ namespace diptych::discrete
       return least_tolerance(flow);
     const double step = setting.step / unit;
     return std::min(loosest_tolerance, dilation_share * accuracy_of(flow) * flow.rate * unit /
-                                         (size_factor(state) * step * dilation_error(step, 1)));
+                                         (size_factor(double(state.grains.size())) * step * dilation_error(step, 1)));
   }
 
   ExpectedErrors expected_errors(const State &state, const StepSetting &setting, const FlowState &flow)
@@ -165,6 +171,7 @@ namespace diptych::discrete
       return {};
     const double step = setting.step / unit;
     return {strength_error(setting.step, unit, flow.rate),
-            std::min(1., size_factor(state) * dilation_error(step, setting.solver.tolerance * step / (flow.rate * unit)))};
+            std::min(1., size_factor(double(state.grains.size())) *
+                           dilation_error(step, setting.solver.tolerance * step / (flow.rate * unit)))};
   }
 } // namespace diptych::discrete

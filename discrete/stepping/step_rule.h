@@ -50,6 +50,16 @@ namespace diptych::discrete
   //   solver   at which tolerance, if auto 1e-3 accuracy (below which sweeps wander), loses 1.25 accuracy of the dilation
   StepChoice choose_step(const State &state, const StepSetting &setting, const FlowState &flow);
 
+  // The bounds forces, strength and solver, which a sample has before there are grains; infinity where nothing presses and
+  // nothing strains.
+  struct SampleScales
+  {
+    double n_grains     = 0;
+    double unit_of_time = 0; // d sqrt(rho/s); infinity where nothing is pressed
+    bool   end_grains   = false;
+  };
+  StepChoice step_at_rest(const SampleScales &sample, const FlowState &flow);
+
   // What was asked for; auto: at which 1.25 accuracy of the dilation are lost; 1e-3 accuracy where nothing strains or presses.
   double choose_tolerance(const State &state, const StepSetting &setting, const FlowState &flow);
 

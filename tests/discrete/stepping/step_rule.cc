@@ -50,6 +50,19 @@ namespace
     EXPECT_NEAR(s.choose(36, 0).step, 2. / 3, 1e-14) << "a stress above the pressure counts";
   }
 
+  // What is said of a run before there are grains is what the rule gives them at rest.
+  TEST(StepRule, ASampleAtRestHasItsStepBeforeThereAreGrains)
+  {
+    RuleScene    s;
+    const double unit = 4. / 3; // 2 sqrt(4/9)
+    for (const double rate : {0., 1e-9, 1e-5, 1e-3, 0.1})
+      {
+        const StepChoice expected = step_at_rest({2, unit, false}, {9, rate, s.accuracy});
+        EXPECT_EQ(expected.bound, s.choose(9, rate).bound) << rate;
+        EXPECT_NEAR(expected.step / s.choose(9, rate).step, 1, 1e-14) << rate;
+      }
+  }
+
   TEST(StepRule, FlyingGrainsAndFastWallsAreBoundByTheMotion)
   {
     RuleScene s;
