@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -25,6 +26,10 @@ namespace diptych::continuum
     try
       {
         return action();
+      }
+    catch (const std::bad_alloc &)
+      {
+        throw std::runtime_error(what + ": not enough memory");
       }
     catch (const std::exception &error)
       {

@@ -39,8 +39,9 @@ namespace diptych::coupling
             data.u.push_back(field.increment[i] / platen);
             data.w.push_back(field.weight[i]);
           }
-      if (data.x.size() < 30)
-        throw std::invalid_argument("fewer than 30 points of positive weight: no band can be looked for");
+      if (data.x.size() < std::size_t(fewest_band_points))
+        throw std::invalid_argument("fewer than " + std::to_string(fewest_band_points) +
+                                    " points of positive weight: no band can be looked for");
       return data;
     }
 

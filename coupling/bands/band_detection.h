@@ -24,12 +24,14 @@ namespace diptych::coupling
     std::string verdict;
   };
 
+  constexpr int fewest_band_points = 30;
+
   // Fits no, one and two bands (Huber loss, variable projection) and keeps the number with the lowest BIC; n in it is the number
   // of independent samples, two for each square of the correlation length, not the number of points. A transition as wide as half
   // the sample is not told from the affine background, and one that shears less in its middle than the sample does on average,
   // jump / (2 half width) < platen increment / height, not from what a tanh leaves of a smooth field: neither is a band. Throws
-  // std::invalid_argument for fewer than 30 weighted points, a platen increment of zero or a frame without extent. The seed draws
-  // the blocks of the intervals and nothing else.
+  // std::invalid_argument for fewer than fewest_band_points weighted points, a platen increment of zero or a frame without
+  // extent. The seed draws the blocks of the intervals and nothing else.
   [[nodiscard]] BandReport find_bands(const DisplacementField &field,
                                       const SampleFrame       &frame,
                                       const BandOptions       &options = {},

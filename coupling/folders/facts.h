@@ -30,6 +30,7 @@ namespace diptych::coupling
     bool        finished         = false;
     double      reached_progress = NAN, reached_axial_strain = NAN, reached_shear_strain = NAN;
     std::string message;
+    std::string warnings; // a line each
   };
 
   template <class Facts, class Visitor, std::enable_if_t<std::is_same_v<std::remove_const_t<Facts>, DiscreteFacts>, int> = 0>
@@ -67,6 +68,7 @@ namespace diptych::coupling
     v({"reached_axial_strain", "-", "axial strain reached"}, f.reached_axial_strain);
     v({"reached_shear_strain", "-", "shear strain reached"}, f.reached_shear_strain);
     v({"message", "-", "message"}, f.message);
+    v({"warnings", "-", "what makes the result doubtful, a line each"}, f.warnings);
   }
 
   struct ContinuumFacts

@@ -96,7 +96,7 @@ namespace diptych::coupling
   // False where the one that held it has removed the file meanwhile.
   bool FolderLock::lock()
   {
-    descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (descriptor < 0)
       fail(directory, errno);
     struct stat opened = {}, named = {};

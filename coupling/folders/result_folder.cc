@@ -9,6 +9,7 @@
 #include "coupling/processes/stop_signal.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
+#include "discrete/files/out_of_memory.h"
 #include "discrete/files/text_file.h"
 
 namespace diptych::coupling
@@ -100,17 +101,16 @@ namespace diptych::coupling
       {
         return work();
       }
-    catch (const std::logic_error &)
-      {
-        throw;
-      }
     catch (const StoppedOnRequest &stopped)
       {
         throw StoppedOnRequest(std::string(stopped.what()) + "; " + kept_in(directory));
       }
     catch (const std::exception &error)
       {
-        throw std::runtime_error(std::string(error.what()) + "; " + kept_in(directory));
+        if (!discrete::is_out_of_memory(error) && dynamic_cast<const std::logic_error *>(&error) != nullptr)
+          throw;
+        const std::string what = discrete::text_of(error);
+        throw std::runtime_error(what + (what.find("nothing was written") == std::string::npos ? "; " + kept_in(directory) : ""));
       }
   }
 

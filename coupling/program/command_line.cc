@@ -19,6 +19,7 @@
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_file.h"
 #include "discrete/files/nearest_name.h"
+#include "discrete/files/out_of_memory.h"
 #include "discrete/files/text_file.h"
 
 namespace diptych::coupling
@@ -381,14 +382,16 @@ namespace diptych::coupling
 
   std::string text_of_end(const std::exception &error)
   {
-    const std::string what    = error.what();
-    const bool        is_told = what.find("kept") != std::string::npos || what.find("nothing was written") != std::string::npos;
-    return "diptych: " + what +
-           (dynamic_cast<const StoppedOnRequest *>(&error) != nullptr && !is_told ? "; nothing was written" : "");
+    const std::string what      = discrete::text_of(error);
+    const bool        is_told   = what.find("kept") != std::string::npos || what.find("nothing was written") != std::string::npos;
+    const bool        is_before = discrete::is_out_of_memory(error) || dynamic_cast<const StoppedOnRequest *>(&error) != nullptr;
+    return "diptych: " + what + (is_before && !is_told ? "; nothing was written" : "");
   }
 
   int code_of(const std::exception &error)
   {
+    if (discrete::is_out_of_memory(error))
+      return system_failure;
     if (dynamic_cast<const std::invalid_argument *>(&error) != nullptr)
       return wrong_input;
     if (dynamic_cast<const StoppedOnRequest *>(&error) != nullptr)

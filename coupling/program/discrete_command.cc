@@ -77,37 +77,67 @@ namespace diptych::coupling
       return f;
     }
 
-    // What makes a finished run doubtful goes to standard error, quiet or not.
-    void warn(const Rows &rows, const discrete::Report &report, const discrete::Options &options)
+    // Grains of a file may be anywhere: where the pressure finds none to carry it, t/s is that of a few that fly.
+    void doubt_idle_grains(const Rows &rows, const Scene &scene, std::ostream &out)
     {
-      constexpr double doubtful_penetration = 0.02, doubtful_gain = 0.1, doubtful_overlap = 1e-3, doubtful_force = 2;
-      // auto keeps to 1 and 1.25 times the accuracy
-      const double doubtful_strength = 1.5 * options.accuracy.accuracy, doubtful_dilation = 2.5 * options.accuracy.accuracy;
+      constexpr double idle = 0.1;
+      if (rows.empty() || scene.loading.mode == discrete::LoadingMode::time || !(scene.loading.pressure > 0))
+        return;
+      double carried = 0; // s, mean over the rows
+      for (const discrete::HistoryRow &row : rows)
+        carried += 0.5 * row.stress.trace() / double(rows.size());
+      if (!(carried >= idle * scene.loading.pressure))
+        out << "the grains carry a mean stress of " << carried << ", less than " << idle
+            << " of loading/pressure: nothing is pressed together, and t/s is that of single impacts\n";
+    }
+
+    void doubt_sample(const discrete::Report &report, const discrete::Options &options, std::ostream &out)
+    {
+      constexpr double doubtful_overlap = 1e-3, doubtful_force = 2;
       if (report.preparation.largest_overlap > doubtful_overlap)
-        std::cerr << "discrete panel: warning: the sample's grains overlap by up to " << report.preparation.largest_overlap
-                  << " mean diameters before they are loaded; sample/prepare_file = true takes that out" << std::endl;
+        out << "the sample's grains overlap by up to " << report.preparation.largest_overlap
+            << " mean diameters before they are loaded; sample/prepare_file = true takes that out\n";
       const double explosion = report.preparation.largest_overlap * options.penalty.stiffness; // of springs, overlap x kn / P
       if (options.method.method == discrete::Method::penalty && explosion > doubtful_force)
-        std::cerr << "discrete panel: warning: before they are pressed, the grains overlap by up to "
-                  << report.preparation.largest_overlap << " mean diameters: springs of penalty_stiffness "
-                  << options.penalty.stiffness << " push there with " << explosion << " d P" << std::endl;
+        out << "before they are pressed, the grains overlap by up to " << report.preparation.largest_overlap
+            << " mean diameters: springs of penalty_stiffness " << options.penalty.stiffness << " push there with " << explosion
+            << " d P\n";
+    }
+
+    // What makes a finished run doubtful, a line each.
+    std::string doubts(const Rows &rows, const discrete::Report &report, const Scene &scene)
+    {
+      constexpr double         doubtful_penetration = 0.02, doubtful_gain = 0.1;
+      const discrete::Options &options = scene.discrete;
+      // auto keeps to 1 and 1.25 times the accuracy
+      const double       doubtful_strength = 1.5 * options.accuracy.accuracy, doubtful_dilation = 2.5 * options.accuracy.accuracy;
+      std::ostringstream out;
+      doubt_idle_grains(rows, scene, out);
+      doubt_sample(report, options, out);
       if (report.expected.strength > doubtful_strength)
-        std::cerr << "discrete panel: warning: steps of " << report.step << " add about " << 100 * report.expected.strength
-                  << " % to the strength; discrete/step = auto keeps to discrete/accuracy" << std::endl;
+        out << "steps of " << report.step << " add about " << 100 * report.expected.strength
+            << " % to the strength; discrete/step = auto keeps to discrete/accuracy\n";
       if (report.expected.dilation > doubtful_dilation)
-        std::cerr << "discrete panel: warning: a tolerance of " << report.tolerance << " at this step loses about "
-                  << 100 * report.expected.dilation
-                  << " % of the dilation; discrete/tolerance = auto keeps to 1.5 discrete/accuracy" << std::endl;
+        out << "a tolerance of " << report.tolerance << " at this step loses about " << 100 * report.expected.dilation
+            << " % of the dilation; discrete/tolerance = auto keeps to 1.5 discrete/accuracy\n";
       double penetration = 0;
       for (const discrete::HistoryRow &row : rows)
         penetration = std::max(penetration, row.max_penetration);
       if (penetration > doubtful_penetration)
-        std::cerr << "discrete panel: warning: grains interpenetrate by up to " << penetration
-                  << " mean diameters; a shorter step or a smaller tolerance is needed" << std::endl;
+        out << "grains interpenetrate by up to " << penetration
+            << " mean diameters; a shorter step or a smaller tolerance is needed\n";
       if (!rows.empty() && rows.back().impact_dissipation < -doubtful_gain * std::abs(rows.back().external_work))
-        std::cerr << "discrete panel: warning: contacts gave " << -rows.back().impact_dissipation
-                  << " of energy against an external work of " << rows.back().external_work << "; the step is too long"
-                  << std::endl;
+        out << "contacts gave " << -rows.back().impact_dissipation << " of energy against an external work of "
+            << rows.back().external_work << "; the step is too long\n";
+      return out.str();
+    }
+
+    // To standard error, quiet or not.
+    void warn(const std::string &doubts)
+    {
+      std::istringstream lines(doubts);
+      for (std::string line; std::getline(lines, line);)
+        std::cerr << "discrete panel: warning: " << line << std::endl;
     }
 
     // What came of the copy that was solved on to measure error against residual.
@@ -139,7 +169,9 @@ namespace diptych::coupling
       if (!prepared_before)
         loading.cpu_s -= report.preparation_cpu_s, loading.wall_s -= report.preparation_cpu_s;
       record_phases(scene.output.directory, scene, line.text, {preparation, loading});
-      record_facts(scene.output.directory, facts_of(report, rows));
+      DiscreteFacts facts = facts_of(report, rows);
+      facts.warnings      = doubts(rows, report, scene);
+      record_facts(scene.output.directory, facts);
     }
 
     int say_how_it_ended(const CommandLine &line, const Scene &scene, const discrete::Report &report)
@@ -173,18 +205,26 @@ namespace diptych::coupling
         check_earlier_grains(scene);
     }
 
+    constexpr int divisors[] = {1, 2, 4};
+
+    Scene part_of_study(const Scene &scene, const int divisor)
+    {
+      Scene part            = scene;
+      part.output.directory = scene.output.directory + "/step_" + std::to_string(divisor);
+      *part.discrete.time.step /= divisor;
+      return part;
+    }
+
     // The same prepared sample at h, h/2 and h/4 in the folders step_1, step_2, step_4; study_step.csv, .json and .png compare
-    // energy and stress ratio against time and give a verdict.
-    int step_study(const CommandLine &line, const Scene &scene)
+    // energy and stress ratio against time and give a verdict. `first`, if there, has prepared the sample for h.
+    int step_study(const CommandLine &line, const Scene &scene, std::unique_ptr<RecordedGrains> first, const Scene &first_part)
     {
       std::vector<StepRun> runs;
-      for (const int divisor : {1, 2, 4})
+      for (const int divisor : divisors)
         {
-          Scene part            = scene;
-          part.output.directory = scene.output.directory + "/step_" + std::to_string(divisor);
-          *part.discrete.time.step /= divisor;
+          const Scene part = divisor == 1 ? first_part : part_of_study(scene, divisor);
           open_result_folder(part, line.resume, [&] { check_resumed(line, part); });
-          if (const int code = discrete_panel(line, part); code != done)
+          if (const int code = discrete_panel(line, divisor == 1 ? first_part : part, std::move(first)); code != done)
             return code;
           runs.push_back({*part.discrete.time.step,
                           history_table(discrete::read_rows<discrete::HistoryRow>(part.output.directory + "/discrete.csv"))});
@@ -201,11 +241,11 @@ namespace diptych::coupling
   std::unique_ptr<RecordedGrains> prepared_early(const CommandLine &line, const Scene &scene)
   {
     const bool is_there = line.resume && (std::filesystem::exists(checkpoint_file(scene)) || grains_are_finished(scene));
-    if (is_there || !(scene.sample.target_solid_fraction > 0) || !scene.sample.file.empty() ||
-        scene.discrete.method.method == discrete::Method::imported)
+    if (is_there || scene.discrete.method.method == discrete::Method::imported)
       return {};
     auto prepared = std::make_unique<RecordedGrains>(line, scene, std::nullopt);
     prepared->prepare();
+    leave_if_stopped("preparing the sample");
     return prepared;
   }
 
@@ -234,7 +274,7 @@ namespace diptych::coupling
     const Rows              rows   = std::filesystem::exists(csv) ? discrete::read_rows<discrete::HistoryRow>(csv) : Rows();
     record(line, scene, report, rows, timer, before);
     recorded.warnings += reference_text(report);
-    warn(rows, report, scene.discrete);
+    warn(doubts(rows, report, scene));
     if (!recorded.warnings.empty() && report.snapshots_accurate < report.snapshots_sampled)
       std::cerr << recorded.warnings << std::flush;
     else if (!recorded.warnings.empty())
@@ -251,13 +291,14 @@ namespace diptych::coupling
       (void)load_imported(scene);
     announce_room(line, scene, {true, false});
     return writing(scene.output.directory, [&] {
+      const Scene                     first = line.study_of_step ? part_of_study(scene, divisors[0]) : scene;
       std::unique_ptr<RecordedGrains> prepared;
       open_result_folder(scene, line.resume, [&] {
         check_resumed(line, scene);
-        if (!line.study_of_step)
-          prepared = prepared_early(line, scene);
+        prepared = prepared_early(line, first);
       });
-      return line.study_of_step ? step_study(line, scene) : discrete_panel(line, scene, std::move(prepared));
+      return line.study_of_step ? step_study(line, scene, std::move(prepared), first)
+                                : discrete_panel(line, first, std::move(prepared));
     });
   }
 } // namespace diptych::coupling

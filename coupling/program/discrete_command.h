@@ -13,9 +13,9 @@ namespace diptych::coupling
   // the line says --resume. `prepared`: what prepared_early() gave. Returns an ExitCode.
   int discrete_panel(const CommandLine &line, const Scene &scene, std::unique_ptr<RecordedGrains> prepared = {});
 
-  // Whether a wanted solid fraction is in reach shows only when the sample is prepared, and must show before the folder is
-  // opened. Nothing where the scene wants none, or where --resume finds grains. Throws std::invalid_argument where it is out of
-  // reach.
+  // What is wrong with a sample shows only when it is prepared, and must show before the folder is opened. Nothing where --resume
+  // finds grains, or for imported ones. Throws std::invalid_argument where a wanted solid fraction is out of reach or a file
+  // wrong, StoppedOnRequest.
   std::unique_ptr<RecordedGrains> prepared_early(const CommandLine &line, const Scene &scene);
 
   int run_discrete(const CommandLine &line); // discrete SCENE

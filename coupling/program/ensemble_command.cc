@@ -6,12 +6,15 @@
 #include <iostream>
 #include <optional>
 
+#include "coupling/comparison/prepared_sample.h"
 #include "coupling/ensembles/ensemble_folder.h"
 #include "coupling/ensembles/seed_list.h"
 #include "coupling/folders/result_folder.h"
 #include "coupling/import/imported_folder.h"
 #include "coupling/panels/continuum_loading.h"
+#include "coupling/panels/continuum_mesh.h"
 #include "coupling/processes/processes.h"
+#include "coupling/processes/stop_signal.h"
 #include "coupling/program/compare_command.h"
 #include "coupling/program/ensemble_record.h"
 #include "coupling/program/report_command.h"
@@ -122,6 +125,16 @@ namespace diptych::coupling
       return failed.empty() && record.interrupted.empty() ? done : not_converged;
     }
 
+    // What all samples have in common is found wrong with the first, before the folder is opened.
+    void check_first_sample(const CommandLine &line, Scene scene, const int seed)
+    {
+      scene.sample.seed = seed;
+      const auto sample = prepared_grains(scene, line.quiet);
+      leave_if_stopped("preparing the sample");
+      if (sample)
+        require_comparable_sample(scene, *sample);
+    }
+
     // Makes the folder ready; the seeds that are not finished yet.
     std::vector<int> prepared_seeds(const CommandLine &line, const Scene &scene, const std::vector<int> &seeds)
     {
@@ -129,6 +142,8 @@ namespace diptych::coupling
       on_first_process([&] {
         if (line.resume && !is_ensemble_folder(scene.output.directory))
           say(line, "no ensemble in " + scene.output.directory + ": from the beginning");
+        if (!line.resume && scene.discrete.method.method != discrete::Method::imported)
+          check_first_sample(line, scene, seeds.front());
         open_ensemble_folder(scene, seeds, line.resume);
         const auto is_finished = [&](const int seed) { return line.resume && is_finished_member(scene, seed); };
         pending.erase(std::remove_if(pending.begin(), pending.end(), is_finished), pending.end());

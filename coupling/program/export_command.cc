@@ -30,6 +30,8 @@ namespace diptych::coupling
     const ExportedFiles files  = exported_sample(line.format, scene, snapshots[std::size_t(line.stage)], line.stage);
     const std::string   folder = line.output.empty() ? fs::path(line.target + "/").parent_path().string() + "_for_" + line.format
                                                      : line.output;
+    if (std::error_code none; fs::equivalent(folder, line.target, none))
+      throw SceneError("--output " + folder + ": is the result folder itself; name a new folder");
     for (const auto &[name, text] : files)
       if (fs::exists(folder + "/" + name))
         throw SceneError("--output " + folder + ": " + name + " stands there; name a new folder");

@@ -21,6 +21,7 @@
 #include "coupling/program/report_command.h"
 #include "coupling/program/solve_command.h"
 #include "coupling/scene/scene_error.h"
+#include "discrete/files/out_of_memory.h"
 #ifdef DIPTYCH_CONTINUUM
 #include "coupling/program/compare_command.h"
 #endif
@@ -130,7 +131,7 @@ namespace
     return true;
   }
 
-  int execute(const CommandLine &line, char **argv)
+  int execute_command(const CommandLine &line, char **argv)
   {
     switch (line.command)
       {
@@ -168,6 +169,22 @@ namespace
         return explain(line, result_lists);
       }
   }
+
+  // What asked for more memory than there is, by the files that it was given.
+  int execute(const CommandLine &line, char **argv)
+  {
+    try
+      {
+        return execute_command(line, argv);
+      }
+    catch (const std::bad_alloc &error)
+      {
+        std::string about = line.target;
+        for (const std::string &file : line.foreign.files)
+          about += (about.empty() ? "" : ", ") + file;
+        throw diptych::discrete::OutOfMemory(about + ": " + diptych::discrete::text_of(error));
+      }
+  }
 } // namespace
 
 namespace
@@ -185,6 +202,7 @@ namespace
 int main(int argc, char **argv)
 {
   std::signal(SIGPIPE, SIG_IGN); // nobody reads any more: the results do not care
+  std::signal(SIGXFSZ, SIG_IGN); // a limit of file sizes is told as a full disk is
   try
     {
       require_working_directory();

@@ -56,6 +56,7 @@ int main(int argc, char **argv)
 {
   need_no_daemon();
   std::signal(SIGPIPE, SIG_IGN); // nobody reads any more: the results do not care
+  std::signal(SIGXFSZ, SIG_IGN); // a limit of file sizes is told as a full disk is
   if (argc == 2 && std::string(argv[1]) == worker_word)
     {
       dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);

@@ -25,7 +25,9 @@ namespace diptych::coupling
 
     std::string warnings; // of its snapshots, a line each
 
-    void                    prepare(); // the sample, without any file
+    void                    prepare();                                  // the sample, without any file
+    discrete::Snapshot      sample() const { return panel.snapshot(); } // once it is prepared and not yet loaded
+    bool                    is_ready() const { return is_prepared && panel.report().status == discrete::Status::finished; }
     const discrete::Report &run();
 
   private:

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "coupling/comparison/prepared_sample.h"
 #include "coupling/folders/result_folder.h"
 #include "coupling/panels/continuum_loading.h"
 #include "coupling/program/compare_command.h"
@@ -49,6 +50,8 @@ namespace diptych::coupling
         if (resume_continuum)
           check_earlier_continuum(scene);
         prepared = prepared_early(line, scene);
+        if (prepared && prepared->is_ready())
+          require_comparable_sample(scene, prepared->sample());
       });
       if (const int code = discrete_panel(line, scene, std::move(prepared)); code != done)
         return code;

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "coupling/processes/progress.h"
@@ -23,7 +24,8 @@ namespace diptych::coupling
     // 153600 elements, files of moreau_quick.
     constexpr double memory_of_a_grain = 4e3, memory_of_an_element = 4e4;
     constexpr double bytes_of_a_grain = 1e3, bytes_of_an_element = 1e3; // in one stage
-    constexpr double memory_of_a_row = 3.3e3, bytes_of_a_row = 620;     // of discrete.csv, 10000 and 100000 of them
+    constexpr double ways_of_keeping = 2, disk_of_files = 2e6;
+    constexpr double memory_of_a_row = 3.3e3, bytes_of_a_row = 620; // of discrete.csv, 10000 and 100000 of them
 
     // Measured, CPU seconds of a 2.6 GHz EPYC: moreau_1997, moreau_quick with 100 to 8000 grains at inertial numbers of 2e-4 and
     // 1e-3, dense_biaxial at 1e-4 and 1e-3, its springs and those of moreau_quick; elements of 1 to 4 d.
@@ -44,7 +46,7 @@ namespace diptych::coupling
     std::string bytes(const double n)
     {
       char text[32];
-      std::snprintf(text, sizeof text, n < 1e9 ? "%.0f MB" : "%.3g GB", n < 1e9 ? std::max(1., n / 1e6) : n / 1e9);
+      std::snprintf(text, sizeof text, n < 1e9 ? "%.3g MB" : "%.3g GB", n < 1e9 ? n / 1e6 : n / 1e9);
       return text;
     }
 
@@ -115,6 +117,15 @@ namespace diptych::coupling
       return text.empty() ? "what files say" : text;
     }
 
+    // Of the machine, or what this process may have of it (ulimit -v).
+    double memory_of_process()
+    {
+      const double machine = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
+      rlimit       limit{};
+      const bool   is_limited = getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+      return is_limited ? std::min(machine, double(limit.rlim_cur)) : machine;
+    }
+
     // The nearest folder above that is there.
     fs::path standing(fs::path path)
     {
@@ -134,7 +145,10 @@ namespace diptych::coupling
     room.steps      = n_steps(scene, parts);
     room.load_steps = n_load_steps(scene, parts);
     room.memory     = memory_of_a_grain * grains + memory_of_an_element * elements + memory_of_a_row * rows;
-    room.disk = parts.samples * (n_stages * (bytes_of_a_grain * loaded + bytes_of_an_element * elements) + bytes_of_a_row * rows);
+    // At the end the stages stand one by one and in the whole file, too; a megabyte is what every file is given at first.
+    room.disk = disk_of_files +
+                ways_of_keeping * parts.samples *
+                  (n_stages * (bytes_of_a_grain * loaded + bytes_of_an_element * elements) + bytes_of_a_row * rows);
     room.cpu_s = double(parts.samples) * cpu_seconds(scene, parts, room.steps, room.load_steps);
     return room;
   }
@@ -142,12 +156,12 @@ namespace diptych::coupling
   void demand_room(const Scene &scene, const RunParts &parts)
   {
     const RunRoom     room   = expected_room(scene, parts);
-    const double      memory = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
+    const double      memory = memory_of_process();
     const std::string asked = "the scene asks for " + counted(n_grains(scene)) + " grains, " + counted(n_elements(scene, parts)) +
                               " elements and " + counted(n_rows(scene, parts)) + " rows of discrete.csv, ";
     const std::string keys = " (sample/grains, continuum/element_size, discrete/history_interval); nothing was written";
     if (room.memory > memory)
-      throw std::runtime_error(asked + "which take about " + bytes(room.memory) + " of memory; this machine has " +
+      throw std::runtime_error(asked + "which take about " + bytes(room.memory) + " of memory; this process may have " +
                                bytes(memory) + keys);
     std::error_code      unknown;
     const fs::space_info disk = fs::space(standing(scene.output.directory), unknown);
@@ -180,7 +194,9 @@ namespace diptych::coupling
     if (room.disk > 0)
       in_all.push_back(bytes(room.disk) + " of files");
     if (room.cpu_s.low > 0)
-      in_all.push_back(duration_text(room.cpu_s.low) + " to " + duration_text(room.cpu_s.high) + " of CPU time");
+      in_all.push_back(
+        (room.cpu_s.high < 1 ? "less than 1 s" : duration_text(room.cpu_s.low) + " to " + duration_text(room.cpu_s.high)) +
+        " of CPU time");
     return (parts.samples > 1 ? std::to_string(parts.samples) + " samples, each of " : "") + listed(of_each) + "; about " +
            listed(in_all);
   }

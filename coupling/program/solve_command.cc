@@ -45,11 +45,15 @@ namespace diptych::coupling
       std::cout << "\n";
     }
 
-    bool holds_solution(const std::string &path)
+    // A solution of this very problem: nothing else is lost where it is written anew.
+    bool holds_solution_of(const discrete::StoredProblem &problem, const std::string &path)
     {
       try
         {
-          return discrete::Hdf5Reader(path).has("/solution/r");
+          if (!discrete::Hdf5Reader(path).has("/solution/r"))
+            return false;
+          const discrete::StoredProblem other = discrete::read_fclib(path);
+          return other.local.friction == problem.local.friction && discrete::relative_difference(other.local, problem.local) == 0;
         }
       catch (const std::invalid_argument &)
         {
@@ -82,11 +86,11 @@ namespace diptych::coupling
     std::error_code               error;
     if (!line.output.empty() && std::filesystem::equivalent(line.target, line.output, error))
       throw SceneError("--output " + line.output + " is the problem itself: name another file");
-    if (!line.output.empty() && std::filesystem::exists(line.output) && !holds_solution(line.output))
-      throw SceneError("--output " + line.output +
-                       " stands there and holds no solution that could be replaced: name another file");
     const discrete::StoredProblem problem = discrete::read_fclib(line.target);
-    const discrete::ProblemForm   form    = form_of(line, problem);
+    if (!line.output.empty() && std::filesystem::exists(line.output) && !holds_solution_of(problem, line.output))
+      throw SceneError("--output " + line.output + " stands there and holds no solution of " + line.target +
+                       " that could be replaced: name another file");
+    const discrete::ProblemForm form = form_of(line, problem);
 
     std::vector<discrete::Impulse> r(problem.local.n_contacts());
     discrete::ThreadTeam           team(line.threads);

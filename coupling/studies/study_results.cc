@@ -99,16 +99,6 @@ namespace diptych::coupling
         }
     }
 
-    // Warnings of the panels, which speak of the result; those of the scene's reader do not.
-    bool holds_a_warning(const std::string &log)
-    {
-      std::ifstream file(log);
-      for (std::string line; std::getline(file, line);)
-        if (line.find("panel: warning:") != std::string::npos)
-          return true;
-      return false;
-    }
-
     // Without the folder's own name: the same words wherever the study stands.
     std::string without(const std::string &directory, std::string words)
     {
@@ -172,7 +162,6 @@ namespace diptych::coupling
     result.is_refused = end->exit_code == 2;
     result.load       = end->load;
     result.at_once    = end->at_once;
-    result.warned     = holds_a_warning(run_log(directory, run));
     if (result.exit_code != 0)
       result.words = without(directory, last_words(run_log(directory, run)));
     const std::string path = run_folder(directory, run);
@@ -181,6 +170,7 @@ namespace diptych::coupling
     const RunFacts facts = read_run_facts(path);
     result.phases        = facts.phases;
     result.halved_steps  = facts.discrete.halved_steps;
+    result.warned        = !facts.discrete.warnings.empty();
     Folder folder(path, *run.scene);
     add_effort(folder, result);
     if (result.exit_code == 0)

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "discrete/bodies/state.h"
@@ -44,6 +45,8 @@ namespace diptych::discrete
 
     // The members of the fullest cell, ascending.
     std::vector<int> fullest_cell() const;
+    // Sum over the cells of the square of what is in them: pairs that are near each other go with it.
+    double crowding() const;
 
   private:
     using Cell = std::array<std::int64_t, 2>; // column, row
@@ -55,6 +58,8 @@ namespace diptych::discrete
           visit(members_[k]);
       });
     }
+
+    std::map<Cell, std::size_t> counts() const;
 
     // Not clamped and, with a period, not wrapped.
     std::int64_t raw_column(double x) const { return std::int64_t(bounded(std::floor((x - origin_.x()) / cell_size_.x()))); }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "discrete/files/out_of_memory.h"
 #include "discrete/samples/placed_grains.h"
 #include "discrete/samples/sample_file.h"
 #include "discrete/samples/sample_preparation.h"
@@ -31,7 +32,7 @@ namespace diptych::discrete
         }
       catch (const std::exception &error)
         {
-          throw std::invalid_argument(key + " = '" + column + " " + text + "': " + error.what());
+          throw_wrong_input(key + " = '" + column + " " + text + "'", error);
         }
     }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "discrete/files/out_of_memory.h"
 #include "discrete/samples/sample_file.h"
 #include "discrete/samples/sample_options.h"
 
@@ -30,7 +31,7 @@ namespace diptych::discrete
       }
     catch (const std::exception &error)
       {
-        throw std::invalid_argument("sample/" + key + " = '" + file + "': " + error.what());
+        throw_wrong_input("sample/" + key + " = '" + file + "'", error);
       }
   }
 

@@ -241,16 +241,26 @@ namespace diptych::discrete
     }
 
     // Before pairs are looked for, which may be as many as all: grains of about one size of which a cell of theirs cannot hold as
-    // many, whatever overlaps are allowed.
+    // many, whatever overlaps are allowed; or cells that hold too many on the whole. Pairs go with the sum of the squares.
     void check_crowds(const GrainFile &file, const State &state)
     {
-      constexpr std::size_t most = 1000; // side by side fewer than 40
+      constexpr std::size_t most = 1000, side_by_side = 40; // without overlap fewer than this
+      constexpr double      few_pairs = 1e6;
+      double                sum       = 0;
+      std::vector<int>      crowd;
+      double                side = 0;
       for (const SizedGrid &sized : sort_by_size(state))
-        if (const std::vector<int> crowd = sized.grid.fullest_cell(); crowd.size() > most)
-          throw std::invalid_argument(file.place(crowd[0]) + " and " + (file.line.empty() ? "grain " : "line ") +
-                                      std::to_string(file.line.empty() ? crowd[1] : file.line[crowd[1]]) + ": " +
-                                      std::to_string(crowd.size()) + " grains of about one size lie in one square of the side " +
-                                      exact_text(2 * sized.largest_radius) + ": they lie upon each other");
+        {
+          sum += sized.grid.crowding();
+          if (std::vector<int> fullest = sized.grid.fullest_cell(); fullest.size() > crowd.size())
+            crowd = std::move(fullest), side = 2 * sized.largest_radius;
+        }
+      if (crowd.size() <= most && sum <= std::max(few_pairs, double(side_by_side) * double(file.grains.size())))
+        return;
+      throw std::invalid_argument(file.place(crowd[0]) + " and " + (file.line.empty() ? "grain " : "line ") +
+                                  std::to_string(file.line.empty() ? crowd[1] : file.line[crowd[1]]) + ": " +
+                                  std::to_string(crowd.size()) + " grains of about one size lie in one square of the side " +
+                                  exact_text(side) + ": they lie upon each other");
     }
 
     void check_overlaps(const GrainFile &file, const std::optional<double> &cell_width, const double allowed)

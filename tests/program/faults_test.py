@@ -76,6 +76,8 @@ class Inputs(Folder):
         solution = os.path.join(self.work, "solved.h5")
         for _ in range(2):
             self.assertEqual(diptych("solve", problem, "--output", solution).returncode, 0)
+        for other in (solution, shutil.copy(os.path.join(PROBLEMS, "medium.h5"), self.work)):
+            self.expect(2, ["solve", os.path.join(PROBLEMS, "medium.h5" if other == solution else "small.h5"), "--output", other], other)
 
     def test_a_comparison_goes_where_its_folder_is(self):
         self.expect(2, ["compare", self.whole, "--output", os.path.join(self.work, "other")], "--output")
@@ -139,10 +141,42 @@ class Folders(Folder):
             rows = [f"{x!r},{y!r},{r!r}" for (x, y, _), r in zip(grains["position"][()].tolist(), grains["radius"][()].tolist())]
         return write(os.path.join(self.work, "grains.csv"), "\n".join(["x,y,r", *rows]) + "\n")
 
+    def test_what_the_sample_shows_is_told_before_results_are_touched(self):
+        for words, text in ((setting(comparison_probe_circle="100,100,5"), "comparison/probe_circle"),
+                            (setting(comparison_probe_rectangles="100,100,5,5,0"), "comparison/probe_rectangles"),
+                            (setting(sample_grains=12), "sample/grains"),
+                            (setting(sample_target_solid_fraction=0.91), "sample/target_solid_fraction")):
+            for seeds in ([], ["--seeds", "1-2", "--jobs", "1"]):
+                with self.subTest(text=text, seeds=seeds):
+                    shutil.rmtree(self.folder, ignore_errors=True)
+                    if not seeds:
+                        shutil.copytree(self.whole, self.folder)
+                    self.expect(2, ["run", QUICK, *BOTH, *words, *seeds, "--output", self.folder, "--quiet"], text)
+
+    def test_a_study_of_the_step_leaves_the_results_of_a_sample_that_can_be_made(self):
+        words = ["discrete", QUICK, *FEW, *setting(discrete_step=0.1), "--output", self.folder, "--quiet"]
+        self.expect(0, words)
+        self.expect(2, [*words, "--study", "step", *setting(sample_target_solid_fraction=0.91)], "sample/target_solid_fraction")
+
     def test_a_comparison_that_cannot_be_made_leaves_both_panels(self):
-        words = setting(comparison_probe_circle="100,100,5")
-        self.expect(3, ["run", QUICK, *BOTH, *words, "--output", self.folder, "--quiet"], "comparison/probe_circle", "kept in " + self.folder)
+        """A probe in what the platen takes away: 0.03 d below it at first, which comes down by 1 % of ten diameters and more."""
+        with h5py.File(os.path.join(self.whole, "discrete.h5"), "r") as file:
+            height = file["stage_0000"].attrs["upper_y"] - file["stage_0000"].attrs["lower_y"]
+        words = setting(comparison_probe_rectangles=f"0,{height / 2 + 0.485},5,1.03,0")
+        self.expect(3, ["run", QUICK, *BOTH, *words, "--output", self.folder, "--quiet"], "comparison/probe_rectangles", "kept in " + self.folder)
         self.assertIn("continuum.h5", listing(self.folder))
+
+    def test_a_link_in_the_place_of_the_lock_is_not_followed(self):
+        os.mkdir(self.folder)
+        mine = write(os.path.join(self.work, "mine.txt"), "mine\n")
+        os.symlink(mine, os.path.join(self.folder, ".diptych.lock"))
+        result = diptych("discrete", QUICK, *FEW, "--output", self.folder, "--quiet")
+        self.assertEqual(result.returncode, 4, result.stderr)
+        self.assertEqual(content(mine), b"mine\n")
+
+    def test_an_export_goes_beside_its_folder(self):
+        shutil.copytree(self.whole, self.folder)
+        self.expect(2, ["export", self.folder, "--format", "csv", "--output", self.folder, "--quiet"], "--output")
 
     @staticmethod
     def compared(contents):  # without the CPU seconds of the comparison itself
@@ -194,6 +228,16 @@ class Machine(Folder):
                 self.assertIn(result.returncode, (0, 4) if room == 500000 else (4,), result.stderr)
                 if result.returncode == 4:
                     self.assertTrue(self.folder in result.stderr or "nothing was written" in result.stderr, result.stderr)
+
+    def test_little_memory_is_no_wrong_input(self):
+        table = write(os.path.join(self.work, "grains.csv"), "x,y,r\n" + "".join(f"{k % 700},{k // 700},0.5\n" for k in range(490000)))
+
+        def limit():
+            resource.setrlimit(resource.RLIMIT_AS, (120 << 20, 120 << 20))
+        for words in (["discrete", QUICK, *FEW, *setting(sample_file=table), "--output", self.folder, "--quiet"],
+                      ["import", "csv", table, "--output", self.folder, "--quiet"]):
+            result = self.expect(4, words, "not enough memory", "nothing was written", table, preexec_fn=limit)
+            self.assertNotIn("bad_alloc", result.stderr)
 
     def test_without_h5py_what_was_computed_is_kept(self):
         os.mkdir(os.path.join(self.work, "modules"))
