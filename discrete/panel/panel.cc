@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "discrete/contacts/internal_moment.h"
+#include "discrete/files/text_file.h"
 #include "discrete/panel/make_snapshot.h"
 #include "discrete/panel/messages.h"
 #include "discrete/panel/spring_press.h"
@@ -53,15 +54,12 @@ namespace diptych::discrete
     // False where it did not get quiet.
     bool prepare()
     {
-      const double   start    = cpu_seconds();
-      Report        &report   = now.report;
-      PreparedSample prepared = prepare_sample(
-        sample_, preparation_setting(loading_, options_),
-        [&](const int step, const int expected) {
-          tell("preparing the sample", std::min(1., double(step) / expected));
-          return !stop_requested();
-        },
-        grains_ ? &*grains_ : nullptr);
+      const double                  start  = cpu_seconds();
+      Report                       &report = now.report;
+      std::optional<PreparedSample> whole  = prepared_sample();
+      if (!whole)
+        return fail("");
+      PreparedSample &prepared = *whole;
       now.state                = std::move(prepared.state);
       report.preparation       = prepared.report;
       const bool quiet         = prepared.report.quiet || fail(unrest_text(report.preparation));
@@ -133,6 +131,23 @@ namespace diptych::discrete
   private:
     bool penalty() const { return options_.method.method == Method::penalty; }
     bool stop_requested() const { return hooks_.stop_requested && hooks_.stop_requested(); }
+
+    // Nothing where it was stopped while a file was read.
+    std::optional<PreparedSample> prepared_sample() const
+    {
+      const auto go_on = [&](const int step, const int expected) {
+        tell("preparing the sample", std::min(1., double(step) / expected));
+        return !stop_requested();
+      };
+      try
+        {
+          return prepare_sample(sample_, preparation_setting(loading_, options_), go_on, grains_ ? &*grains_ : nullptr);
+        }
+      catch (const ReadingStopped &)
+        {
+          return std::nullopt;
+        }
+    }
 
     bool presses() const { return penalty() && loading_.mode != LoadingMode::time && options_.penalty.preload > 0; }
 

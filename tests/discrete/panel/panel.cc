@@ -93,6 +93,18 @@ namespace
     EXPECT_GT(report.axial_strain, 0);
   }
 
+  // Asked 30 times the preparation is among its soft discs or first sweeps: no step, no snapshot, and the report says by whom.
+  TEST(Panel, StopsWithinItsPreparationOnRequest)
+  {
+    int   asked = 0;
+    Hooks hooks;
+    hooks.stop_requested = [&] { return ++asked >= 30; };
+    Panel panel(small_sample(150), short_loading(), quick_options(), hooks);
+    EXPECT_EQ(panel.prepare(), Status::stopped_by_user);
+    EXPECT_LE(asked, 34);
+    EXPECT_FALSE(panel.has_snapshot());
+  }
+
   // Stopped within a stage and asked to go on, a panel in memory ends with the bits of one left alone.
   TEST(Panel, GoesOnAfterAStopWithTheSameBits)
   {
