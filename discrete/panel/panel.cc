@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "discrete/contacts/internal_moment.h"
-#include "discrete/files/text_file.h"
 #include "discrete/panel/make_snapshot.h"
 #include "discrete/panel/messages.h"
 #include "discrete/panel/spring_press.h"
@@ -54,12 +53,16 @@ namespace diptych::discrete
     // False where it did not get quiet.
     bool prepare()
     {
-      const double                  start  = cpu_seconds();
-      Report                       &report = now.report;
-      std::optional<PreparedSample> whole  = prepared_sample();
-      if (!whole)
-        return fail("");
-      PreparedSample &prepared = *whole;
+      const double start  = cpu_seconds();
+      Report      &report = now.report;
+      const auto   go_on  = [&](const int step, const int expected) {
+        tell("preparing the sample", std::min(1., double(step) / expected));
+        return !stop_requested();
+      };
+      PreparedSample prepared = prepare_sample(sample_, preparation_setting(loading_, options_), go_on,
+                                               grains_ ? &*grains_ : nullptr);
+      if (prepared.state.walls.empty())
+        return fail(""); // stopped while its file was read
       now.state                = std::move(prepared.state);
       report.preparation       = prepared.report;
       const bool quiet         = prepared.report.quiet || fail(unrest_text(report.preparation));
@@ -132,23 +135,6 @@ namespace diptych::discrete
     bool penalty() const { return options_.method.method == Method::penalty; }
     bool stop_requested() const { return hooks_.stop_requested && hooks_.stop_requested(); }
 
-    // Nothing where it was stopped while a file was read.
-    std::optional<PreparedSample> prepared_sample() const
-    {
-      const auto go_on = [&](const int step, const int expected) {
-        tell("preparing the sample", std::min(1., double(step) / expected));
-        return !stop_requested();
-      };
-      try
-        {
-          return prepare_sample(sample_, preparation_setting(loading_, options_), go_on, grains_ ? &*grains_ : nullptr);
-        }
-      catch (const ReadingStopped &)
-        {
-          return std::nullopt;
-        }
-    }
-
     bool presses() const { return penalty() && loading_.mode != LoadingMode::time && options_.penalty.preload > 0; }
 
     // The springs of the penalty method. False where it was stopped or they blew up.
@@ -159,12 +145,10 @@ namespace diptych::discrete
         tell("pressing the springs", share);
         return !stop_requested();
       });
-      const bool done = pressed && pressed->last_step.solve.status == SolveStatus::converged;
-      if (!done)
-        fail(pressed ? press_text(options_) : "");
-      else
-        prepared.last_step = std::move(pressed->last_step), prepared.step = pressed->step;
-      return done;
+      if (!pressed || pressed->last_step.solve.status != SolveStatus::converged)
+        return fail(pressed ? press_text(options_) : "");
+      prepared.last_step = std::move(pressed->last_step), prepared.step = pressed->step;
+      return true;
     }
 
     void tell(const std::string &phase, const double fraction) const
@@ -255,10 +239,8 @@ namespace diptych::discrete
     // Impulses are given and taken in pairs: more than round-off means that the program is wrong.
     void check_momentum(const double residual) const
     {
-      constexpr double round_off = 1e-10;
-      if (residual <= round_off)
-        return;
-      throw std::logic_error(momentum_text(now.row.step + 1, residual));
+      if (constexpr double round_off = 1e-10; residual > round_off)
+        throw std::logic_error(momentum_text(now.row.step + 1, residual));
     }
 
     void note_failure(const SolveReport &solve)

@@ -283,8 +283,7 @@ namespace diptych::discrete
                                 const std::function<bool(int, int)> &progress,
                                 FileSample                           file)
     {
-      State &state = file.state;
-
+      State            &state   = file.state;
       const StepSetting setting = compaction_setting(o, preparation, o.preparation_friction);
       if (o.prepare_file)
         return compact(std::move(state), o, setting, progress);
@@ -376,7 +375,14 @@ namespace diptych::discrete
     if (grains != nullptr)
       sample = ready_sample(options, setting, progress, place_grains(options, setting, {"the sample", *grains, {}, {}}));
     else if (!options.file.empty())
-      sample = ready_sample(options, setting, progress, file_sample(options, setting, [&] { return progress(0, 1); }));
+      try
+        {
+          sample = ready_sample(options, setting, progress, file_sample(options, setting, [&] { return progress(0, 1); }));
+        }
+      catch (const ReadingStopped &)
+        {
+          return sample;
+        }
     else
       {
         sample = options.target_solid_fraction > 0
