@@ -56,7 +56,10 @@ namespace diptych::continuum
     }
   } // namespace
 
-  Discretisation::Discretisation(const QuadMesh &mesh, const ElementKind kind, const MPI_Comm communicator)
+  Discretisation::Discretisation(const QuadMesh    &mesh,
+                                 const ElementKind  kind,
+                                 const MPI_Comm     communicator,
+                                 const StopRequest &stop_requested)
       : triangulation(communicator),
         kind(kind),
         reference(kind),
@@ -64,19 +67,22 @@ namespace diptych::continuum
         dof_handler(triangulation)
   {
     create(mesh, triangulation);
-    distribute();
+    leave_if(stop_requested, "the unknowns");
+    distribute(stop_requested);
     measure();
   }
 
-  void Discretisation::distribute()
+  void Discretisation::distribute(const StopRequest &stop_requested)
   {
     dof_handler.distribute_dofs(element);
+    leave_if(stop_requested, "the nodes");
     owned = dof_handler.locally_owned_dofs();
     DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
     cells.clear();
     nodes.clear();
     edges.clear();
     number_nodes();
+    leave_if(stop_requested, "the edges");
     number_locally();
     collect_edges();
   }

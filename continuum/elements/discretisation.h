@@ -15,6 +15,7 @@
 
 #include "continuum/elements/reference_element.h"
 #include "continuum/mesh/quad_mesh.h"
+#include "continuum/stopping.h"
 
 namespace diptych::continuum
 {
@@ -46,13 +47,13 @@ namespace diptych::continuum
   class Discretisation
   {
   public:
-    // Of a mesh that check() has accepted, spread over the processes of `communicator`.
-    Discretisation(const QuadMesh &mesh, ElementKind kind, MPI_Comm communicator);
+    // Of a mesh that check() has accepted, spread over the processes of `communicator`. Throws SetUpStopped between its phases.
+    Discretisation(const QuadMesh &mesh, ElementKind kind, MPI_Comm communicator, const StopRequest &stop_requested = {});
 
     MPI_Comm communicator() const { return triangulation.get_communicator(); }
 
     // New unknowns, nodes and edges for the mesh as it now is: after a refinement.
-    void distribute();
+    void distribute(const StopRequest &stop_requested = {});
 
     // Adds dofs of other processes that this one reads; local indices change.
     void add_relevant(const std::vector<dealii::types::global_dof_index> &dofs);

@@ -44,18 +44,21 @@ namespace diptych::continuum
     }
   } // namespace
 
-  BoundaryValueProblem::BoundaryValueProblem(const QuadMesh &quads,
-                                             const Units    &units,
-                                             const Loading  &loading,
-                                             const Options  &options,
-                                             const MPI_Comm  communicator)
+  BoundaryValueProblem::BoundaryValueProblem(const QuadMesh    &quads,
+                                             const Units       &units,
+                                             const Loading     &loading,
+                                             const Options     &options,
+                                             const MPI_Comm     communicator,
+                                             const StopRequest &stop_requested)
       : options(options),
         loading(loading),
         units(units),
         material(make_law(options.law, options.material, units)),
-        mesh(quads, element_kind(options), communicator)
+        mesh(quads, element_kind(options), communicator, stop_requested)
   {
-    rebuild();
+    leave_if(stop_requested, "the boundary conditions");
+    rebuild(stop_requested);
+    leave_if(stop_requested, "the state at rest");
     area_at_start = Utilities::MPI::sum(current.area, mesh.communicator());
     set_at_rest(mesh, options, units, loading.pressure, state.points);
     begin_step(0);
@@ -63,9 +66,10 @@ namespace diptych::continuum
     reset_balance();
   }
 
-  void BoundaryValueProblem::rebuild()
+  void BoundaryValueProblem::rebuild(const StopRequest &stop_requested)
   {
-    set_conditions({});
+    set_conditions({}, stop_requested);
+    leave_if(stop_requested, "the points");
     const std::size_t n_points = mesh.cells.size() * mesh.reference.n_points;
     trial.assign(n_points, {});
     trial_increment.assign(mesh.relevant.n_elements(), 0.);
@@ -81,12 +85,13 @@ namespace diptych::continuum
       add_body_force(mesh, current, loading.body_force, weight);
   }
 
-  void BoundaryValueProblem::set_conditions(const SideContact &contact)
+  void BoundaryValueProblem::set_conditions(const SideContact &contact, const StopRequest &stop_requested)
   {
     in_side_contact = contact;
     conditions      = std::make_unique<BoundaryConditions>(
       mesh, loading, PlatenGrip{options.platens == Platens::rough, options.platen_rotation == PlatenRotation::held}, contact);
-    tangent.reinit(mesh, conditions->correction());
+    leave_if(stop_requested, "the sparsity pattern");
+    tangent.reinit(mesh, conditions->correction(), stop_requested);
     ++structure_version;
   }
 

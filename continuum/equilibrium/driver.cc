@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 namespace diptych::continuum
@@ -41,9 +42,10 @@ namespace diptych::continuum
     }
   } // namespace
 
-  LoadDriver::LoadDriver(BoundaryValueProblem &problem, const Options &options)
+  LoadDriver::LoadDriver(BoundaryValueProblem &problem, const Options &options, StopRequest stop_requested)
       : problem(problem),
         options(options),
+        stop_requested(std::move(stop_requested)),
         solver(linear_method(options.linear_solver, n_unknowns(problem), problem.discretisation().communicator()))
   {
     DriverState start;
@@ -69,12 +71,12 @@ namespace diptych::continuum
     version = problem.version();
   }
 
-  NewtonReport LoadDriver::attempt(DistributedVector &increment)
+  NewtonReport LoadDriver::attempt(DistributedVector &increment, const StopRequest &stop)
   {
     follow_structure();
-    const auto report = solve_step(problem, solver, {options.tolerance, options.max_newton_iterations}, increment);
+    const auto report = solve_step(problem, solver, {options.tolerance, options.max_newton_iterations, stop}, increment);
     now.count.newton_iterations += report.iterations;
-    if (!report.converged)
+    if (!report.converged && !report.stopped)
       {
         ++now.count.cut_backs;
         solver.forget(); // factors of a state that never was
@@ -82,18 +84,46 @@ namespace diptych::continuum
     return report;
   }
 
+  // As it was before the step.
+  std::string LoadDriver::give_up(DriverState before)
+  {
+    stopped = true;
+    now     = std::move(before);
+    solver.put_back();
+    return "stopped on request";
+  }
+
   std::string LoadDriver::equilibrate()
   {
-    const double progress = problem.progress();
-    double       share = 0, d_share = 1;
+    return find_equilibrium(stop_requested);
+  }
+
+  std::string LoadDriver::find_equilibrium(const StopRequest &stop)
+  {
+    const double                  progress = problem.progress();
+    const DriverState             before   = now;
+    std::optional<CommittedState> start; // where part of the loads was committed
+    double                        share = 0, d_share = 1;
+    stopped = false;
+    follow_structure();
+    if (stop)
+      solver.remember();
     while (share < 1)
       {
         const double target    = std::min(1., share + d_share);
         auto         increment = problem.zero_vector();
         problem.begin_step(progress, target);
-        const auto report = attempt(increment);
+        const auto report = attempt(increment, stop);
+        if (report.stopped)
+          {
+            if (start)
+              problem.adopt(std::move(*start));
+            return give_up(before);
+          }
         if (report.converged)
           {
+            if (stop && target < 1 && !start)
+              start = problem.committed();
             problem.commit();
             share = target;
             continue;
@@ -104,6 +134,7 @@ namespace diptych::continuum
                  (progress > 0 ? " after a refinement"
                                : ": the initial stress does not fit a free edge or a wavy outline, or exceeds the strength");
       }
+    solver.forget_memory();
     return {};
   }
 
@@ -141,7 +172,7 @@ namespace diptych::continuum
         ++now.count.refinements;
         now.divisions.push_back(*divided);
         restart(now);
-        if (const auto why = equilibrate(); !why.empty())
+        if (const auto why = find_equilibrium({}); !why.empty()) // the step is accepted, and the walk stands on the new mesh only
           return why;
       }
     return {};
@@ -149,6 +180,11 @@ namespace diptych::continuum
 
   std::string LoadDriver::step_towards(const double progress)
   {
+    stopped = false;
+    follow_structure();
+    const DriverState before = now;
+    if (stop_requested)
+      solver.remember();
     while (true)
       {
         // Equal steps to the stage: a short last one would be a bad base for the next extrapolation.
@@ -158,7 +194,11 @@ namespace diptych::continuum
         const double to        = n_steps == 1 ? progress : problem.progress() + size;
         problem.begin_step(to);
         auto       increment = predict(to);
-        const auto report    = attempt(increment);
+        const auto report    = attempt(increment, stop_requested);
+        if (report.stopped)
+          {
+            return give_up(before);
+          }
         if (report.converged)
           {
             accept(increment, size, report.iterations);
@@ -176,6 +216,7 @@ namespace diptych::continuum
   void LoadDriver::accept(const DistributedVector &increment, const double size, const int iterations)
   {
     problem.commit();
+    solver.forget_memory();
     now.last_increment = problem.relevant_values(increment);
     now.last_step      = size;
     ++now.count.steps;

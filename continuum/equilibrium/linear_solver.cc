@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <ctime>
+#include <utility>
 
 #include <deal.II/lac/solver_gmres.h>
 
@@ -45,12 +46,44 @@ namespace diptych::continuum
   {
     method      = new_method;
     rigid_modes = std::move(modes);
+    memory.reset();
     umfpack.forget_pattern();
     forget();
   }
 
+  void LinearSolver::remember()
+  {
+    memory = Memory{is_stale, n_iterations, n_factorisations, seconds, {}};
+  }
+
+  void LinearSolver::put_back()
+  {
+    if (!memory)
+      return;
+    Memory before = *std::exchange(memory, std::nullopt);
+    go_on_counting(before.n_iterations, before.n_factorisations, before.seconds);
+    if (before.replaced)
+      {
+        umfpack.forget_pattern();
+        forget();
+        waiting = std::move(before.replaced);
+        if (!waiting->factorised.empty()) // else nothing is kept, and the next solve() factorises afresh
+          waiting->is_stale = before.is_stale;
+      }
+    else
+      is_stale = before.is_stale;
+  }
+
+  void LinearSolver::keep_what_is_replaced()
+  {
+    if (memory && !memory->replaced)
+      memory->replaced = kept();
+  }
+
   void LinearSolver::forget()
   {
+    keep_what_is_replaced();
+    waiting.reset();
     umfpack.forget_factors();
     mumps.reset();
     amg.reset();
@@ -79,6 +112,8 @@ namespace diptych::continuum
 
   KeptPreconditioner LinearSolver::kept() const
   {
+    if (waiting)
+      return *waiting;
     KeptPreconditioner kept;
     if (method == LinearMethod::umfpack)
       kept = {is_stale, umfpack.analysed(), umfpack.factorised(), {}};
@@ -133,7 +168,9 @@ namespace diptych::continuum
   {
     const auto start = std::clock();
     bool       done  = false;
-    is_fresh         = is_stale;
+    if (waiting)
+      (void)take_up(KeptPreconditioner(*waiting), matrix); // it fitted before; else it is made afresh
+    is_fresh = is_stale;
     if (!is_stale || factorise(matrix))
       done = solve_iteratively(matrix, x, rhs);
     if (!done && !is_fresh && factorise(matrix))
@@ -173,6 +210,7 @@ namespace diptych::continuum
 
   bool LinearSolver::factorise(const TrilinosWrappers::SparseMatrix &matrix)
   {
+    keep_what_is_replaced();
     ++n_factorisations;
     is_stale = false;
     if (method == LinearMethod::umfpack)

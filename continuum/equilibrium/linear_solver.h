@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <deal.II/lac/solver_control.h>
@@ -59,6 +60,13 @@ namespace diptych::continuum
 
     KeptPreconditioner kept() const;
 
+    // A step may be given up because somebody asked to stop, and must then leave no trace: put_back() makes the preconditioner
+    // and the counts what they were at remember(), forget_memory() ends that. Matrices are copied only where they are replaced;
+    // the preconditioner is made of them again when it is next needed.
+    void remember();
+    void put_back();
+    void forget_memory() { memory.reset(); }
+
     // To be called after restart(). `pattern`: a matrix of the present structure. False: the matrices do not fit it.
     [[nodiscard]] bool take_up(const KeptPreconditioner &kept, const dealii::TrilinosWrappers::SparseMatrix &pattern);
 
@@ -78,6 +86,15 @@ namespace diptych::continuum
     void vmult(Vector &x, const Vector &b) const;
 
   private:
+    struct Memory
+    {
+      bool                              is_stale;
+      int                               n_iterations, n_factorisations;
+      double                            seconds;
+      std::optional<KeptPreconditioner> replaced; // since then
+    };
+
+    void keep_what_is_replaced();
     bool solve_iteratively(const dealii::TrilinosWrappers::SparseMatrix &matrix, Vector &x, const Vector &rhs);
     bool factorise(const dealii::TrilinosWrappers::SparseMatrix &matrix);
     bool build_amg(const dealii::TrilinosWrappers::SparseMatrix &matrix);
@@ -93,5 +110,7 @@ namespace diptych::continuum
     bool                                                       is_fresh = false, is_stale = true;
     int                                                        n_iterations = 0, n_factorisations = 0;
     double                                                     seconds = 0;
+    std::optional<Memory>                                      memory;
+    std::optional<KeptPreconditioner>                          waiting; // to be made of these matrices by the next solve()
   };
 } // namespace diptych::continuum

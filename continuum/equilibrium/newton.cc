@@ -72,6 +72,11 @@ namespace diptych::continuum
         else if (report.iterations == options.max_iterations)
           report.message = std::to_string(report.iterations) + " Newton iterations left a relative residual of " +
                            std::to_string(report.residual);
+        else if (options.stop_requested && options.stop_requested())
+          {
+            report.stopped = true;
+            report.message = "stopped on request";
+          }
         else if (!solver.solve(problem.assemble_tangent(), correction, problem.negative_residual()))
           report.message = "the linear system could not be solved";
         if (report.converged || !report.message.empty())

@@ -13,11 +13,14 @@ namespace diptych::continuum
   {
     double tolerance      = 1e-5; // relative to the reactions
     int    max_iterations = 20;
+
+    StopRequest stop_requested = {}; // asked before every linear solve
   };
 
   struct NewtonReport
   {
     bool        converged  = false;
+    bool        stopped    = false; // on request
     int         iterations = 0;
     double      residual   = 0; // relative, at the end
     std::string message;        // why it gave up

@@ -15,15 +15,20 @@ namespace diptych::continuum
 {
   using namespace dealii;
 
-  void TangentMatrix::reinit(const Discretisation &mesh, const AffineConstraints<double> &constraints)
+  void TangentMatrix::reinit(const Discretisation            &mesh,
+                             const AffineConstraints<double> &constraints,
+                             const StopRequest               &stop_requested)
   {
     this->mesh        = &mesh;
     this->constraints = &constraints;
     TrilinosWrappers::SparsityPattern pattern(mesh.owned, mesh.owned, mesh.relevant, mesh.communicator());
     DoFTools::make_sparsity_pattern(mesh.dof_handler, pattern, constraints, false,
                                     Utilities::MPI::this_mpi_process(mesh.communicator()));
+    leave_if(stop_requested, "the sparsity pattern is packed");
     pattern.compress();
+    leave_if(stop_requested, "the matrix");
     sparse.reinit(pattern);
+    leave_if(stop_requested, "the places in the matrix");
     const bool alone = Utilities::MPI::n_mpi_processes(mesh.communicator()) == 1;
     general.assign(mesh.cells.size(), !alone);
     places.clear();

@@ -18,7 +18,10 @@ namespace diptych::continuum
   class TangentMatrix
   {
   public:
-    void reinit(const Discretisation &mesh, const dealii::AffineConstraints<double> &constraints);
+    // Throws SetUpStopped between its phases.
+    void reinit(const Discretisation                    &mesh,
+                const dealii::AffineConstraints<double> &constraints,
+                const StopRequest                       &stop_requested = {});
 
     void                          clear();
     template <class Element> void add(std::size_t cell, const ElementMatrix<Element> &K);

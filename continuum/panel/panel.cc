@@ -62,8 +62,8 @@ namespace diptych::continuum
           options_(options),
           hooks_(std::move(hooks)),
           communicator_(communicator),
-          problem_(checked(mesh, loading, options), units, loading, options, communicator),
-          driver_(problem_, options)
+          problem_(checked(mesh, loading, options), units, loading, options, communicator, stop_request()),
+          driver_(problem_, options, stop_request())
     {
       check_places(problem_.discretisation());
       describe();
@@ -98,16 +98,20 @@ namespace diptych::continuum
       require(options_.material.hardening != HardeningKind::critical_state || !traits(options_.law).is_plastic ||
                 options_.material.solid_fraction_start || has_solid_fraction_,
               "solid_fraction_start = auto: there is no solid fraction to map");
+      if (report.status == Status::stopped_by_user)
+        report = resumed(report);
       if (const auto why = driver_.equilibrate(); !why.empty())
-        fail(why);
-      else
-        tell_row();
+        return end_early(why);
+      is_at_rest_ = true;
+      tell_row();
     }
 
     void load_to_stage(const int wanted)
     {
       require(wanted <= int(loading_.stages.size()), "stage ", wanted, " of ", loading_.stages.size());
-      if (report.status == Status::stopped_by_user)
+      if (report.status == Status::stopped_by_user && !is_at_rest_)
+        prepare();
+      else if (report.status == Status::stopped_by_user)
         report = resumed(report);
       while (stage < wanted && report.status == Status::finished)
         {
@@ -123,6 +127,7 @@ namespace diptych::continuum
     {
       const Checkpoint checkpoint = of_first_process(of_this_process, communicator_);
       restore(checkpoint, problem_, driver_);
+      is_at_rest_                  = true;
       stage                        = checkpoint.stage;
       report.localisation_progress = checkpoint.localisation_progress;
       report.localisation_angle    = checkpoint.localisation_angle;
@@ -157,6 +162,11 @@ namespace diptych::continuum
 
     bool is_first_process() const { return dealii::Utilities::MPI::this_mpi_process(communicator_) == 0; }
 
+    StopRequest stop_request() const
+    {
+      return hooks_.stop_requested ? StopRequest([this] { return stop_requested(); }) : StopRequest();
+    }
+
     bool stop_requested() const
     {
       const bool asked = hooks_.stop_requested && hooks_.stop_requested();
@@ -175,20 +185,24 @@ namespace diptych::continuum
       if (hooks_.before_step)
         hooks_.before_step();
       if (stop_requested())
-        {
-          report.status  = Status::stopped_by_user;
-          report.message = "stopped on request";
-          return;
-        }
+        return note_stop();
       if (const auto why = driver_.step_towards(end); !why.empty())
-        return fail(why);
+        return end_early(why);
       tell_row();
     }
 
-    void fail(const std::string &why)
+    void note_stop()
+    {
+      report.status  = Status::stopped_by_user;
+      report.message = "stopped on request";
+    }
+
+    void end_early(const std::string &why)
     {
       report.status  = Status::not_converged;
       report.message = "stopped at " + text_of(loading_.walk, problem_.progress()) + ": " + why;
+      if (driver_.was_stopped())
+        note_stop();
       describe();
     }
 
@@ -231,6 +245,7 @@ namespace diptych::continuum
     LoadDriver           driver_;
     bool                 has_stress_         = false;
     bool                 has_solid_fraction_ = false;
+    bool                 is_at_rest_         = false; // or was, before the loading
   };
 
   Panel::Panel(const QuadMesh &mesh,

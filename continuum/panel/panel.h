@@ -15,6 +15,7 @@
 #include "continuum/options.h"
 #include "continuum/panel/checkpoint.h"
 #include "continuum/snapshot.h"
+#include "continuum/stopping.h"
 
 namespace diptych::continuum
 {
@@ -40,8 +41,8 @@ namespace diptych::continuum
   // All optional. On several processes stop_requested and before_step are asked of all of them, the others of the first alone.
   struct Hooks
   {
-    std::function<bool()>                                          stop_requested; // asked before every step
-    std::function<void()>                                          before_step;    // where a checkpoint may be taken
+    std::function<bool()> stop_requested; // asked between phases of the set-up, before every step and linear solve
+    std::function<void()> before_step;    // where a checkpoint may be taken
     std::function<void(const std::string &phase, double fraction)> on_progress;
     std::function<void(const HistoryRow &)> on_row; // of every accepted step and of the state at rest (step 0)
   };
@@ -52,7 +53,7 @@ namespace diptych::continuum
   {
   public:
     // `units`: what keys of `options` count in. Throws std::invalid_argument on a mesh, a loading or options that are wrong or
-    // contradict each other.
+    // contradict each other, SetUpStopped (stopping.h) where hooks.stop_requested says so.
     Panel(const QuadMesh &mesh,
           const Units    &units,
           const Loading  &loading,
@@ -76,7 +77,8 @@ namespace diptych::continuum
     void                 resume(const Checkpoint &checkpoint);
 
     // Loads up to stage 1, 2, ... number of stages. A step that does not converge is halved; where that does not help, the panel
-    // stays where it is and the report says why.
+    // stays where it is and the report says why. One that is stopped on request between two Newton iterations leaves it as it was
+    // before that step; asked again, the panel goes on from there, to the bits of one that was not stopped.
     [[nodiscard]] Status advance_to(int stage);
 
     // Of the last accepted step. Complete on the first process only.

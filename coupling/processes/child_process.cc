@@ -63,6 +63,7 @@ namespace diptych::coupling
       if (streams.errors >= 0)
         dup2(streams.errors, STDERR_FILENO);
       close_range(3, ~0U, 0); // sockets of an MPI job among them
+      unblock_stop_signals();
       execve(words[0], words, environment);
       _exit(127);
     }

@@ -4,12 +4,19 @@
 
 #include <csignal>
 
+#include <unistd.h>
+
 namespace diptych::coupling
 {
   namespace
   {
-    volatile std::sig_atomic_t stop = 0;
+    constexpr int stop_signals[] = {SIGINT, SIGTERM, SIGHUP};
 
+    volatile std::sig_atomic_t stop     = 0;
+    volatile pid_t             parent   = 0; // 0: this process may outlive it
+    volatile unsigned int      patience = 0;
+
+    // Only calls that are safe in a handler.
     void request_stop(const int signal)
     {
       stop = 1;
@@ -17,20 +24,61 @@ namespace diptych::coupling
       // once for each that ends after the one before, and the checkpoint must be written all the same.
       if (signal == SIGINT)
         std::signal(signal, SIG_DFL);
+      if (parent != 0 && getppid() != parent)
+        alarm(patience);
+    }
+
+    // SA_RESTART: the standard library, HDF5 and MPI read and write without a look at EINTR here and there. What could wait for
+    // ever, a pipe or a device as an input, is refused before it is opened (discrete::require_regular_file).
+    void take(const int signal)
+    {
+      struct sigaction action = {};
+      action.sa_handler       = request_stop;
+      action.sa_flags         = SA_RESTART;
+      sigemptyset(&action.sa_mask);
+      sigaction(signal, &action, nullptr);
+    }
+
+    sigset_t stop_set()
+    {
+      sigset_t set;
+      sigemptyset(&set);
+      for (const int signal : stop_signals)
+        sigaddset(&set, signal);
+      return set;
     }
   } // namespace
 
   void install_stop_signals()
   {
-    std::signal(SIGINT, request_stop);
-    std::signal(SIGTERM, request_stop);
-    if (std::signal(SIGHUP, request_stop) == SIG_IGN) // nohup: the terminal may go
-      std::signal(SIGHUP, SIG_IGN);
+    struct sigaction hangup = {};
+    sigaction(SIGHUP, nullptr, &hangup);
+    take(SIGINT), take(SIGTERM);
+    if (hangup.sa_handler != SIG_IGN) // nohup: the terminal may go
+      take(SIGHUP);
+    unblock_stop_signals();
   }
 
   bool stop_requested()
   {
     return stop != 0;
+  }
+
+  void block_stop_signals()
+  {
+    const sigset_t set = stop_set();
+    sigprocmask(SIG_BLOCK, &set, nullptr);
+  }
+
+  void unblock_stop_signals()
+  {
+    const sigset_t set = stop_set();
+    sigprocmask(SIG_UNBLOCK, &set, nullptr);
+  }
+
+  void end_after_parent(const unsigned int seconds)
+  {
+    patience = seconds, parent = getppid();
   }
 
   void leave_if_stopped(const std::string &phase)

@@ -1,4 +1,4 @@
-// diptych: Ctrl-C and SIGTERM end the run at the next step
+// diptych: Ctrl-C, SIGTERM and a terminal that goes (SIGHUP) end the run at the next step
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -7,8 +7,17 @@
 
 namespace diptych::coupling
 {
-  void install_stop_signals(); // a second Ctrl-C kills as usual
+  // Takes the three signals from now on, those that wait behind block_stop_signals() or the same of the program before this one
+  // among them. To be called first of all in main, and again behind what takes signals to itself. A second Ctrl-C kills as usual.
+  void install_stop_signals();
   bool stop_requested();
+
+  // They wait, over exec too, until install_stop_signals(): a program that has just begun would die of them.
+  void block_stop_signals();
+  void unblock_stop_signals();
+
+  // Of a process whose parent's death sends it SIGTERM (start_answerer): it then has `seconds` to end, and is ended by SIGALRM.
+  void end_after_parent(unsigned int seconds);
 
   // A phase that has nothing to go on from was asked to end: exit code 3.
   struct StoppedOnRequest : std::runtime_error

@@ -92,7 +92,10 @@ namespace
       if (fs::exists(program))
         {
           argv[0] = const_cast<char *>(program.c_str());
+          block_stop_signals(); // until the other program takes them
+          leave_if_stopped(argv[1]);
           execv(program.c_str(), argv);
+          unblock_stop_signals();
           throw std::runtime_error("cannot start " + program.string() + ": " + std::strerror(errno));
         }
     throw std::runtime_error(name + " is not beside " + own_path() + "; the installation is broken");
@@ -150,7 +153,7 @@ namespace
         "mpirun: diptych " + name_of(line.command) +
         " runs on one process; several may run `diptych continuum` alone, `diptych run` with --seeds, `diptych study` or "
         "`diptych calibrate`");
-    install_stop_signals();
+    leave_if_stopped(name_of(line.command));
     switch (line.command)
       {
       case Command::discrete:
@@ -201,6 +204,7 @@ namespace
 
 int main(int argc, char **argv)
 {
+  install_stop_signals();
   std::signal(SIGPIPE, SIG_IGN); // nobody reads any more: the results do not care
   std::signal(SIGXFSZ, SIG_IGN); // a limit of file sizes is told as a full disk is
   try

@@ -30,6 +30,8 @@ namespace
         "mpirun: diptych " + name_of(line.command) +
         " runs on one process; several may run `diptych continuum` alone, `diptych run` with --seeds, `diptych study` or "
         "`diptych calibrate`");
+    if (any_process(stop_requested()))
+      throw StoppedOnRequest(name_of(line.command) + ": stopped on request");
     switch (line.command)
       {
       case Command::run:
@@ -54,11 +56,15 @@ namespace
 
 int main(int argc, char **argv)
 {
+  install_stop_signals(); // those that came while the program began, too
   need_no_daemon();
   std::signal(SIGPIPE, SIG_IGN); // nobody reads any more: the results do not care
   std::signal(SIGXFSZ, SIG_IGN); // a limit of file sizes is told as a full disk is
   if (argc == 2 && std::string(argv[1]) == worker_word)
     {
+      constexpr unsigned int most_seconds = 60; // of a worker that nobody waits for any more: a step and its checkpoint
+      end_after_parent(most_seconds);
+      block_stop_signals();
       dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
       install_stop_signals();
       return answer_for([] { return work_for_parent(execute); }, code_of, text_of_end);
@@ -67,10 +73,11 @@ int main(int argc, char **argv)
   ParsedLine parsed = parse_command_line({argv + 1, argv + argc});
   if (parsed.exit_code)
     return *parsed.exit_code;
+  block_stop_signals(); // MPI takes signals to itself, and its threads must not get these
   // One thread: deal.II's pool would change nothing but the clock.
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   parsed.line.quiet          = parsed.line.quiet || !is_first_process();
   parsed.line.tells_warnings = is_first_process();
-  install_stop_signals(); // after MPI has started, which takes signals to itself
+  install_stop_signals();
   return answer_for([&] { return execute(parsed.line); }, code_of, text_of_end);
 }

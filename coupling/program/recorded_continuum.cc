@@ -47,8 +47,10 @@ namespace diptych::coupling
       continuum::QuadMesh mesh;
       on_first_process([&] {
         mesh = mesh_of(scene, part, grains);
+        leave_if_stopped(part.title);
         std::filesystem::create_directories(part.directory);
         continuum::write_mesh(mesh, part.directory + "/sample.msh");
+        leave_if_stopped(part.title);
         return 0;
       });
       return shared(std::move(mesh));
@@ -70,11 +72,23 @@ namespace diptych::coupling
         scene_identity(text_of(continuum_identity(scene))),
         sample_identity(identity_of(mesh)),
         progress(line.quiet),
-        panel(std::make_unique<continuum::Panel>(mesh, continuum_units(scene), loading, scene.continuum, hooks())),
+        panel(made_panel()),
         is_under_way(resume)
   {
     if (resume)
       take_up();
+  }
+
+  std::unique_ptr<continuum::Panel> RecordedContinuum::made_panel()
+  {
+    try
+      {
+        return std::make_unique<continuum::Panel>(mesh, continuum_units(scene), loading, scene.continuum, hooks());
+      }
+    catch (const continuum::SetUpStopped &)
+      {
+        throw StoppedOnRequest(part.title + ": stopped on request while it was set up");
+      }
   }
 
   void RecordedContinuum::take_up()
@@ -132,7 +146,7 @@ namespace diptych::coupling
           add_snapshot();
       }
     progress.finish();
-    if (panel->report().status == continuum::Status::stopped_by_user)
+    if (panel->report().status == continuum::Status::stopped_by_user && is_under_way)
       save();
     on_first_process([&] {
       flush_rows();
@@ -154,8 +168,10 @@ namespace diptych::coupling
       return 0;
     });
     map_initial_state(scene, grains, *panel);
-    if (panel->prepare() == continuum::Status::finished)
-      add_snapshot();
+    if (panel->prepare() != continuum::Status::finished)
+      return;
+    is_under_way = true;
+    add_snapshot();
   }
 
   void RecordedContinuum::add_row(const continuum::HistoryRow &row)

@@ -24,7 +24,7 @@ namespace diptych::coupling
   {
   public:
     // `grains`: the first process's, for the mesh and a mapped stress. `resume`: from part.checkpoint(). Throws SceneError where
-    // that belongs to another scene or mesh.
+    // that belongs to another scene or mesh, StoppedOnRequest between phases of the set-up.
     RecordedContinuum(const CommandLine        &line,
                       const Scene              &scene,
                       const ContinuumPart      &part,
@@ -39,14 +39,15 @@ namespace diptych::coupling
   private:
     using Clock = std::chrono::steady_clock;
 
-    std::string      path(const std::string &name) const { return part.directory + "/" + name; }
-    continuum::Hooks hooks();
-    void             take_up();
-    void             prepare();
-    void             add_row(const continuum::HistoryRow &row);
-    void             add_snapshot();
-    void             flush_rows();
-    void             save();
+    std::string                       path(const std::string &name) const { return part.directory + "/" + name; }
+    continuum::Hooks                  hooks();
+    std::unique_ptr<continuum::Panel> made_panel();
+    void                              take_up();
+    void                              prepare();
+    void                              add_row(const continuum::HistoryRow &row);
+    void                              add_snapshot();
+    void                              flush_rows();
+    void                              save();
 
     const CommandLine                   &line;
     const Scene                         &scene;
@@ -60,6 +61,6 @@ namespace diptych::coupling
     std::optional<ContinuumSnapshotFile> snapshots;
     Clock::time_point                    saved = Clock::now(), flushed = saved;
     std::unique_ptr<continuum::Panel>    panel;
-    bool                                 is_under_way = false;
+    bool                                 is_under_way = false; // at rest or beyond: there is something to go on from
   };
 } // namespace diptych::coupling

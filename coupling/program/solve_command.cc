@@ -8,6 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "coupling/processes/stop_signal.h"
 #include "coupling/scene/scene_error.h"
 #include "discrete/files/hdf5_file.h"
 #include "discrete/problem_files/fclib.h"
@@ -82,8 +83,9 @@ namespace diptych::coupling
 
   int solve_stored_problem(const CommandLine &line)
   {
-    const discrete::SolverOptions options = options_of(line);
-    std::error_code               error;
+    discrete::SolverOptions options = options_of(line);
+    options.stop_requested          = stop_requested;
+    std::error_code error;
     if (!line.output.empty() && std::filesystem::equivalent(line.target, line.output, error))
       throw SceneError("--output " + line.output + " is the problem itself: name another file");
     const discrete::StoredProblem problem = discrete::read_fclib(line.target);

@@ -21,10 +21,10 @@ namespace diptych::python
 {
   namespace py = pybind11;
 
-  // Either panel, with the rows of its history. Panel::prepare() and advance_to() run without the GIL. Before every step the
-  // panel asks to_stop(), which takes the GIL when there are rows for the callback, and every 50 ms for signals: what Python
-  // throws there ends the run as a stop does, so that the panel stays whole and may go on, and is thrown again when the panel has
-  // returned.
+  // Either panel, with the rows of its history. Panel::prepare() and advance_to() run without the GIL. Before every step and
+  // within the long ones the panel asks to_stop(), which takes the GIL when there are rows for the callback, and every 50 ms for
+  // signals: what Python throws there ends the run as a stop does, so that the panel stays whole and may go on, and is thrown
+  // again when the panel has returned.
   template <class Panel, class Hooks, class Row> class DrivenPanel
   {
   public:
@@ -33,7 +33,7 @@ namespace diptych::python
     explicit DrivenPanel(const Make &make)
     {
       Hooks hooks;
-      hooks.stop_requested = [this] { return to_stop(); };
+      hooks.stop_requested = [this] { return panel_ && to_stop(); }; // not while it is made
       hooks.on_row         = [this](const Row &row) { rows_.push_back(row); };
       panel_               = std::make_unique<Panel>(make(hooks));
     }

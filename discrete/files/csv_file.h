@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "discrete/files/text_file.h"
+
 namespace diptych::discrete
 {
   // Numbers under named columns; rows[k][c] belongs to columns[c] and stood in line[k] of the file, counted from 1.
@@ -35,8 +37,8 @@ namespace diptych::discrete
   // exact_text() wrote comes back with the same bits.
   // Throws std::invalid_argument naming file, line, column and value: file missing, empty or without a row; column missing,
   // unknown (with the nearest known one), unnamed or named twice; another number of fields; not a number, not finite, beyond
-  // double precision.
-  CsvTable read_csv(const std::string &path, const CsvHeader &header);
+  // double precision. `go_on` is asked between lines.
+  CsvTable read_csv(const std::string &path, const CsvHeader &header, const GoOn &go_on = {});
 
   // "FILE, line N: column 'r' = '-1'"
   std::string cell_place(const CsvTable &table, std::size_t row, const std::string &column);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "discrete/files/hdf5_library.h"
+#include "discrete/files/text_file.h"
 
 namespace diptych::discrete
 {
@@ -26,6 +27,7 @@ namespace diptych::discrete
       : path_(path),
         from_(from)
   {
+    require_regular_file(path);
     silence();
     file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file_ < 0)

@@ -23,6 +23,7 @@ namespace diptych::discrete
 
   void check_table(const std::string &path, const std::string &header, const long n_rows)
   {
+    require_regular_file(path);
     std::ifstream in(path);
     std::string   line;
     if (!std::getline(in, line) || line != header)
@@ -75,6 +76,7 @@ namespace diptych::discrete
 
   WordTable read_words(const std::string &path)
   {
+    require_regular_file(path);
     std::ifstream in(path);
     if (!in)
       throw std::invalid_argument(path + ": cannot be opened; is it there and readable?");

@@ -66,20 +66,52 @@ namespace diptych::discrete
     return std::string::npos;
   }
 
-  std::string read_input(const std::string &path, const std::size_t most_bytes)
+  void ask(const GoOn &go_on, const std::string &path)
   {
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0)
-      throw std::invalid_argument(path + ": cannot be read: " + std::strerror(errno));
-    std::string text, piece(1 << 16, '\0');
-    ssize_t     n = 0;
-    while (text.size() <= most_bytes && ((n = ::read(file, piece.data(), piece.size())) > 0 || (n < 0 && errno == EINTR)))
-      if (n > 0)
-        text.append(piece, 0, std::size_t(n));
-    const int error = n < 0 ? errno : 0;
-    ::close(file);
-    if (error != 0)
-      throw std::invalid_argument(path + ": cannot be read: " + std::strerror(error));
+    if (go_on && !go_on())
+      throw ReadingStopped(path + ": stopped on request while it was read");
+  }
+
+  void require_regular_file(const std::string &path)
+  {
+    std::error_code none;
+    const auto      kind = std::filesystem::status(path, none).type(); // of what a link leads to
+    if (kind == std::filesystem::file_type::directory)
+      throw std::invalid_argument(path + ": cannot be read: " + std::strerror(EISDIR));
+    if (std::filesystem::exists(std::filesystem::file_status(kind)) && kind != std::filesystem::file_type::regular)
+      throw std::invalid_argument(path + ": is no regular file but a pipe, a socket or a device, which may have no end");
+  }
+
+  namespace
+  {
+    std::string whole_text(const std::string &path, const std::size_t most_bytes, const GoOn &go_on)
+    {
+      const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+      if (file < 0)
+        throw std::invalid_argument(path + ": cannot be read: " + std::strerror(errno));
+      std::string text, piece(1 << 16, '\0');
+      ssize_t     n       = 0;
+      bool        goes_on = true;
+      while (text.size() <= most_bytes && ((n = ::read(file, piece.data(), piece.size())) > 0 || (n < 0 && errno == EINTR)) &&
+             goes_on)
+        {
+          if (n > 0)
+            text.append(piece, 0, std::size_t(n));
+          goes_on = !go_on || go_on();
+        }
+      const int error = n < 0 ? errno : 0;
+      ::close(file);
+      ask([goes_on] { return goes_on; }, path);
+      if (error != 0)
+        throw std::invalid_argument(path + ": cannot be read: " + std::strerror(error));
+      return text;
+    }
+  } // namespace
+
+  std::string read_input(const std::string &path, const std::size_t most_bytes, const GoOn &go_on)
+  {
+    require_regular_file(path);
+    std::string text = whole_text(path, most_bytes, go_on);
     if (const std::size_t bad = first_non_utf8(text); bad < most_bytes && bad != std::string::npos)
       throw std::invalid_argument(
         path + ", line " + std::to_string(1 + std::count(text.begin(), text.begin() + off_t(bad), '\n')) +
@@ -126,6 +158,7 @@ namespace diptych::discrete
 
   void keep_lines(const std::string &path, const std::size_t n)
   {
+    require_regular_file(path);
     std::ifstream in(path, std::ios::binary);
     if (!in)
       fail(path, errno);

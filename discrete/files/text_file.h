@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <stdexcept>
 #include <string>
 
 namespace diptych::discrete
@@ -14,9 +16,21 @@ namespace diptych::discrete
   // The whole file, byte by byte; empty where it cannot be read.
   std::string read_text(const std::string &path);
 
-  // A text that somebody else wrote: at most `most_bytes` of UTF-8 without zeros. A byte order mark at its begin is left out.
-  // Throws std::invalid_argument naming the file and, for a byte that is none of a text, its line.
-  std::string read_input(const std::string &path, std::size_t most_bytes);
+  // Asked now and then by what may read for long: false ends it, and ReadingStopped is thrown. Empty: nobody asks.
+  using GoOn = std::function<bool()>;
+  struct ReadingStopped : std::runtime_error
+  {
+    using std::runtime_error::runtime_error;
+  };
+  void ask(const GoOn &go_on, const std::string &path); // throws it, naming the file
+
+  // Throws std::invalid_argument where `path` is there but no regular file: opening a FIFO waits for its writer, and a device may
+  // never come to an end.
+  void require_regular_file(const std::string &path);
+
+  // A text that somebody else wrote, in a regular file: at most `most_bytes` of UTF-8 without zeros. A byte order mark at its
+  // begin is left out. Throws std::invalid_argument naming the file and, for a byte that is none of a text, its line.
+  std::string read_input(const std::string &path, std::size_t most_bytes, const GoOn &go_on = {});
 
   // Index of the first byte that is none of a text in UTF-8 (a zero, a sequence that is cut, overlong or a surrogate); npos:
   // none.

@@ -53,15 +53,16 @@ namespace diptych::discrete
     // False where it did not get quiet.
     bool prepare()
     {
-      const double   start    = cpu_seconds();
-      Report        &report   = now.report;
-      PreparedSample prepared = prepare_sample(
-        sample_, preparation_setting(loading_, options_),
-        [&](const int step, const int expected) {
-          tell("preparing the sample", std::min(1., double(step) / expected));
-          return !stop_requested();
-        },
-        grains_ ? &*grains_ : nullptr);
+      const double start  = cpu_seconds();
+      Report      &report = now.report;
+      const auto   go_on  = [&](const int step, const int expected) {
+        tell("preparing the sample", std::min(1., double(step) / expected));
+        return !stop_requested();
+      };
+      PreparedSample prepared = prepare_sample(sample_, preparation_setting(loading_, options_), go_on,
+                                               grains_ ? &*grains_ : nullptr);
+      if (prepared.state.walls.empty())
+        return fail(""); // stopped while its file was read
       now.state                = std::move(prepared.state);
       report.preparation       = prepared.report;
       const bool quiet         = prepared.report.quiet || fail(unrest_text(report.preparation));
@@ -144,12 +145,10 @@ namespace diptych::discrete
         tell("pressing the springs", share);
         return !stop_requested();
       });
-      const bool done = pressed && pressed->last_step.solve.status == SolveStatus::converged;
-      if (!done)
-        fail(pressed ? press_text(options_) : "");
-      else
-        prepared.last_step = std::move(pressed->last_step), prepared.step = pressed->step;
-      return done;
+      if (!pressed || pressed->last_step.solve.status != SolveStatus::converged)
+        return fail(pressed ? press_text(options_) : "");
+      prepared.last_step = std::move(pressed->last_step), prepared.step = pressed->step;
+      return true;
     }
 
     void tell(const std::string &phase, const double fraction) const
@@ -240,10 +239,8 @@ namespace diptych::discrete
     // Impulses are given and taken in pairs: more than round-off means that the program is wrong.
     void check_momentum(const double residual) const
     {
-      constexpr double round_off = 1e-10;
-      if (residual <= round_off)
-        return;
-      throw std::logic_error(momentum_text(now.row.step + 1, residual));
+      if (constexpr double round_off = 1e-10; residual > round_off)
+        throw std::logic_error(momentum_text(now.row.step + 1, residual));
     }
 
     void note_failure(const SolveReport &solve)

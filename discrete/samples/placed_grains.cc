@@ -104,17 +104,21 @@ namespace diptych::discrete
     return sample;
   }
 
-  FileSample file_sample(const SampleOptions &o, const PreparationSetting &preparation)
+  FileSample file_sample(const SampleOptions &o, const PreparationSetting &preparation, const GoOn &go_on)
   {
     return read_for("file", o.file, [&](const std::string &path) {
       const bool snapshots = path.size() > 3 && path.compare(path.size() - 3, 3, ".h5") == 0;
-      return place_grains(o, preparation, snapshots ? read_grains_hdf5(path) : read_grains_csv(path, o.density));
+      GrainFile  read      = snapshots ? read_grains_hdf5(path) : read_grains_csv(path, o.density, go_on);
+      ask(go_on, path);
+      FileSample sample = place_grains(o, preparation, std::move(read));
+      ask(go_on, path);
+      return sample;
     });
   }
 
-  void check_sample_file(const SampleOptions &o, const PreparationSetting &preparation)
+  void check_sample_file(const SampleOptions &o, const PreparationSetting &preparation, const GoOn &go_on)
   {
     if (!o.file.empty())
-      (void)file_sample(o, preparation);
+      (void)file_sample(o, preparation, go_on);
   }
 } // namespace diptych::discrete

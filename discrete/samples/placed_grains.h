@@ -29,6 +29,10 @@ namespace diptych::discrete
       {
         return read(file);
       }
+    catch (const ReadingStopped &)
+      {
+        throw;
+      }
     catch (const std::exception &error)
       {
         throw_wrong_input("sample/" + key + " = '" + file + "'", error);
@@ -46,9 +50,9 @@ namespace diptych::discrete
   // std::invalid_argument naming grains, places and keys.
   FileSample place_grains(const SampleOptions &options, const PreparationSetting &preparation, GrainFile file);
 
-  // The same with the file of `sample/file`.
-  FileSample file_sample(const SampleOptions &options, const PreparationSetting &preparation);
+  // The same with the file of `sample/file`. `go_on` is asked while it is read; where it says no, ReadingStopped is thrown.
+  FileSample file_sample(const SampleOptions &options, const PreparationSetting &preparation, const GoOn &go_on = {});
 
   // Throws std::invalid_argument naming key, file, place and range where the file of the sample is wrong. Reads it whole.
-  void check_sample_file(const SampleOptions &options, const PreparationSetting &setting);
+  void check_sample_file(const SampleOptions &options, const PreparationSetting &setting, const GoOn &go_on = {});
 } // namespace diptych::discrete

@@ -173,14 +173,15 @@ namespace diptych::discrete
     // Steps until quiet, then more that take out the overlaps.
     PreparedSample compact(State                                start,
                            const SampleOptions                 &options,
-                           const StepSetting                   &setting,
+                           StepSetting                          setting,
                            const std::function<bool(int, int)> &progress)
     {
       PreparedSample sample;
-      sample.state              = std::move(start);
-      sample.step               = setting.step;
-      PreparationReport &report = sample.report;
-      report.friction           = setting.law.friction;
+      sample.state                  = std::move(start);
+      sample.step                   = setting.step;
+      PreparationReport &report     = sample.report;
+      report.friction               = setting.law.friction;
+      setting.solver.stop_requested = [&] { return !progress(report.steps, std::max(report.steps, options.preparation_steps)); };
       StepCache cache;
       while (!report.quiet && report.steps < 10 * options.preparation_steps && progress(report.steps, options.preparation_steps))
         {
@@ -211,12 +212,20 @@ namespace diptych::discrete
                                          const double                         friction,
                                          const std::function<bool(int, int)> &progress)
     {
-      State        state   = random_box(options, preparation.lateral);
-      const double overlap = relax_soft_discs(state, 1e-3 * options.mean_diameter, 4000).largest_overlap;
-      state                = numbered_upward(state);
+      const auto             go_on = [&] { return progress(0, options.preparation_steps); };
+      State                  state = random_box(options, preparation.lateral);
+      const RelaxationReport loose = relax_soft_discs(state, 1e-3 * options.mean_diameter, 4000, go_on);
+      PreparedSample         sample;
+      sample.report.soft_overlap = loose.largest_overlap;
+      if (loose.stopped)
+        {
+          sample.state = std::move(state);
+          return sample;
+        }
+      state = numbered_upward(state);
       set_sides(state, preparation);
-      PreparedSample sample      = compact(state, options, compaction_setting(options, preparation, friction), progress);
-      sample.report.soft_overlap = overlap;
+      sample                     = compact(state, options, compaction_setting(options, preparation, friction), progress);
+      sample.report.soft_overlap = loose.largest_overlap;
       return sample;
     }
 
@@ -274,8 +283,7 @@ namespace diptych::discrete
                                 const std::function<bool(int, int)> &progress,
                                 FileSample                           file)
     {
-      State &state = file.state;
-
+      State            &state   = file.state;
       const StepSetting setting = compaction_setting(o, preparation, o.preparation_friction);
       if (o.prepare_file)
         return compact(std::move(state), o, setting, progress);
@@ -367,7 +375,14 @@ namespace diptych::discrete
     if (grains != nullptr)
       sample = ready_sample(options, setting, progress, place_grains(options, setting, {"the sample", *grains, {}, {}}));
     else if (!options.file.empty())
-      sample = ready_sample(options, setting, progress, file_sample(options, setting));
+      try
+        {
+          sample = ready_sample(options, setting, progress, file_sample(options, setting, [&] { return progress(0, 1); }));
+        }
+      catch (const ReadingStopped &)
+        {
+          return sample;
+        }
     else
       {
         sample = options.target_solid_fraction > 0

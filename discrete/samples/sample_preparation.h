@@ -40,7 +40,9 @@ namespace diptych::discrete
   // 1. size from count or count from size; 2. soft discs relaxed in a box (or a cell) at box_solid_fraction; 3. steps with
   // platens fixed and the lateral condition on (periodic sides of fixed width: the upper platen is free under the pressure
   // instead). Grains are numbered upward. Or grains from a file, with platens and sides where they touch them.
-  // `progress` is called with (step, expected steps) and stops the preparation when it returns false.
+  // `progress` is called with (step, expected steps), between iterations of the soft discs and sweeps too, and stops the
+  // preparation when it returns false: the report then says not quiet, and the state is none to go on from. While a file is read
+  // there is no state at all, and it has no wall.
   // Throws std::invalid_argument on wrong files and where target_solid_fraction is out of reach, naming what can be reached.
   // `grains`: in the place of a file's, from arrays. rough_platens: at the end grains near a platen become part of it.
   PreparedSample prepare_sample(const SampleOptions                 &options,

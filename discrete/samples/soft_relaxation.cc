@@ -37,7 +37,10 @@ namespace diptych::discrete
     }
   } // namespace
 
-  RelaxationReport relax_soft_discs(State &state, const double largest_overlap, const int max_iterations)
+  RelaxationReport relax_soft_discs(State                       &state,
+                                    const double                 largest_overlap,
+                                    const int                    max_iterations,
+                                    const std::function<bool()> &go_on)
   {
     // FIRE's own constants; unit masses and stiffness make the highest frequency about 3.5, so that 0.4 is a safe step.
     constexpr double largest_step = 0.4, shrink = 0.5, grow = 1.1, mixing_start = 0.1, mixing_decay = 0.99;
@@ -53,6 +56,9 @@ namespace diptych::discrete
     RelaxationReport          report;
     for (; report.iterations < max_iterations; ++report.iterations)
       {
+        report.stopped = go_on && !go_on();
+        if (report.stopped)
+          break;
         report.largest_overlap = contact_forces(neighbours.find_contacts(state, no_margin), force);
         if (report.largest_overlap < largest_overlap)
           break;

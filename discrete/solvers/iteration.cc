@@ -72,8 +72,12 @@ namespace diptych::discrete
       return report.residual <= options.tolerance && (!iteration.good_enough || iteration.good_enough(report));
     };
     measure(true);
+    bool stopped = false;
     while (!good() && report.sweeps < options.max_sweeps)
       {
+        stopped = options.stop_requested && options.stop_requested();
+        if (stopped)
+          break;
         const long until = std::min<long>(report.sweeps + options.sweeps_per_check, options.max_sweeps);
         while (report.sweeps < until)
           {
@@ -97,7 +101,7 @@ namespace diptych::discrete
     if (refreshed != report.sweeps)
       measure(true);
     if (!good())
-      report.status = SolveStatus::max_sweeps_reached;
+      report.status = stopped ? SolveStatus::stopped : SolveStatus::max_sweeps_reached;
     report.cpu_s = double(std::clock() - begin) / CLOCKS_PER_SEC;
     return report;
   }

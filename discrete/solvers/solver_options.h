@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <functional>
+
 #include "discrete/choices.h"
 
 namespace diptych::discrete
@@ -25,6 +27,9 @@ namespace diptych::discrete
     double        omega_sticking   = 1.8;
     double        omega_slipping   = 1.0;
     int           sweeps_per_check = 20;
+
+    // Asked with every check of the residual: true ends the solve where it is. For a caller that throws the step away.
+    std::function<bool()> stop_requested;
   };
 
   template <class Visitor> void visit_parameters(SolverOptions &o, Visitor &&visitor)
@@ -46,6 +51,7 @@ namespace diptych::discrete
   {
     converged,
     max_sweeps_reached,
+    stopped, // SolverOptions::stop_requested
     blown_up // explicit springs, where nothing is swept: a body ran away
   };
 
@@ -53,7 +59,7 @@ namespace diptych::discrete
   {
     return std::array{std::pair{SolveStatus::converged, "converged"},
                       std::pair{SolveStatus::max_sweeps_reached, "max_sweeps_reached"},
-                      std::pair{SolveStatus::blown_up, "blown_up"}};
+                      std::pair{SolveStatus::stopped, "stopped"}, std::pair{SolveStatus::blown_up, "blown_up"}};
   }
 
   struct [[nodiscard]] SolveReport

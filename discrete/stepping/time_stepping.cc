@@ -84,7 +84,8 @@ namespace diptych::discrete
       result.solve = solve(problem, setting.solver, result.impulses, *cache.team);
     if (sample && sample->on_problem)
       sample->on_problem(problem, result.contacts, result.impulses);
-    if (result.solve.status != SolveStatus::converged && !setting.accept_unconverged)
+    const bool is_left_half = result.solve.status == SolveStatus::stopped;
+    if (is_left_half || (result.solve.status != SolveStatus::converged && !setting.accept_unconverged))
       return result;
 
     const std::vector<int>          acting = acting_contacts(result.impulses);

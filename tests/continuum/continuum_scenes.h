@@ -70,7 +70,7 @@ namespace diptych::continuum::tests
   struct Wishes
   {
     std::function<std::vector<Eigen::Matrix2d>(const Snapshot &)> initial_stress; // of the cells
-    std::function<bool()>                                         stop_requested; // before a step
+    std::function<bool(std::size_t n_rows)>                       stop_requested; // on the first process: after n_rows were told
     const Checkpoint                                             *resume       = nullptr;
     MPI_Comm                                                      communicator = MPI_COMM_WORLD;
   };
@@ -90,8 +90,9 @@ namespace diptych::continuum::tests
   {
     Course result;
     Hooks  hooks;
-    hooks.stop_requested = wishes.stop_requested;
-    hooks.on_row         = [&](const HistoryRow &row) { result.rows.push_back(row); };
+    if (wishes.stop_requested)
+      hooks.stop_requested = [&] { return wishes.stop_requested(result.rows.size()); };
+    hooks.on_row = [&](const HistoryRow &row) { result.rows.push_back(row); };
     Panel panel(mesh, Units(), loading, options, hooks, wishes.communicator);
     if (wishes.initial_stress)
       panel.set_initial_stress(wishes.initial_stress(panel.snapshot()));

@@ -23,6 +23,12 @@ def deaf_to_the_limit():
     signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 
 
+def told_before_it_begins():
+    """A signal that waits when the program starts: it comes as soon as the program takes any, whatever the machine's speed."""
+    signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGTERM])
+    os.kill(os.getpid(), signal.SIGTERM)
+
+
 class Failures(unittest.TestCase):
     def setUp(self):
         keep = tempfile.TemporaryDirectory()
@@ -35,6 +41,40 @@ class Failures(unittest.TestCase):
             self.assertIn(text, result.stderr)
         if os.path.isdir(self.folder):
             self.assertEqual([name for name in listing(self.folder) if name.endswith(".part")], [])
+
+    def test_a_signal_that_comes_first_ends_with_code_3_and_writes_nothing(self):
+        for command in ("discrete", "run", "continuum"):
+            with self.subTest(command=command):
+                result = diptych(command, QUICK, *FEW, "--output", self.folder, preexec_fn=told_before_it_begins)
+                self.assertEqual(result.returncode, 3, result.stdout + result.stderr)
+                self.assertIn("stopped on request; nothing was written", result.stderr)
+                self.assertFalse(os.path.exists(self.folder))
+
+    def test_the_program_behind_an_exec_takes_the_signal_too(self):
+        """`diptych` becomes diptych-panels; what waits over the exec is taken before MPI and a second time behind it."""
+        panels = os.path.join(os.path.dirname(PROGRAM), "diptych-panels")
+        if not os.path.exists(panels):
+            self.skipTest("installed elsewhere, or a build without the continuum")
+        result = subprocess.run([panels, "continuum", QUICK, *FEW, *RECTANGLE, "--output", self.folder], env=ENVIRONMENT,
+                                capture_output=True, text=True, preexec_fn=told_before_it_begins)
+        self.assertEqual(result.returncode, 3, result.stdout + result.stderr)
+        self.assertIn("stopped on request; nothing was written", result.stderr)
+        self.assertFalse(os.path.exists(self.folder))
+
+    def test_a_pipe_as_an_input_is_refused_before_it_is_opened(self):
+        """Opening it would wait for one who writes into it."""
+        pipes = {ending: os.path.join(self.work, "pipe." + ending) for ending in ("prm", "csv", "h5", "json")}
+        for pipe in pipes.values():
+            os.mkfifo(pipe)
+        for words in (["discrete", pipes["prm"]], ["discrete", QUICK, *FEW, *setting(sample_file=pipes["csv"])],
+                      ["discrete", QUICK, *FEW, *setting(sample_file=pipes["h5"])], ["solve", pipes["h5"]],
+                      ["study", pipes["json"]], ["calibrate", pipes["json"]]):
+            with self.subTest(words=words):
+                output = [] if words[0] == "solve" else ["--output", self.folder]
+                result = diptych(*words, *output)
+                self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+                self.assertIn("is no regular file", result.stderr)
+                self.assertFalse(os.path.exists(self.folder))
 
     def fill_the_disk(self, begun, *words):
         """Runs until the file `begun` of the folder is there; from then on nothing grows any more."""

@@ -29,7 +29,7 @@ def allowed(pattern):
 # Take six or seven arguments: kernels that are called for every contact, wrappers of the HDF5 library, constructors of what is
 # made from plain data. No other function may.
 MANY_ARGUMENTS = {"write_attribute", "write_array", "apply_law", "solve_sampled", "sweep_psor", "add_squares", "sweep_batches",
-                  "local_solution", "relative_velocity", "RecordedContinuum", "record", "pack_rectangle", "Course"}
+                  "local_solution", "relative_velocity", "RecordedContinuum", "record", "pack_rectangle", "Course", "BoundaryValueProblem"}
 CONTROL = re.compile(r"(if|for|while|else|do|switch|try|catch|namespace|struct|class|enum|union|extern)\b")
 
 

@@ -23,6 +23,51 @@ namespace
       }
   }
 
+  // Stopped at its k-th question, the second between two iterations of one step, the committed state is what it was to the last
+  // bit; asked again, the walk goes on with the bits and the counts of one that was never stopped.
+  TEST(LoadSteps, AStoppedStepLeavesNoTrace)
+  {
+    const QuadMesh mesh    = rectangle(14, 20, 4.);
+    const Loading  loading = straight_loading(1, {20, -20}, {1});
+    for (const LinearChoice choice : {LinearChoice::direct, LinearChoice::amg})
+      {
+        Options options                = with_steps({}, 1e-3);
+        options.law                    = LawKind::mohr_coulomb;
+        options.linear_solver          = choice;
+        int                  questions = 0;
+        bool                 stops     = false;
+        BoundaryValueProblem stopped(mesh, Units(), loading, options), alone(mesh, Units(), loading, options);
+        LoadDriver           walk(stopped, options, [&] { return stops && --questions == 0; }), walk_alone(alone, options);
+        EXPECT_EQ(walk.equilibrate(), "");
+        EXPECT_EQ(walk_alone.equilibrate(), "");
+        int n_stopped = 0;
+        for (int step = 0; step < 6; ++step)
+          {
+            const CommittedState before = stopped.committed();
+            const StepCounts     count  = walk.state().count;
+            questions = 1 + step % 3, stops = true;
+            const std::string why = walk.step_towards(1);
+            if (walk.was_stopped())
+              {
+                ++n_stopped;
+                EXPECT_EQ(why, "stopped on request");
+                expect_same(stopped.committed(), before);
+                EXPECT_EQ(walk.state().count.newton_iterations, count.newton_iterations);
+                stops = false;
+                EXPECT_EQ(walk.step_towards(1), "");
+              }
+            EXPECT_FALSE(walk.was_stopped());
+            EXPECT_EQ(walk_alone.step_towards(1), "");
+            expect_same(stopped.committed(), alone.committed());
+            EXPECT_EQ(stopped.platen_force(true), alone.platen_force(true));
+            EXPECT_EQ(walk.state().count.newton_iterations, walk_alone.state().count.newton_iterations);
+            EXPECT_EQ(walk.linear_solver().linear_iterations(), walk_alone.linear_solver().linear_iterations());
+            EXPECT_EQ(walk.linear_solver().factorisations(), walk_alone.linear_solver().factorisations());
+          }
+        EXPECT_GT(n_stopped, 1);
+      }
+  }
+
   // Two problems go the same way; one of them fails a far too long step in between. Its state is untouched by that to the last
   // bit, and the way after it is the other's.
   TEST(LoadSteps, AFailedStepLeavesNoTrace)

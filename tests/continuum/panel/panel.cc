@@ -83,6 +83,51 @@ namespace
     EXPECT_EQ(panel.report().progress, 0.05);
   }
 
+  // Mesh, unknowns, nodes, matrix, state at rest: asked between them, and left at once when told so.
+  TEST(Panel, ASetUpThatIsStoppedIsLeftAtOnce)
+  {
+    const QuadMesh mesh      = rectangle(4, 6, 2.);
+    const Loading  loading   = straight_loading(1, {6, -6}, {0.05});
+    int            questions = 0;
+    Hooks          hooks;
+    hooks.stop_requested = [&] { return ++questions < 0; };
+    const Panel whole(mesh, Units(), loading, {}, hooks);
+    const int   n = questions;
+    EXPECT_GT(n, 5);
+    for (int last = 1; last <= n; ++last)
+      {
+        questions            = 0;
+        hooks.stop_requested = [&] { return ++questions >= last; };
+        EXPECT_THROW(Panel(mesh, Units(), loading, {}, hooks), SetUpStopped);
+        EXPECT_EQ(questions, last);
+      }
+  }
+
+  // A wavy outline is not at rest by itself. Stopped on the way there and asked again, the panel comes to the bits of one that
+  // was left alone; nothing is loaded before.
+  TEST(Panel, IsStoppedOnTheWayToRestAndGoesOn)
+  {
+    const QuadMesh mesh    = outline_mesh(wavy_outline(24, 24, 13, 0.2), 4.);
+    const Loading  loading = straight_loading(1, {24, -24}, {0.004});
+    Panel          whole(mesh, Units(), loading, {});
+    ASSERT_EQ(whole.prepare(), Status::finished);
+    bool  stops = false;
+    Hooks hooks;
+    hooks.stop_requested = [&] { return stops; };
+    Panel panel(mesh, Units(), loading, {}, hooks);
+    stops = true;
+    EXPECT_EQ(panel.prepare(), Status::stopped_by_user);
+    EXPECT_EQ(panel.report().message, "stopped on request");
+    EXPECT_EQ(panel.advance_to(1), Status::stopped_by_user);
+    EXPECT_EQ(panel.report().progress, 0);
+    stops = false;
+    ASSERT_EQ(panel.prepare(), Status::finished);
+    EXPECT_EQ(panel.snapshot().position, whole.snapshot().position);
+    ASSERT_EQ(panel.advance_to(1), Status::finished);
+    ASSERT_EQ(whole.advance_to(1), Status::finished);
+    EXPECT_EQ(panel.snapshot().position, whole.snapshot().position);
+  }
+
   TEST(Panel, SaysHowFarItCameWhenItCannotGoOn)
   {
     const QuadMesh mesh = rectangle(14, 20, 2.);

@@ -133,11 +133,10 @@ namespace
     const QuadMesh mesh    = rectangle(14, 20, 4.);
     const Loading  loading = straight_loading(1, {20, -20}, {0, 0.008});
     const Options  options = fixed_steps(LawKind::cosserat_mohr_coulomb);
-    int            asked   = 0;
     Wishes         wishes;
     wishes.communicator   = MPI_COMM_SELF;
     const Course whole    = course(mesh, loading, options, wishes);
-    wishes.stop_requested = [&] { return ++asked == 4; };
+    wishes.stop_requested = [](const std::size_t n_rows) { return n_rows >= 4; };
     const Course half     = course(mesh, loading, options, wishes);
     EXPECT_EQ(half.report.status, Status::stopped_by_user);
     Wishes further;
@@ -160,9 +159,8 @@ namespace
     options.refinement           = Refinement::adaptive;
     options.refinement_threshold = 0.5;
     const Course whole           = course(mesh, loading, options);
-    int          asked           = 0;
     Wishes       wishes;
-    wishes.stop_requested = [&] { return ++asked == 9; };
+    wishes.stop_requested = [](const std::size_t n_rows) { return n_rows >= 9; };
     const Course half     = course(mesh, loading, options, wishes);
     Wishes       further;
     further.resume = &half.checkpoint;

@@ -34,6 +34,30 @@ namespace
     EXPECT_EQ(numbers[0], numbers[1]) << "step " << a.step << " and " << b.step;
   }
 
+  struct Halves
+  {
+    const Course &first, &whole;
+  };
+
+  void expect_the_rest(const QuadMesh &mesh, const Loading &loading, const Options &options, const Halves &of)
+  {
+    ASSERT_EQ(of.first.report.status, Status::stopped_by_user);
+    const std::size_t put_down = of.first.rows.size();
+    Wishes            further;
+    further.resume      = &of.first.checkpoint;
+    const Course second = course(mesh, loading, options, further);
+    ASSERT_EQ(second.report.status, Status::finished) << second.report.message;
+    ASSERT_EQ(put_down + second.rows.size(), of.whole.rows.size());
+    for (std::size_t k = 0; k < of.whole.rows.size(); ++k)
+      expect_same_bits(k < put_down ? of.first.rows[k] : second.rows[k - put_down], of.whole.rows[k]);
+    const Snapshot &a = second.snapshots.back(), &b = of.whole.snapshots.back();
+    EXPECT_EQ(a.position, b.position);
+    ASSERT_EQ(a.cell_state.size(), b.cell_state.size());
+    for (std::size_t c = 0; c < a.cell_state.size(); ++c)
+      EXPECT_EQ(a.cell_state[c].stress, b.cell_state[c].stress) << "cell " << c;
+    EXPECT_EQ(second.report.localisation_progress, of.whole.report.localisation_progress);
+  }
+
   // Put down before any of its steps and taken up by a panel of its own, a course on one process tells the rows of one that was
   // never interrupted, to the last bit: on divided elements, with mapped stress, with a multigrid preconditioner as with factors.
   void expect_that_it_goes_on(const QuadMesh &mesh, const Loading &loading, const Options &options, Wishes wishes = {})
@@ -44,24 +68,35 @@ namespace
     for (std::size_t put_down = 1; put_down < whole.rows.size(); put_down += whole.rows.size() / 4)
       {
         SCOPED_TRACE("after " + std::to_string(put_down) + " rows");
-        std::size_t asked      = 0;
-        Wishes      stopped    = wishes, further;
-        stopped.stop_requested = [&] { return ++asked == put_down; };
+        Wishes stopped         = wishes;
+        stopped.stop_requested = [&](const std::size_t n_rows) { return n_rows >= put_down; };
         const Course first     = course(mesh, loading, options, stopped);
-        ASSERT_EQ(first.report.status, Status::stopped_by_user);
         ASSERT_EQ(first.rows.size(), put_down);
-        further.resume      = &first.checkpoint;
-        const Course second = course(mesh, loading, options, further);
-        ASSERT_EQ(second.report.status, Status::finished) << second.report.message;
-        ASSERT_EQ(first.rows.size() + second.rows.size(), whole.rows.size());
-        for (std::size_t k = 0; k < whole.rows.size(); ++k)
-          expect_same_bits(k < put_down ? first.rows[k] : second.rows[k - put_down], whole.rows[k]);
-        const Snapshot &a = second.snapshots.back(), &b = whole.snapshots.back();
-        EXPECT_EQ(a.position, b.position);
-        ASSERT_EQ(a.cell_state.size(), b.cell_state.size());
-        for (std::size_t c = 0; c < a.cell_state.size(); ++c)
-          EXPECT_EQ(a.cell_state[c].stress, b.cell_state[c].stress) << "cell " << c;
-        EXPECT_EQ(second.report.localisation_progress, whole.report.localisation_progress);
+        expect_the_rest(mesh, loading, options, {first, whole});
+      }
+  }
+
+  // Stopped between two Newton iterations: three questions in a row, of which a step that takes two iterations asks two within.
+  void expect_that_it_goes_on_within_steps(const QuadMesh &mesh, const Loading &loading, const Options &options)
+  {
+    const Course whole     = course(mesh, loading, options);
+    int          questions = 0;
+    Wishes       asking;
+    asking.stop_requested = [&](const std::size_t n_rows) { return n_rows > 0 && ++questions < 0; };
+    const Course asked    = course(mesh, loading, options, asking);
+    ASSERT_EQ(asked.rows.size(), whole.rows.size());
+    for (std::size_t k = 0; k < whole.rows.size(); ++k)
+      expect_same_bits(asked.rows[k], whole.rows[k]);
+    ASSERT_GT(questions, int(whole.rows.size()) + 2) << "more than one a step";
+    for (const int last : {2, questions / 2, questions / 2 + 1, questions / 2 + 2, questions - 1})
+      {
+        SCOPED_TRACE("at question " + std::to_string(last) + " of " + std::to_string(questions));
+        int    n = 0;
+        Wishes stopped;
+        stopped.stop_requested = [&](const std::size_t n_rows) { return n_rows > 0 && ++n >= last; };
+        const Course first     = course(mesh, loading, options, stopped);
+        EXPECT_EQ(n, last) << "nothing more is done once it is said";
+        expect_the_rest(mesh, loading, options, {first, whole});
       }
   }
 
@@ -71,6 +106,17 @@ namespace
     const Loading  loading = straight_loading(1, {24, -24}, {0, 0.004, 0.012});
     for (const LawKind law : {LawKind::cosserat_mohr_coulomb, LawKind::drucker_prager})
       expect_that_it_goes_on(mesh, loading, options_of(law, false));
+  }
+
+  // With factors and with a multigrid preconditioner, which the iterations of the step that is given up have replaced.
+  TEST(Restart, GoesOnToTheSameBitsFromWithinAStep)
+  {
+    for (const LinearChoice solver : {LinearChoice::direct, LinearChoice::amg})
+      {
+        Options options       = options_of(LawKind::mohr_coulomb, false);
+        options.linear_solver = solver;
+        expect_that_it_goes_on_within_steps(rectangle(14, 20, 2.), straight_loading(1, {20, -20}, {0, 0.01}), options);
+      }
   }
 
   TEST(Restart, GoesOnToTheSameBitsOnDividedElements)

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "discrete/files/csv_file.h"
@@ -154,5 +155,39 @@ namespace
   {
     std::filesystem::remove(path);
     EXPECT_FALSE(std::filesystem::exists(path + ".part"));
+  }
+
+  // The file's begin is asked for before its 1024th line, and then no more.
+  TEST(CsvFile, EndsBetweenItsLinesWhenAsked)
+  {
+    std::string text = "a,b\n";
+    for (int row = 0; row < 5000; ++row)
+      text += "1,2\n";
+    write_text(path, text);
+    for (const int last : {1, 2, 3, 7})
+      {
+        int asked = 0;
+        EXPECT_THROW(read_csv(path, {{"a", "b"}}, [&] { return ++asked < last; }), ReadingStopped) << last;
+        EXPECT_EQ(asked, last);
+      }
+    EXPECT_EQ(read_csv(path, {{"a", "b"}}, [] { return true; }).rows.size(), 5000u);
+  }
+
+  // Opening a FIFO waits for somebody who writes into it, and a device may have no end.
+  TEST(TextFile, APipeOrADeviceIsRefusedByName)
+  {
+    const std::string pipe = path + ".fifo";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    for (const std::string &file : {pipe, std::string("/dev/zero")})
+      try
+        {
+          (void)read_input(file, 1000);
+          FAIL() << file;
+        }
+      catch (const std::invalid_argument &error)
+        {
+          EXPECT_NE(std::string(error.what()).find(file + ": is no regular file"), std::string::npos) << error.what();
+        }
+    std::filesystem::remove(pipe);
   }
 } // namespace

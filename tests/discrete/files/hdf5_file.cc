@@ -8,6 +8,7 @@
 #include <memory>
 
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
@@ -178,5 +179,11 @@ namespace
     EXPECT_THROW(file.read_vectors("group/values"), std::invalid_argument);
     EXPECT_THROW(file.read("group/nothing"), std::invalid_argument);
     EXPECT_THROW(file.attribute("group", "nothing"), std::invalid_argument);
+  }
+
+  TEST_F(Hdf5, APipeIsRefusedBeforeItIsOpened)
+  {
+    ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+    EXPECT_THROW(Hdf5Reader{path}, std::invalid_argument);
   }
 } // namespace

@@ -93,6 +93,31 @@ namespace
     EXPECT_GT(report.axial_strain, 0);
   }
 
+  // Asked 30 times the preparation is among its soft discs or first sweeps: no step, no snapshot, and the report says by whom.
+  TEST(Panel, StopsWithinItsPreparationOnRequest)
+  {
+    int   asked = 0;
+    Hooks hooks;
+    hooks.stop_requested = [&] { return ++asked >= 30; };
+    Panel panel(small_sample(150), short_loading(), quick_options(), hooks);
+    EXPECT_EQ(panel.prepare(), Status::stopped_by_user);
+    EXPECT_LE(asked, 34);
+    EXPECT_FALSE(panel.has_snapshot());
+  }
+
+  TEST(Panel, StopsWhileItsFileIsReadOnRequest)
+  {
+    const std::string path = testing::TempDir() + "stopped" + std::to_string(::getpid()) + ".csv";
+    write_grains_csv(path, loaded(small_sample(100), short_loading(), quick_options()).prepared);
+    SampleOptions sample = small_sample(100);
+    sample.file          = path;
+    Hooks hooks;
+    hooks.stop_requested = [] { return true; };
+    Panel panel(sample, short_loading(), quick_options(), hooks);
+    EXPECT_EQ(panel.prepare(), Status::stopped_by_user);
+    EXPECT_FALSE(panel.has_snapshot());
+  }
+
   // Stopped within a stage and asked to go on, a panel in memory ends with the bits of one left alone.
   TEST(Panel, GoesOnAfterAStopWithTheSameBits)
   {

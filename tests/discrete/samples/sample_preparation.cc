@@ -95,6 +95,35 @@ namespace
     EXPECT_GT(state.grains.position[2].x(), 0.5 - 2e-6);
   }
 
+  // Asked before every iteration: at the third there were two.
+  TEST(SoftRelaxation, EndsBetweenTwoIterationsWhenAsked)
+  {
+    State state;
+    state.walls = {{{0, 0}, {0, 1}}, {{0, 5}, {0, -1}}, {{0, 0}, {1, 0}}, {{5, 0}, {-1, 0}}};
+    for (const Eigen::Vector2d &x : {Eigen::Vector2d(2, 2), Eigen::Vector2d(2.2, 2.1)})
+      add_grain(state.grains, x, 0.5, 1.);
+    int                    asked  = 0;
+    const RelaxationReport report = relax_soft_discs(state, 1e-6, 10000, [&] { return ++asked < 3; });
+    EXPECT_TRUE(report.stopped);
+    EXPECT_EQ(report.iterations, 2);
+    EXPECT_EQ(asked, 3);
+  }
+
+  // Whenever it is asked, the next question is the last one, and nothing is taken for quiet: in the soft discs (asked 5th), in
+  // the first steps' sweeps, and at any place of a preparation that was asked `whole` times.
+  TEST(SamplePreparation, EndsAtTheFirstQuestionThatSaysNo)
+  {
+    int whole = 0;
+    ASSERT_TRUE(prepare_sample(small_sample(100), {}, [&](int, int) { return ++whole > 0; }).report.quiet);
+    for (const int last : {1, 5, whole / 2, whole - 1})
+      {
+        int                  asked  = 0;
+        const PreparedSample sample = prepare_sample(small_sample(100), {}, [&](int, int) { return ++asked < last; });
+        EXPECT_FALSE(sample.report.quiet) << last;
+        EXPECT_LE(asked, last + 3) << "each loop around the one that ended asks once more";
+      }
+  }
+
   // 10 x 20 discs of diameter 1 between two platens.
   State lattice()
   {

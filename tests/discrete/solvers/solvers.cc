@@ -61,6 +61,32 @@ namespace
       }
   }
 
+  // The residual is checked every 20 sweeps, and so is whether to stop: at the third question 40 are done. One who never says so
+  // changes no bit.
+  TEST(Solvers, EndBetweenTwoChecksWhenAsked)
+  {
+    const ContactProblem problem = pyramid(0.1);
+    for (const ContactSolver solver : {ContactSolver::nsgs, ContactSolver::psor})
+      {
+        SolverOptions options;
+        options.solver           = solver;
+        options.tolerance        = 0;
+        options.max_sweeps       = 200;
+        options.sweeps_per_check = 20;
+        std::vector<Impulse> alone(problem.contacts.size()), asked = alone, stopped = alone;
+        (void)solve(problem, options, alone);
+        options.stop_requested = [] { return false; };
+        (void)solve(problem, options, asked);
+        for (std::size_t k = 0; k < alone.size(); ++k)
+          EXPECT_TRUE(alone[k].normal == asked[k].normal && alone[k].tangential == asked[k].tangential);
+        int questions            = 0;
+        options.stop_requested   = [&] { return ++questions == 3; };
+        const SolveReport report = solve(problem, options, stopped);
+        EXPECT_EQ(report.status, SolveStatus::stopped) << name_of(solver);
+        EXPECT_EQ(report.sweeps, 40) << name_of(solver);
+      }
+  }
+
   TEST(Solvers, CoulombAndSignoriniHoldAtTheSolution)
   {
     const ContactProblem problem = pyramid(0.1);

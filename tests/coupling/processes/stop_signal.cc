@@ -1,0 +1,84 @@
+// diptych: no signal is lost or kills while a program begins, and none outlives its parent for ever
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <csignal>
+
+#include <gtest/gtest.h>
+
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "coupling/processes/stop_signal.h"
+
+namespace
+{
+  using namespace diptych::coupling;
+
+  // What waitpid() says of a copy of this process that runs `work` and ends with the code it returns.
+  template <class Work> int status_of_copy(const Work &work)
+  {
+    const pid_t copy = fork();
+    if (copy == 0)
+      _exit(work());
+    int status = 0;
+    waitpid(copy, &status, 0);
+    return status;
+  }
+
+  // What comes between block and install kills nobody and is a request; without handlers it would end the copy (SIGTERM is 15).
+  TEST(StopSignal, OneThatComesBeforeTheHandlersIsKept)
+  {
+    for (const int signal : {SIGTERM, SIGINT, SIGHUP})
+      {
+        const int status = status_of_copy([signal] {
+          std::signal(signal, SIG_DFL);
+          block_stop_signals();
+          raise(signal);
+          const bool early = stop_requested();
+          install_stop_signals();
+          return !early && stop_requested() ? 7 : 8;
+        });
+        ASSERT_TRUE(WIFEXITED(status)) << "ended by signal " << WTERMSIG(status);
+        EXPECT_EQ(WEXITSTATUS(status), 7);
+      }
+  }
+
+  TEST(StopSignal, AHangupThatIsIgnoredStaysIgnored)
+  {
+    const int status = status_of_copy([] {
+      std::signal(SIGHUP, SIG_IGN);
+      install_stop_signals();
+      raise(SIGHUP);
+      return stop_requested() ? 8 : 7;
+    });
+    EXPECT_EQ(WEXITSTATUS(status), 7);
+  }
+
+  // A worker that never asks whether it should stop: the parent ends once the worker is ready, and the pipe, which only the
+  // worker holds then, is closed when that ends. Without an end the test would wait for ever.
+  TEST(StopSignal, AWorkerEndsAfterItsParent)
+  {
+    int ends[2];
+    ASSERT_EQ(pipe(ends), 0);
+    const int status = status_of_copy([&] {
+      const pid_t parent = getpid();
+      if (fork() == 0)
+        {
+          prctl(PR_SET_PDEATHSIG, SIGTERM);
+          install_stop_signals();
+          end_after_parent(1);
+          if (getppid() != parent || write(ends[1], "r", 1) != 1)
+            _exit(1);
+          for (;;)
+            pause();
+        }
+      char ready = 0;
+      return read(ends[0], &ready, 1) == 1 ? 7 : 8;
+    });
+    ASSERT_EQ(WEXITSTATUS(status), 7);
+    close(ends[1]);
+    char more = 0;
+    EXPECT_EQ(read(ends[0], &more, 1), 0);
+    close(ends[0]);
+  }
+} // namespace
