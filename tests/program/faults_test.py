@@ -79,6 +79,7 @@ class Inputs(Folder):
 
     def test_a_comparison_goes_where_its_folder_is(self):
         self.expect(2, ["compare", self.whole, "--output", os.path.join(self.work, "other")], "--output")
+        self.expect(2, ["compare", self.whole, *setting(output_directory="zz")], "output/directory=zz")
 
     def test_platens_that_rest_are_told_before_anything_is_computed(self):
         words = setting(loading_mode="time", loading_duration=1, loading_stage_time=0.5, comparison_window_edges="0,1",
@@ -90,7 +91,10 @@ class Folders(Folder):
     def test_damaged_records_and_tables_are_named(self):
         text = content(os.path.join(self.whole, "provenance.json"))
         header = content(os.path.join(self.whole, "discrete.csv"))
+        echo = content(os.path.join(self.whole, "scene.prm"))
         for name, damaged in (("provenance.json", b""), ("provenance.json", text[:len(text) // 2]), ("provenance.json", b'{"phases": 1}'),
+                              ("provenance.json", b'{"a": [1, 2]}'), ("provenance.json", text.replace(b'"diptych"', b'"another"')),
+                              ("scene.prm", b""), ("scene.prm", b"subsection sample\nend\n"), ("scene.prm", echo.split(b"\n")[0] + b"\n"),
                               ("discrete.csv", header.replace(b"stress_ratio", b"strength", 1))):
             with self.subTest(name=name, length=len(damaged)):
                 shutil.rmtree(self.folder, ignore_errors=True)
