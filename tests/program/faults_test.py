@@ -103,6 +103,39 @@ class Folders(Folder):
                     file.write(damaged)
                 self.expect(2, ["compare", self.folder, "--quiet"], os.path.join(self.folder, name))
 
+    def test_a_table_is_that_of_its_snapshots(self):
+        for name in ("discrete.csv", "continuum.csv"):
+            header, *rows = content(os.path.join(self.whole, name)).splitlines(keepends=True)
+            time_column = header.strip().split(b",").index(b"time")
+            unknown = rows[1].split(b",")
+            unknown[time_column] = b"nan"
+            for what, table in (("cut", rows[:-1]), ("half", rows[:len(rows) // 2]), ("reversed", rows[::-1]), ("time", [rows[0], b",".join(unknown), *rows[2:]])):
+                with self.subTest(name=name, what=what):
+                    shutil.rmtree(self.folder, ignore_errors=True)
+                    shutil.copytree(self.whole, self.folder)
+                    with open(os.path.join(self.folder, name), "wb") as file:
+                        file.write(b"".join([header, *table]))
+                    self.expect(2, ["compare", self.folder, "--quiet"], os.path.join(self.folder, name))
+
+    def test_numbers_that_no_panel_writes_are_named(self):
+        def attribute(group):
+            group.attrs["step"] = float("nan")
+
+        def outline(group):
+            group["outline/right"][0, 0] = 2.0**30
+
+        def node(group):
+            group["nodes/position"][0, 0] = -7.0
+
+        for panel, change, told in (("discrete", attribute, "step"), ("discrete", outline, "outline/right"), ("continuum", node, "inside out")):
+            with self.subTest(told=told):
+                shutil.rmtree(self.folder, ignore_errors=True)
+                shutil.copytree(self.whole, self.folder)
+                path = os.path.join(self.folder, panel + ".h5")
+                with h5py.File(path, "r+") as file:
+                    change(file["stage_0001"])
+                self.expect(2, ["compare", self.folder, "--quiet"], path, "stage_0001", told)
+
     def test_damaged_comparisons_are_named_by_the_report(self):
         for name in ("comparison.h5", "comparison.json"):
             for damaged in (b"", content(os.path.join(self.whole, name))[:700], b"foreign"):
