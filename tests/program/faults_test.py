@@ -138,13 +138,18 @@ class Folders(Folder):
 
     def test_damaged_comparisons_are_named_by_the_report(self):
         for name in ("comparison.h5", "comparison.json"):
-            for damaged in (b"", content(os.path.join(self.whole, name))[:700], b"foreign"):
+            for damaged in (b"", content(os.path.join(self.whole, name))[:700], b"foreign", content(os.path.join(self.whole, "discrete.h5")), b'{"a": 1}'):
                 with self.subTest(name=name, length=len(damaged)):
                     shutil.rmtree(self.folder, ignore_errors=True)
                     shutil.copytree(self.whole, self.folder)
                     with open(os.path.join(self.folder, name), "wb") as file:
                         file.write(damaged)
                     self.expect(2, ["report", self.folder, "--quiet"], name)
+
+    def test_a_foreign_provenance_is_named_by_the_report(self):
+        shutil.copytree(self.whole, self.folder)
+        write(os.path.join(self.folder, "provenance.json"), '{"a": [1, 2]}')
+        self.expect(2, ["report", self.folder, "--quiet"], os.path.join(self.folder, "provenance.json"))
 
     def test_an_array_cut_short_does_not_change_the_comparison(self):
         shutil.copytree(self.whole, self.folder)
