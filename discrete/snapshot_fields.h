@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <string>
+
 #include "discrete/snapshot.h"
 
 namespace diptych::discrete
@@ -65,7 +67,8 @@ namespace diptych::discrete
     visit("outline/right", s.outline.right, "length", "right side of the sample's outline, upward");
   }
 
-  // Attributes of the stage's group.
+  // Attributes of the stage's group. They are finite unless the meaning speaks of nan or inf; of a frame of another code those
+  // beside is_always_told() may be nan, too: it did not tell them.
   template <class AnySnapshot, class Visit> void visit_attributes(AnySnapshot &s, Visit &&visit)
   {
     visit("walk", s.walk, "-", "which attribute progress equals: axial_strain, shear_strain or time");
@@ -78,9 +81,10 @@ namespace diptych::discrete
     visit("mean_diameter", s.mean_diameter, "length", "mean diameter d");
     visit("stress_error", s.stress_error, "-",
           "estimated rms error of the last step's grain stress over its rms; nan: not estimated, inf: not known");
-    visit("stress_change", s.stress_change, "-", "change of the same in the last doubling of the sweeps");
+    visit("stress_change", s.stress_change, "-",
+          "change of the same in the last doubling of the sweeps; nan: not estimated, inf: from nothing");
     visit("error_over_residual", s.error_over_residual, "-",
-          "error of grain stress over residual, measured once in the run; nan: not");
+          "error of grain stress over residual, measured once in the run; nan: not, inf: of a residual of 0");
     visit("window_time", s.window_time, "time", "length of the stage over which means are taken; 0: no stage yet");
     visit("lower_y", s.lower_y, "length", "height of the lower platen");
     visit("upper_y", s.upper_y, "length", "height of the upper platen");
@@ -94,5 +98,14 @@ namespace diptych::discrete
     visit("lower_platen_force_y", s.lower_platen_force.y(), "pressure length", "of the lower platen on the sample, last step");
     visit("upper_platen_force_x", s.upper_platen_force.x(), "pressure length", "of the upper platen on the sample, last step");
     visit("upper_platen_force_y", s.upper_platen_force.y(), "pressure length", "of the upper platen on the sample, last step");
+  }
+
+  inline bool is_always_told(const std::string &name)
+  {
+    for (const char *told :
+         {"progress", "axial_strain", "mean_diameter", "window_time", "lower_y", "upper_y", "cell_width", "area"})
+      if (name == told)
+        return true;
+    return false;
   }
 } // namespace diptych::discrete

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include <Eigen/QR>
@@ -16,7 +18,8 @@ namespace diptych::coupling
 {
   namespace
   {
-    constexpr double pair_half_width = 5; // the one of the three that pairs are tried with
+    constexpr double pair_half_width     = 5;     // the one of the three that pairs are tried with
+    constexpr int    most_parallel_lines = 10000; // on either side of the centre
 
     // Lines of one angle that cross the sample.
     void add_parallel_lines(const BandFitOptions   &sample,
@@ -27,6 +30,10 @@ namespace diptych::coupling
       const double width   = std::min(half_width, largest_half_width(sample, angle));
       const double spacing = std::max(2., std::min(0.75 * width, std::min(sample.width, sample.height) / 12));
       const double reach   = 1.7 * largest_half_width(sample, angle); // 85 % of half the extent along the normal
+      if (!(reach / spacing <= most_parallel_lines))
+        throw std::invalid_argument("the outline of the sample is so long that bands would be looked for along " +
+                                    std::to_string(2 * reach / spacing) + " lines of one angle; at most " +
+                                    std::to_string(2 * most_parallel_lines) + " are possible");
       for (double offset = -reach; offset <= reach; offset += spacing)
         lines.push_back({angle, offset, half_width});
     }

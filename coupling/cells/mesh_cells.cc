@@ -46,6 +46,9 @@ namespace diptych::coupling
     const Eigen::Vector2d extent = upper - lower;
     if (!(extent.minCoeff() > 0) || !(size > 0) || !std::isfinite(extent.sum() / size))
       throw std::invalid_argument("a regular grid needs a box of positive width and height and cells of positive size");
+    constexpr double most_cells = 1e8;
+    if (const double cells = (1 + extent.x() / size) * (1 + extent.y() / size); !(cells <= most_cells))
+      throw std::invalid_argument("a regular grid would have " + std::to_string(cells) + " cells; at most 1e8 are possible");
     const unsigned int columns = std::max(1., std::round(extent.x() / size)), rows = std::max(1., std::round(extent.y() / size));
     QuadMesh           mesh;
     for (unsigned int r = 0; r <= rows; ++r)

@@ -41,7 +41,7 @@ namespace diptych::coupling
   QuadMesh quad_mesh(const continuum::Snapshot &snapshot);
 
   // Equal rectangles over a box, their sides as near to `size` as whole numbers of them allow; row by row from below. Throws
-  // std::invalid_argument for an empty box or a size that is not positive.
+  // std::invalid_argument for an empty box, a size that is not positive, or more than 1e8 cells.
   QuadMesh regular_grid(const Eigen::Vector2d &lower, const Eigen::Vector2d &upper, double size);
 
   std::array<unsigned int, 3>  triangle_nodes(const QuadMesh &mesh, unsigned int triangle);

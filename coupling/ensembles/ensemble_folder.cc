@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "coupling/folders/provenance.h"
 #include "coupling/folders/result_folder.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
@@ -67,6 +68,7 @@ namespace diptych::coupling
                        "' holds other files and no ensemble of diptych; name a new or an empty folder");
     if (resume && is_ensemble)
       demand_same_scene(scene);
+    (void)recorded_scene(directory); // throws where this run could not add to what stands there
     // Killed before its end, this run must not leave the statistics of an earlier one.
     remove_results(directory, {"ensemble.json", "ensemble.csv", "ensemble.h5", "report.html"});
     for (const int seed : seeds)

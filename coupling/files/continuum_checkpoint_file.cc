@@ -19,6 +19,7 @@ namespace diptych::coupling
 
     constexpr double  most_count = 1e9;
     const char       *length     = "length";
+    const char       *law_states = "values"; // of nodes and points
     const std::string format     = "diptych continuum checkpoint 3";
 
     // Cells' names hold no blank.
@@ -87,6 +88,7 @@ namespace diptych::coupling
         const double number = file.attribute("/", name);
         if (std::is_integral_v<Number> && !(number == std::floor(number) && std::abs(number) <= most_count))
           throw std::invalid_argument(file.path() + ": '" + name + "' is no whole number");
+        demand_finite(name, {number});
         value = Number(number);
       }
       void operator()(const std::string &name, std::optional<double> &value) const
@@ -105,6 +107,8 @@ namespace diptych::coupling
           throw std::invalid_argument(file.path() + ": '" + name + "' is no list");
         values = file.read(name);
         check_length(name, values.size());
+        if (name != law_states) // which are the law's: what has no determinant yet has an infinite one
+          demand_finite(name, values);
       }
       void operator()(const std::string &name, Lines &lines) const
       {
@@ -121,6 +125,11 @@ namespace diptych::coupling
       }
 
     private:
+      void demand_finite(const std::string &name, const std::vector<double> &values) const
+      {
+        if (!std::all_of(values.begin(), values.end(), [](const double value) { return std::isfinite(value); }))
+          throw std::invalid_argument(file.path() + ": '" + name + "' holds a number that is not finite");
+      }
       void check_length(const std::string &name, const std::size_t found) const
       {
         if (const double told = file.attribute(name, length); told != double(found))
@@ -130,6 +139,7 @@ namespace diptych::coupling
       std::vector<double> numbers(const std::string &name, const std::size_t n) const
       {
         std::vector<double> values = file.attributes("/", name);
+        demand_finite(name, values);
         if (values.size() != n)
           throw std::invalid_argument(file.path() + ": '" + name + "' holds " + std::to_string(values.size()) + " numbers, not " +
                                       std::to_string(n));

@@ -82,10 +82,34 @@ namespace diptych::coupling
       return directory + "/provenance.json";
     }
 
+    // What every command writes: a file without it is another program's, and facts that it lacks were not just not recorded.
+    void demand_record_of_a_run(const std::string &path, const json &record)
+    {
+      const auto demand = [&](const char *key, const bool good) {
+        if (!good)
+          throw std::invalid_argument(path + ": is no record of a run of diptych: '" + key +
+                                      "' is missing or is none that it writes");
+      };
+      const auto entry = [&](const char *key) { return record.value(key, json()); };
+      demand("program", entry("program") == "diptych");
+      for (const char *key : {"version", "command", "scene", "date"})
+        demand(key, entry(key).is_string());
+      for (const char *key : {"libraries", "host"})
+        demand(key, entry(key).is_object());
+      const json seeds = entry("seeds");
+      demand("seeds",
+             seeds.is_array() && std::all_of(seeds.begin(), seeds.end(), [](const json &s) { return s.is_number_integer(); }));
+      demand("phases", entry("phases").is_array());
+    }
+
     json read_record(const std::string &directory)
     {
       const std::string path = path_of(directory);
-      return std::filesystem::exists(path) ? read_record_file(path) : json::object();
+      if (!std::filesystem::exists(path))
+        return json::object();
+      json record = read_record_file(path);
+      demand_record_of_a_run(path, record);
+      return record;
     }
 
     void write_record(const std::string &directory, const json &record)
@@ -152,7 +176,7 @@ namespace diptych::coupling
     NumbersToJson into{record, 1};
     list_numbers(Origin{command, scene.name, seeds, now_utc(), cpu_name(), std::thread::hardware_concurrency()}, into);
     json &stored = record["phases"];
-    if (!stored.is_array())
+    if (stored.is_null())
       stored = json::array();
     for (const PhaseCost &phase : phases)
       {

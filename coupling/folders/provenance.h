@@ -46,7 +46,8 @@ namespace diptych::coupling
   // Takes a fact of an earlier run away, before a new one makes it untrue.
   void forget_fact(const std::string &directory, const std::string &name);
 
-  // What is not there has the values of facts that nobody recorded.
+  // What is not there has the values of facts that nobody recorded. Throws std::invalid_argument naming the file where one stands
+  // there that is no record of a run.
   RunFacts    read_run_facts(const std::string &directory);
   std::string recorded_scene(const std::string &directory); // its name; empty where there is none
 } // namespace diptych::coupling

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "coupling/folders/provenance.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
@@ -74,6 +75,8 @@ namespace diptych::coupling
     if (resume && !difference.empty())
       throw SceneError("--resume: the scene is not that of " + echo_file + ", which was interrupted: " + difference +
                        "; resume with the same scene or start without --resume");
+    if (difference.empty())
+      (void)recorded_scene(directory); // throws where this run could not add to what stands there
     if (check)
       check();
     // Results of another sample must not be compared with what this run will make.

@@ -72,6 +72,11 @@ namespace diptych::coupling
           lower = lower.cwiseMin(x);
           upper = upper.cwiseMax(x);
         }
+      constexpr double most_places = 1e8;
+      if (const double places = (1 + (upper.x() - lower.x()) / (2 * d)) * (1 + (upper.y() - lower.y()) / (2 * d));
+          !(places <= most_places))
+        throw std::invalid_argument("the outline of the sample has room for " + std::to_string(places) +
+                                    " places of a probe; at most 1e8 are possible");
       const auto beyond_zone = [&](const Eigen::Vector2d &x) {
         return side * ((x - frame.centre).dot(band.normal()) - band.offset) - 0.5 * zone.thickness;
       };

@@ -71,6 +71,8 @@ namespace diptych::coupling
       for (const std::string &text : line.overrides)
         if (text.rfind("comparison/", 0) != 0 && text.rfind("output/", 0) != 0)
           throw SceneError("--set " + text + ": only comparison/ and output/ can be changed without running the panels again");
+        else
+          refuse_other_folder(text);
       Scene scene            = read_computed_scene(line.target + "/scene.prm", line.overrides);
       scene.output.directory = line.target;
       if (const std::string name = recorded_scene(line.target); !name.empty())

@@ -61,6 +61,8 @@ namespace diptych::coupling
         if (text.rfind("comparison/margin_", 0) != 0 && text.rfind("output/", 0) != 0)
           throw SceneError("--set " + text +
                            ": only comparison/margin_* and output/ can be changed without running the members again");
+        else
+          refuse_other_folder(text);
       Scene scene            = read_computed_scene(line.target + "/ensemble.prm", line.overrides);
       scene.output.directory = line.target;
       if (const std::string name = recorded_scene(line.target); !name.empty())
@@ -68,6 +70,12 @@ namespace diptych::coupling
       return scene;
     }
   } // namespace
+
+  void refuse_other_folder(const std::string &override_text)
+  {
+    if (override_text.rfind("output/directory=", 0) == 0)
+      throw SceneError("--set " + override_text + ": a comparison stands in the folder that it is of");
+  }
 
   EnsembleRecord record_of(const Scene &scene, const std::vector<int> &seeds, const std::vector<MemberOutcome> &outcomes)
   {

@@ -25,6 +25,9 @@ namespace diptych::coupling
   // ensemble.json, .csv and .h5 and the phase; tells the verdicts.
   void write_record(const CommandLine &line, const Scene &scene, const EnsembleRecord &record, const PhaseTimer &timer);
 
+  // Throws SceneError where a word of --set names another folder: compare DIR writes to DIR.
+  void refuse_other_folder(const std::string &override_text);
+
   // compare DIR of an ensemble: statistics and verdicts again from the members' comparison.json; margins may be changed.
   int compare_ensemble_again(const CommandLine &line);
 } // namespace diptych::coupling

@@ -21,8 +21,9 @@ namespace diptych::coupling
     if (!fs::exists(file))
       throw SceneError(line.target + ": has no discrete.h5; diptych discrete or run makes it");
     Scene scene;
-    if (fs::exists(line.target + "/scene.prm"))
-      scene = read_computed_scene(line.target + "/scene.prm", {}, false);
+    if (const std::string prm = line.target + "/scene.prm"; fs::exists(prm))
+      scene = fs::exists(line.target + "/import.json") && !is_echo(prm) ? read_scene(prm, {}, false) // what an import proposes
+                                                                        : read_computed_scene(prm, {}, false);
     const std::vector<discrete::Snapshot> snapshots = discrete::read_snapshots(file);
     if (std::size_t(line.stage) >= snapshots.size())
       throw SceneError("--stage " + std::to_string(line.stage) + ": " + file + " holds " + std::to_string(snapshots.size()) +

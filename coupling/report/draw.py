@@ -14,7 +14,9 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 from diptych_report.data.input_error import InputError  # noqa: E402
 
-WORDS = ("page", "ensemble", "study", "calibration", "step-study")
+WORDS = {"page": "comparison.json, comparison.h5, discrete.csv, continuum.csv, provenance.json", "ensemble": "ensemble.json, ensemble.h5",
+         "study": "study.json, study_cost.json, study.h5", "calibration": "calibration.json, calibration_cost.json",
+         "step-study": "study_step.json, study_step.csv"}  # what each is drawn of
 
 
 def draw(what, folder):
@@ -52,7 +54,7 @@ def main(arguments):
         return 4
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         place = traceback.extract_tb(error.__traceback__)[-1]
-        print(f"report: {arguments[1]}: its files hold what this version does not write: {type(error).__name__}: {error} "
+        print(f"report: {arguments[1]}: one of {WORDS[arguments[0]]} holds what this version does not write: {type(error).__name__}: {error} "
               f"({os.path.basename(place.filename)}, line {place.lineno})", file=sys.stderr)
         return 2
     except ImportError as error:

@@ -2,10 +2,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/results/results.h"
 
+#include <cmath>
 #include <filesystem>
+#include <stdexcept>
 
+#include "coupling/cells/mesh_cells.h"
 #include "coupling/files/continuum_snapshot_file.h"
 #include "coupling/folders/provenance.h"
+#include "coupling/results/history_check.h"
+#include "discrete/files/staged_file.h"
 #include "discrete/files/table_file.h"
 #include "discrete/panel/snapshot_file.h"
 
@@ -13,10 +18,38 @@ namespace diptych::coupling
 {
   namespace
   {
+    DiscreteResults discrete_results(const std::string &folder, const DiscreteFacts &facts)
+    {
+      const std::string table = folder + "/discrete.csv";
+      DiscreteResults   results{discrete::read_history<discrete::HistoryRow>(table),
+                              discrete::read_snapshots(folder + "/discrete.h5"), facts};
+      const bool        another_code = !results.snapshots.empty() && std::isnan(results.snapshots.front().step);
+      check_history(results.rows, results.snapshots, {table, facts.finished, another_code});
+      return results;
+    }
+
     ContinuumResults continuum_results(const std::string &folder, const ContinuumFacts &facts)
     {
-      return {discrete::read_history<continuum::HistoryRow>(folder + "/continuum.csv"),
-              read_continuum_snapshots(folder + "/continuum.h5"), facts};
+      const std::string table = folder + "/continuum.csv";
+      ContinuumResults  results{discrete::read_history<continuum::HistoryRow>(table),
+                               read_continuum_snapshots(folder + "/continuum.h5"), facts};
+      check_history(results.rows, results.snapshots, {table, facts.finished, false});
+      return results;
+    }
+
+    // What did not finish may have ended in such a state.
+    void check_meshes(const std::string &file, const ContinuumResults &results)
+    {
+      const std::size_t n = results.snapshots.size() - (results.facts.finished || results.snapshots.empty() ? 0 : 1);
+      for (std::size_t k = 0; k < n; ++k)
+        try
+          {
+            (void)quad_mesh(results.snapshots[k]);
+          }
+        catch (const std::runtime_error &error)
+          {
+            throw std::invalid_argument(file + ": " + discrete::stage_name(k) + ": " + error.what());
+          }
     }
   } // namespace
 
@@ -24,10 +57,9 @@ namespace diptych::coupling
   {
     const RunFacts facts  = read_run_facts(folder);
     const bool     coarse = std::filesystem::exists(folder + "/coarse/continuum.h5");
-    return {{discrete::read_history<discrete::HistoryRow>(folder + "/discrete.csv"),
-             discrete::read_snapshots(folder + "/discrete.h5"), facts.discrete},
-            continuum_results(folder, facts.continuum),
-            coarse ? continuum_results(folder + "/coarse", facts.continuum_coarse) : ContinuumResults(),
-            facts.phases};
+    Results        results{discrete_results(folder, facts.discrete), continuum_results(folder, facts.continuum),
+                    coarse ? continuum_results(folder + "/coarse", facts.continuum_coarse) : ContinuumResults(), facts.phases};
+    check_meshes(folder + "/continuum.h5", results.continuum);
+    return results;
   }
 } // namespace diptych::coupling

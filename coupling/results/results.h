@@ -37,6 +37,7 @@ namespace diptych::coupling
   };
 
   // Of a result folder: discrete.h5 and .csv, continuum.h5 and .csv, coarse/continuum.h5 and .csv, provenance.json. Throws
-  // std::invalid_argument naming what is missing or broken.
+  // std::invalid_argument naming what is missing, broken or not of the same run: a table without the last step of a stage, a mesh
+  // turned inside out.
   Results load_results(const std::string &folder);
 } // namespace diptych::coupling

@@ -3,7 +3,9 @@
 #include "coupling/scene/json_text.h"
 
 #include <algorithm>
+#include <set>
 #include <sstream>
+#include <vector>
 
 #include "coupling/numbers/record_file.h"
 
@@ -15,6 +17,19 @@ namespace diptych::coupling
 
     constexpr int most_levels = 32;    // of objects and lists in each other; values are walked recursively
     constexpr int most_keys   = 10000; // an object finds its keys one after the other
+
+    // The keys of the objects that are open. A key that comes again would be dropped in silence.
+    struct UniqueKeys
+    {
+      std::vector<std::set<std::string>> open; // by depth
+
+      void begin(const int depth)
+      {
+        open.resize(std::max(open.size(), std::size_t(depth) + 2));
+        open[std::size_t(depth) + 1].clear();
+      }
+      bool take(const int depth, const std::string &key) { return open.at(std::size_t(depth)).insert(key).second; }
+    };
 
     // The parser keeps no lines: texts are found again in the order in which they stand.
     struct FindLines
@@ -57,6 +72,15 @@ namespace diptych::coupling
     };
   } // namespace
 
+  namespace
+  {
+    long line_reached(const std::string &text, std::istringstream &in)
+    {
+      const auto at = std::streamoff(in.rdbuf()->pubseekoff(0, std::ios::cur, std::ios::in));
+      return 1 + std::count(text.begin(), text.begin() + std::clamp(at, std::streamoff(0), std::streamoff(text.size())), '\n');
+    }
+  } // namespace
+
   std::string JsonText::place(const std::string &pointer) const
   {
     // What has no line of its own stands on that of what holds it.
@@ -74,16 +98,24 @@ namespace diptych::coupling
     JsonText          result{file, {}, {}};
     try
       {
-        int        n_keys      = 0;
-        const auto not_endless = [&](const int depth, const ordered_json::parse_event_t event, const ordered_json &) {
-          n_keys += event == ordered_json::parse_event_t::key;
+        using Event = ordered_json::parse_event_t;
+        std::istringstream in_text(text); // says how far the parser is
+        int                n_keys = 0;
+        UniqueKeys         keys;
+        const auto         check = [&](const int depth, const Event event, const ordered_json &value) {
+          n_keys += event == Event::key;
           if (depth > most_levels)
             throw SceneError(file + ": nests more than " + std::to_string(most_levels) + " levels");
           if (n_keys > most_keys)
             throw SceneError(file + ": holds more than " + std::to_string(most_keys) + " keys");
+          if (event == Event::object_start)
+            keys.begin(depth);
+          if (event == Event::key && !keys.take(depth, value.get<std::string>()))
+            throw SceneError(file + ", line " + std::to_string(line_reached(text, in_text)) + ": key '" +
+                                     value.get<std::string>() + "' stands twice in one object");
           return true;
         };
-        result.root = ordered_json::parse(text, not_endless, true, /* comments */ true);
+        result.root = ordered_json::parse(in_text, check, true, /* comments */ true);
       }
     catch (const nlohmann::json::parse_error &error)
       {

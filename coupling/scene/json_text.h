@@ -22,7 +22,8 @@ namespace diptych::coupling
     std::string place(const std::string &pointer) const; // "FILE, line 12"
   };
 
-  // // and /* comments are allowed. Throws SceneError naming file and line where the text is no JSON object.
+  // // and /* comments are allowed. Throws SceneError naming file and line where the text is no JSON object, or an object
+  // holds a key twice.
   JsonText read_json_text(const std::string &file, std::istream &in);
 
   // A value as the text that a scene would hold: the entries of a list separated by ", ".

@@ -155,6 +155,21 @@ namespace diptych::coupling
     }
   } // namespace
 
+  namespace
+  {
+    // What was computed with a scene is told by its echo alone: what that lacks would be taken for its default.
+    void demand_echo(const std::string &file)
+    {
+      if (!is_echo(file))
+        throw SceneError(file + ": is no echo of a scene, which a run leaves with its results: its first line does not say '" +
+                         echo_title + "'");
+      const std::vector<std::string> set = sections_set_in(file);
+      for (const std::string &section : section_names())
+        if (std::find(set.begin(), set.end(), section) == set.end())
+          throw SceneError(file + ": is no whole echo of a scene: it sets nothing in section '" + section + "'");
+    }
+  } // namespace
+
   Scene read_scene(const std::string &file, const std::vector<std::string> &overrides, const bool compares)
   {
     return read_changed_scene(file, entries_of_overrides(overrides), compares);
@@ -173,6 +188,7 @@ namespace diptych::coupling
   Scene read_computed_scene(const std::string &file, const std::vector<std::string> &overrides, const bool compares)
   {
     const std::vector<Entry> entries = entries_with(file, entries_of_overrides(overrides));
+    demand_echo(file);
     return checked_scene(file, entries, [&](const Scene &scene) { check_comparison(scene, file, entries, compares); });
   }
 

@@ -18,7 +18,8 @@ namespace diptych::coupling
   Scene read_scene(const std::string &file, const std::vector<std::string> &overrides, bool compares = true);
 
   // The scene that a result folder was made with, by its scene.prm, with overrides of what a comparison reads: nothing else is
-  // checked again, and files that it names may be gone. `compares` as in read_scene(). Throws SceneError.
+  // checked again, and files that it names may be gone. `compares` as in read_scene(). Throws SceneError, too where the file is
+  // no whole echo.
   Scene read_computed_scene(const std::string &file, const std::vector<std::string> &overrides, bool compares = true);
 
   // As read_scene(), with changes that say where they were made and where their files are.

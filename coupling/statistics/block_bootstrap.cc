@@ -40,8 +40,11 @@ namespace diptych::coupling
       }
 
     constexpr double rounding = 1e-9; // a box of exactly four blocks has four
-    const auto       parts    = [&](const double length) { return std::max(1, int(length / block + rounding)); };
-    Tiles            tiles;
+    constexpr double most     = 1e8;
+    if (const Eigen::Array2d blocks = 1 + (high - low) / block; !(blocks.prod() <= most))
+      throw std::invalid_argument("a polygon would have " + std::to_string(blocks.prod()) + " blocks; at most 1e8 are possible");
+    const auto parts = [&](const double length) { return std::max(1, int(length / block + rounding)); };
+    Tiles      tiles;
     tiles.origin  = low[0] * along + low[1] * across;
     tiles.along   = along;
     tiles.columns = parts(high[0] - low[0]);

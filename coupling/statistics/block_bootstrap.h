@@ -34,6 +34,7 @@ namespace diptych::coupling
     int count() const { return columns * rows; }
     int tile(const Eigen::Vector2d &point) const; // 0 .. count() - 1; a point outside belongs to the nearest
   };
+  // Throws std::invalid_argument without a polygon, for a block that is not positive, or for more than 1e8 tiles.
   Tiles tiles_over(const std::vector<Eigen::Vector2d> &polygon, double angle_deg, double block);
 
   // How often each of n blocks is drawn: one row a resample, each row's sum is n. Empty for fewer than minimum_blocks blocks or

@@ -142,19 +142,61 @@ namespace diptych::discrete
       return contacts;
     }
 
-    Snapshot read_stage(const Hdf5Reader &file, const std::string &group)
+    // Whether the list of attributes says that it may be no number.
+    bool may_be(const double value, const std::string &name, const std::string &meaning, const bool of_another_code)
     {
-      const ArrayCheck check{file.path() + ": " + group};
-      Snapshot         s;
-      visit_attributes(s, [&](const char *name, auto &value, const char *, const char *) {
+      if (std::isfinite(value))
+        return true;
+      if (std::isinf(value))
+        return meaning.find("inf:") != std::string::npos;
+      return meaning.find("nan") != std::string::npos || (of_another_code && !is_always_told(name));
+    }
+
+    void read_attributes(const Hdf5Reader &file, const std::string &group, const ArrayCheck &check, Snapshot &s)
+    {
+      const bool of_another_code = !file.has(group + "/contacts/impulse"); // which has no step
+      visit_attributes(s, [&](const char *name, auto &value, const char *, const char *meaning) {
         using Value = std::decay_t<decltype(value)>;
         if constexpr (std::is_same_v<Value, double>)
-          value = file.attribute(group, name);
+          {
+            value = file.attribute(group, name);
+            if (!may_be(value, name, meaning, of_another_code))
+              check.refuse(name, "is not finite");
+          }
         else if (const auto known = value_of<Value>(file.text_attribute(group, name)))
           value = *known;
         else
           check.refuse(name, "is none of the names it may have");
       });
+      if (!(s.mean_diameter > 0))
+        check.refuse("mean_diameter", "is not above 0");
+    }
+
+    // The sides stand where grains or walls are: farther from their box than the box is large, no grain made them.
+    void check_outline(const Snapshot &s, const ArrayCheck &check)
+    {
+      Eigen::Array2d low(INFINITY, s.lower_y), high(-INFINITY, s.upper_y);
+      for (std::size_t i = 0; i < s.position.size(); ++i)
+        {
+          low  = low.min(s.position[i].array() - s.radius[i]);
+          high = high.max(s.position[i].array() + s.radius[i]);
+        }
+      for (const double wall : {s.left_x, s.right_x})
+        if (std::isfinite(wall))
+          low.x() = std::min(low.x(), wall), high.x() = std::max(high.x(), wall);
+      const double margin = (high - low).maxCoeff() + s.cell_width;
+      visit_outline(s, [&](const std::string &name, const std::vector<Eigen::Vector2d> &points, const char *, const char *) {
+        for (const Eigen::Vector2d &x : points)
+          if ((x.array() < low - margin).any() || (x.array() > high + margin).any())
+            check.refuse(name, "lies farther from grains and walls than these are apart");
+      });
+    }
+
+    Snapshot read_stage(const Hdf5Reader &file, const std::string &group)
+    {
+      const ArrayCheck check{file.path() + ": " + group};
+      Snapshot         s;
+      read_attributes(file, group, check, s);
       const std::string untold = file.has_attribute(group, not_told) ? file.text_attribute(group, not_told) : "";
       visit_grain_fields(s, [&](const std::string &name, auto &values, const char *, const char *) {
         using Value = typename std::decay_t<decltype(values)>::value_type;
@@ -184,6 +226,7 @@ namespace diptych::discrete
         if (points.size() < 2)
           check.refuse(name, "holds fewer than two points");
       });
+      check_outline(s, check);
       return s;
     }
   } // namespace

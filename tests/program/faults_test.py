@@ -81,6 +81,7 @@ class Inputs(Folder):
 
     def test_a_comparison_goes_where_its_folder_is(self):
         self.expect(2, ["compare", self.whole, "--output", os.path.join(self.work, "other")], "--output")
+        self.expect(2, ["compare", self.whole, *setting(output_directory="zz")], "output/directory=zz")
 
     def test_platens_that_rest_are_told_before_anything_is_computed(self):
         words = setting(loading_mode="time", loading_duration=1, loading_stage_time=0.5, comparison_window_edges="0,1",
@@ -92,7 +93,10 @@ class Folders(Folder):
     def test_damaged_records_and_tables_are_named(self):
         text = content(os.path.join(self.whole, "provenance.json"))
         header = content(os.path.join(self.whole, "discrete.csv"))
+        echo = content(os.path.join(self.whole, "scene.prm"))
         for name, damaged in (("provenance.json", b""), ("provenance.json", text[:len(text) // 2]), ("provenance.json", b'{"phases": 1}'),
+                              ("provenance.json", b'{"a": [1, 2]}'), ("provenance.json", text.replace(b'"diptych"', b'"another"')),
+                              ("scene.prm", b""), ("scene.prm", b"subsection sample\nend\n"), ("scene.prm", echo.split(b"\n")[0] + b"\n"),
                               ("discrete.csv", header.replace(b"stress_ratio", b"strength", 1))):
             with self.subTest(name=name, length=len(damaged)):
                 shutil.rmtree(self.folder, ignore_errors=True)
@@ -101,15 +105,53 @@ class Folders(Folder):
                     file.write(damaged)
                 self.expect(2, ["compare", self.folder, "--quiet"], os.path.join(self.folder, name))
 
+    def test_a_table_is_that_of_its_snapshots(self):
+        for name in ("discrete.csv", "continuum.csv"):
+            header, *rows = content(os.path.join(self.whole, name)).splitlines(keepends=True)
+            time_column = header.strip().split(b",").index(b"time")
+            unknown = rows[1].split(b",")
+            unknown[time_column] = b"nan"
+            for what, table in (("cut", rows[:-1]), ("half", rows[:len(rows) // 2]), ("reversed", rows[::-1]), ("time", [rows[0], b",".join(unknown), *rows[2:]])):
+                with self.subTest(name=name, what=what):
+                    shutil.rmtree(self.folder, ignore_errors=True)
+                    shutil.copytree(self.whole, self.folder)
+                    with open(os.path.join(self.folder, name), "wb") as file:
+                        file.write(b"".join([header, *table]))
+                    self.expect(2, ["compare", self.folder, "--quiet"], os.path.join(self.folder, name))
+
+    def test_numbers_that_no_panel_writes_are_named(self):
+        def attribute(group):
+            group.attrs["step"] = float("nan")
+
+        def outline(group):
+            group["outline/right"][0, 0] = 2.0**30
+
+        def node(group):
+            group["nodes/position"][0, 0] = -7.0
+
+        for panel, change, told in (("discrete", attribute, "step"), ("discrete", outline, "outline/right"), ("continuum", node, "inside out")):
+            with self.subTest(told=told):
+                shutil.rmtree(self.folder, ignore_errors=True)
+                shutil.copytree(self.whole, self.folder)
+                path = os.path.join(self.folder, panel + ".h5")
+                with h5py.File(path, "r+") as file:
+                    change(file["stage_0001"])
+                self.expect(2, ["compare", self.folder, "--quiet"], path, "stage_0001", told)
+
     def test_damaged_comparisons_are_named_by_the_report(self):
         for name in ("comparison.h5", "comparison.json"):
-            for damaged in (b"", content(os.path.join(self.whole, name))[:700], b"foreign"):
+            for damaged in (b"", content(os.path.join(self.whole, name))[:700], b"foreign", content(os.path.join(self.whole, "discrete.h5")), b'{"a": 1}'):
                 with self.subTest(name=name, length=len(damaged)):
                     shutil.rmtree(self.folder, ignore_errors=True)
                     shutil.copytree(self.whole, self.folder)
                     with open(os.path.join(self.folder, name), "wb") as file:
                         file.write(damaged)
                     self.expect(2, ["report", self.folder, "--quiet"], name)
+
+    def test_a_foreign_provenance_is_named_by_the_report(self):
+        shutil.copytree(self.whole, self.folder)
+        write(os.path.join(self.folder, "provenance.json"), '{"a": [1, 2]}')
+        self.expect(2, ["report", self.folder, "--quiet"], os.path.join(self.folder, "provenance.json"))
 
     def test_an_array_cut_short_does_not_change_the_comparison(self):
         shutil.copytree(self.whole, self.folder)

@@ -196,7 +196,7 @@ def write_folder(folder, complete=True):
     else:
         h5py.File(os.path.join(folder, "comparison.h5"), "w").close()
     write_json(folder, "comparison.json", comparison_of_two_stages() if complete else {"format": 2, "scene": "tiny", "seed": 3})
-    write_json(folder, "provenance.json", {"phases": [{"name": "discrete", "cpu_s": 1.0}]} if complete else {})
+    write_json(folder, "provenance.json", {"program": "diptych", "phases": [{"name": "discrete", "cpu_s": 1.0}] if complete else []})
     columns = "progress,stress_ratio,volumetric_strain,lower_fy,upper_fy" + (
         ",axial_strain,shear_strain,time,walk,sweeps,residual,kinetic_energy_ratio,external_work,dissipation" if complete else "")
     for name in ("discrete.csv", "continuum.csv"):

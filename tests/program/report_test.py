@@ -300,6 +300,37 @@ class OtherFolders(unittest.TestCase):
         self.assertIn("continuum.csv", outcome.stderr)
         self.assertFalse(os.path.exists(os.path.join(self.folder.name, "report.html")))
 
+    def test_a_foreign_comparison_is_named_and_ends_with_code_2(self):
+        write_folder(self.folder.name)
+        path = os.path.join(self.folder.name, "comparison.h5")
+        with h5py.File(path, "w") as file:
+            file["mine"] = [1.0]
+        outcome = run(self.folder.name)
+        self.assertEqual(outcome.returncode, 2)
+        self.assertRegex(outcome.stderr, r"^report: .*comparison\.h5: has no group")
+        write_folder(self.folder.name)
+        with h5py.File(path, "r+") as file:
+            file["stage_0001"].attrs["to"] = 0.5
+        outcome = run(self.folder.name)
+        self.assertEqual(outcome.returncode, 2)
+        self.assertRegex(outcome.stderr, r"^report: .*comparison\.h5: stage_0001 does not end")
+
+    def test_what_no_version_writes_names_the_files(self):
+        write_folder(self.folder.name)
+        with h5py.File(os.path.join(self.folder.name, "comparison.h5"), "r+") as file:
+            file["stage_0001"].attrs["centre"] = "mine"
+        outcome = run(self.folder.name)
+        self.assertEqual(outcome.returncode, 2)
+        self.assertIn("comparison.h5", outcome.stderr)
+
+    def test_a_foreign_provenance_is_named_and_ends_with_code_2(self):
+        write_folder(self.folder.name, complete=False)
+        with open(os.path.join(self.folder.name, "provenance.json"), "w", encoding="utf-8") as stream:
+            stream.write('{"a": [1, 2]}')
+        outcome = run(self.folder.name)
+        self.assertEqual(outcome.returncode, 2)
+        self.assertIn("provenance.json", outcome.stderr)
+
     def test_broken_json_is_named_and_ends_with_code_2(self):
         write_folder(self.folder.name, complete=False)
         with open(os.path.join(self.folder.name, "provenance.json"), "w", encoding="utf-8") as stream:

@@ -121,6 +121,14 @@ namespace
     expect_band(report.bands[1], b, 0.6, 0.08);
   }
 
+  // A frame 2^30 diameters wide has room for 1e8 parallel lines of one angle.
+  TEST(Band, AFrameOfNoSampleIsRefused)
+  {
+    SampleFrame frame = synthetic::frame_52_75();
+    frame.width       = 1 << 30;
+    EXPECT_THROW((void)find_bands(synthetic::grain_field(synthetic::frame_52_75(), {}, 0.02, 41), frame), std::invalid_argument);
+  }
+
   TEST(Band, AffineFieldIsDiffuse)
   {
     for (const double noise : {0., 0.02, 0.05, 0.2})

@@ -3,6 +3,7 @@
 #include "coupling/cells/cell_overlap.h"
 
 #include <numeric>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 
@@ -24,6 +25,12 @@ namespace
     for (std::size_t k = 0; k < 4; ++k)
       EXPECT_NEAR(overlap.area[k], expected[k], 1e-13);
     EXPECT_NEAR(std::accumulate(overlap.area.begin(), overlap.area.end(), 0.), 36, 1e-12);
+  }
+
+  // 1e9 x 1e9 cells of side 1.
+  TEST(CellOverlap, AGridOfMoreCellsThanMemoryHoldsIsRefused)
+  {
+    EXPECT_THROW((void)regular_grid({0, 0}, {1e9, 1e9}, 1), std::invalid_argument);
   }
 
   // A square turned by 45 degrees with its corners in the middles of the sides of a square of side 2 has half its area, and a

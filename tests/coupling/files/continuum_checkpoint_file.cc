@@ -29,7 +29,7 @@ namespace
     void operator()(const char *, bool &value) { value = !value; }
     void operator()(const char *, Eigen::Vector2d &value) { next(value); }
     void operator()(const char *, std::optional<double> &value) { value = next(); }
-    void operator()(const char *, std::vector<double> &values) { values = {next(), -0., 5e-324, 1e308, std::nan("7")}; }
+    void operator()(const char *, std::vector<double> &values) { values = {next(), -0., 5e-324, 1e308, -1e-308}; }
     void operator()(const char *, std::vector<std::string> &names) { names = {"0_0:", "0_1:3", "12_2:01"}; }
     template <class T> void operator()(const char *name, std::vector<std::vector<T>> &lists)
     {
@@ -189,6 +189,26 @@ namespace
         write_continuum_checkpoint(file, example_checkpoint());
         relink(file, name, "elsewhere");
         expect_refusal_naming(file, name);
+      }
+  }
+
+  TEST(ContinuumCheckpointFile, MatricesAndCountsAreFinite)
+  {
+    const Folder                                                     folder;
+    const std::string                                                file      = folder / "checkpoint.h5";
+    const std::pair<const char *, void (*)(continuum::Checkpoint &)> changes[] = {
+      {"analysed_matrix", [](continuum::Checkpoint &c) { c.analysed_matrix[2] = NAN; }},
+      {"factorised_matrix", [](continuum::Checkpoint &c) { c.factorised_matrix[0] = INFINITY; }},
+      {"rigid_modes/1", [](continuum::Checkpoint &c) { c.rigid_modes[1][0] = NAN; }},
+      {"progress", [](continuum::Checkpoint &c) { c.progress = NAN; }},
+      {"upper_platen_force", [](continuum::Checkpoint &c) { c.platen_force[1].y() = NAN; }},
+      {"localisation_progress", [](continuum::Checkpoint &c) { c.localisation_progress = NAN; }}};
+    for (const auto &[name, change] : changes)
+      {
+        ContinuumCheckpoint c = example_checkpoint();
+        change(c.panel);
+        write_continuum_checkpoint(file, c);
+        expect_refusal_naming(file, "'" + std::string(name) + "' holds a number that is not finite");
       }
   }
 

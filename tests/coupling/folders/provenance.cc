@@ -6,11 +6,14 @@
 #include <fstream>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
 #include <unistd.h>
 
 namespace
 {
   namespace fs = std::filesystem;
+  using nlohmann::json;
   using namespace diptych::coupling;
 
   struct Provenance : testing::Test
@@ -38,13 +41,52 @@ namespace
     }
   };
 
+  // What a command writes of itself.
+  json recorded(const fs::path &folder)
+  {
+    Scene scene;
+    scene.name = "mine";
+    record_phases(folder, scene, "diptych run mine.prm", {{"discrete", 2, 1, 100}});
+    json record;
+    std::ifstream(folder / "provenance.json") >> record;
+    return record;
+  }
+
   TEST_F(Provenance, WhatIsDamagedOrForeignIsNamed)
   {
-    for (const char *text : {"", "{", "[]", "null", "1", "NaN", R"({"discrete": {"finished": "yes"}})",
-                             R"({"discrete": {"step": []}})", R"({"phases": 3})", R"({"discrete": []})", R"({"continuum": 3})",
-                             R"({"phases": [3, {"name": 7}]})", R"({"scene": {}})"})
+    for (const char *text :
+         {"", "{", "[]", "null", "1", "NaN", "{}", R"({"a": [1, 2]})", R"({"program": "another"})", R"({"program": "diptych"})"})
       expect_refused(text);
     expect_refused(std::string(60000, '['));
+    fs::remove(folder / "provenance.json");
+    const json whole = recorded(folder);
+    for (const auto &[key, value] : whole.items())
+      if (key != "git_revision")
+        {
+          json changed = whole;
+          changed.erase(key);
+          expect_refused(changed.dump());
+          changed[key] = 7;
+          expect_refused(changed.dump());
+        }
+    for (const char *text : {R"({"discrete": {"finished": "yes"}})", R"({"discrete": {"step": []}})", R"({"discrete": []})",
+                             R"({"continuum": 3})", R"({"phases": [3, {"name": 7}]})", R"({"scene": {}})", R"({"seeds": ["a"]})"})
+      {
+        json changed = whole;
+        changed.update(json::parse(text));
+        expect_refused(changed.dump());
+      }
+  }
+
+  TEST_F(Provenance, WhatARunWroteIsTaken)
+  {
+    (void)recorded(folder);
+    DiscreteFacts facts;
+    facts.finished = true, facts.step = 0.25;
+    record_facts(folder, facts);
+    EXPECT_EQ(recorded_scene(folder), "mine");
+    EXPECT_EQ(read_run_facts(folder).discrete.step, 0.25);
+    EXPECT_EQ(read_run_facts(folder).phases.front().cpu_s, 1);
   }
 
   TEST_F(Provenance, NoneIsNone)

@@ -118,6 +118,17 @@ namespace
     expect_words(error_of("subsection output\n  set report = maybe\nend\n"), {"'maybe'", "true or false"});
   }
 
+  // The library's parser keeps one of them and says nothing.
+  TEST(Scene, AKeyThatStandsTwiceInAnObjectOfJsonIsNamed)
+  {
+    expect_words(error_of("{\"sample\": {\"grains\": 500,\n \"seed\": 2,\n \"grains\": 60\n}}", {}, ".json"),
+                 {".json, line 3", "'grains'", "twice"});
+    expect_words(
+      error_of("{\"sample\": {\"grains\": 500},\n\"loading\": {\"pressure\": 1},\n\"sample\": {\"seed\": 2}}", {}, ".json"),
+      {".json, line 3", "'sample'", "twice"});
+    EXPECT_EQ(error_of("{\"sample\": {\"file\": \"\"},\n\"discrete\": {\"file\": \"\"}}", {}, ".json"), "");
+  }
+
   TEST(Scene, BrokenStructureIsNamedWithItsLine)
   {
     expect_words(error_of("subsection sample\n  set grains = 500\n"), {"sample", "no 'end'"});

@@ -33,6 +33,12 @@ namespace
     EXPECT_THROW(tiles_over({}, 0, 5), std::invalid_argument);
   }
 
+  // 1e9 x 1e9 blocks of side 1 in a square of side 1e9.
+  TEST(BlockBootstrap, MoreTilesThanMemoryHoldsAreRefused)
+  {
+    EXPECT_THROW(tiles_over({{0, 0}, {1e9, 0}, {1e9, 1e9}, {0, 1e9}}, 0, 1), std::invalid_argument);
+  }
+
   TEST(BlockBootstrap, EveryResampleHoldsAsManyBlocksAsThereAre)
   {
     const auto drawn = resampled_blocks(7, {5, 2000, 3});

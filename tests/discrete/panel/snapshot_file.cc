@@ -1,8 +1,11 @@
 // diptych: what is written can be read back
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
+#include <type_traits>
 
 #include <gtest/gtest.h>
 #include <hdf5.h>
@@ -10,6 +13,7 @@
 #include <unistd.h>
 
 #include "discrete/panel/snapshot_file.h"
+#include "discrete/snapshot_fields.h"
 #include "tests/discrete/small_scenes.h"
 
 namespace
@@ -86,6 +90,67 @@ namespace
         EXPECT_NE(xdmf.find(item), std::string::npos) << item;
       }
     std::filesystem::remove(path + ".h5"), std::filesystem::remove(path + ".xdmf");
+  }
+
+  // Written as it is told, read with doubt: what no panel makes of its grains is refused, naming file, stage and entry.
+  void expect_refused(const std::string &entry, const std::function<void(Snapshot &)> &change)
+  {
+    std::vector<Snapshot> snapshots = short_run();
+    change(snapshots[1]);
+    const std::string path = temporary_path("changed");
+    write_snapshots(path, snapshots);
+    try
+      {
+        (void)read_snapshots(path + ".h5");
+        ADD_FAILURE() << entry << " was taken";
+      }
+    catch (const std::invalid_argument &error)
+      {
+        EXPECT_NE(std::string(error.what()).find(path + ".h5: stage_0001/" + entry), std::string::npos) << error.what();
+      }
+    std::filesystem::remove(path + ".h5"), std::filesystem::remove(path + ".xdmf");
+  }
+
+  TEST(Output, AttributesAreFiniteUnlessTheirMeaningSaysOtherwise)
+  {
+    Snapshot names;
+    visit_attributes(names, [&](const std::string &wanted, const auto &member, const char *, const std::string &meaning) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(member)>, double>)
+        if (wanted != "step" && meaning.find("nan") == std::string::npos)
+          for (const double bad : {double(NAN), double(INFINITY)})
+            expect_refused(wanted, [&](Snapshot &s) {
+              visit_attributes(s, [&](const std::string &name, auto &value, const char *, const char *) {
+                if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
+                  value = name == wanted ? bad : value;
+              });
+            });
+    });
+    expect_refused("mean_diameter", [](Snapshot &s) { s.mean_diameter = 0; });
+    std::vector<Snapshot> accurate = short_run();
+    accurate[1].stress_error       = INFINITY;
+    const std::string path         = temporary_path("unknown");
+    write_snapshots(path, accurate);
+    EXPECT_TRUE(std::isinf(read_snapshots(path + ".h5")[1].stress_error));
+    std::filesystem::remove(path + ".h5"), std::filesystem::remove(path + ".xdmf");
+  }
+
+  // Of a frame of another code there is no step, and much that it does not tell.
+  TEST(Output, WhatAnotherCodeDoesNotTellStaysUntold)
+  {
+    std::vector<Snapshot> snapshots = short_run();
+    for (Snapshot &s : snapshots)
+      s.step = s.residual = s.time = s.lower_platen_force.x() = NAN;
+    const std::string path = temporary_path("untold");
+    write_snapshots(path, snapshots);
+    EXPECT_TRUE(std::isnan(read_snapshots(path + ".h5")[1].step));
+    std::filesystem::remove(path + ".h5"), std::filesystem::remove(path + ".xdmf");
+    expect_refused("upper_y", [](Snapshot &s) { s.step = s.upper_y = NAN; });
+  }
+
+  TEST(Output, AnOutlineFarFromTheGrainsIsNone)
+  {
+    expect_refused("outline/right", [](Snapshot &s) { s.outline.right[0].x() = 1 << 30; });
+    expect_refused("outline/left", [](Snapshot &s) { s.outline.left[0].y() = -1e6; });
   }
 
   TEST(Output, ATruncatedFileIsAnErrorThatNamesIt)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import h5py
 import numpy as np
 
-from diptych_report.data.files import InputError, read_json, read_text
+from diptych_report.data.files import InputError, read_json, read_provenance, read_text
 from diptych_report.data.numbers import Descriptions
 from diptych_report.data.panels import PANEL_NAMES
 from diptych_report.data.scene import scene_value
@@ -71,7 +71,7 @@ def load(folder):
     return Ensemble(folder, record, {q["name"]: q for q in record["quantities"]}, Descriptions(member.get("numbers")),
                     walk_of(record.get("walk", member.get("walk"))), progress, curves, averaging,
                     read_text(os.path.join(folder, "ensemble.prm")),
-                    read_json(provenance) if os.path.isfile(provenance) else {})
+                    read_provenance(provenance) if os.path.isfile(provenance) else {})
 
 
 def _member(folder, seeds):

@@ -31,6 +31,14 @@ def read_json(path):
     return value
 
 
+def read_provenance(path):
+    """provenance.json as every run writes it. Raises InputError where it cannot be read or is no record of a run."""
+    record = read_json(path)
+    if record.get("program") != "diptych" or not isinstance(record.get("phases"), list):
+        raise InputError(f"{path}: is no record of a run of diptych: 'program' or 'phases' is missing or is none that it writes")
+    return record
+
+
 def read_csv(path):
     """{column: array of its numbers}; nan where the text is no number. Raises InputError where there is no header."""
     try:

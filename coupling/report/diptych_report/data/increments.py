@@ -7,10 +7,12 @@ from dataclasses import dataclass, field
 import h5py
 import numpy as np
 
+from diptych_report.data.input_error import InputError
 from diptych_report.data.numbers import Description
 from diptych_report.data.walk import Walk, walk_of
 
 MESHES = ("cells", "grid")
+SAME = 1e-6  # of progress
 
 
 @dataclass
@@ -64,7 +66,8 @@ class Increment:
 def read(comparison, file, units):
     """(increments, {path: Description}): windows first, then stages, in the order of comparison.json.
 
-    comparison: shown in `units`. Raises KeyError where a stage or window lacks its progress.
+    comparison: shown in `units`. Raises KeyError where a stage or window lacks its progress, InputError naming comparison.h5
+    where it has no such stage or window.
     """
     walk = walk_of(comparison.get("walk"))
     increments, groups = [], {}
@@ -78,10 +81,9 @@ def read(comparison, file, units):
         start = stage["progress"]
     described = {}
     for increment in increments:
-        if groups[increment.key] in file:
-            _take_group(increment, file[groups[increment.key]], units, described)
+        _take_group(increment, _group_of(increment, groups[increment.key], file), units, described)
     for increment in increments:
-        same = [i for i in increments if i.kind == "stage" and abs(i.end - increment.end) < 1e-6]
+        same = [i for i in increments if i.kind == "stage" and abs(i.end - increment.end) < SAME]
         if same:
             increment.state, increment.end_record = same[0].arrays, same[0].record
     return increments, described
@@ -106,6 +108,17 @@ def read_arrays(group, units, described):
 def text_of(item, name):
     value = item.attrs.get(name, "")
     return value.decode() if isinstance(value, bytes) else str(value)
+
+
+def _group_of(increment, name, file):
+    """The group of comparison.h5 that holds the increment's arrays."""
+    group = file.get(name)
+    if not isinstance(group, h5py.Group):
+        raise InputError(f"{file.filename}: has no group {name}, which comparison.json beside it tells of")
+    end = group.attrs.get("to")
+    if not (np.isscalar(end) and abs(float(end) - increment.end) < SAME):
+        raise InputError(f"{file.filename}: {name} does not end where comparison.json beside it says: at {increment.end!r}")
+    return group
 
 
 def _take_group(increment, group, units, described):

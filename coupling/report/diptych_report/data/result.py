@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import h5py
 import numpy as np
 
-from diptych_report.data.files import InputError, read_csv, read_json, read_text, require
+from diptych_report.data.files import InputError, read_csv, read_json, read_provenance, read_text, require
 from diptych_report.data.increments import read, read_arrays
 from diptych_report.data.numbers import Descriptions, Units, plain
 from diptych_report.data.panels import PANEL_NAMES
@@ -90,8 +90,8 @@ def load(folder):
     except OSError as error:
         raise InputError(f"{path}: {error}") from error
     except (KeyError, TypeError) as error:
-        raise InputError(f"{folder}/comparison.json: a stage or a window is incomplete: {error}") from error
-    return Result(comparison, read_json(os.path.join(folder, "provenance.json")), histories, increments, units, numbers, arrays,
+        raise InputError(f"{folder}/comparison.json, {path}: a stage or a window is incomplete: {error}") from error
+    return Result(comparison, read_provenance(os.path.join(folder, "provenance.json")), histories, increments, units, numbers, arrays,
                   read_text(os.path.join(folder, "scene.prm")), imported_of(folder))
 
 

@@ -1,0 +1,81 @@
+// diptych: whether a table of steps is that of the snapshots beside it
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "discrete/files/csv_file.h"
+
+namespace diptych::coupling
+{
+  struct HistoryCheck
+  {
+    std::string table;        // path
+    bool        finished;     // the run says so: then no row is missing
+    bool        another_code; // which tells less: only how far it went must be known
+  };
+
+  namespace history
+  {
+    constexpr double same = 1e-9; // relative
+
+    [[noreturn]] inline void refuse(const HistoryCheck &check, const std::string &what)
+    {
+      throw std::invalid_argument(check.table + what);
+    }
+
+    // A number is finite unless the column's meaning speaks of nan.
+    template <class Row> void demand_numbers(const std::vector<Row> &rows, const HistoryCheck &check)
+    {
+      for (std::size_t k = 0; k < rows.size(); ++k)
+        visit_columns(rows[k], [&](const std::string &name, const auto &value, const char *, const std::string &meaning) {
+          if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
+            {
+              const bool may_be_unknown = meaning.find("nan") != std::string::npos ||
+                                          (check.another_code && name != "progress" && name != "axial_strain");
+              if (!std::isfinite(value) && !may_be_unknown)
+                refuse(check, ", line " + std::to_string(k + 2) + ": column '" + name + "' is not finite");
+            }
+        });
+    }
+
+    template <class Row> void demand_ascent(const std::vector<Row> &rows, const HistoryCheck &check)
+    {
+      for (std::size_t k = 1; k < rows.size(); ++k)
+        if (!(rows[k].progress > rows[k - 1].progress && rows[k].step > rows[k - 1].step))
+          refuse(check, ", line " + std::to_string(k + 2) + ": 'step' and 'progress' do not grow from the line before");
+    }
+  } // namespace history
+
+  // Rows as read from a file, at least one. Every stage ends with a step that has a row: what the table lacks of them was lost.
+  // Of a run that did not finish the last snapshot is that of the step on which it ended, which may have no row, and rows may go
+  // on after it. Throws std::invalid_argument naming the table.
+  template <class Row, class Snapshot>
+  void check_history(const std::vector<Row> &rows, const std::vector<Snapshot> &snapshots, const HistoryCheck &check)
+  {
+    using namespace history;
+    demand_numbers(rows, check);
+    demand_ascent(rows, check);
+    const auto is_at = [](const Row &row, const double progress) {
+      return std::abs(row.progress - progress) <= same * std::abs(progress);
+    };
+    const std::size_t n_stages = snapshots.size() - (check.finished || snapshots.empty() ? 0 : 1);
+    std::size_t       k        = 0;
+    for (std::size_t stage = 1; stage < n_stages; ++stage)
+      {
+        const double progress = snapshots[stage].progress;
+        while (k < rows.size() && rows[k].progress < progress && !is_at(rows[k], progress))
+          ++k;
+        if (k == rows.size() || !is_at(rows[k], progress))
+          refuse(check, ": has no row at the progress " + discrete::exact_text(progress) + " of snapshot " +
+                          std::to_string(stage) + " beside it");
+      }
+    if (check.finished && n_stages > 1 && k + 1 != rows.size())
+      refuse(check,
+             ": goes on after the last snapshot beside it, at the progress " + discrete::exact_text(snapshots.back().progress));
+  }
+} // namespace diptych::coupling
