@@ -33,9 +33,10 @@ namespace diptych::continuum
   // Throws std::invalid_argument naming the member and what is allowed.
   QuadMesh rectangle_mesh(const Rectangle &rectangle);
 
-  // The user's own mesh (.msh of any version gmsh knows; or a .geo, which gmsh meshes first). Its physical lines count by NAME
+  // The user's own mesh (.msh in ASCII, MSH 2.2 or 4.1; or a .geo, which gmsh meshes first). Its physical lines count by NAME
   // whatever their numbers; a line without a name counts by its number. Every boundary edge must lie on exactly one of them.
-  // A .geo is a program: what would do more than make shapes is refused (geo_script.h), and it has two minutes of CPU time.
+  // The text is checked before gmsh sees it (msh_text.h); a .geo is a program: what would do more than make shapes is refused
+  // (geo_script.h), and it has two minutes of CPU time. gmsh gets a copy of the text in a folder of its own (file_copy.h).
   // Throws std::invalid_argument naming the file and what is wrong, MeshingStopped (mesh_child.h).
   QuadMesh read_mesh(const std::string &file, const std::function<bool()> &stop_requested = {});
 

@@ -3,6 +3,7 @@
 #include "continuum/mesh/mesh_child.h"
 
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <string>
@@ -14,10 +15,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "continuum/mesh/no_programs.h"
+
 namespace diptych::continuum
 {
   namespace
   {
+    using Clock                               = std::chrono::steady_clock;
+    constexpr int wall_seconds_per_cpu_second = 3; // on a machine that has others to serve
+
     enum Answer : char
     {
       has_mesh,
@@ -73,10 +79,15 @@ namespace diptych::continuum
       const rlimit nothing = {0, 0};
       setrlimit(RLIMIT_CORE, &nothing);
       std::signal(SIGXFSZ, SIG_IGN);
-      if (most_cpu_seconds > 0)
-        setrlimit(RLIMIT_FSIZE, &nothing); // a user's script writes no file, whatever it says
+      if (const int empty = open("/dev/null", O_RDONLY); empty >= 0)
+        dup2(empty, STDIN_FILENO); // nobody answers a script's questions
       if (const int nowhere = open("/dev/null", O_WRONLY); nowhere >= 0)
         dup2(nowhere, STDOUT_FILENO), dup2(nowhere, STDERR_FILENO); // a script's own words
+      if (most_cpu_seconds > 0)
+        {
+          setrlimit(RLIMIT_FSIZE, &nothing); // a user's script writes no file, whatever it says
+          forbid_programs();
+        }
       const std::string bytes = answer_of(make);
       for (std::size_t done = 0; done < bytes.size();)
         {
@@ -124,12 +135,13 @@ namespace diptych::continuum
         close(ends[0]);
         throw std::runtime_error(std::string("no process for gmsh: ") + std::strerror(errno));
       }
+    const auto  last_moment = Clock::now() + wall_seconds_per_cpu_second * std::chrono::seconds(most_cpu_seconds);
     std::string bytes, piece(1 << 16, '\0');
     bool        stopped = false;
     for (bool open = true; open;)
       {
         stopped = stopped || (stop_requested && stop_requested());
-        if (stopped)
+        if (stopped || (most_cpu_seconds > 0 && Clock::now() > last_moment)) // a script that waits uses no CPU time
           kill(child, SIGKILL);
         pollfd wait = {ends[0], POLLIN, 0};
         if (poll(&wait, 1, patience_ms) <= 0)

@@ -19,18 +19,24 @@ namespace diptych::continuum
 
     constexpr double flat_corner = 1e-6; // sine of a corner below which a cell is no quadrilateral
 
+    using Corners = std::array<Eigen::Vector2d, 4>;
+
     // Sines of the four corners: positive in a convex cell that runs counter-clockwise.
-    std::array<double, 4> corner_sines(const QuadMesh &mesh, const std::array<unsigned int, 4> &cell)
+    std::array<double, 4> corner_sines(const Corners &corners)
     {
       std::array<double, 4> sines;
       for (unsigned int k = 0; k < 4; ++k)
         {
-          const Eigen::Vector2d &p = mesh.vertices[cell[k]];
-          const Eigen::Vector2d  a = mesh.vertices[cell[(k + 1) % 4]] - p, b = mesh.vertices[cell[(k + 3) % 4]] - p;
-          const double           lengths = a.norm() * b.norm();
-          sines[k]                       = lengths > 0 ? (a.x() * b.y() - a.y() * b.x()) / lengths : 0.;
+          const Eigen::Vector2d a = corners[(k + 1) % 4] - corners[k], b = corners[(k + 3) % 4] - corners[k];
+          const double          lengths = a.norm() * b.norm();
+          sines[k]                      = lengths > 0 ? (a.x() * b.y() - a.y() * b.x()) / lengths : 0.;
         }
       return sines;
+    }
+
+    Corners corners_of(const QuadMesh &mesh, const std::array<unsigned int, 4> &cell)
+    {
+      return {mesh.vertices[cell[0]], mesh.vertices[cell[1]], mesh.vertices[cell[2]], mesh.vertices[cell[3]]};
     }
 
     std::string at(const Eigen::Vector2d &p)
@@ -51,12 +57,12 @@ namespace diptych::continuum
         throw std::invalid_argument("the mesh holds no quadrilateral");
       for (const auto &cell : mesh.cells)
         {
-          const auto sines = corner_sines(mesh, cell);
-          if (std::all_of(sines.begin(), sines.end(), [](const double s) { return s > flat_corner; }))
+          const Turn turn = turn_of(corners_of(mesh, cell));
+          if (turn == Turn::counter_clockwise)
             continue;
-          const bool clockwise = std::all_of(sines.begin(), sines.end(), [](const double s) { return s < -flat_corner; });
           throw std::invalid_argument(
-            "a cell is " + std::string(clockwise ? "clockwise (reverse the surface in gmsh)" : "folded, concave or flat") +
+            "a cell is " +
+            std::string(turn == Turn::clockwise ? "clockwise (reverse the surface in gmsh)" : "folded, concave or flat") +
             at(mesh.vertices[cell[0]]));
         }
     }
@@ -189,6 +195,16 @@ namespace diptych::continuum
     return names[id - lower_platen];
   }
 
+  Turn turn_of(const std::array<Eigen::Vector2d, 4> &corners)
+  {
+    const auto sines = corner_sines(corners);
+    if (std::all_of(sines.begin(), sines.end(), [](const double s) { return s > flat_corner; }))
+      return Turn::counter_clockwise;
+    if (std::all_of(sines.begin(), sines.end(), [](const double s) { return s < -flat_corner; }))
+      return Turn::clockwise;
+    return Turn::folded;
+  }
+
   void check(const QuadMesh &mesh)
   {
     check_cells(mesh);
@@ -223,7 +239,7 @@ namespace diptych::continuum
   {
     double worst = 1;
     for (const auto &cell : mesh.cells)
-      for (const double sine : corner_sines(mesh, cell))
+      for (const double sine : corner_sines(corners_of(mesh, cell)))
         worst = std::min(worst, sine);
     return worst;
   }

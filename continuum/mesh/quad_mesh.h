@@ -40,6 +40,15 @@ namespace diptych::continuum
     std::vector<Edge>                        boundary; // in any order and direction
   };
 
+  // How the corners of a quadrilateral run: counter-clockwise, clockwise, or neither, where it is folded, concave or flat.
+  enum class Turn
+  {
+    counter_clockwise,
+    clockwise,
+    folded
+  };
+  Turn turn_of(const std::array<Eigen::Vector2d, 4> &corners);
+
   // Throws std::invalid_argument saying what is wrong and where: no cell; a clockwise, folded or flat cell; overlapping cells;
   // more than one piece (two cells that share a corner only are not connected); a vertex of no cell; a line inside the
   // mesh; an edge on two lines; a line missing (all but free_edge); a boundary edge on no line.

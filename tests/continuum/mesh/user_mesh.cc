@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -133,7 +134,7 @@ namespace
     catch (const std::invalid_argument &error)
       {
         const std::string message = error.what();
-        EXPECT_EQ(message.find(user_file + ": "), 0u) << message;
+        EXPECT_TRUE(message.find(user_file + ": ") == 0 || message.find(user_file + ", line ") == 0) << message;
         EXPECT_NE(message.find(reason), std::string::npos) << message << "\n instead of: " << reason;
       }
   }
@@ -207,9 +208,11 @@ namespace
     std::ofstream(folder.file("picture.png")) << "x";
     expect_refused(folder.file("picture.png"), ".msh or .geo");
     std::ofstream(folder.file("empty.msh")) << "";
-    expect_refused(folder.file("empty.msh"), "no quadrilateral");
+    expect_refused(folder.file("empty.msh"), "the file is empty");
+    std::ofstream(folder.file("nothing.msh")) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+    expect_refused(folder.file("nothing.msh"), "no quadrilateral");
     std::ofstream(folder.file("text.msh")) << "this is no mesh\n";
-    expect_refused(folder.file("text.msh"), "syntax error");
+    expect_refused(folder.file("text.msh"), "line 1: a .msh file must begin with $MeshFormat");
     UserMesh mesh;
     mesh.elements.back() = "3 1 1 2 3 6 99";
     mesh.write(folder.file("lost.msh"));
@@ -264,11 +267,41 @@ namespace
   TEST(Mesh, AGeometryThatDoesMoreThanMakeShapesIsRefusedWithItsLine)
   {
     const Folder folder;
-    for (const char *command :
-         {"SystemCall \"touch X\";", "NonBlockingSystemCall \"touch X\";", "OnelabRun(\"a\", \"b\");", "Exit;", "Abort;",
-          "Save \"X\";", "Print \"X\";", "Merge \"a.msh\";", "Include \"a.geo\";", "Printf(\"x\") > \"X\";", "CreateDir \"X\";",
-          "Sleep 1000;", "Printf(\"%g\", 1 > 0) >> \"X\";", "Plugin(Skin).Run;", "General.ErrorFileName = \"X\";",
-          "Solver.AutoMesh = 1;", "x = 1; /* */ Exit;"})
+    for (const char *command : {"SystemCall \"touch X\";",
+                                "NonBlockingSystemCall \"touch X\";",
+                                "OnelabRun(\"a\", \"b\");",
+                                "Exit;",
+                                "Abort;",
+                                "Save \"X\";",
+                                "Print \"X\";",
+                                "Merge \"a.msh\";",
+                                "Include \"a.geo\";",
+                                "Printf(\"x\") > \"X\";",
+                                "CreateDir \"X\";",
+                                "Sleep 1000;",
+                                "Printf(\"%g\", 1 > 0) >> \"X\";",
+                                "Plugin(Skin).Run;",
+                                "General.ErrorFileName = \"X\";",
+                                "Solver.AutoMesh = 1;",
+                                "x = 1; /* */ Exit;",
+                                "System \"touch X\";",
+                                "System = 1; System \"touch X\";",
+                                "x = 1SystemCall \"touch X\";",
+                                "Field[1] = ExternalProcess;",
+                                "Field[1].CommandLine = \"touch X\";",
+                                "Field[1] = Structured;",
+                                "Field[1] = PostView;",
+                                "z = GetValue(\"how much\", 3);",
+                                "z = GetEnv(\"HOME\");",
+                                "Macro m",
+                                "S2N(\"SystemCall\") \"touch X\";",
+                                "SetString(\"General.ErrorFileName\", \"X\");",
+                                "Foo;",
+                                "Foo = 1; Foo \"X\";",
+                                "// \rSystemCall \"touch X\";",
+                                "a = \"x\ny\";",
+                                "/* without end",
+                                "a = \"without end;"})
       try
         {
           (void)read_mesh(geometry(folder, std::string("// a geometry\n\n") + command + "\n"));
@@ -280,10 +313,141 @@ namespace
         }
     // Harmless: in comments, in texts, as part of a word, as a comparison, to the terminal.
     for (const char *command :
-         {"// Exit;", "/* Save \"X\"; */", "Printf(\"Exit; > SystemCall\");", "Exit_width = 3 > 2;", "Mesh.Algorithm = 6;"})
+         {"// Exit;", "/* Save \"X\"; */", "Printf(\"Exit; > SystemCall\");", "Exit_width = 3 > 2;", "Mesh.Algorithm = 6;",
+          "Wide = 2; X() = {0, Wide}; For I In {0:1}\nPoint(newp) = {X(I), 0, 0};\nEndFor", "a = 1.5e-3; b = .5;\r\n",
+          "Field[1] = MathEval;\nField[1].F = \"1\";\nBackground Field = 1;", "DefineConstant[ Wide = {2, Name \"a\", Min 1} ];"})
       expect_refused(geometry(folder, command), "quadrilateral");
-    expect_refused(geometry(folder, "Point(1) = {0, 0, 0};\nFoo;\n"), "line 2");
+    expect_refused(geometry(folder, "Point(1) = {0, 0, 0};\nPoint(2) = {1, 2;\n"), "line 2: syntax error");
     EXPECT_FALSE(std::filesystem::exists("X"));
+  }
+
+  // gmsh's lexer takes at most 1023 characters of a text and reads the rest as commands.
+  TEST(Mesh, ATextThatGmshCutsIsRefused)
+  {
+    const Folder folder;
+    expect_refused(geometry(folder, "a = \"" + std::string(1023, 'x') + "\";"), "quadrilateral");
+    expect_refused(geometry(folder, "a = \"" + std::string(1024, 'x') + "\";"), "line 1: a text between quotes has 1024");
+    expect_refused(geometry(folder, "a = 1;\nb = 1" + std::string(8000, ' ') + ";"), "line 2: the line is longer than 8000");
+  }
+
+  // At the end of the loop gmsh goes back to the line after its head, whether or not that lies within a comment.
+  TEST(Mesh, ALoopBeginsAgainBehindACommentNotWithinIt)
+  {
+    const Folder      folder;
+    const std::string command = "SystemCall \"touch " + folder.file("X") + "\"; ";
+    expect_refused(geometry(folder, "For i In {1:2} /*\n" + command + "*/\na = i;\nEndFor\n"), "quadrilateral");
+    EXPECT_FALSE(fs::exists(folder.file("X")));
+  }
+
+  // gmsh reads FILE.opt beside a FILE that it opens, and does what it says.
+  TEST(Mesh, WhatLiesBesideAMeshFileIsNotRead)
+  {
+    const Folder folder;
+    fs::create_directory(folder.file("temporary"));
+    const char *before = std::getenv("TMPDIR");
+    setenv("TMPDIR", folder.file("temporary").c_str(), 1);
+    fs::copy_file(template_file("sample.geo"), folder.file("mine.geo"));
+    UserMesh().write(folder.file("mine.msh"));
+    for (const char *name : {"mine.geo", "mine.msh"})
+      {
+        std::ofstream(folder.file(name) + ".opt") << "SystemCall \"touch " << folder.file("X") << "\";\nExit;\n";
+        EXPECT_GT(read_mesh(folder.file(name)).cells.size(), 0u);
+      }
+    expect_refused(geometry(folder, "Point(2) = {1, 2;\n"), "'" + folder.file("hostile.geo") + "', line 1: syntax error");
+    EXPECT_THROW((void)read_mesh(folder.file("mine.geo"), [] { return true; }), MeshingStopped);
+    EXPECT_FALSE(fs::exists(folder.file("X")));
+    EXPECT_TRUE(fs::is_empty(folder.file("temporary"))); // the copies are gone
+    before == nullptr ? unsetenv("TMPDIR") : setenv("TMPDIR", before, 1);
+  }
+
+  TEST(Mesh, AFileOfCommandsIsNoMeshFile)
+  {
+    const Folder folder;
+    std::ofstream(folder.file("script.msh")) << "SystemCall \"touch " << folder.file("X") << "\";\n";
+    expect_refused(folder.file("script.msh"), "line 1: a .msh file must begin with $MeshFormat");
+    EXPECT_FALSE(fs::exists(folder.file("X")));
+  }
+
+  // What the two squares say in MSH 2.2, line by line: the nodes are lines 6 to 11, the elements 15 to 22.
+  TEST(Mesh, FilesOfMsh22AreRefusedWithTheLine)
+  {
+    const Folder folder;
+    UserMesh().write(folder.file("whole.msh"));
+    std::ifstream            in(folder.file("whole.msh"));
+    std::vector<std::string> whole;
+    for (std::string line; std::getline(in, line);)
+      whole.push_back(line);
+    ASSERT_EQ(whole.size(), 23u);
+    const auto refused = [&](const std::size_t line, const std::string &text, const std::string &reason) {
+      auto lines      = whole;
+      lines[line - 1] = text;
+      std::ofstream out(folder.file("user.msh"));
+      for (const auto &one : lines)
+        out << one << "\n";
+      out.close();
+      expect_refused(folder.file("user.msh"), reason);
+    };
+    refused(2, "2.2 1 8", "line 2: binary mesh files are not read");
+    refused(2, "4 0 8", "line 2: the version");
+    refused(1, "x = 1;", "line 1: a .msh file must begin");
+    refused(4, "SystemCall \"x\";", "line 4: belongs to no section");
+    refused(5, "2000000000", "line 5: the count 2000000000");
+    refused(5, "7", "line 12: holds 1 words");
+    refused(5, "5", "line 11: $EndNodes must stand here");
+    for (const char *tag : {"0", "-6", "nan", "6.5", "2147483648", "4294967302", "18446744073709551622"})
+      refused(11, std::string(tag) + " 2 1 0", std::string("line 11: the tag of a node is '") + tag + "'");
+    refused(11, "5 2 1 0", "line 11: node 5 is given twice, first in line 10");
+    for (const char *number : {"nan", "inf", "1e400", "x"})
+      refused(11, std::string("6 2 ") + number + " 0", std::string("line 11: a coordinate of node 6 is '") + number + "'");
+    refused(14, "-5", "line 14: the number of elements is '-5'");
+    refused(14, "9", "line 23: holds 1 words");
+    refused(22, "7 3 2 1 1 2 3 6 5", "line 22: element 7 is given twice, first in line 21");
+    refused(22, "9 3 2 1 1 1 2 5 4", "line 22: two cells overlap: element 9 has the nodes of the element in line 21");
+    refused(22, "9 3 2 1 1 4 5 2 1", "line 22: two cells overlap: element 9 has the nodes of the element in line 21");
+    refused(16, "2 1 2 1 1 2 1", "line 16: element 2 has the nodes of the element in line 15");
+    refused(22, "8 3 2 1 1 2 3 6 99", "line 22: element 8 names node 99");
+    refused(22, "8 3 2 1 1 2 3 6 0", "line 22: a node is '0'");
+    refused(22, "8 3 2 1 1 2 3 6", "line 22: holds 8 words");
+    refused(22, "8 3 1000000000 1 1 2 3 6 5", "line 22: the number of attributes");
+    refused(22, "8 100000 2 1 1 2 3 6 5", "line 22: the type of an element");
+    refused(22, "8 3 2 1 1 2 6 3 5", "line 22: the quadrilateral 8 is folded");
+    refused(22, "8 3 2 1 1 2 2 2 2", "line 22: the quadrilateral 8 is folded");
+    refused(23, "", "line 23: the file ends within");
+  }
+
+  // One square of MSH 4.1 with its four lines; the nodes 1 to 4 are lines 5 to 14, the elements 15 to 26.
+  TEST(Mesh, FilesOfMsh41AreRefusedWithTheLine)
+  {
+    const Folder      folder;
+    const std::string whole = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n1 1 0\n"
+                              "0 1 0\n$EndNodes\n$Elements\n2 3 1 3\n1 1 1 2\n1 1 2\n2 2 3\n2 1 3 1\n3 1 2 3 4\n$EndElements\n";
+    const auto        refused = [&](const std::string &part, const std::string &spoilt, const std::string &reason) {
+      std::string text = whole;
+      ASSERT_NE(text.find(part), std::string::npos) << part;
+      text.replace(text.find(part), part.size(), spoilt);
+      std::ofstream(folder.file("user.msh")) << text;
+      expect_refused(folder.file("user.msh"), reason);
+    };
+    refused("1 4 1 4", "1 4 1 4294967300", "line 5: the largest tag");
+    refused("1 4 1 4", "1 5 1 4", "line 14: the blocks hold 1 nodes fewer");
+    refused("2 1 0 4", "2 1 0 5", "line 6: the number of what the block holds is '5'");
+    refused("\n4\n0 0 0", "\n3\n0 0 0", "line 10: node 3 is given twice, first in line 9");
+    refused("\n4\n0 0 0", "\n5\n0 0 0", "line 10: the tag of a node is '5'");
+    refused("1 1 0\n0 1 0", "1 1 0\n0 nan 0", "line 14: a coordinate of node 4 is 'nan'");
+    refused("2 2 3\n", "2 2 1\n", "line 20: element 2 has the nodes of the element in line 19");
+    refused("2 2 3\n", "1 2 3\n", "line 20: element 1 is given twice, first in line 19");
+    refused("3 1 2 3 4", "3 1 3 2 4", "line 22: the quadrilateral 3 is folded");
+    refused("3 1 2 3 4", "3 1 2 3 9", "line 22: element 3 names node 9");
+    refused("$EndElements\n", "", "line 22: the file ends within");
+  }
+
+  TEST(Mesh, SectionsThatThePanelDoesNotNeedAreNotGivenToGmsh)
+  {
+    const Folder folder;
+    UserMesh().write(folder.file("user.msh"));
+    std::ofstream(folder.file("user.msh"), std::ios::app)
+      << "$Comments\nSystemCall \"x\";\n$EndComments\n$Periodic\n1000000000\n1 1 1\n$EndPeriodic\n";
+    EXPECT_EQ(read_mesh(folder.file("user.msh")).cells.size(), 2u);
   }
 
   TEST(Mesh, NothingThatHappensInItsOwnProcessEndsThisOne)
@@ -309,5 +473,36 @@ namespace
     };
     EXPECT_THROW((void)made_in_child(endless, [] { return true; }), MeshingStopped);
     EXPECT_THROW((void)made_in_child(endless, {}, 1), GmshEnded);
+    const auto waiting = []() -> QuadMesh { return pause(), QuadMesh(); }; // uses no CPU time
+    EXPECT_THROW((void)made_in_child(waiting, {}, 1), GmshEnded);
+  }
+
+  // Without a limit the work is our own and may; with one it is a user's. Whatever asks a question finds no answer.
+  TEST(Mesh, AUsersFileStartsNoProgramAndRemovesNoFile)
+  {
+    const Folder folder;
+    std::ofstream(folder.file("victim")) << "x";
+    const std::string command = "touch " + folder.file("X");
+    for (const unsigned int limit : {20u, 0u})
+      {
+        const auto hostile = [&]() -> QuadMesh {
+          const bool started = std::system(command.c_str()) == 0;
+          const bool removed = unlink(folder.file("victim").c_str()) == 0;
+          char       answer  = 0;
+          const bool asked   = read(STDIN_FILENO, &answer, 1) != 0;
+          throw std::invalid_argument(std::to_string(started) + std::to_string(removed) + std::to_string(asked));
+        };
+        try
+          {
+            (void)made_in_child(hostile, {}, limit);
+            ADD_FAILURE();
+          }
+        catch (const std::invalid_argument &error)
+          {
+            EXPECT_STREQ(error.what(), limit > 0 ? "000" : "110");
+          }
+        EXPECT_EQ(fs::exists(folder.file("X")), limit == 0);
+        EXPECT_EQ(fs::exists(folder.file("victim")), limit > 0);
+      }
   }
 } // namespace
