@@ -111,7 +111,8 @@ class Folders(Folder):
             time_column = header.strip().split(b",").index(b"time")
             unknown = rows[1].split(b",")
             unknown[time_column] = b"nan"
-            for what, table in (("cut", rows[:-1]), ("half", rows[:len(rows) // 2]), ("reversed", rows[::-1]), ("time", [rows[0], b",".join(unknown), *rows[2:]])):
+            for what, table in (("cut", rows[:-1]), ("half", rows[:len(rows) // 2]), ("reversed", rows[::-1]),
+                                ("time", [rows[0], b",".join(unknown), *rows[2:]])):
                 with self.subTest(name=name, what=what):
                     shutil.rmtree(self.folder, ignore_errors=True)
                     shutil.copytree(self.whole, self.folder)
@@ -129,7 +130,8 @@ class Folders(Folder):
         def node(group):
             group["nodes/position"][0, 0] = -7.0
 
-        for panel, change, told in (("discrete", attribute, "step"), ("discrete", outline, "outline/right"), ("continuum", node, "inside out")):
+        for panel, change, told in (("discrete", attribute, "step"), ("discrete", outline, "outline/right"),
+                                    ("continuum", node, "inside out")):
             with self.subTest(told=told):
                 shutil.rmtree(self.folder, ignore_errors=True)
                 shutil.copytree(self.whole, self.folder)
@@ -140,7 +142,8 @@ class Folders(Folder):
 
     def test_damaged_comparisons_are_named_by_the_report(self):
         for name in ("comparison.h5", "comparison.json"):
-            for damaged in (b"", content(os.path.join(self.whole, name))[:700], b"foreign", content(os.path.join(self.whole, "discrete.h5")), b'{"a": 1}'):
+            for damaged in (b"", content(os.path.join(self.whole, name))[:700], b"foreign", b'{"a": 1}',
+                            content(os.path.join(self.whole, "discrete.h5"))):
                 with self.subTest(name=name, length=len(damaged)):
                     shutil.rmtree(self.folder, ignore_errors=True)
                     shutil.copytree(self.whole, self.folder)
