@@ -285,7 +285,9 @@ namespace
     refused(16, "2 1 2 1 1 2 1", "line 16: element 2 has the nodes of the element in line 15");
     refused(22, "8 3 2 1 1 2 3 6 99", "line 22: element 8 names node 99");
     refused(22, "8 3 2 1 1 2 3 6 0", "line 22: a node is '0'");
-    refused(22, "8 3 2 1 1 2 3 6", "line 22: holds 8 words");
+    refused(22, "8 3 2 1 1 2 3 6", "line 22: an element of type 3 does not have 3 nodes");
+    refused(22, "8 16 2 1 1 2 3 6 5", "line 22: an element of type 16 does not have 4 nodes");
+    refused(22, "8 99 2 1 1 2 3 6 5", "line 22: an element of type 99");
     refused(22, "8 3 1000000000 1 1 2 3 6 5", "line 22: the number of attributes");
     refused(22, "8 100000 2 1 1 2 3 6 5", "line 22: the type of an element");
     refused(22, "8 3 2 1 1 2 6 3 5", "line 22: the quadrilateral 8 is folded");
