@@ -47,6 +47,13 @@ namespace diptych::continuum
       std::size_t   first_node; // word
     };
 
+    // Of the types of the format up to the second order, and the point; 0 of all others.
+    std::size_t n_nodes_of(const std::uint64_t type)
+    {
+      constexpr std::array<std::size_t, 20> counts = {0, 2, 3, 4, 4, 8, 6, 5, 3, 6, 9, 10, 27, 18, 14, 1, 8, 20, 15, 13};
+      return type < counts.size() ? counts[type] : 0;
+    }
+
     void expect_end(MshScan &scan, const std::string &section)
     {
       scan.lines.next_of(("$" + section).c_str());
@@ -88,10 +95,12 @@ namespace diptych::continuum
         if (const auto node = in.integer(k, "a node", 1, largest_tag); scan.nodes.count(node) == 0)
           in.refuse("element " + std::to_string(element.tag) + " names node " + std::to_string(node) +
                     ", which the file does not hold");
+      const auto n = in.n_words() - element.first_node;
+      if (n != n_nodes_of(element.type))
+        in.refuse("an element of type " + std::to_string(element.type) + " does not have " + std::to_string(n) +
+                  " nodes, or is unknown");
       if (element.type != type_line && element.type != type_quadrilateral)
         return; // a mere point, or refused with its name later
-      const std::size_t n = element.type == type_line ? 2 : 4;
-      in.expect_words(element.first_node + n, "the last ones nodes");
       ElementKey key{element.type, element.type == type_line ? element.group : 0};
       for (std::size_t k = 0; k < n; ++k)
         key[2 + k] = in.integer(element.first_node + k, "a node", 1, largest_tag);

@@ -116,7 +116,12 @@ HOSTILE = ["Exit;", "Abort;", 'SystemCall "touch touched";', 'NonBlockingSystemC
            "Mesh 2;", "Point(1) = {nan, 0, 0};", "Macro m\n  Call m;\nReturn\nCall m;", 'UnlinkFile "mesh.geo";', 'Error("x");',
            'a = GetString("x", "y");', 'SetFactory("OpenCASCADE");', "RenumberMeshNodes;", 'PrintScreen "touched.png";', 'Print "touched.png";',
            'General.ErrorFileName = "touched";', 'General.TmpFileName = "touched"; Printf("x") > Str(General.TmpFileName);',
-           'Solver.Executable0 = "touch touched"; Solver.AutoCheck = 1;', "Mesh.SecondOrderLinear = 1; Mesh.ElementOrder = 9;"]
+           'Solver.Executable0 = "touch touched"; Solver.AutoCheck = 1;', "Mesh.SecondOrderLinear = 1; Mesh.ElementOrder = 9;",
+           'Field[1] = ExternalProcess; Field[1].CommandLine = "touch touched"; Background Field = 1;', 'System "touch touched";',
+           'z = GetValue("how much", 3);', 'x = 1SystemCall "touch touched";', '// a\rSystemCall "touch touched";',
+           'For i In {1:2} /*\nSystemCall "touch touched"; */\nEndFor', 'a = "' + 1024 * "x" + '); SystemCall "touch touched"; //";',
+           'S2N("SystemCall") "touch touched";', 'Field[1] = Structured; Field[1].FileName = "mesh.geo"; Background Field = 1;',
+           'Field[1] = MathEval; Field[1].F = "Sin(x)/0"; Background Field = 1;', 'SetString("General.ErrorFileName", "touched");']
 
 
 def hostile_lines(case, content):
@@ -131,7 +136,8 @@ def hostile_mesh(dice, content):
     """A .msh 2.2 file whose numbers cannot be: tags, coordinates, counts, elements inverted, twice or of no node."""
     lines = content.decode().split("\n")
     nodes, elements = lines.index("$Nodes"), lines.index("$Elements")
-    kind = dice.choice(["tag", "coordinate", "count", "inverted", "twice", "no_node", "physical", "type", "order", "node_twice"])
+    kind = dice.choice(["tag", "coordinate", "count", "inverted", "twice", "no_node", "physical", "type", "order", "node_twice",
+                        "commands", "version", "cut", "attributes", "renamed"])
     node = dice.randrange(nodes + 2, lines.index("$EndNodes"))
     quads = [k for k in range(elements + 2, lines.index("$EndElements")) if lines[k].split()[1] == "3"]
     k = dice.choice(quads)
@@ -155,10 +161,21 @@ def hostile_mesh(dice, content):
         words[1] = dice.choice(["2", "1", "16", "99", "-3", huge])
     elif kind == "order":
         words[-2], words[-1] = words[-1], words[-2]
-    else:
+    elif kind == "node_twice":
         lines.insert(node, lines[node])
+    elif kind == "commands":
+        lines.insert(dice.choice([0, 0, nodes, len(lines)]), 'SystemCall "touch touched";')
+    elif kind == "version":
+        lines[1] = dice.choice(["2.2 1 8", "4.1 0 8", "4.1 1 8", "9.9 0 8", "2.2", "nan 0 8"])
+    elif kind == "cut":
+        del lines[dice.randrange(1, len(lines) - 1):]
+    elif kind == "attributes":
+        words[2] = dice.choice(["1000000000", "-1", "0", "9"])
+    else:  # the same element under another tag
+        lines.insert(k, " ".join(["90000", *words[1:]]))
+        lines[elements + 1] = str(int(lines[elements + 1]) + 1)
     place = node if kind in ("tag", "coordinate") else k
-    if kind not in ("count", "twice", "node_twice"):
+    if kind not in ("count", "twice", "node_twice", "commands", "version", "cut", "renamed"):
         lines[place] = " ".join(words)
     return "\n".join(lines).encode()
 
@@ -173,6 +190,8 @@ def meshes(case):
         name, content = "mesh.msh", read(os.path.join(case.base("nodes"), "out", "sample.msh"))
         content = hostile_mesh(dice, content) if dice.random() < 0.6 else damage.damage_text(dice, content)
     case.write(name, content)
+    if dice.random() < 0.3:
+        case.write(name + ".opt", 'SystemCall "touch touched";\nExit;\n')
     out = case.path("out")
     case.run("continuum", QUICK, *NODES, *setting(continuum_mesh=name), "--output", out, "--quiet", output=out, names=(name,), patience=8)
 
