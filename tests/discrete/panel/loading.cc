@@ -180,53 +180,6 @@ namespace
     EXPECT_THROW(options.drives.upper_y = "speed 3", std::invalid_argument);
   }
 
-  std::string refusal(const SampleOptions &sample, const Loading &loading, const Options &options)
-  {
-    try
-      {
-        validate(sample, loading, options);
-      }
-    catch (const std::invalid_argument &error)
-      {
-        return error.what();
-      }
-    return "";
-  }
-
-  // Steps = strain / (I h) with h in d sqrt(rho/P). The rule's step shrinks with I where its tolerance cannot, so steps go with
-  // 1/I^2.
-  TEST(Loading, StepsWithoutEndAreRefusedWhoeverChoseTheStep)
-  {
-    Loading loading         = one_percent(LoadingMode::descent);
-    loading.inertial_number = 1e-9;
-    Options options         = quick_options();
-    options.time.step       = 1e-3; // 0.01 / 1e-9 / 1e-3 = 1e10
-    EXPECT_NE(refusal(small_sample(150), loading, options).find("1e+10 steps"), std::string::npos);
-    options.time.step.reset();
-    options.accuracy.tolerance.reset();
-    EXPECT_NE(refusal(small_sample(150), loading, options).find("discrete/step = auto"), std::string::npos);
-    const double fast = [&] { return loading.inertial_number = 2e-5, expected_steps(small_sample(150), loading, options); }();
-    const double slow = [&] { return loading.inertial_number = 1e-6, expected_steps(small_sample(150), loading, options); }();
-    EXPECT_GT(slow / fast, 20) << "more than 1/I";
-    EXPECT_EQ(refusal(small_sample(150), loading, options), "");
-  }
-
-  // What only the walls' tables ask for is found when the loading begins.
-  TEST(Loading, TablesOfWallsThatAskForStepsWithoutEndStopTheRun)
-  {
-    Options options         = quick_options();
-    options.lateral.lateral = Lateral::rigid_walls;
-    options.time.step.reset();
-    options.drives.upper_y = "velocity " + written("steep.csv", "time,velocity\n0,0\n1e-12,-0.02\n3,-0.02\n");
-    Loading loading        = one_percent(LoadingMode::time);
-    loading.stages         = {1.};
-    const Course course    = loaded(small_sample(150), loading, options);
-    EXPECT_EQ(course.report.status, Status::not_converged);
-    EXPECT_NE(course.report.message.find("1e+13 steps"), std::string::npos) << course.report.message;
-    EXPECT_NE(course.report.message.find("drives"), std::string::npos) << course.report.message;
-    EXPECT_EQ(course.snapshots.size(), 1u) << "the prepared sample is kept";
-  }
-
   // Every lateral condition takes the sample to its stage with ledgers closed. Sides or width that are driven go V T outwards.
   TEST(Loading, EveryLateralConditionReachesItsStage)
   {
