@@ -5,7 +5,6 @@
 
 import os
 import resource
-import signal
 import subprocess
 import tempfile
 import time
@@ -16,11 +15,6 @@ from running import ENVIRONMENT, PROGRAM, QUICK, SMALL, diptych, facts, history,
 FEW = SMALL + setting(sample_grains=150, output_report="false")
 RECTANGLE = setting(continuum_mesh="rectangle", continuum_rectangle_width=40, continuum_rectangle_height=60)
 ROOM = 60000  # bytes that a file may have: what a full disk does, for every user and on every system
-
-
-def deaf_to_the_limit():
-    """As on a full disk: an error of write(), not a signal."""
-    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 
 
 class Failures(unittest.TestCase):
@@ -39,7 +33,7 @@ class Failures(unittest.TestCase):
     def fill_the_disk(self, begun, *words):
         """Runs until the file `begun` of the folder is there; from then on nothing grows any more."""
         process = subprocess.Popen([PROGRAM, *words, "--output", self.folder, "--quiet"], env=ENVIRONMENT, text=True,
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=deaf_to_the_limit)
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         while process.poll() is None and not os.path.exists(os.path.join(self.folder, begun)):
             time.sleep(0.002)
         self.assertIsNone(process.poll(), "it ended before the disk was full")

@@ -33,8 +33,7 @@ def expect_sanitizers():
 
 
 def limit(memory=MEMORY, **limits):
-    """For preexec_fn: as on a full disk (an error of write(), not a signal), in little memory, with few files."""
-    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    """For preexec_fn: files that may not grow, little memory, few files. What a signal of the limit does is the program's affair, as in a shell."""
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     if not SANITIZER:
         resource.setrlimit(resource.RLIMIT_AS, (memory, memory))

@@ -15,10 +15,11 @@ import h5py
 import numpy
 
 CODES = (0, 2, 3, 4)
-# Texts of libraries that say nothing to a user: never, or not without a name of his beside them.
-NEVER = ("Traceback (most recent call last)", "terminate called", "what():", "HDF5-DIAG", "Segmentation fault", "AddressSanitizer", "runtime error: ")
-NOT_ALONE = ("[json.exception", "basic_filebuf", "basic_ios::clear", "cannot create std::vector", "std::bad_alloc", "vector::_M_",
-             "basic_string::_M_", "regex_error", "stoi", "stod")
+# Texts of libraries that say nothing to a user: never, whatever stands beside them, or not without a name of his in the line.
+NEVER = ("Traceback (most recent call last)", "terminate called", "what():", "HDF5-DIAG", "Segmentation fault", "AddressSanitizer", "runtime error: ",
+         "std::bad_alloc", "bad_array_new_length", "std::exception", "basic_filebuf", "basic_ios::clear", "cannot create std::", "std::length_error", "vector::_M_",
+         "basic_string::_M_", "basic_string: ", "_M_range_check")
+NOT_ALONE = ("[json.exception", "regex_error", "stoi", "stod")
 OWN_STATE = ("checkpoint.h5", "continuum_checkpoint.h5")  # not results; of other runs
 LOCK = re.compile(r"(^|[._-])lock$")
 

@@ -85,9 +85,12 @@ class Ends(Judged):
 class Words(Judged):
     def test_texts_of_libraries(self):
         for text in ("Traceback (most recent call last):", "terminate called after throwing", "  what():  vector", "HDF5-DIAG: Error",
-                     "==1==ERROR: AddressSanitizer: heap-buffer-overflow", "table.cc:3:1: runtime error: signed integer overflow"):
+                     "==1==ERROR: AddressSanitizer: heap-buffer-overflow", "table.cc:3:1: runtime error: signed integer overflow",
+                     "std::bad_alloc", "basic_filebuf::underflow error reading the file", "basic_ios::clear: iostream error",
+                     "cannot create std::vector larger than max_size()", "vector::_M_default_append", "basic_string::_M_create"):
             self.expect("standard error holds", f'echo "{text} in /x; nothing was written" >&2; exit 4')
-        for text in ("[json.exception.parse_error.101]", "basic_filebuf::underflow", "cannot create std::vector larger", "std::bad_alloc"):
+            self.expect("standard error holds", f'echo "sample/file = \'/x\': {text}" >&2; exit 2', names=["sample/file"])
+        for text in ("[json.exception.parse_error.101]", "regex_error", "stod"):
             self.expect("standard error holds", f'echo "scene.json" >&2; echo "{text}" >&2; exit 2', names=["scene.json"])
             self.expect_nothing(f'echo "scene.json: {text}" >&2; exit 2', names=["scene.json"])
 
