@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A case is made again from its kind and seed alone."""
 
+import collections
+import dataclasses
 import itertools
 import os
 import random
@@ -20,6 +22,7 @@ from running import ENVIRONMENT, PROGRAM
 MEMORY = 4 << 30  # bytes of address space that a run may have: no case may take the machine
 PATIENCE = 4  # seconds until a run that goes on is asked to stop; ending by itself or then are both right
 HANG = 60  # seconds from there to the end: hundreds of times what any case here needs
+SEEDS = 448000  # from the first seed of a run to that of the next: whole sets of the kind `pairs`
 SANITIZER = {}  # what a program that was built with sanitizers is told by its environment; empty: it was not
 
 
@@ -69,6 +72,7 @@ class Case:
         self.folder = os.path.join(keep, f"{kind}_{seed}")
         self.work = os.path.join(self.folder, "work")
         self.violations, self.codes, self.commands, self.said, self.done = [], [], [], [], []
+        self.found = collections.defaultdict(set)  # what is told of all cases together, by a name
         shutil.rmtree(self.folder, ignore_errors=True)
         os.makedirs(self.work)
 
@@ -156,14 +160,24 @@ class Case:
                 file.write("\n" + " ".join(map(repr, words)) + f"\n{said}\n")
 
 
+@dataclasses.dataclass
+class Made:
+    """What is left of a case."""
+    violations: list
+    codes: list = dataclasses.field(default_factory=list)
+    commands: list = dataclasses.field(default_factory=list)
+    seconds: float = 0.0  # of CPU
+    found: dict = dataclasses.field(default_factory=dict)
+
+
 def run_case(kind, function, seed, keep):
-    """(violations, codes, commands, CPU seconds) of one case."""
     began = resource.getrusage(resource.RUSAGE_CHILDREN)
     case = Case(kind, seed, keep)
     function(case)
     ended = resource.getrusage(resource.RUSAGE_CHILDREN)
     case.close()
-    return case.violations + (case.done if case.violations else []), case.codes, case.commands, ended.ru_utime + ended.ru_stime - began.ru_utime - began.ru_stime
+    seconds = ended.ru_utime + ended.ru_stime - began.ru_utime - began.ru_stime
+    return Made(case.violations + (case.done if case.violations else []), case.codes, case.commands, seconds, case.found)
 
 
 def wait_for(path, process, seconds=60):

@@ -1,16 +1,15 @@
-# diptych: scenes, keys, combinations of choices and command lines that people and programs may write
+# diptych: scenes, keys and command lines that people and programs may write
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
-import functools
 import json
 import os
-import random
 import re
 
 import bases
 import damage
 import keys
-from bases import BOTH, NODES, PROBLEM, RECTANGLE, TINY
+from bases import BOTH, NODES, PROBLEM, TINY
+from pair_kind import TABLE, TIMES
 from running import QUICK, setting
 
 
@@ -111,7 +110,6 @@ def expect_same_echo(case, one, other):
 
 
 # What a key needs to matter: by the beginning of its name.
-TIMES = setting(loading_mode="time", loading_duration=1, loading_stage_time=0.5, comparison_window_edges="0,1")
 CONTEXT = (
     ("discrete/penalty", setting(discrete_method="penalty")),
     ("discrete/side_", setting(discrete_lateral="rigid_walls", discrete_side_motion="velocity")),
@@ -119,8 +117,7 @@ CONTEXT = (
     ("loading/normal_pressure", setting(loading_mode="plane_shear")),
     ("loading/duration", TIMES), ("loading/stage_time", TIMES), ("discrete/drive_", TIMES),
     ("continuum/refinement_", setting(continuum_refinement="adaptive")),
-    ("continuum/table_", setting(continuum_hardening="table", continuum_table_strain="0,0.1", continuum_table_friction_angle="30,20",
-                                 continuum_table_dilatancy_angle="10,0", continuum_table_cohesion="0.01,0.01")),
+    ("continuum/table_", TABLE),
     ("continuum/weak_spot_", setting(continuum_weak_spot_strain=0.1)),
     ("comparison/averaging_", setting(comparison_averaging="kernel")),
 )
@@ -155,34 +152,6 @@ def keys_kind(case):
         must_fail = False
     case.run(command, QUICK, *words, *context_of(key.name), "--set", f"{key.name}={value}", "--output", out, "--quiet", output=out,
              names=(key.name,) if must_fail else keys.names(), codes=(2,) if must_fail else (0, 2, 3, 4), patience=1.5)
-
-
-COMMANDS = {"discrete": TINY, "continuum": NODES, "run": BOTH, "material-point": TINY}
-
-
-@functools.lru_cache(maxsize=8)
-def rows_of(number):
-    factors = {key.name: key.words for key in keys.all_keys() if key.what == "one of" and key.name != "output/report"}
-    factors["continuum/mesh"] = ("outline", "rectangle")
-    factors["command"] = tuple(COMMANDS)
-    return keys.covering_rows(factors, random.Random(f"rows:{number}"))
-
-
-ROWS = 64  # seeds of one covering set: more than it ever has rows
-
-
-def pairs(case):
-    rows = rows_of(case.seed // ROWS)
-    if len(rows) > ROWS:
-        raise RuntimeError(f"{len(rows)} rows; the seeds of a set reach for {ROWS}")
-    row = dict(rows[case.seed % ROWS % len(rows)])
-    command = row.pop("command")
-    words = [word for name, value in row.items() for word in ("--set", f"{name}={value}")]
-    if row["loading/mode"] == "time":
-        words += TIMES
-    base = COMMANDS[command] + bases.without("continuum/mesh", RECTANGLE)
-    out = case.path("out")
-    case.run(command, QUICK, *base, *words, "--output", out, "--quiet", output=out, names=keys.names(), patience=5)
 
 
 OPTIONS = {
@@ -266,4 +235,4 @@ def told_words(case):
     case.run(*line, all_names=names, codes=(2,), output=case.path("out"), patience=2)
 
 
-KINDS = {"scenes": scenes, "keys": keys_kind, "pairs": pairs, "words": words}
+KINDS = {"scenes": scenes, "keys": keys_kind, "words": words}
