@@ -17,6 +17,7 @@ import time
 import bases
 import damage
 import judge
+import special_files
 from running import ENVIRONMENT, PROGRAM
 
 MEMORY = 4 << 30  # bytes of address space that a run may have: no case may take the machine
@@ -140,10 +141,11 @@ class Case:
         return outcome
 
     def run(self, *words, output="", patience=PATIENCE, names=(), **options):
-        """Runs the program and judges it. `names`, `all_names`, `codes`, `may_change`: of judge.Expected; others of start()."""
+        """Runs the program and judges it. `names`, `all_names`, `codes`, `may_change`, `by_itself`: of judge.Expected; others of start()."""
         expected = {key: tuple(options.pop(key)) for key in ("all_names", "codes", "may_change") if key in options}
+        expected["by_itself"] = options.pop("by_itself", False)
         if not self.commands:
-            shutil.copytree(self.work, os.path.join(self.folder, "input"), symlinks=True)  # what it begins with, to be run again
+            shutil.copytree(self.work, os.path.join(self.folder, "input"), symlinks=True, copy_function=special_files.copy)  # what it begins with, to be run again
         before = judge.digest(self.work)
         process = self.start(*words, **options)
         is_hung = self.finish(process, patience)

@@ -8,6 +8,7 @@ import re
 import bases
 import damage
 import keys
+import special_files
 from bases import BOTH, NODES, PROBLEM, TINY
 from pair_kind import TABLE, TIMES
 from running import QUICK, setting
@@ -89,8 +90,8 @@ def scenes(case):
     name, out = scene_file(case), case.path("out")
     command = case.dice.choice(["discrete"] * 8 + ["material-point", "continuum"])
     words = ["--set-file", name] if case.dice.random() < 0.1 and name.endswith(".prm") else []
-    outcome = case.run(command, QUICK if words else name, *(TINY if words else []), *words, "--output", out, "--quiet", output=out,
-                       names=(name, *keys.names()), patience=2)
+    expected = {"names": (name, *keys.names()), "patience": 2, **special_files.instead(case, name)}
+    outcome = case.run(command, QUICK if words else name, *(TINY if words else []), *words, "--output", out, "--quiet", output=out, **expected)
     if outcome.code == 0 and case.dice.random() < 0.5:
         again = case.path("again")
         case.run(command, os.path.join(out, "scene.prm"), "--output", again, "--quiet", output=again, codes=(0,))
@@ -143,14 +144,14 @@ def command_of(case, name):
 
 def keys_kind(case):
     values = keys.all_values()
-    key, value, must_fail = values[case.seed % len(values)]
+    key, value, must_fail, beside = values[case.seed % len(values)]
     command, words = command_of(case, key.name)
     if value == "true" and key.name == "output/report":
         command, words = "discrete", TINY  # alone it draws nothing
     out = case.path("out")
     if key.name == "output/directory":
         must_fail = False
-    case.run(command, QUICK, *words, *context_of(key.name), "--set", f"{key.name}={value}", "--output", out, "--quiet", output=out,
+    case.run(command, QUICK, *words, *context_of(key.name), *beside, "--set", f"{key.name}={value}", "--output", out, "--quiet", output=out,
              names=(key.name,) if must_fail else keys.names(), codes=(2,) if must_fail else (0, 2, 3, 4), patience=1.5)
 
 
@@ -182,6 +183,8 @@ def words(case):
     case.write("scene.prm", as_prm(settings(*NODES)))
     with open(PROBLEM, "rb") as file:
         case.write("problem.h5", file.read())
+    if dice.random() < special_files.OFTEN:
+        return special_words(case)
     if dice.random() < 0.4:
         return told_words(case)
     command = dice.choice(sorted(OPTIONS))
@@ -200,6 +203,15 @@ def words(case):
     line = [word for word in line if "\0" not in word]
     # Where it writes is its own business here: it may be anywhere below the case's folder.
     case.run(*[os.fsencode(word) for word in line], output=case.work, patience=2, cwd=case.work)
+
+
+def special_words(case):
+    """A pipe, socket or device where a command wants a file."""
+    name = case.dice.choice(["one.json", "one.prm", "one.h5"])
+    special_files.put(case, name)
+    line = case.dice.choice({"one.json": [["study"], ["calibrate"], ["discrete"]], "one.h5": [["solve"]],
+                             "one.prm": [["plan"], ["continuum"], ["material-point"], ["discrete", "scene.prm", "--set-file"]]}[name])
+    case.run(*line, name, output=case.path("out"), all_names=(name,), codes=(2,), by_itself=True, patience=special_files.PATIENCE)
 
 
 def told_words(case):

@@ -20,6 +20,7 @@ import judge  # noqa: E402
 import keys  # noqa: E402
 import robustness  # noqa: E402
 import same  # noqa: E402
+import special_files  # noqa: E402
 from running import main  # noqa: E402
 
 GOOD_TABLE = "axial_strain,stress_ratio\\n0,0.1\\n"
@@ -71,6 +72,11 @@ class Ends(Judged):
     def test_a_hang(self):
         cases.HANG = 1
         self.expect("it hung after SIGTERM", 'trap "" TERM; while :; do sleep 0.1; done', patience=0.2)
+
+    def test_waiting_where_it_had_to_refuse(self):
+        script = 'trap "echo stopped, nothing was kept >&2; exit 3" TERM; while :; do sleep 0.1; done'
+        self.expect("it waited until it was told to stop", script, patience=0.5, by_itself=True)
+        self.expect_nothing('echo "scene.prm is a pipe" >&2; exit 2', names=["scene.prm"], by_itself=True)
 
     def test_a_long_run_that_ends_when_asked_to_is_none(self):
         self.expect_nothing('trap "echo stopped, nothing was kept >&2; exit 3" TERM; while :; do sleep 0.1; done', patience=0.5, codes=(0,))
@@ -158,9 +164,11 @@ class Harness(Judged):
         self.assertEqual(robustness.schedule(300, 1, list(robustness.KINDS)), robustness.schedule(300, 1, list(robustness.KINDS)))
 
     def test_every_key_is_asked_at_its_bounds(self):
-        found = {key.name for key, _, _ in keys.all_values()}
+        found = {key.name for key, *_ in keys.all_values()}
         self.assertEqual(found, set(keys.names()))
         self.assertIn("sample/grains", found)
+        lowest = [beside for key, value, _, beside in keys.all_values() if key.name == "loading/inertial_number" and value == "1e-09"]
+        self.assertEqual(sorted(lowest), [(), ("--set", "discrete/step=auto")])
         grains = next(key for key in keys.all_keys() if key.name == "sample/grains")
         self.assertEqual((keys.next_outside(grains)[:2], keys.next_inside(grains)[:3]), (["9", "10000001"], ["10", "11", "10000000"]))
 
@@ -170,6 +178,16 @@ class Harness(Judged):
         seen = {tuple(sorted([one, other])) for row in rows for one in row.items() for other in row.items() if one < other}
         self.assertEqual(seen, keys.pairs_of(factors))
         self.assertLess(len(rows), 24)  # all combinations
+
+    def test_every_special_file_is_made_and_kept(self):
+        case = cases.Case("made_up", 2, self.keep)
+        for kind in special_files.KINDS:
+            self.addCleanup(setattr, case.dice, "choice", case.dice.choice)
+            case.dice.choice = lambda _, kind=kind: kind
+            special_files.put(case, "x")
+        special_files.put(case, "y")
+        shutil.copytree(case.work, os.path.join(self.keep, "copy"), symlinks=True, copy_function=special_files.copy)
+        self.assertEqual(judge.digest(case.work), judge.digest(os.path.join(self.keep, "copy")))
 
     def test_every_damage_can_be_done_to_every_text(self):
         for k, change in enumerate({*damage.TEXT, *damage.BYTES}):

@@ -168,7 +168,7 @@ def pairs(case):
     row, members = bundles()[(place - ROWS) % len(bundles())]
     mended(case, row)
     for pair in members:
-        if pair not in case.found["covered"]:
+        if pair not in case.found["covered"] and not case.violations:
             alone(case, pair)
 
 

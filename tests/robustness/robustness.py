@@ -62,7 +62,9 @@ def tell(kind, seed, violations, commands, folder):
     print(f"--case {kind}:{seed}  in {folder}")
     for sentence in violations:
         print("    " + sentence)
-    for words in commands:
+    if len(commands) > 2:
+        print(f"    {len(commands) - 2} runs, told in case.txt, and then")
+    for words in commands[-2:]:
         text = " ".join(map(repr, words))
         print("    " + (text if len(text) < 1500 else text[:700] + " ... " + text[-700:]))
     sys.stdout.flush()
@@ -127,6 +129,8 @@ def main():
     total = table(asked.kinds, counted)
     if "pairs" in asked.kinds:
         print(pair_kind.told(found))
+    if "disk" in asked.kinds:
+        print(machine_kinds.told(found))
     shutil.rmtree(os.path.join(keep, "bases"), ignore_errors=True)
     if total["violations"]:
         print(f"{total['violations']} of {total['cases']} cases in violation; their files are in {keep}")
