@@ -6,7 +6,6 @@
 #include <fstream>
 #include <iostream>
 #include <map>
-#include <stdexcept>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -392,10 +391,10 @@ namespace diptych::coupling
   {
     if (discrete::is_out_of_memory(error))
       return system_failure;
-    if (dynamic_cast<const std::invalid_argument *>(&error) != nullptr)
-      return wrong_input;
     if (dynamic_cast<const StoppedOnRequest *>(&error) != nullptr)
       return not_converged;
-    return dynamic_cast<const std::logic_error *>(&error) != nullptr ? invariant : system_failure;
+    return dynamic_cast<const std::invalid_argument *>(&error) != nullptr ? wrong_input
+           : dynamic_cast<const std::logic_error *>(&error) != nullptr    ? invariant
+                                                                          : system_failure;
   }
 } // namespace diptych::coupling

@@ -103,10 +103,10 @@ namespace diptych::coupling
   {
     if (is_ensemble_folder(line.target))
       return writing(line.target, [&] { return compare_ensemble_again(line); });
-    const Scene scene = scene_of_folder(line);
     if (std::filesystem::exists(line.target + "/import.json") && !std::filesystem::exists(line.target + "/continuum.csv"))
       throw SceneError(line.target + ": holds an imported sample and no continuum yet; diptych run " + line.target +
                        "/scene.prm computes it beside the grains and compares");
+    const Scene scene = scene_of_folder(line);
     return writing(line.target, [&] { return compare_and_report(line, scene); });
   }
 } // namespace diptych::coupling

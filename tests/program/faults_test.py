@@ -265,7 +265,6 @@ class Machine(Folder):
         """The library's exit handler once ended every one of these in SIGSEGV."""
         for room in (0, 64000, 120000, 250000, 500000):
             def limit(room=room):
-                signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
                 resource.setrlimit(resource.RLIMIT_FSIZE, (room, room))
             with self.subTest(room=room):
                 shutil.rmtree(self.folder, ignore_errors=True)

@@ -230,8 +230,7 @@ class Failures(Folder):
         self.expect_few_lost_and_run_again(process, 1, "failed with exit code 137")
 
     def test_a_full_disk_under_a_worker_loses_what_it_ran_alone(self):
-        process = start("study", self.study_file(LONG), "--output", self.folder, "--jobs", "1",
-                        preexec_fn=lambda: signal.signal(signal.SIGXFSZ, signal.SIG_IGN))
+        process = start("study", self.study_file(LONG), "--output", self.folder, "--jobs", "1")
         worker = self.worker_at_work(process)
         resource.prlimit(worker, resource.RLIMIT_FSIZE, (ROOM, resource.RLIM_INFINITY))
         while process.poll() is None and len([n for n in listing(self.folder) if n.endswith(".log")]) < 2:

@@ -117,6 +117,11 @@ def make_calibration(folder):
     done(folder, "calibrate", "one.json", "--output", "out", "--quiet", "--jobs", "1")
 
 
+def make_report(folder):
+    done(folder, "run", QUICK, *BOTH, "--output", "out", "--quiet")
+    done(folder, "report", "out", "--quiet")
+
+
 def run_of(*words):
     return lambda folder: done(folder, *words, "--output", "out", "--quiet")
 
@@ -126,6 +131,7 @@ MAKE = {
     "grains": make_grains,
     "nodes": run_of("continuum", QUICK, *NODES),
     "both": run_of("run", QUICK, *BOTH),
+    "report": make_report,
     "other_grains": run_of("discrete", QUICK, *TINY, *setting(sample_seed=2)),
     "other_both": run_of("run", QUICK, *BOTH, *setting(sample_seed=2)),
     "long_grains": run_of("discrete", QUICK, *LONG),

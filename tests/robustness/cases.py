@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A case is made again from its kind and seed alone."""
 
+import collections
+import dataclasses
 import itertools
 import os
 import random
@@ -15,11 +17,13 @@ import time
 import bases
 import damage
 import judge
+import special_files
 from running import ENVIRONMENT, PROGRAM
 
 MEMORY = 4 << 30  # bytes of address space that a run may have: no case may take the machine
 PATIENCE = 4  # seconds until a run that goes on is asked to stop; ending by itself or then are both right
 HANG = 60  # seconds from there to the end: hundreds of times what any case here needs
+SEEDS = 448000  # from the first seed of a run to that of the next: whole sets of the kind `pairs`
 SANITIZER = {}  # what a program that was built with sanitizers is told by its environment; empty: it was not
 
 
@@ -33,8 +37,7 @@ def expect_sanitizers():
 
 
 def limit(memory=MEMORY, **limits):
-    """For preexec_fn: as on a full disk (an error of write(), not a signal), in little memory, with few files."""
-    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    """For preexec_fn: files that may not grow, little memory, few files. What a signal of the limit does is the program's affair, as in a shell."""
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     if not SANITIZER:
         resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
@@ -70,6 +73,7 @@ class Case:
         self.folder = os.path.join(keep, f"{kind}_{seed}")
         self.work = os.path.join(self.folder, "work")
         self.violations, self.codes, self.commands, self.said, self.done = [], [], [], [], []
+        self.found = collections.defaultdict(set)  # what is told of all cases together, by a name
         shutil.rmtree(self.folder, ignore_errors=True)
         os.makedirs(self.work)
 
@@ -137,10 +141,11 @@ class Case:
         return outcome
 
     def run(self, *words, output="", patience=PATIENCE, names=(), **options):
-        """Runs the program and judges it. `names`, `all_names`, `codes`, `may_change`: of judge.Expected; others of start()."""
+        """Runs the program and judges it. `names`, `all_names`, `codes`, `may_change`, `by_itself`: of judge.Expected; others of start()."""
         expected = {key: tuple(options.pop(key)) for key in ("all_names", "codes", "may_change") if key in options}
+        expected["by_itself"] = options.pop("by_itself", False)
         if not self.commands:
-            shutil.copytree(self.work, os.path.join(self.folder, "input"), symlinks=True)  # what it begins with, to be run again
+            shutil.copytree(self.work, os.path.join(self.folder, "input"), symlinks=True, copy_function=special_files.copy)  # what it begins with, to be run again
         before = judge.digest(self.work)
         process = self.start(*words, **options)
         is_hung = self.finish(process, patience)
@@ -157,14 +162,24 @@ class Case:
                 file.write("\n" + " ".join(map(repr, words)) + f"\n{said}\n")
 
 
+@dataclasses.dataclass
+class Made:
+    """What is left of a case."""
+    violations: list
+    codes: list = dataclasses.field(default_factory=list)
+    commands: list = dataclasses.field(default_factory=list)
+    seconds: float = 0.0  # of CPU
+    found: dict = dataclasses.field(default_factory=dict)
+
+
 def run_case(kind, function, seed, keep):
-    """(violations, codes, commands, CPU seconds) of one case."""
     began = resource.getrusage(resource.RUSAGE_CHILDREN)
     case = Case(kind, seed, keep)
     function(case)
     ended = resource.getrusage(resource.RUSAGE_CHILDREN)
     case.close()
-    return case.violations + (case.done if case.violations else []), case.codes, case.commands, ended.ru_utime + ended.ru_stime - began.ru_utime - began.ru_stime
+    seconds = ended.ru_utime + ended.ru_stime - began.ru_utime - began.ru_stime
+    return Made(case.violations + (case.done if case.violations else []), case.codes, case.commands, seconds, case.found)
 
 
 def wait_for(path, process, seconds=60):

@@ -8,6 +8,7 @@ import bases
 import damage
 import keys
 import same
+import special_files
 from bases import FORMATS, NODES, PROBLEM, TINY
 from running import QUICK, bits, setting
 
@@ -28,7 +29,8 @@ def tables(case):
         "radii.csv": setting(sample_radius_distribution="table", sample_radius_table=name, sample_radius_min=0.3, sample_radius_max=0.7),
     }[name]
     out = case.path("out")
-    case.run("discrete", QUICK, *TINY, *words, "--output", out, "--quiet", output=out, names=(name, *keys.names()))
+    expected = {"names": (name, *keys.names()), **special_files.instead(case, name)}
+    case.run("discrete", QUICK, *TINY, *words, "--output", out, "--quiet", output=out, **expected)
 
 
 def expect_same_as_whole(case, kind, make, found):
@@ -54,7 +56,7 @@ def snapshots(case):
     else:
         case.write(name, damage.damage_bytes(case.dice, read(case.path(name))))
     words = ["discrete", QUICK, *TINY, *setting(sample_file=name), "--quiet"]
-    outcome = case.run(*words, "--output", out, output=out, names=(name,))
+    outcome = case.run(*words, "--output", out, output=out, **{"names": (name,), **special_files.instead(case, name)})
     if outcome.code == 0 and is_plain:
         def make(folder):
             shutil.copy(os.path.join(case.base("grains"), "out", "discrete.h5"), case.path(name))
@@ -71,7 +73,8 @@ def problems(case):
     else:
         case.write(name, damage.damage_bytes(case.dice, read(PROBLEM)))
     form = case.dice.choice(["local", "body"])
-    outcome = case.run("solve", name, "--form", form, "--max-sweeps", "20000", "--output", out, output=out, names=(name,))
+    outcome = case.run("solve", name, "--form", form, "--max-sweeps", "20000", "--output", out, output=out,
+                       **{"names": (name,), **special_files.instead(case, name)})
     # Without one of its groups it is a problem in the other form, and a whole one.
     if outcome.code == 0 and is_plain and not case.done[-1].startswith(name + ": group"):
         whole = case.path("whole.h5")
@@ -104,9 +107,10 @@ def imports(case):
     if not names:
         names = [victim]
     case.dice.shuffle(names)
-    out = case.path("mine")
-    case.run("import", kind, *names, *FORMATS[kind][1], "--output", out, "--quiet", output=out,
-             names=(*names, victim, "the files", "--", "import " + kind), patience=20)
+    out, expected = case.path("mine"), {"names": (*names, victim, "the files", "--", "import " + kind), "patience": 20}
+    if victim in names:
+        expected.update(special_files.instead(case, victim))
+    case.run("import", kind, *names, *FORMATS[kind][1], "--output", out, "--quiet", output=out, **expected)
 
 
 HOSTILE = ["Exit;", "Abort;", 'SystemCall "touch touched";', 'NonBlockingSystemCall "touch touched";', 'Merge "other.geo";',
@@ -193,7 +197,8 @@ def meshes(case):
     if dice.random() < 0.3:
         case.write(name + ".opt", 'SystemCall "touch touched";\nExit;\n')
     out = case.path("out")
-    case.run("continuum", QUICK, *NODES, *setting(continuum_mesh=name), "--output", out, "--quiet", output=out, names=(name,), patience=8)
+    expected = {"names": (name,), "patience": 8, **special_files.instead(case, name)}
+    case.run("continuum", QUICK, *NODES, *setting(continuum_mesh=name), "--output", out, "--quiet", output=out, **expected)
 
 
 KINDS = {"csv": tables, "snapshots": snapshots, "problems": problems, "imports": imports, "meshes": meshes}

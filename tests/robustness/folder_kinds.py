@@ -7,6 +7,7 @@ import shutil
 import bases
 import damage
 import same
+import special_files
 from bases import BOTH, LONG, LONG_NODES, NODES, PROBLEM, TINY
 from file_kinds import expect_same_as_whole, read
 from running import QUICK, setting
@@ -44,7 +45,7 @@ def damage_folder(case, folder):
     files = sorted(name for name in same_files(folder) if not name.endswith((".vtu", ".xdmf", ".pvd", ".html")))
     name = case.dice.choice(files)
     path = os.path.join(folder, name)
-    kind = case.dice.choice(["gone", "empty", "cut", "folder", "version", "version", "version", "arrays", "bytes", "loop"])
+    kind = case.dice.choice(["gone", "empty", "cut", "folder", "version", "version", "version", "arrays", "bytes", "loop", "special"])
     if kind == "arrays" and name.endswith(".h5"):
         case.damage_arrays(path)
         return name
@@ -53,6 +54,8 @@ def damage_folder(case, folder):
     os.remove(path)
     if kind == "folder":
         os.mkdir(path)
+    elif kind == "special":
+        special_files.put(case, os.path.relpath(path, case.work))
     elif kind == "loop":
         os.symlink(os.path.basename(path), path)
     elif kind != "gone":
@@ -88,7 +91,9 @@ def folders(case):
     line = [word.replace("{out}", folder) for word in case.dice.choice(USES[base])]
     output = case.path("theirs") if "theirs" in line else folder
     line = [case.path(word) if word == "theirs" else word for word in line]
-    case.run(*line, output=output, names=(os.path.basename(victim), folder), patience=30)
+    is_special = bool(case.done) and case.done[-1].endswith(special_files.KINDS)
+    expected = {"codes": (2,)} if is_special and victim == "discrete.h5" and line[0] in ("compare", "export") else {}
+    case.run(*line, output=output, names=(os.path.basename(victim), folder), patience=30, by_itself=is_special, **expected)
 
 
 def checkpoints(case):
@@ -128,7 +133,7 @@ def flip_in(case, path):
 
 def flips(case):
     """One bit or byte of an HDF5 file: refused by name, or the bits that the whole file gives."""
-    case.dice.choice((flip_checkpoint, flip_checkpoint, flip_snapshot, flip_snapshot, flip_problem, flip_result, flip_export))(case)
+    case.dice.choice((flip_checkpoint, flip_checkpoint, flip_snapshot, flip_snapshot, flip_problem, flip_result, flip_export, flip_comparison))(case)
 
 
 def flip_checkpoint(case):
@@ -196,6 +201,15 @@ def flip_export(case):
     if outcome.code == 0:
         expect_same_as_whole(case, "export", lambda other: bases.done(case.work, *line, os.path.join(case.base("grains"), "out"),
                                                                      "--output", other), out)
+
+
+def flip_comparison(case):
+    """What a report draws: the same report, or none."""
+    folder = os.path.join(case.copy("both", "done"), "out")
+    flip_in(case, os.path.join(folder, "comparison.h5"))
+    outcome = case.run("report", folder, "--quiet", output=folder, names=("comparison.h5",), codes=(0, 2), patience=30)
+    if outcome.code == 0 and read(os.path.join(folder, "report.html")) != read(os.path.join(case.base("report"), "out", "report.html")):
+        case.violate("the report is not that of the whole comparison.h5")
 
 
 KINDS = {"folders": folders, "checkpoints": checkpoints, "flips": flips}

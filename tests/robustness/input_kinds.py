@@ -1,16 +1,16 @@
-# diptych: scenes, keys, combinations of choices and command lines that people and programs may write
+# diptych: scenes, keys and command lines that people and programs may write
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
-import functools
 import json
 import os
-import random
 import re
 
 import bases
 import damage
 import keys
-from bases import BOTH, NODES, PROBLEM, RECTANGLE, TINY
+import special_files
+from bases import BOTH, NODES, PROBLEM, TINY
+from pair_kind import TABLE, TIMES
 from running import QUICK, setting
 
 
@@ -90,8 +90,8 @@ def scenes(case):
     name, out = scene_file(case), case.path("out")
     command = case.dice.choice(["discrete"] * 8 + ["material-point", "continuum"])
     words = ["--set-file", name] if case.dice.random() < 0.1 and name.endswith(".prm") else []
-    outcome = case.run(command, QUICK if words else name, *(TINY if words else []), *words, "--output", out, "--quiet", output=out,
-                       names=(name, *keys.names()), patience=2)
+    expected = {"names": (name, *keys.names()), "patience": 2, **special_files.instead(case, name)}
+    outcome = case.run(command, QUICK if words else name, *(TINY if words else []), *words, "--output", out, "--quiet", output=out, **expected)
     if outcome.code == 0 and case.dice.random() < 0.5:
         again = case.path("again")
         case.run(command, os.path.join(out, "scene.prm"), "--output", again, "--quiet", output=again, codes=(0,))
@@ -111,7 +111,6 @@ def expect_same_echo(case, one, other):
 
 
 # What a key needs to matter: by the beginning of its name.
-TIMES = setting(loading_mode="time", loading_duration=1, loading_stage_time=0.5, comparison_window_edges="0,1")
 CONTEXT = (
     ("discrete/penalty", setting(discrete_method="penalty")),
     ("discrete/side_", setting(discrete_lateral="rigid_walls", discrete_side_motion="velocity")),
@@ -119,8 +118,7 @@ CONTEXT = (
     ("loading/normal_pressure", setting(loading_mode="plane_shear")),
     ("loading/duration", TIMES), ("loading/stage_time", TIMES), ("discrete/drive_", TIMES),
     ("continuum/refinement_", setting(continuum_refinement="adaptive")),
-    ("continuum/table_", setting(continuum_hardening="table", continuum_table_strain="0,0.1", continuum_table_friction_angle="30,20",
-                                 continuum_table_dilatancy_angle="10,0", continuum_table_cohesion="0.01,0.01")),
+    ("continuum/table_", TABLE),
     ("continuum/weak_spot_", setting(continuum_weak_spot_strain=0.1)),
     ("comparison/averaging_", setting(comparison_averaging="kernel")),
 )
@@ -146,43 +144,15 @@ def command_of(case, name):
 
 def keys_kind(case):
     values = keys.all_values()
-    key, value, must_fail = values[case.seed % len(values)]
+    key, value, must_fail, beside = values[case.seed % len(values)]
     command, words = command_of(case, key.name)
     if value == "true" and key.name == "output/report":
         command, words = "discrete", TINY  # alone it draws nothing
     out = case.path("out")
     if key.name == "output/directory":
         must_fail = False
-    case.run(command, QUICK, *words, *context_of(key.name), "--set", f"{key.name}={value}", "--output", out, "--quiet", output=out,
+    case.run(command, QUICK, *words, *context_of(key.name), *beside, "--set", f"{key.name}={value}", "--output", out, "--quiet", output=out,
              names=(key.name,) if must_fail else keys.names(), codes=(2,) if must_fail else (0, 2, 3, 4), patience=1.5)
-
-
-COMMANDS = {"discrete": TINY, "continuum": NODES, "run": BOTH, "material-point": TINY}
-
-
-@functools.lru_cache(maxsize=8)
-def rows_of(number):
-    factors = {key.name: key.words for key in keys.all_keys() if key.what == "one of" and key.name != "output/report"}
-    factors["continuum/mesh"] = ("outline", "rectangle")
-    factors["command"] = tuple(COMMANDS)
-    return keys.covering_rows(factors, random.Random(f"rows:{number}"))
-
-
-ROWS = 64  # seeds of one covering set: more than it ever has rows
-
-
-def pairs(case):
-    rows = rows_of(case.seed // ROWS)
-    if len(rows) > ROWS:
-        raise RuntimeError(f"{len(rows)} rows; the seeds of a set reach for {ROWS}")
-    row = dict(rows[case.seed % ROWS % len(rows)])
-    command = row.pop("command")
-    words = [word for name, value in row.items() for word in ("--set", f"{name}={value}")]
-    if row["loading/mode"] == "time":
-        words += TIMES
-    base = COMMANDS[command] + bases.without("continuum/mesh", RECTANGLE)
-    out = case.path("out")
-    case.run(command, QUICK, *base, *words, "--output", out, "--quiet", output=out, names=keys.names(), patience=5)
 
 
 OPTIONS = {
@@ -213,6 +183,8 @@ def words(case):
     case.write("scene.prm", as_prm(settings(*NODES)))
     with open(PROBLEM, "rb") as file:
         case.write("problem.h5", file.read())
+    if dice.random() < special_files.OFTEN:
+        return special_words(case)
     if dice.random() < 0.4:
         return told_words(case)
     command = dice.choice(sorted(OPTIONS))
@@ -231,6 +203,15 @@ def words(case):
     line = [word for word in line if "\0" not in word]
     # Where it writes is its own business here: it may be anywhere below the case's folder.
     case.run(*[os.fsencode(word) for word in line], output=case.work, patience=2, cwd=case.work)
+
+
+def special_words(case):
+    """A pipe, socket or device where a command wants a file."""
+    name = case.dice.choice(["one.json", "one.prm", "one.h5"])
+    special_files.put(case, name)
+    line = case.dice.choice({"one.json": [["study"], ["calibrate"], ["discrete"]], "one.h5": [["solve"]],
+                             "one.prm": [["plan"], ["continuum"], ["material-point"], ["discrete", "scene.prm", "--set-file"]]}[name])
+    case.run(*line, name, output=case.path("out"), all_names=(name,), codes=(2,), by_itself=True, patience=special_files.PATIENCE)
 
 
 def told_words(case):
@@ -266,4 +247,4 @@ def told_words(case):
     case.run(*line, all_names=names, codes=(2,), output=case.path("out"), patience=2)
 
 
-KINDS = {"scenes": scenes, "keys": keys_kind, "pairs": pairs, "words": words}
+KINDS = {"scenes": scenes, "keys": keys_kind, "words": words}

@@ -20,6 +20,7 @@ import judge  # noqa: E402
 import keys  # noqa: E402
 import robustness  # noqa: E402
 import same  # noqa: E402
+import special_files  # noqa: E402
 from running import main  # noqa: E402
 
 GOOD_TABLE = "axial_strain,stress_ratio\\n0,0.1\\n"
@@ -72,6 +73,11 @@ class Ends(Judged):
         cases.HANG = 1
         self.expect("it hung after SIGTERM", 'trap "" TERM; while :; do sleep 0.1; done', patience=0.2)
 
+    def test_waiting_where_it_had_to_refuse(self):
+        script = 'trap "echo stopped, nothing was kept >&2; exit 3" TERM; while :; do sleep 0.1; done'
+        self.expect("it waited until it was told to stop", script, patience=0.5, by_itself=True)
+        self.expect_nothing('echo "scene.prm is a pipe" >&2; exit 2', names=["scene.prm"], by_itself=True)
+
     def test_a_long_run_that_ends_when_asked_to_is_none(self):
         self.expect_nothing('trap "echo stopped, nothing was kept >&2; exit 3" TERM; while :; do sleep 0.1; done', patience=0.5, codes=(0,))
 
@@ -85,9 +91,12 @@ class Ends(Judged):
 class Words(Judged):
     def test_texts_of_libraries(self):
         for text in ("Traceback (most recent call last):", "terminate called after throwing", "  what():  vector", "HDF5-DIAG: Error",
-                     "==1==ERROR: AddressSanitizer: heap-buffer-overflow", "table.cc:3:1: runtime error: signed integer overflow"):
+                     "==1==ERROR: AddressSanitizer: heap-buffer-overflow", "table.cc:3:1: runtime error: signed integer overflow",
+                     "std::bad_alloc", "basic_filebuf::underflow error reading the file", "basic_ios::clear: iostream error",
+                     "cannot create std::vector larger than max_size()", "vector::_M_default_append", "basic_string::_M_create"):
             self.expect("standard error holds", f'echo "{text} in /x; nothing was written" >&2; exit 4')
-        for text in ("[json.exception.parse_error.101]", "basic_filebuf::underflow", "cannot create std::vector larger", "std::bad_alloc"):
+            self.expect("standard error holds", f'echo "sample/file = \'/x\': {text}" >&2; exit 2', names=["sample/file"])
+        for text in ("[json.exception.parse_error.101]", "regex_error", "stod"):
             self.expect("standard error holds", f'echo "scene.json" >&2; echo "{text}" >&2; exit 2', names=["scene.json"])
             self.expect_nothing(f'echo "scene.json: {text}" >&2; exit 2', names=["scene.json"])
 
@@ -155,9 +164,11 @@ class Harness(Judged):
         self.assertEqual(robustness.schedule(300, 1, list(robustness.KINDS)), robustness.schedule(300, 1, list(robustness.KINDS)))
 
     def test_every_key_is_asked_at_its_bounds(self):
-        found = {key.name for key, _, _ in keys.all_values()}
+        found = {key.name for key, *_ in keys.all_values()}
         self.assertEqual(found, set(keys.names()))
         self.assertIn("sample/grains", found)
+        lowest = [beside for key, value, _, beside in keys.all_values() if key.name == "loading/inertial_number" and value == "1e-09"]
+        self.assertEqual(sorted(lowest), [(), ("--set", "discrete/step=auto")])
         grains = next(key for key in keys.all_keys() if key.name == "sample/grains")
         self.assertEqual((keys.next_outside(grains)[:2], keys.next_inside(grains)[:3]), (["9", "10000001"], ["10", "11", "10000000"]))
 
@@ -167,6 +178,16 @@ class Harness(Judged):
         seen = {tuple(sorted([one, other])) for row in rows for one in row.items() for other in row.items() if one < other}
         self.assertEqual(seen, keys.pairs_of(factors))
         self.assertLess(len(rows), 24)  # all combinations
+
+    def test_every_special_file_is_made_and_kept(self):
+        case = cases.Case("made_up", 2, self.keep)
+        for kind in special_files.KINDS:
+            self.addCleanup(setattr, case.dice, "choice", case.dice.choice)
+            case.dice.choice = lambda _, kind=kind: kind
+            special_files.put(case, "x")
+        special_files.put(case, "y")
+        shutil.copytree(case.work, os.path.join(self.keep, "copy"), symlinks=True, copy_function=special_files.copy)
+        self.assertEqual(judge.digest(case.work), judge.digest(os.path.join(self.keep, "copy")))
 
     def test_every_damage_can_be_done_to_every_text(self):
         for k, change in enumerate({*damage.TEXT, *damage.BYTES}):

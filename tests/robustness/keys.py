@@ -9,6 +9,7 @@ import random
 import re
 
 import bases
+from running import setting
 
 
 @dataclasses.dataclass(frozen=True)
@@ -76,7 +77,8 @@ ODD = ("-0", "0x10", "", "1e-320", "+1", "1.", "auto", "true", "0", "ä", "a b #
 
 @functools.lru_cache(maxsize=None)
 def all_values():
-    """(key, value, whether it must be refused) of every key, in one order that does not change."""
+    """(key, value, whether it must be refused, words before it) of every key, in one order that does not change. Lower bounds come with the step
+    of the small scenes, and with the one that the program chooses: what has no end with the one may end with the other."""
     found = []
     for key in all_keys():
         if key.low:
@@ -86,6 +88,9 @@ def all_values():
             found += [(key, word, False) for word in key.words]
             found += [(key, value, True) for value in ("word", key.words[0].upper(), key.words[0] + "x", "nan", "")]
         found += [(key, value, False) for value in ODD]
+    found = [(*one, ()) for one in found]
+    bounds = [(key, next_inside(key)[:2]) for key in all_keys() if key.low and key.name != "discrete/step"]
+    found += [(key, value, False, tuple(setting(discrete_step="auto"))) for key, values in bounds for value in values]
     random.Random("keys").shuffle(found)
     return tuple(found)
 

@@ -1,8 +1,12 @@
 # diptych: full disks, little memory, and surroundings that are not those of a developer
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
+import contextlib
+import ctypes
 import functools
 import os
+import shutil
+import subprocess
 
 import bases
 from bases import BOTH, NODES, TINY
@@ -11,28 +15,80 @@ from folder_kinds import expect_same_as_base
 from running import ENVIRONMENT, QUICK, setting
 
 
+@functools.lru_cache(maxsize=None)
+def can_mount():
+    """For root on Linux, in a name space of this process alone: whatever ends it, its mounts are gone with it."""
+    new_mounts = 0x00020000  # CLONE_NEWNS
+    return (os.geteuid() == 0 and bool(shutil.which("mount")) and hasattr(ctypes.CDLL(None), "unshare") and ctypes.CDLL(None).unshare(new_mounts) == 0
+            and called("mount", "--make-rprivate", "/"))
+
+
+def called(*words):
+    return subprocess.run(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False).returncode == 0
+
+
+@contextlib.contextmanager
+def small_disk(case, room):
+    """A file system of `room` kB at `disk`; afterwards a folder that holds what it held. Yields whether there is one."""
+    folder, copied = case.path("disk"), case.path("disk_copied")
+    is_one = can_mount() and called("mount", "-t", "tmpfs", "-o", f"size={room}k", "none", folder)
+    try:
+        yield is_one
+    finally:
+        if is_one:
+            try:
+                shutil.copytree(folder, copied, symlinks=True)
+            finally:
+                if not called("umount", folder):
+                    called("umount", "-l", folder)
+            os.rmdir(folder)
+            os.rename(copied, folder)
+
+
+def size_of(folder):
+    """kB that a file system needs for its files: whole pages, one for a folder, too."""
+    return sum(4 * (1 + len(names) + sum(os.path.getsize(os.path.join(top, name)) // 4096 + 1 for name in files)) for top, names, files in os.walk(folder))
+
+
 def disk(case):
-    """No file may grow beyond a random size, as on a full disk, from the beginning."""
+    """A full disk: a small file system where the machine gives one, else, and in half of the cases, no file grows beyond a random size."""
     dice = case.dice
     room = dice.choice([0, 100, 4096]) if dice.random() < 0.2 else int(10 ** dice.uniform(2, 6))
+    space, is_small = int(2 ** dice.uniform(6, 11)), dice.random() < 0.5
     command = dice.choice(["discrete"] * 5 + ["run", "continuum", "compare", "compare", "import", "import", "export", "export", "solve"])
-    out, names = case.path("out"), ()
-    if command in ("compare", "report", "export"):
-        case.copy("both", "done")
-        done = case.path("done", "out")
-        line = [command, done, "--quiet"] + (["--format", dice.choice(["csv", "yade", "lammps", "lmgc90"]), "--output", out]
-                                             if command == "export" else [])
-        out = done if command != "export" else out
+    os.mkdir(case.path("disk"))
+    if not is_small:
+        return on_disk(case, command, functools.partial(limit, RLIMIT_FSIZE=room))
+    held = size_of(os.path.join(case.base("both"), "out")) if command == "compare" else 0
+    with small_disk(case, held + space) as is_one:
+        on_disk(case, command, limit if is_one else functools.partial(limit, RLIMIT_FSIZE=room))
+        case.found["on a small file system" if is_one else "no small file system"].add(case.seed)
+
+
+def on_disk(case, command, preexec):
+    """One command that writes below `disk`."""
+    out, whole = case.path("disk", "out"), os.path.join(case.base("both"), "out")
+    if command == "compare":
+        shutil.copytree(whole, out)
+        line = [command, out]
+    elif command == "export":
+        line = [command, whole, "--format", case.dice.choice(["csv", "yade", "lammps", "lmgc90"]), "--output", out]
     elif command == "import":
-        line = [command, "csv", *bases.foreign("csv"), "--output", out, "--quiet"]
+        line = [command, "csv", *bases.foreign("csv"), "--output", out]
     elif command == "solve":
-        out = case.path("solved.h5")
+        out = case.path("disk", "solved.h5")
         line = [command, bases.PROBLEM, "--output", out]
     else:
-        words = {"discrete": TINY, "run": BOTH, "continuum": NODES}[command]
-        line = [command, QUICK, *words, "--output", out, "--quiet"]
-    names = (out, "TMPDIR", "TMP")
-    case.run(*line, output=out, names=names, codes=(0, 4), patience=30, preexec=functools.partial(limit, RLIMIT_FSIZE=room))
+        line = [command, QUICK, *{"discrete": TINY, "run": BOTH, "continuum": NODES}[command], "--output", out]
+    line += ["--quiet"] if command != "solve" else []
+    case.run(*line, output=out, names=(out, "TMPDIR", "TMP"), codes=(0, 4), patience=30, preexec=preexec)
+
+
+def told(found):
+    """Where the cases of `disk` were full, as a line below the table."""
+    return f"disk: {len(found['on a small file system'])} cases on a small file system" + (
+        f"; {len(found['no small file system'])} should be and had a limit for their files instead: tmpfs cannot be mounted here"
+        if found["no small file system"] else "")
 
 
 def changed_environment(**values):

@@ -22,8 +22,9 @@ import folder_kinds  # noqa: E402
 import input_kinds  # noqa: E402
 import interruption_kinds  # noqa: E402
 import machine_kinds  # noqa: E402
+import pair_kind  # noqa: E402
 
-KINDS = {**input_kinds.KINDS, **file_kinds.KINDS, **folder_kinds.KINDS, **machine_kinds.KINDS, **interruption_kinds.KINDS}
+KINDS = {**input_kinds.KINDS, **pair_kind.KINDS, **file_kinds.KINDS, **folder_kinds.KINDS, **machine_kinds.KINDS, **interruption_kinds.KINDS}
 ALL = {**KINDS, **interruption_kinds.EACH}
 # How often a kind comes in a hundred and thirty: what is quick, often.
 WEIGHTS = {"scenes": 26, "keys": 38, "pairs": 6, "words": 22, "csv": 6, "snapshots": 6, "problems": 6, "imports": 5, "meshes": 3,
@@ -34,7 +35,7 @@ def schedule(n_cases, seed, kinds):
     """(kind, seed) of every case: kinds in the shares of their weights, each with seeds one after the other from its own place."""
     total = sum(WEIGHTS[kind] for kind in kinds)
     counts = {kind: max(1, round(n_cases * WEIGHTS[kind] / total)) for kind in kinds}
-    plan = [(kind, seed * 100000 + k) for kind in kinds for k in range(counts[kind])]
+    plan = [(kind, seed * cases.SEEDS + k) for kind in kinds for k in range(counts[kind])]
     random.Random(seed).shuffle(plan)
     return plan
 
@@ -44,7 +45,7 @@ def one(kind, seed, keep):
     try:
         return kind, seed, cases.run_case(kind, ALL[kind], seed, keep)
     except Exception:
-        return kind, seed, (["the harness failed:\n" + traceback.format_exc()], [], [], 0.0)
+        return kind, seed, cases.Made(["the harness failed:\n" + traceback.format_exc()])
 
 
 def all_cases(plan, keep, jobs):
@@ -61,14 +62,16 @@ def tell(kind, seed, violations, commands, folder):
     print(f"--case {kind}:{seed}  in {folder}")
     for sentence in violations:
         print("    " + sentence)
-    for words in commands:
+    if len(commands) > 2:
+        print(f"    {len(commands) - 2} runs, told in case.txt, and then")
+    for words in commands[-2:]:
         text = " ".join(map(repr, words))
         print("    " + (text if len(text) < 1500 else text[:700] + " ... " + text[-700:]))
     sys.stdout.flush()
 
 
 def table(kinds, counted):
-    head = ("kind", "cases", "0", "2", "3", "4", "other", "violations", "CPU s")
+    head = ("kind", "cases", "with a result", "0", "2", "3", "4", "other", "violations", "CPU s")
     print("  ".join(f"{word:>16}" for word in head))
     total = collections.Counter()
     for kind in [*kinds, "all"]:
@@ -110,16 +113,24 @@ def main():
         plan = [(case.split(":")[0], int(case.split(":")[1])) for case in asked.case]
         asked.kinds = list(dict.fromkeys(kind for kind, _ in plan))
     elif asked.kills:
-        plan = [(kind, asked.seed * 100000 + k) for kind in asked.kinds for k in range(asked.kills)]
+        plan = [(kind, asked.seed * cases.SEEDS + k) for kind in asked.kinds for k in range(asked.kills)]
     else:
         plan = schedule(asked.cases, asked.seed, asked.kinds)
     counted = collections.defaultdict(collections.Counter)
-    for kind, seed, (violations, codes, commands, seconds) in all_cases(plan, keep, asked.jobs):
-        counted[kind].update({"cases": 1, "violations": int(bool(violations)), "CPU s": seconds})
-        counted[kind].update(str(code) if code in (0, 2, 3, 4) else "other" for code in codes)
-        if violations:
-            tell(kind, seed, violations, commands, os.path.join(keep, f"{kind}_{seed}"))
+    found = collections.defaultdict(set)
+    for kind, seed, made in all_cases(plan, keep, asked.jobs):
+        counted[kind].update({"cases": 1, "violations": int(bool(made.violations)), "CPU s": made.seconds,
+                              "with a result": int(any(code in (0, 3) for code in made.codes))})
+        counted[kind].update(str(code) if code in (0, 2, 3, 4) else "other" for code in made.codes)
+        for name, things in made.found.items():
+            found[name] |= things
+        if made.violations:
+            tell(kind, seed, made.violations, made.commands, os.path.join(keep, f"{kind}_{seed}"))
     total = table(asked.kinds, counted)
+    if "pairs" in asked.kinds:
+        print(pair_kind.told(found))
+    if "disk" in asked.kinds:
+        print(machine_kinds.told(found))
     shutil.rmtree(os.path.join(keep, "bases"), ignore_errors=True)
     if total["violations"]:
         print(f"{total['violations']} of {total['cases']} cases in violation; their files are in {keep}")
