@@ -23,7 +23,7 @@ from running import ENVIRONMENT, PROGRAM
 MEMORY = 4 << 30  # bytes of address space that a run may have: no case may take the machine
 PATIENCE = 4  # seconds until a run that goes on is asked to stop; ending by itself or then are both right
 HANG = 60  # seconds from there to the end: hundreds of times what any case here needs
-SEEDS = 448000  # from the first seed of a run to that of the next: whole sets of the kind `pairs`
+SEEDS = 364000  # from the first seed of a run to that of the next: whole sets of the kind `pairs`
 SANITIZER = {}  # what a program that was built with sanitizers is told by its environment; empty: it was not
 
 

@@ -31,7 +31,7 @@ NO_NUMBER = (
     (r"comparison\.h5", r"(stage|window)_\w+/(cells|grid)/\w+", "cells without a grain have no mean of grains"),
     (r"(ensemble|study)\.h5", r"\w+/(stress_ratio|volumetric_strain).*", "curves where a panel has no point within the running mean"),
     (r"discrete\.(csv|h5)", r".*", "imported: what the other code did not tell"),
-    (r"comparison\.h5", r"stage_\d+/(velocity_unit|discrete/(rotation_increment|speed_over_platen))", "imported: without times and rotations there are none"),
+    (r"comparison\.h5", r"(stage|window)_\d+/(velocity_unit|discrete/(rotation_increment|speed_over_platen))", "imported: without times and rotations there are none"),
 )
 
 

@@ -18,6 +18,7 @@ import cases  # noqa: E402
 import damage  # noqa: E402
 import judge  # noqa: E402
 import keys  # noqa: E402
+import pair_kind  # noqa: E402
 import robustness  # noqa: E402
 import same  # noqa: E402
 import special_files  # noqa: E402
@@ -178,6 +179,18 @@ class Harness(Judged):
         seen = {tuple(sorted([one, other])) for row in rows for one in row.items() for other in row.items() if one < other}
         self.assertEqual(seen, keys.pairs_of(factors))
         self.assertLess(len(rows), 24)  # all combinations
+
+    def test_every_pair_stands_in_one_bundle(self):
+        every = [pair for _, members in pair_kind.bundles() for pair in members]
+        self.assertEqual((set(every), len(every)), (keys.pairs_of(pair_kind.factors()), len(set(every))))
+        self.assertEqual([row for row, members in pair_kind.bundles() if any(row[name] != value for pair in members for name, value in pair)], [])
+
+    def test_a_refusal_demands_what_it_says_and_never_of_the_pair(self):
+        pair = (("continuum/platens", "smooth"), ("loading/mode", "plane_shear"))
+        refusal = "loading/mode = plane_shear: discrete/lateral must be periodic, not none"
+        self.assertEqual(pair_kind.named(refusal), ["loading/mode", "discrete/lateral"])
+        self.assertEqual(pair_kind.demanded(refusal, dict(pair), pair, set()), ("discrete/lateral", "periodic"))
+        self.assertIsNone(pair_kind.demanded("loading/mode = plane_shear: continuum/platens must be rough", dict(pair), pair, set()))
 
     def test_every_special_file_is_made_and_kept(self):
         case = cases.Case("made_up", 2, self.keep)
