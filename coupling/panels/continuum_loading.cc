@@ -209,17 +209,13 @@ namespace diptych::coupling
                          " must not exceed continuum/rectangle_width = " + text_of(o.rectangle_width));
     }
 
-    // What a generated sample will have is known to some percent.
+    // What a generated sample will have is known to some percent, an imported one as it stands.
     void check_outline(const Scene &scene)
     {
-      if (!scene.sample.file.empty() || scene.discrete.method.method == discrete::Method::imported)
-        return;
-      const double height = discrete::expected_size(scene.sample).y();
-      for (const auto &[key, size] : {std::pair{"continuum/element_size", scene.continuum.element_size},
-                                      {"comparison/coarse_element_size", scene.comparison.coarse_element_size}})
-        if (const double edge = first_edge(scene, size); edge > 1.3 * height)
-          throw SceneError(std::string(key) + " = " + text_of(size) + ": elements of " + text_of(edge) +
-                           " [length] at first do not fit into a sample that will be about " + text_of(height) + " high");
+      if (scene.discrete.method.method == discrete::Method::imported)
+        require_elements_fit(scene, height_of(load_imported(scene).snapshots.front().outline));
+      else if (scene.sample.file.empty())
+        require_elements_fit(scene, 1.3 * discrete::expected_size(scene.sample).y());
     }
 
     // A mesh of the user's is read whole, before a result folder is opened for it.
@@ -285,6 +281,21 @@ namespace diptych::coupling
                          (scene.loading.mode == LoadingMode::time ? "duration" : "axial_strain"));
     }
   } // namespace
+
+  double height_of(const discrete::Outline &outline)
+  {
+    return outline.left.back().y() - outline.left.front().y();
+  }
+
+  void require_elements_fit(const Scene &scene, const double height)
+  {
+    if (scene.continuum.mesh.kind == continuum::MeshOption::Kind::outline)
+      for (const auto &[key, size] : {std::pair{"continuum/element_size", scene.continuum.element_size},
+                                      {"comparison/coarse_element_size", scene.comparison.coarse_element_size}})
+        if (const double edge = first_edge(scene, size); edge > height)
+          throw SceneError(std::string(key) + " = " + text_of(size) + ": elements of " + text_of(edge) +
+                           " [length] at first do not fit into a sample of at most " + text_of(height) + " in height");
+  }
 
   void require_continuum(const Scene &scene)
   {

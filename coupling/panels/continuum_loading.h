@@ -8,12 +8,18 @@
 #include "continuum/mesh/quad_mesh.h"
 #include "coupling/scene/scene.h"
 #include "coupling/scene/scene_error.h"
+#include "discrete/snapshot.h"
 
 namespace diptych::coupling
 {
   // Throws SceneError naming a key that asks for what the continuum panel does not have, and what it has. Reads, but does not
   // write files.
   void require_continuum(const Scene &scene);
+
+  double height_of(const discrete::Outline &outline);
+
+  // Throws SceneError where elements that the scene asks for are larger than that [length].
+  void require_elements_fit(const Scene &scene, double height);
 
   // Throws SceneError where the scene leaves the upper platen where it is over a whole stage: the two panels' displacements are
   // compared in units of its way.

@@ -131,8 +131,10 @@ namespace diptych::coupling
       scene.sample.seed = seed;
       const auto sample = prepared_grains(scene, line.quiet);
       leave_if_stopped("preparing the sample");
-      if (sample)
-        require_comparable_sample(scene, *sample);
+      if (!sample)
+        return;
+      require_elements_fit(scene, height_of(sample->outline));
+      require_comparable_sample(scene, *sample);
     }
 
     // Makes the folder ready; the seeds that are not finished yet.

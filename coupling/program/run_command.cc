@@ -50,8 +50,11 @@ namespace diptych::coupling
         if (resume_continuum)
           check_earlier_continuum(scene);
         prepared = prepared_early(line, scene);
-        if (prepared && prepared->is_ready())
-          require_comparable_sample(scene, prepared->sample());
+        if (!prepared || !prepared->is_ready())
+          return;
+        const discrete::Snapshot sample = prepared->sample();
+        require_elements_fit(scene, height_of(sample.outline));
+        require_comparable_sample(scene, sample);
       });
       if (const int code = discrete_panel(line, scene, std::move(prepared)); code != done)
         return code;

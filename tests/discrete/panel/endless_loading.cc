@@ -11,7 +11,7 @@ namespace
 {
   using namespace diptych::tests;
 
-  Loading one_percent()
+  Loading far_as_one_percent()
   {
     Loading loading;
     loading.stages = {0.01};
@@ -35,7 +35,7 @@ namespace
   // 1/I^2.
   TEST(EndlessLoading, StepsWithoutEndAreRefusedWhoeverChoseTheStep)
   {
-    Loading loading         = one_percent();
+    Loading loading         = far_as_one_percent();
     loading.inertial_number = 1e-9;
     Options options         = quick_options();
     options.time.step       = 1e-3; // 0.01 / 1e-9 / 1e-3 = 1e10
@@ -58,7 +58,7 @@ namespace
     options.lateral.lateral = Lateral::rigid_walls;
     options.time.step.reset();
     options.drives.upper_y = "velocity " + path;
-    Loading loading        = one_percent();
+    Loading loading        = far_as_one_percent();
     loading.mode           = LoadingMode::time;
     loading.stages         = {1.};
     const Course course    = loaded(small_sample(150), loading, options);

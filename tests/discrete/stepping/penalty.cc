@@ -83,13 +83,6 @@ namespace
     return energy;
   }
 
-  void add_box(State &state, const double width, const double height)
-  {
-    state.walls = {{{0, 0}, {0, 1}}, {{0, height}, {0, -1}}, {{0, 0}, {1, 0}}, {{width, 0}, {-1, 0}}};
-    for (const std::size_t w : {2, 3})
-      state.walls[w].kind = WallKind::side;
-  }
-
   // Radii 0.35 to 0.49 on a square grid, thrown about in a box.
   State gas_in_a_box()
   {

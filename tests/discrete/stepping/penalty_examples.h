@@ -44,7 +44,7 @@ namespace
   };
 
   // Two equal discs, the first at speed 1 towards the second.
-  Collision head_on(const double stiffness, const double damping, const double fraction)
+  inline Collision head_on(const double stiffness, const double damping, const double fraction)
   {
     State        state = row_of_discs(2, 0.01);
     const double step  = penalty_step(state.grains, stiffness, fraction);
@@ -53,5 +53,12 @@ namespace
     for (double time = 0; time < 0.05; time += step)
       closed += !penalty.advance(state).contacts.empty();
     return {closed * step, state.grains.velocity[1].x() - state.grains.velocity[0].x()};
+  }
+
+  inline void add_box(State &state, const double width, const double height)
+  {
+    state.walls = {{{0, 0}, {0, 1}}, {{0, height}, {0, -1}}, {{0, 0}, {1, 0}}, {{width, 0}, {-1, 0}}};
+    for (const std::size_t w : {2, 3})
+      state.walls[w].kind = WallKind::side;
   }
 } // namespace
