@@ -30,6 +30,11 @@ namespace diptych::coupling
     std::vector<bool>         outside; // n_grains: assigned to a boundary cell because it has no place in the mesh
 
     void add(const unsigned int c, const double s) { cell.push_back(c), share.push_back(s); }
+    void scale_row(const double factor) // that has not ended
+    {
+      for (std::size_t k = begin.back(); k < share.size(); ++k)
+        share[k] *= factor;
+    }
     void end_row(const bool is_outside) { begin.push_back(cell.size()), outside.push_back(is_outside); }
   };
 

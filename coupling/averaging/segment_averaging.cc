@@ -27,7 +27,8 @@ namespace diptych::coupling
     }
 
     // Exact areas of the discs in the cells. What lies outside goes to the boundary cell nearest to its own centroid, which the
-    // inside parts tell: the first moments of both about the centre add up to zero.
+    // inside parts tell: the first moments of both about the centre add up to zero. Where the mesh has come to be wider than the
+    // period, its images overlap and discs lie in them twice: their shares are scaled to one.
     GrainShares disc_shares(const TargetCells &target, const Carriers &carriers)
     {
       const auto                polygons = cell_polygons(target.images);
@@ -55,6 +56,8 @@ namespace diptych::coupling
           const double rest = full - inside.area;
           if (rest > 1e-12 * full)
             shares.add(target.cell_of(target.search.locate(x - inside.moment / rest).triangle), rest / full);
+          else if (rest < -1e-12 * full)
+            shares.scale_row(full / inside.area);
           shares.end_row(false);
         }
       return shares;

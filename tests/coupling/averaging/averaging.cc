@@ -69,6 +69,18 @@ namespace
     });
   }
 
+  // The continuum widens by itself: its mesh is a hundredth wider or narrower than the grains' cell, its images overlap or gape.
+  TEST(Averaging, CellsAddUpWhereTheMeshIsNotAsWideAsThePeriod)
+  {
+    for (const double period : {19.8, 20.2})
+      {
+        const Carriers carriers = random_carriers(made_periodic(random_network({0, 0}, {period, 30}, 600, 5), period, 6), 7);
+        for_each_case([&](const AveragingOptions &options, const QuadMesh &mesh) {
+          EXPECT_LT(loss(distribute(options, TargetCells(mesh, period), carriers), carriers), 1e-12) << period;
+        });
+      }
+  }
+
   // In a periodic sample the sides are nowhere: moving the grains by one column of a regular grid moves the sums by one column.
   TEST(Averaging, PeriodicSampleHasNoSeam)
   {
