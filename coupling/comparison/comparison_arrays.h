@@ -138,7 +138,8 @@ namespace diptych::coupling
           i.discrete.field.increment);
     visit(ArrayEntry{"discrete/displacement_over_platen", "displacement over the platen's", "-", "size of the increment"},
           arrays::sizes_over(i.discrete.field.increment, unit.displacement));
-    visit(ArrayEntry{"discrete/shear_strain_increment", "shear strain increment", "-", "eps_1 - eps_2 around each grain"},
+    visit(ArrayEntry{"discrete/shear_strain_increment", "shear strain increment", "-",
+                     "eps_1 - eps_2 around each grain, nan where none is near"},
           i.grain_shear);
     visit(ArrayEntry{"nodes/position", "place", "length", "of the continuum's nodes at the end"}, i.continuum.field.position);
     visit(ArrayEntry{"nodes/displacement_increment", "displacement increment", "length", "of the continuum's nodes"},

@@ -80,7 +80,7 @@ namespace diptych::discrete
       setting.mean_diameter = setting_.mean_diameter;
       prepared_       = make_snapshot(now.state, prepared.last_step, {}, make_reference(now.state, setting_.mean_diameter, 0.),
                                       setting);
-      prepared_->walk = walk_of(loading_.mode);
+      prepared_->walk = walk_of(loading_.mode), prepared_->time = 0; // of the loading, not of what pressed or stored the sample
       start_loading(now.state, {loading_, options_.lateral, options_.drives, rate_});
       now.reference = make_reference(now.state, setting_.mean_diameter, loading_.mode == LoadingMode::time ? 0. : rate_);
       return true;

@@ -365,6 +365,7 @@ namespace
     expect_ledgers_closed(nscd);
     ASSERT_EQ(penalty.report.status, Status::finished) << penalty.report.message;
     EXPECT_NEAR(penalty.report.axial_strain, 0.015, 1e-12);
+    EXPECT_EQ(penalty.snapshots.front().time, 0) << "of the loading, not of the press";
     RecordProperty("nscd", std::to_string(mean_stress_ratio(nscd, 0.005)));
     RecordProperty("penalty", std::to_string(mean_stress_ratio(penalty, 0.005)));
     EXPECT_NEAR(mean_stress_ratio(penalty, 0.005), mean_stress_ratio(nscd, 0.005), 0.05);
