@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 
@@ -79,6 +80,7 @@ namespace diptych::continuum
       const rlimit nothing = {0, 0};
       setrlimit(RLIMIT_CORE, &nothing);
       std::signal(SIGXFSZ, SIG_IGN);
+      setenv("HOME", "/dev/null", 1); // what gmsh is made with keeps settings there, even where there is no such folder
       if (const int empty = open("/dev/null", O_RDONLY); empty >= 0)
         dup2(empty, STDIN_FILENO); // nobody answers a script's questions
       if (const int nowhere = open("/dev/null", O_WRONLY); nowhere >= 0)

@@ -210,7 +210,7 @@ def special_words(case):
     name = case.dice.choice(["one.json", "one.prm", "one.h5"])
     special_files.put(case, name)
     line = case.dice.choice({"one.json": [["study"], ["calibrate"], ["discrete"]], "one.h5": [["solve"]],
-                             "one.prm": [["plan"], ["continuum"], ["material-point"], ["discrete", "scene.prm", "--set-file"]]}[name])
+                             "one.prm": [["plan", "--accuracy", "5 %"], ["continuum"], ["material-point"], ["discrete", "scene.prm", "--set-file"]]}[name])
     case.run(*line, name, output=case.path("out"), all_names=(name,), codes=(2,), by_itself=True, patience=special_files.PATIENCE)
 
 

@@ -89,5 +89,5 @@ def _curves(path):
                       for panel in PANEL_NAMES for name, group in file.get(panel, {}).items()}
             averaging = file.attrs.get("averaging_width")
             return file["progress"][()], curves, None if averaging is None else float(averaging)
-    except (OSError, KeyError) as error:
+    except (OSError, RuntimeError, KeyError) as error:
         raise InputError(f"{path}: {error}") from error

@@ -87,7 +87,7 @@ def load(folder):
                 if f"histories/{panel}" in file:
                     means = read_arrays(file[f"histories/{panel}"], units, arrays)
                     columns.update({name: values for name, values in means.items() if name not in columns})
-    except OSError as error:
+    except (OSError, RuntimeError) as error:  # of h5py: a damaged file is either, by the place of the damage
         raise InputError(f"{path}: {error}") from error
     except (KeyError, TypeError) as error:
         raise InputError(f"{folder}/comparison.json, {path}: a stage or a window is incomplete: {error}") from error

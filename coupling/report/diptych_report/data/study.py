@@ -79,5 +79,5 @@ def _curves(path):
     try:
         with h5py.File(path, "r") as file:
             return {panel: (group["progress"][()], {name: group[name][()] for name in CURVES}) for panel, group in file.items()}
-    except (OSError, KeyError) as error:
+    except (OSError, RuntimeError, KeyError) as error:
         raise InputError(f"{path}: {error}") from error
