@@ -5,10 +5,13 @@
 #include <cmath>
 #include <filesystem>
 
+#include <nlohmann/json.hpp>
+
 #include "coupling/folders/provenance.h"
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_error.h"
 #include "discrete/files/table_file.h"
+#include "discrete/files/text_file.h"
 #include "discrete/panel/snapshot_file.h"
 
 namespace diptych::coupling
@@ -45,6 +48,20 @@ namespace diptych::coupling
     }
   } // namespace
 
+  namespace
+  {
+    // What the import found; runs take it along as it stands.
+    void check_record_of_import(const std::string &file)
+    {
+      constexpr std::size_t most_bytes = std::size_t(1) << 28;
+      if (!std::filesystem::exists(file))
+        return;
+      const nlohmann::json record = nlohmann::json::parse(discrete::read_input(file, most_bytes), nullptr, false);
+      if (!record.is_object())
+        throw std::invalid_argument(file + ": is no record of an import");
+    }
+  } // namespace
+
   DiscreteResults load_imported(const Scene &scene)
   {
     const std::string file = imported_file(scene);
@@ -57,6 +74,7 @@ namespace diptych::coupling
         results.snapshots = discrete::read_snapshots(file);
         results.rows      = discrete::read_rows<discrete::HistoryRow>(folder + "/discrete.csv");
         results.facts     = read_run_facts(folder).discrete;
+        check_record_of_import(folder + "/import.json");
       }
     catch (const std::invalid_argument &error)
       {

@@ -204,6 +204,9 @@ namespace diptych::coupling
         throw SceneError("continuum/element_size = " + text_of(o.element_size) + ": elements of " + text_of(edge) +
                          " [length] at first do not fit into continuum/rectangle_width = " + text_of(o.rectangle_width) +
                          " and rectangle_height = " + text_of(o.rectangle_height));
+      if (o.platen_width > 0 && o.platen_width < 1e-3 * edge)
+        throw SceneError("continuum/platen_width = " + text_of(o.platen_width) +
+                         " is less than a thousandth of an element at first: " + text_of(edge) + " [length]");
       if (o.platen_width > o.rectangle_width)
         throw SceneError("continuum/platen_width = " + text_of(o.platen_width) +
                          " must not exceed continuum/rectangle_width = " + text_of(o.rectangle_width));

@@ -189,7 +189,7 @@ namespace diptych::coupling
         if (is_first_process() || !shared)
           std::cerr << text_of(error) << std::endl;
         if (!shared)
-          MPI_Abort(MPI_COMM_WORLD, code);
+          PMPI_Abort(MPI_COMM_WORLD, code);
       }
     MPI_Comm_free(&communicator);
     return code;

@@ -116,6 +116,9 @@ namespace diptych::coupling
   {
     const PhaseTimer timer("import");
     check_folder(line.output, line.foreign.files);
+    for (const std::string &file : line.foreign.files)
+      if (!fs::is_directory(file))
+        discrete::require_regular_file(file);
     const Arrival         arrival = arrive(read_foreign(line.target, line.foreign), line.foreign);
     const DiscreteResults results = imported_results(arrival);
     const bool            loaded  = results.snapshots.size() > 1;

@@ -1,7 +1,9 @@
 // diptych: the commands that need the continuum's libraries; `diptych` starts this program for them
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <csignal>
+#include <cstdlib>
 #include <iostream>
+#include <stdexcept>
 
 #include <deal.II/base/mpi.h>
 
@@ -53,6 +55,16 @@ namespace
       }
   }
 } // namespace
+
+// Where its memory ends, Trilinos (ML) has MPI end the process, with exit code 1 and nothing kept or said. Alone, this process
+// goes on from there as from what any library throws.
+extern "C" int MPI_Abort(MPI_Comm communicator, int)
+{
+  if (n_processes() == 1)
+    throw std::runtime_error("a library of the continuum gave up, as where memory is short; its words stand above");
+  PMPI_Abort(communicator, system_failure);
+  std::abort();
+}
 
 int main(int argc, char **argv)
 {

@@ -117,13 +117,14 @@ namespace diptych::coupling
       return text.empty() ? "what files say" : text;
     }
 
-    // Of the machine, or what this process may have of it (ulimit -v).
+    // Of the machine, or what this process may have of it (ulimit -v) besides its libraries.
     double memory_of_process()
     {
-      const double machine = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
-      rlimit       limit{};
-      const bool   is_limited = getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
-      return is_limited ? std::min(machine, double(limit.rlim_cur)) : machine;
+      constexpr double libraries = 512e6; // mapped by the continuum's
+      const double     machine   = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
+      rlimit           limit{};
+      const bool       is_limited = getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+      return is_limited ? std::min(machine, double(limit.rlim_cur) - libraries) : machine;
     }
 
     // The nearest folder above that is there.

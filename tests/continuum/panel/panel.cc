@@ -103,8 +103,7 @@ namespace
       }
   }
 
-  // What has a weight is not at rest by itself. Stopped on the way there and asked again, the panel comes to the bits of one that
-  // was left alone; nothing is loaded before.
+  // What has a weight is not at rest by itself. Stopped on the way there and asked again, the panel comes to the same bits.
   TEST(Panel, IsStoppedOnTheWayToRestAndGoesOn)
   {
     const QuadMesh mesh    = outline_mesh(wavy_outline(24, 24, 13, 0.2), 4.);
