@@ -15,7 +15,7 @@ def put(case, name):
     """In the place of a file of the case, if there is one."""
     path, kind = case.path(name), case.dice.choice(KINDS)
     if os.path.lexists(path):
-        os.remove(path)
+        (os.rmdir if os.path.isdir(path) and not os.path.islink(path) else os.remove)(path)
     if kind in ("fifo", "socket"):
         os.mknod(path, 0o600 | {"fifo": stat.S_IFIFO, "socket": stat.S_IFSOCK}[kind])
     else:
