@@ -28,7 +28,7 @@ namespace diptych::coupling
     constexpr double memory_of_a_row = 3.3e3, bytes_of_a_row = 620; // of discrete.csv, 10000 and 100000 of them
 
     // Measured, CPU seconds of a 2.6 GHz EPYC: moreau_1997, moreau_quick with 100 to 8000 grains at inertial numbers of 2e-4 and
-    // 1e-3, dense_biaxial at 1e-4 and 1e-3, its springs and those of moreau_quick; elements of 1 to 4 d.
+    // 1e-3, dense_biaxial at 1e-4 and 1e-3, its springs and those of moreau_quick; elements of 1 to 2.5 d.
     constexpr CpuRange preparation_of_a_grain{4e-4, 8e-4}, spring_preparation_of_a_grain{1.5e-3, 2.1e-3}; // whole
     constexpr CpuRange step_of_a_grain{1.8e-6, 6.3e-6}, spring_step_of_a_grain{1.8e-7, 3.6e-7},
       step_of_an_element{1.4e-4, 2.9e-4};
@@ -117,13 +117,13 @@ namespace diptych::coupling
       return text.empty() ? "what files say" : text;
     }
 
-    // Of the machine, or what this process may have of it (ulimit -v) besides its libraries.
-    double memory_of_process()
+    // Of the machine, or what this process may have of it (ulimit -v) besides what the continuum's libraries map (main.cc).
+    double memory_of_process(const RunParts &parts)
     {
-      constexpr double libraries = 512e6; // mapped by the continuum's
-      const double     machine   = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
-      rlimit           limit{};
-      const bool       is_limited = getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+      const double libraries = parts.continuum ? 464e6 : 0;
+      const double machine   = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
+      rlimit       limit{};
+      const bool   is_limited = getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
       return is_limited ? std::min(machine, double(limit.rlim_cur) - libraries) : machine;
     }
 
@@ -157,7 +157,7 @@ namespace diptych::coupling
   void demand_room(const Scene &scene, const RunParts &parts)
   {
     const RunRoom     room   = expected_room(scene, parts);
-    const double      memory = memory_of_process();
+    const double      memory = memory_of_process(parts);
     const std::string asked = "the scene asks for " + counted(n_grains(scene)) + " grains, " + counted(n_elements(scene, parts)) +
                               " elements and " + counted(n_rows(scene, parts)) + " rows of discrete.csv, ";
     const std::string keys = " (sample/grains, continuum/element_size, discrete/history_interval); nothing was written";

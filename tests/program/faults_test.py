@@ -276,6 +276,11 @@ class Machine(Folder):
                 if result.returncode == 4:
                     self.assertTrue(self.folder in result.stderr or "nothing was written" in result.stderr, result.stderr)
 
+    def test_grains_run_where_the_continuum_would_not(self):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_AS, (400 << 20, 400 << 20))
+        self.expect(0, ["discrete", QUICK, *FEW, "--output", self.folder, "--quiet"], preexec_fn=limit)
+
     def test_little_memory_is_no_wrong_input(self):
         table = write(os.path.join(self.work, "grains.csv"), "x,y,r\n" + "".join(f"{k % 700},{k // 700},0.5\n" for k in range(490000)))
 
