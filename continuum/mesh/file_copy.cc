@@ -16,10 +16,10 @@ namespace diptych::continuum
   {
     std::error_code   none;
     const std::string parent = std::filesystem::temp_directory_path(none).string();
-    folder                   = (none ? "/tmp" : parent) + "/diptych_mesh_XXXXXX";
-    if (mkdtemp(folder.data()) == nullptr)
-      throw std::runtime_error("cannot make a folder for a copy of the mesh in " + (none ? "/tmp" : parent) +
-                               " (TMPDIR): " + std::strerror(errno));
+    folder                   = parent + "/diptych_mesh_XXXXXX";
+    if (none || mkdtemp(folder.data()) == nullptr)
+      throw std::runtime_error("cannot make a folder for a copy of the mesh in the folder of temporary files '" + parent +
+                               "' (TMPDIR): " + (none ? none.message() : std::strerror(errno)));
     file = folder + "/mesh" + ending;
     std::ofstream out(file, std::ios::binary);
     out << text;

@@ -159,7 +159,7 @@ namespace diptych::coupling
     void record(const CommandLine      &line,
                 const Scene            &scene,
                 const discrete::Report &report,
-                const Rows             &rows,
+                const DiscreteFacts    &facts,
                 const PhaseTimer       &timer,
                 const bool              prepared_before)
     {
@@ -169,8 +169,6 @@ namespace diptych::coupling
       if (!prepared_before)
         loading.cpu_s -= report.preparation_cpu_s, loading.wall_s -= report.preparation_cpu_s;
       record_phases(scene.output.directory, scene, line.text, {preparation, loading});
-      DiscreteFacts facts = facts_of(report, rows);
-      facts.warnings      = doubts(rows, report, scene);
       record_facts(scene.output.directory, facts);
     }
 
@@ -224,7 +222,7 @@ namespace diptych::coupling
         {
           const Scene part = divisor == 1 ? first_part : part_of_study(scene, divisor);
           open_result_folder(part, line.resume, [&] { check_resumed(line, part); });
-          if (const int code = discrete_panel(line, divisor == 1 ? first_part : part, std::move(first)); code != done)
+          if (const int code = discrete_panel(line, part, std::move(first)); code != done)
             return code;
           runs.push_back({*part.discrete.time.step,
                           history_table(discrete::read_rows<discrete::HistoryRow>(part.output.directory + "/discrete.csv"))});
@@ -272,9 +270,11 @@ namespace diptych::coupling
     const discrete::Report &report = recorded.run();
     const std::string       csv    = directory + "/discrete.csv";
     const Rows              rows   = std::filesystem::exists(csv) ? discrete::read_rows<discrete::HistoryRow>(csv) : Rows();
-    record(line, scene, report, rows, timer, before);
+    DiscreteFacts           facts  = facts_of(report, rows);
+    facts.warnings                 = doubts(rows, report, scene);
+    record(line, scene, report, facts, timer, before);
     recorded.warnings += reference_text(report);
-    warn(doubts(rows, report, scene));
+    warn(facts.warnings);
     if (!recorded.warnings.empty() && report.snapshots_accurate < report.snapshots_sampled)
       std::cerr << recorded.warnings << std::flush;
     else if (!recorded.warnings.empty())

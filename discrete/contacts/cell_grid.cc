@@ -3,6 +3,7 @@
 #include "discrete/contacts/cell_grid.h"
 
 #include <limits>
+#include <map>
 
 namespace diptych::discrete
 {
@@ -42,30 +43,18 @@ namespace diptych::discrete
     return std::size_t((h ^ (h >> 32)) % n_bins_);
   }
 
-  std::map<CellGrid::Cell, std::size_t> CellGrid::counts() const
+  CellGrid::Crowds CellGrid::crowds() const
   {
     std::map<Cell, std::size_t> count;
     for (const Cell &cell : cell_)
       ++count[cell];
-    return count;
-  }
-
-  std::vector<int> CellGrid::fullest_cell() const
-  {
-    const auto       count   = counts();
-    const auto       fullest = std::max_element(count.begin(), count.end(),
-                                                [](const auto &a, const auto &b) { return a.second < b.second; });
-    std::vector<int> inside;
-    visit_cell(fullest->first[0], fullest->first[1], [&](const int grain) { inside.push_back(grain); });
-    return inside;
-  }
-
-  double CellGrid::crowding() const
-  {
-    double sum = 0;
-    for (const auto &[cell, n] : counts())
-      sum += double(n) * double(n);
-    return sum;
+    Crowds     crowds;
+    const auto fullest = std::max_element(count.begin(), count.end(),
+                                          [](const auto &a, const auto &b) { return a.second < b.second; });
+    visit_cell(fullest->first[0], fullest->first[1], [&](const int grain) { crowds.fullest.push_back(grain); });
+    for (const auto &[cell, n] : count)
+      crowds.squares += double(n) * double(n);
+    return crowds;
   }
 
   std::vector<SizedGrid> sort_by_size(const State &state)

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <vector>
 
 #include "discrete/bodies/state.h"
@@ -43,10 +42,13 @@ namespace diptych::discrete
           visit_cell(period_ > 0 ? wrapped(a) : a, b, visit);
     }
 
-    // The members of the fullest cell, ascending.
-    std::vector<int> fullest_cell() const;
-    // Sum over the cells of the square of what is in them: pairs that are near each other go with it.
-    double crowding() const;
+    // How full the cells are.
+    struct Crowds
+    {
+      std::vector<int> fullest;     // members of the fullest cell, ascending
+      double           squares = 0; // sum over the cells of n^2: pairs that are near each other go with it
+    };
+    Crowds crowds() const;
 
   private:
     using Cell = std::array<std::int64_t, 2>; // column, row
@@ -58,8 +60,6 @@ namespace diptych::discrete
           visit(members_[k]);
       });
     }
-
-    std::map<Cell, std::size_t> counts() const;
 
     // Not clamped and, with a period, not wrapped.
     std::int64_t raw_column(double x) const { return std::int64_t(bounded(std::floor((x - origin_.x()) / cell_size_.x()))); }

@@ -251,9 +251,10 @@ namespace diptych::discrete
       double                side = 0;
       for (const SizedGrid &sized : sort_by_size(state))
         {
-          sum += sized.grid.crowding();
-          if (std::vector<int> fullest = sized.grid.fullest_cell(); fullest.size() > crowd.size())
-            crowd = std::move(fullest), side = 2 * sized.largest_radius;
+          CellGrid::Crowds crowds = sized.grid.crowds();
+          sum += crowds.squares;
+          if (crowds.fullest.size() > crowd.size())
+            crowd = std::move(crowds.fullest), side = 2 * sized.largest_radius;
         }
       if (crowd.size() <= most && sum <= std::max(few_pairs, double(side_by_side) * double(file.grains.size())))
         return;

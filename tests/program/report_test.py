@@ -323,21 +323,14 @@ class OtherFolders(unittest.TestCase):
         self.assertEqual(outcome.returncode, 2)
         self.assertIn("comparison.h5", outcome.stderr)
 
-    def test_a_foreign_provenance_is_named_and_ends_with_code_2(self):
+    def test_broken_and_foreign_provenance_is_named_and_ends_with_code_2(self):
         write_folder(self.folder.name, complete=False)
-        with open(os.path.join(self.folder.name, "provenance.json"), "w", encoding="utf-8") as stream:
-            stream.write('{"a": [1, 2]}')
-        outcome = run(self.folder.name)
-        self.assertEqual(outcome.returncode, 2)
-        self.assertIn("provenance.json", outcome.stderr)
-
-    def test_broken_json_is_named_and_ends_with_code_2(self):
-        write_folder(self.folder.name, complete=False)
-        with open(os.path.join(self.folder.name, "provenance.json"), "w", encoding="utf-8") as stream:
-            stream.write('{"program": ')
-        outcome = run(self.folder.name)
-        self.assertEqual(outcome.returncode, 2)
-        self.assertIn("provenance.json", outcome.stderr)
+        for text in ('{"program": ', '{"a": [1, 2]}'):
+            with open(os.path.join(self.folder.name, "provenance.json"), "w", encoding="utf-8") as stream:
+                stream.write(text)
+            outcome = run(self.folder.name)
+            self.assertEqual(outcome.returncode, 2, text)
+            self.assertIn("provenance.json", outcome.stderr)
 
 
 class StepStudy(unittest.TestCase):
