@@ -3,9 +3,11 @@
 #include "coupling/ensembles/ensemble_folder.h"
 
 #include <filesystem>
+#include <map>
 
 #include <nlohmann/json.hpp>
 
+#include "coupling/folders/folder_lock.h"
 #include "coupling/folders/provenance.h"
 #include "coupling/folders/result_folder.h"
 #include "coupling/scene/identity.h"
@@ -33,11 +35,19 @@ namespace diptych::coupling
                          "; resume with the same scene or start without --resume");
     }
 
-    // Only in a folder that holds a result of diptych: `diptych run` refuses any other, too.
+    // Folders of members that stand there, held: throws, with nothing changed, where another run writes to one of them. Only
+    // those that hold a result of diptych: `diptych run` refuses any other, too.
+    std::map<std::string, FolderLock> held_members(const std::string &directory, const std::vector<int> &seeds)
+    {
+      std::map<std::string, FolderLock> held;
+      for (const int seed : seeds)
+        if (const std::string folder = member_folder(directory, seed); is_echo(folder + "/scene.prm"))
+          held.try_emplace(folder, folder);
+      return held;
+    }
+
     void forget_member(const std::string &folder)
     {
-      if (!is_echo(folder + "/scene.prm"))
-        return;
       remove_results(folder, comparison_files);
       remove_results(folder, {"provenance.json", "checkpoint.h5", "continuum_checkpoint.h5", "coarse"});
     }
@@ -69,14 +79,14 @@ namespace diptych::coupling
     if (resume && is_ensemble)
       demand_same_scene(scene);
     (void)recorded_scene(directory); // throws where this run could not add to what stands there
+    const auto members = resume ? std::map<std::string, FolderLock>() : held_members(directory, seeds);
     // Killed before its end, this run must not leave the statistics of an earlier one.
     remove_results(directory, {"ensemble.json", "ensemble.csv", "ensemble.h5", "report.html"});
-    for (const int seed : seeds)
-      if (!resume)
-        {
-          forget_member(member_folder(directory, seed));
-          fs::remove(member_log(directory, seed));
-        }
+    for (const auto &[folder, lock] : members)
+      forget_member(folder);
+    if (!resume)
+      for (const int seed : seeds)
+        fs::remove(member_log(directory, seed));
     discrete::write_text(directory + "/ensemble.prm", echo(scene));
   }
 

@@ -69,6 +69,12 @@ class Inputs(Folder):
                              "rows of discrete.csv", "discrete/history_interval", "nothing was written")
         self.assertFalse(os.path.exists(self.folder), result.stderr)
 
+    def test_an_empty_scene_is_not_the_scene_of_defaults(self):
+        for name, text in (("a.prm", ""), ("a.prm", "\n \t\r\n"), ("a.json", "")):
+            self.expect(2, ["discrete", write(os.path.join(self.work, name), text), *FEW, "--output", self.folder, "--quiet"], name, "is empty")
+        self.expect(0, ["discrete", write(os.path.join(self.work, "a.prm"), "# defaults\n"), *setting(loading_stage_strain=0.0005), *FEW,
+                        "--output", self.folder, "--quiet"])
+
     def test_solutions_replace_solutions_alone(self):
         scene = write(os.path.join(self.work, "scene.prm"), "# mine\n")
         problem = os.path.join(PROBLEMS, "small.h5")
@@ -243,24 +249,35 @@ class Folders(Folder):
         sample = os.path.join(self.work, "start")
         self.expect(0, ["export", self.folder, "--format", "csv", "--output", sample, "--quiet"])
 
-    def test_a_second_run_is_told_who_writes(self):
-        words = [PROGRAM, "discrete", QUICK, *FEW, *setting(loading_axial_strain=0.2, comparison_window_edges="0,0.2"), "--output", self.folder]
-        first = subprocess.Popen([*words, "--quiet"], env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    def refused_while(self, held, words):
+        """A run that writes to the folder `held` is stopped half way, as by Ctrl-Z; `words` are told who it is, and change nothing."""
+        first = subprocess.Popen([PROGRAM, "discrete", QUICK, *FEW, *setting(loading_axial_strain=0.2, comparison_window_edges="0,0.2"),
+                                  "--output", held, "--quiet"], env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         try:
-            while first.poll() is None and not os.path.exists(os.path.join(self.folder, "scene.prm")):
+            lock = os.path.join(held, ".diptych.lock")
+            while first.poll() is None and not (os.path.exists(lock) and os.path.getsize(lock)):  # its name comes once it holds
                 time.sleep(0.002)
             self.assertIsNone(first.poll())
             os.kill(first.pid, signal.SIGSTOP)
-            held = self.contents()
-            second = subprocess.run([*words, "--quiet"], env=ENVIRONMENT, capture_output=True, text=True)
+            before = self.contents()
+            second = diptych(*words)
             self.assertEqual(second.returncode, 4, second.stderr)
-            for text in (self.folder, str(first.pid), os.uname().nodename):
+            for text in (held, str(first.pid), os.uname().nodename):
                 self.assertIn(text, second.stderr)
-            self.assertEqual(self.contents(), held)
+            self.assertEqual(self.contents(), before)
         finally:
             first.kill()
             first.wait()
-        self.assertEqual(diptych("discrete", QUICK, *FEW, "--output", self.folder, "--quiet").returncode, 0)  # the dead one's lock holds nobody
+
+    def test_a_second_run_is_told_who_writes(self):
+        words = ["discrete", QUICK, *FEW, "--output", self.folder, "--quiet"]
+        self.refused_while(self.folder, words)
+        self.assertEqual(diptych(*words).returncode, 0)  # the dead one's lock holds nobody
+
+    def test_an_ensemble_leaves_a_member_that_another_run_writes(self):
+        words = ["run", QUICK, *BOTH, "--seeds", "1-2", "--jobs", "1", "--output", self.folder, "--quiet"]
+        self.expect(0, words)
+        self.refused_while(os.path.join(self.folder, "seed_2"), words)
 
 
 class Machine(Folder):

@@ -11,6 +11,7 @@ import random
 import shutil
 import sys
 import tempfile
+import time
 import traceback
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -70,6 +71,23 @@ def tell(kind, seed, violations, commands, folder):
     sys.stdout.flush()
 
 
+class Progress:
+    """Every ten seconds, on standard error: how far, and about how long still."""
+
+    def __init__(self, n_cases):
+        self.n_cases, self.done = n_cases, 0
+        self.began = self.told = time.monotonic()
+
+    def one_more(self):
+        self.done += 1
+        now = time.monotonic()
+        if now - self.told < 10:
+            return
+        self.told = now
+        left = (now - self.began) / self.done * (self.n_cases - self.done)
+        print(f"{self.done} of {self.n_cases} cases, about {left / 60:.0f} min left", file=sys.stderr, flush=True)
+
+
 def table(kinds, counted):
     head = ("kind", "cases", "with a result", "0", "2", "3", "4", "other", "violations", "CPU s")
     print("  ".join(f"{word:>16}" for word in head))
@@ -118,7 +136,9 @@ def main():
         plan = schedule(asked.cases, asked.seed, asked.kinds)
     counted = collections.defaultdict(collections.Counter)
     found = collections.defaultdict(set)
+    progress = Progress(len(plan))
     for kind, seed, made in all_cases(plan, keep, asked.jobs):
+        progress.one_more()
         counted[kind].update({"cases": 1, "violations": int(bool(made.violations)), "CPU s": made.seconds,
                               "with a result": int(any(code in (0, 3) for code in made.codes))})
         counted[kind].update(str(code) if code in (0, 2, 3, 4) else "other" for code in made.codes)
