@@ -40,11 +40,17 @@ packages+=(python3-pytest python3-pandas python3-scipy python3-nbconvert python3
 install_missing
 build "$preset" "${targets[@]}"
 if [ "$preset" = fuzz ]; then
-  for parser in scene table problem import; do
-    mkdir -p "build/fuzz/inputs/$parser"
-    ASAN_OPTIONS=detect_leaks=0 "build/fuzz/tests/robustness/fuzz/fuzz_$parser" -max_total_time="$seconds" -timeout=25 -rss_limit_mb=4000 \
-      -print_final_stats=1 -artifact_prefix="build/fuzz/finding_${parser}_" "build/fuzz/inputs/$parser" "tests/robustness/fuzz/kept/$parser"
-  done
+  fuzz_one() {
+    local log=build/fuzz/$1.log inputs=build/fuzz/inputs/$1
+    mkdir -p "$inputs"
+    TIMEFORMAT="fuzz_$1: %U s of CPU time"
+    time ASAN_OPTIONS=detect_leaks=0 "build/fuzz/tests/robustness/fuzz/fuzz_$1" -max_total_time="$2" -timeout=25 -rss_limit_mb=4000 \
+      -print_final_stats=1 -artifact_prefix="build/fuzz/finding_$1_" "$inputs" "tests/robustness/fuzz/kept/$1" >"$log" 2>&1 ||
+      { tail -n 50 "$log"; echo "fuzz_$1: a finding, build/fuzz/finding_$1_*"; return 1; }
+    echo "fuzz_$1: $(sed -n 's/stat::number_of_executed_units: *//p' "$log") inputs, no finding"
+  }
+  export -f fuzz_one
+  printf '%s\n' scene table problem import | xargs -P "$(cores)" -I '{}' bash -c "fuzz_one {} $seconds"
   exit 0
 fi
 # The thread sanitizer knows no addresses but those of a process without random places.

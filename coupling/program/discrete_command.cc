@@ -289,7 +289,11 @@ namespace diptych::coupling
       check_study(scene);
     if (scene.discrete.method.method == discrete::Method::imported)
       (void)load_imported(scene);
-    announce_room(line, scene, {true, false});
+    if (!line.study_of_step)
+      announce_room(line, scene, {true, false});
+    else
+      for (const int divisor : divisors)
+        announce_room(line, part_of_study(scene, divisor), {true, false});
     return writing(scene.output.directory, [&] {
       const Scene                     first = line.study_of_step ? part_of_study(scene, divisors[0]) : scene;
       std::unique_ptr<RecordedGrains> prepared;

@@ -4,6 +4,7 @@
 """Usage: faults_test.py PROGRAM SOURCE_DIR [unittest arguments]. Random relatives of these: tests/robustness."""
 
 import os
+import re
 import resource
 import shutil
 import signal
@@ -68,6 +69,12 @@ class Inputs(Folder):
         result = self.expect(4, ["discrete", QUICK, *FEW, *setting(loading_inertial_number=1e-9, discrete_step=0.011), "--output", self.folder, "--quiet"],
                              "rows of discrete.csv", "discrete/history_interval", "nothing was written")
         self.assertFalse(os.path.exists(self.folder), result.stderr)
+
+    def test_a_study_tells_what_each_of_its_runs_will_take(self):
+        result = self.expect(0, ["discrete", QUICK, *FEW, *setting(discrete_step=0.1), "--study", "step", "--output", self.folder])
+        first, half, quarter = [int(n) for n in re.findall(r"(\d+) steps", result.stdout)[:3]]
+        self.assertAlmostEqual(half / first, 2, delta=0.02)
+        self.assertAlmostEqual(quarter / first, 4, delta=0.04)
 
     def test_an_empty_scene_is_not_the_scene_of_defaults(self):
         for name, text in (("a.prm", ""), ("a.prm", "\n \t\r\n"), ("a.json", "")):
