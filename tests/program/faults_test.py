@@ -76,6 +76,15 @@ class Inputs(Folder):
         self.assertAlmostEqual(half / first, 2, delta=0.02)
         self.assertAlmostEqual(quarter / first, 4, delta=0.04)
 
+    def test_grains_that_carry_nothing_are_pointed_out(self):
+        """Sixty diameters apart: what t/s there is comes of single impacts."""
+        rows = "".join(f"{60 * i + 0.1 * j},{60 * j + 0.2 * i},0.5\n" for i in range(8) for j in range(8))
+        words = ["discrete", QUICK, *FEW, *setting(sample_file=write(os.path.join(self.work, "cloud.csv"), "x,y,r\n" + rows), loading_axial_strain=0.001,
+                                                   loading_stage_strain=0.0005, comparison_window_edges="0,0.001"), "--output", self.folder, "--quiet"]
+        self.expect(0, words, "nothing is pressed together")
+        self.assertIn(b"nothing is pressed together", content(os.path.join(self.folder, "provenance.json")))
+        self.assertNotIn(b"nothing is pressed together", content(os.path.join(self.whole, "provenance.json")))
+
     def test_an_empty_scene_is_not_the_scene_of_defaults(self):
         for name, text in (("a.prm", ""), ("a.prm", "\n \t\r\n"), ("a.json", "")):
             self.expect(2, ["discrete", write(os.path.join(self.work, name), text), *FEW, "--output", self.folder, "--quiet"], name, "is empty")
