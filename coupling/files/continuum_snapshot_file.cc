@@ -202,7 +202,7 @@ namespace diptych::coupling
 
   std::vector<Snapshot> read_continuum_snapshots(const std::string &h5_path)
   {
-    const Hdf5Reader      file(h5_path);
+    const Hdf5Reader      file(h5_path, Hdf5Reader::From::this_program);
     const std::size_t     n = discrete::count_stages(file);
     std::vector<Snapshot> snapshots;
     for (std::size_t k = 0; k < n; ++k)

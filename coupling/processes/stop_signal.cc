@@ -39,6 +39,12 @@ namespace diptych::coupling
       sigaction(signal, &action, nullptr);
     }
 
+    bool is_ignored(const int signal)
+    {
+      struct sigaction action = {};
+      return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+    }
+
     sigset_t stop_set()
     {
       sigset_t set;
@@ -49,13 +55,15 @@ namespace diptych::coupling
     }
   } // namespace
 
-  void install_stop_signals()
+  void install_signals()
   {
-    struct sigaction hangup = {};
-    sigaction(SIGHUP, nullptr, &hangup);
+    static const bool terminal_may_go = is_ignored(SIGHUP);
     take(SIGINT), take(SIGTERM);
-    if (hangup.sa_handler != SIG_IGN) // nohup: the terminal may go
+    if (terminal_may_go)
+      std::signal(SIGHUP, SIG_IGN);
+    else
       take(SIGHUP);
+    std::signal(SIGPIPE, SIG_IGN), std::signal(SIGXFSZ, SIG_IGN);
     unblock_stop_signals();
   }
 

@@ -8,11 +8,13 @@
 namespace diptych::coupling
 {
   // Takes the three signals from now on, those that wait behind block_stop_signals() or the same of the program before this one
-  // among them. To be called first of all in main, and again behind what takes signals to itself. A second Ctrl-C kills as usual.
-  void install_stop_signals();
+  // among them. To be called first of all in main, and again behind what takes signals to itself, as MPI's beginning does. A
+  // second Ctrl-C kills as usual. SIGHUP stays ignored where it was (nohup). SIGPIPE and SIGXFSZ are: the results do not care
+  // whether somebody still reads what is said, and a limit of file sizes is told as a full disk is.
+  void install_signals();
   bool stop_requested();
 
-  // They wait, over exec too, until install_stop_signals(): a program that has just begun would die of them.
+  // They wait, over exec too, until install_signals(): a program that has just begun would die of them.
   void block_stop_signals();
   void unblock_stop_signals();
 

@@ -1,7 +1,6 @@
 // diptych: the program; what needs the continuum's libraries is done by another one beside it, so that the rest starts at once
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cerrno>
-#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -60,11 +59,23 @@ namespace
                                std::to_string(least / megabyte) + "; nothing was written");
   }
 
+  // Less ends the process by SIGSEGV now and then.
+  void require_stack()
+  {
+    constexpr rlim_t kilobyte = 1 << 10, least = 512 * kilobyte;
+    rlimit           limit{};
+    if (getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur < least)
+      throw std::runtime_error("this process may have a stack of " + std::to_string(limit.rlim_cur / kilobyte) +
+                               " kB (ulimit -s); the libraries of the continuum need " + std::to_string(least / kilobyte) +
+                               "; nothing was written");
+  }
+
   // MPI keeps files of its own there, and where it cannot it ends the process by itself, with exit code 1.
   void require_temporary_room()
   {
     std::error_code   none;
     const auto        folder = std::filesystem::temp_directory_path(none);
+    const char *const named  = std::getenv("TMPDIR");
     std::string       path   = (folder / "diptych_XXXXXX").string();
     const int         file   = none ? -1 : mkstemp(path.data());
     std::string       why    = none ? none.message() : file < 0 ? std::strerror(errno) : "";
@@ -75,8 +86,8 @@ namespace
     if (file >= 0)
       close(file), unlink(path.c_str());
     if (!why.empty())
-      throw std::runtime_error("temporary files cannot be written in " + folder.string() + " (TMPDIR): " + why +
-                               "; nothing was written");
+      throw std::runtime_error("temporary files cannot be written in '" + (none && named ? named : folder.string()) +
+                               "' (TMPDIR): " + why + "; nothing was written");
   }
 
   // diptych-panels beside this program, or in PREFIX/libexec where it is installed.
@@ -84,6 +95,7 @@ namespace
   {
     require_open_files();
     require_address_space();
+    require_stack();
     require_temporary_room();
     namespace fs             = std::filesystem;
     const fs::path    folder = fs::path(own_path()).parent_path();
@@ -202,16 +214,37 @@ namespace
   }
 } // namespace
 
+namespace
+{
+  // What they find is written to standard output and nowhere else.
+  bool is_said(const CommandLine &line)
+  {
+    return line.command == Command::explain || (line.command == Command::solve && line.output.empty());
+  }
+
+  // Nobody who reads is no fault, a full disk is one.
+  void require_output()
+  {
+    if (std::cout.flush())
+      return;
+    const bool nobody_reads = write(STDOUT_FILENO, "\n", 1) < 0 && (errno == EPIPE || errno == EBADF);
+    if (!nobody_reads)
+      throw std::runtime_error(std::string("standard output cannot be written: ") + std::strerror(ENOSPC) +
+                               "; nothing was written to a file");
+  }
+} // namespace
+
 int main(int argc, char **argv)
 {
-  install_stop_signals();
-  std::signal(SIGPIPE, SIG_IGN); // nobody reads any more: the results do not care
-  std::signal(SIGXFSZ, SIG_IGN); // a limit of file sizes is told as a full disk is
+  install_signals();
   try
     {
       require_working_directory();
       const ParsedLine parsed = parse_command_line({argv + 1, argv + argc});
-      return parsed.exit_code ? *parsed.exit_code : execute(parsed.line, argv);
+      const int        code   = parsed.exit_code ? *parsed.exit_code : execute(parsed.line, argv);
+      if (code == done && (parsed.exit_code || is_said(parsed.line)))
+        require_output();
+      return code;
     }
   catch (const std::exception &error)
     {

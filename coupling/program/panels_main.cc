@@ -1,6 +1,5 @@
 // diptych: the commands that need the continuum's libraries; `diptych` starts this program for them
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <csignal>
 #include <cstdlib>
 #include <iostream>
 #include <stdexcept>
@@ -68,17 +67,15 @@ extern "C" int MPI_Abort(MPI_Comm communicator, int)
 
 int main(int argc, char **argv)
 {
-  install_stop_signals(); // those that came while the program began, too
+  install_signals(); // those that came while the program began, too
   need_no_daemon();
-  std::signal(SIGPIPE, SIG_IGN); // nobody reads any more: the results do not care
-  std::signal(SIGXFSZ, SIG_IGN); // a limit of file sizes is told as a full disk is
   if (argc == 2 && std::string(argv[1]) == worker_word)
     {
       constexpr unsigned int most_seconds = 60; // of a worker that nobody waits for any more: a step and its checkpoint
       end_after_parent(most_seconds);
       block_stop_signals();
       dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-      install_stop_signals();
+      install_signals(); // once more: the libraries that begin with MPI give signals their default actions
       return answer_for([] { return work_for_parent(execute); }, code_of, text_of_end);
     }
   // Words of the command line, before there is any other process to answer to.
@@ -90,6 +87,6 @@ int main(int argc, char **argv)
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   parsed.line.quiet          = parsed.line.quiet || !is_first_process();
   parsed.line.tells_warnings = is_first_process();
-  install_stop_signals();
+  install_signals();
   return answer_for([&] { return execute(parsed.line); }, code_of, text_of_end);
 }

@@ -48,6 +48,14 @@ namespace diptych::coupling
           return "step-study";
         }
     }
+
+    // What it was writing, however it ended.
+    void remove_parts(const std::string &directory)
+    {
+      for (const auto &entry : fs::directory_iterator(directory))
+        if (entry.path().extension() == ".part" && entry.is_regular_file())
+          fs::remove(entry.path());
+    }
   } // namespace
 
   void draw(const Drawing drawing, const std::string &directory)
@@ -60,11 +68,11 @@ namespace diptych::coupling
       }
     catch (const StoppedOnRequest &)
       {
-        for (const auto &entry : fs::directory_iterator(directory)) // what it was writing
-          if (entry.path().extension() == ".part" && entry.is_regular_file())
-            fs::remove(entry.path());
+        remove_parts(directory);
         throw StoppedOnRequest("drawing the report: stopped on request; to draw it: diptych report " + directory);
       }
+    if (code != 0)
+      remove_parts(directory);
     if (code == wrong_input)
       throw std::invalid_argument(directory + ": the report could not be drawn");
     if (code != 0)

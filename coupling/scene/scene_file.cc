@@ -3,6 +3,7 @@
 #include "coupling/scene/scene_file.h"
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -56,6 +57,9 @@ namespace diptych::coupling
     {
       if (entry.value.find_first_of("\n\r") != std::string::npos || entry.value.find('\0') != std::string::npos)
         throw SceneError(entry.place + ": " + entry.section + "/" + entry.key + " holds a line break or a zero byte");
+      if (!entry.value.empty() && (std::strchr(" \t", entry.value.front()) || std::strchr(" \t", entry.value.back())))
+        throw SceneError(entry.place + ": " + entry.section + "/" + entry.key + " = '" + entry.value +
+                         "' begins or ends with a blank, which the scene's echo cannot hold");
     }
 
     void set(Scene &scene, const Entry &entry)
@@ -88,6 +92,13 @@ namespace diptych::coupling
       return json ? entries_of_json(file, in) : entries_of_prm(file, in);
     }
   } // namespace
+
+  void demand_section(const std::string &place, const std::string &section)
+  {
+    const std::vector<std::string> known = section_names();
+    if (std::find(known.begin(), known.end(), section) == known.end())
+      refuse_section(place + ": ", section);
+  }
 
   std::vector<std::string> section_names()
   {

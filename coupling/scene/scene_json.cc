@@ -16,6 +16,7 @@ namespace diptych::coupling
       {
         if (!content.is_object())
           throw SceneError(text.place("/" + section) + ": '" + section + "' must be a section: an object of keys");
+        demand_section(text.place("/" + section), section);
         for (const auto &[key, value] : content.items())
           {
             const std::string place     = text.place("/" + section + "/" + key);

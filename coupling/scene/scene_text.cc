@@ -86,6 +86,7 @@ namespace diptych::coupling
           {
             if (!section.empty())
               throw SceneError(place + ": subsection '" + *name + "' inside '" + section + "'; 'end' is missing");
+            demand_section(place, *name);
             section = *name;
           }
         else if (strcasecmp(line.c_str(), "end") == 0)

@@ -28,6 +28,9 @@ namespace diptych::coupling
   // {"section": {"key": value}}; the value may also stand as {"value": ...}. Throws SceneError naming file and line.
   std::vector<Entry> entries_of_json(const std::string &file, std::istream &in);
 
+  // Throws SceneError "PLACE: unknown section ..." naming the nearest, where scenes have none of that name.
+  void demand_section(const std::string &place, const std::string &section);
+
   // A value as it stands in such a text. Throws SceneError where it holds a line break.
   std::string prm_value(const std::string &value);
 

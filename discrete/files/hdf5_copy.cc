@@ -11,13 +11,13 @@ namespace diptych::discrete
   {
     struct Copy
     {
-      hid_t       from, to;
+      hid_t       from, to, links; // `links`: how names of `from` are followed
       std::string from_path, to_path;
 
       // Any type, texts of variable length too.
       void attributes(const std::string &object) const
       {
-        const Id source(H5Oopen(from, object.c_str(), H5P_DEFAULT), H5Oclose),
+        const Id source(H5Oopen(from, object.c_str(), links), H5Oclose),
           target(H5Oopen(to, object.c_str(), H5P_DEFAULT), H5Oclose);
         H5O_info_t info{};
         if (H5Oget_info2(source, &info, H5O_INFO_NUM_ATTRS) < 0)
@@ -39,9 +39,8 @@ namespace diptych::discrete
           }
       }
 
-      void array(const std::string &name) const
+      void array(const hid_t source, const std::string &name) const
       {
-        const Id          source(H5Dopen2(from, name.c_str(), H5P_DEFAULT), H5Dclose);
         const Id          type(H5Dget_type(source), H5Tclose), space(H5Dget_space(source), H5Sclose);
         std::vector<char> bytes(bytes_of(name, type, space, H5Dget_storage_size(source)));
         if (!bytes.empty() && H5Dread(source, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0)
@@ -67,10 +66,13 @@ namespace diptych::discrete
 
   void Hdf5Writer::copy_values(const Hdf5Reader &from, const std::string &name)
   {
-    const Copy copy{from.file_, file_, from.path_, path_};
+    const Copy copy{from.file_, file_, from.link_access(), from.path_, path_};
     H5O_info_t info;
-    if (H5Oget_info_by_name2(from.file_, name.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT) < 0)
-      refuse(from.path_, name, "cannot be read: damaged");
+    if (H5Oget_info_by_name2(from.file_, name.c_str(), &info, H5O_INFO_BASIC, from.link_access()) < 0)
+      {
+        from.refuse_links(name);
+        refuse(from.path_, name, "cannot be read: damaged");
+      }
     if (info.type == H5O_TYPE_GROUP)
       {
         const Id group(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
@@ -80,7 +82,7 @@ namespace diptych::discrete
           copy_values(from, name + "/" + member);
       }
     else if (info.type == H5O_TYPE_DATASET)
-      copy.array(name);
+      copy.array(Id(from.opened(name), H5Dclose), name);
     else
       return; // a type by itself: nothing that a reader asks for
     copy.attributes(name);

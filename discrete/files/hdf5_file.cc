@@ -262,6 +262,7 @@ namespace diptych::discrete
 
   void Hdf5Writer::copy(const Hdf5Reader &from, const std::string &name)
   {
+    from.check_storage_below(name);
     if (H5Ocopy(from.file_, name.c_str(), file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0)
       fail("copy from " + from.path_ + " the object", path_, name);
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -54,14 +55,15 @@ namespace diptych::discrete
   };
 
   // All functions throw std::invalid_argument naming file and object: missing, truncated, damaged (checksum), of another type or
-  // shape than asked for.
+  // shape than asked for, or in another file, where links and arrays may lead: to pipes, devices, what the reader alone may see.
+  // Only the stages of a StagedFile are files of their own.
   class Hdf5Reader
   {
   public:
     enum class From
     {
       anybody,
-      this_program // numbers of another type than it writes are refused, too
+      this_program // numbers of another type than it writes, or without the checksum that it gives them, are refused, too
     };
 
     explicit Hdf5Reader(const std::string &path, From from = From::anybody);
@@ -85,12 +87,19 @@ namespace diptych::discrete
     const std::string           &path() const { return path_; }
 
   private:
-    friend class Hdf5Writer; // copy() needs the open file
+    friend class Hdf5Writer; // copies need the open file
+    struct Links;
 
-    void check_numbers(const std::string &name, std::int64_t data, std::size_t n) const;
+    std::int64_t link_access() const;                   // how names are followed
+    std::int64_t opened(const std::string &name) const; // an array, to be closed
+    void         check_numbers(const std::string &name, std::int64_t data, std::size_t n) const;
+    void         check_storage_below(const std::string &name) const;
+    void         refuse_links(const std::string &name) const;
 
-    std::string  path_;
-    std::int64_t file_ = -1;
-    From         from_;
+    std::string            path_;
+    std::int64_t           file_ = -1;
+    From                   from_;
+    bool                   has_checksums_ = false;
+    std::unique_ptr<Links> links_; // how names are followed
   };
 } // namespace diptych::discrete

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <stdexcept>
 
@@ -23,15 +24,90 @@ namespace diptych::discrete
     }
   } // namespace
 
+  // Where a name leads out of its file, the library asks here.
+  struct Hdf5Reader::Links
+  {
+    explicit Links(const std::string &path)
+        : path(path),
+          access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose)
+    {
+      if (H5Pset_elink_cb(access, follow, this) < 0)
+        throw std::runtime_error("HDF5: links cannot be watched");
+    }
+
+    static herr_t follow(const char *parent, const char *, const char *child, const char *, unsigned *, hid_t, void *links)
+    {
+      return static_cast<Links *>(links)->is_own(parent, child) ? 0 : -1;
+    }
+
+    // A stage of this file, as StagedFile links them. What stands there may link on itself: no further.
+    bool is_own(const std::string &parent, const std::string &child)
+    {
+      namespace fs           = std::filesystem;
+      const fs::path stage   = child;
+      const bool     is_near = stage.parent_path() == fs::path(path).stem() && stage.filename().string().rfind("stage_", 0) == 0;
+      refused                = child;
+      if (parent != path || !is_near)
+        return false;
+      try
+        {
+          require_regular_file((fs::path(path).parent_path() / stage).string());
+        }
+      catch (const std::exception &) // the library could not bear it
+        {
+          return false;
+        }
+      refused.clear();
+      return true;
+    }
+
+    std::string path, refused;
+    Id          access;
+  };
+
+  namespace
+  {
+    // Whether the file is of the format whose arrays this program gives checksums: earlier versions wrote another.
+    bool is_of_format_110(const hid_t file)
+    {
+      constexpr unsigned super_block_of_110 = 3;
+      H5F_info2_t        info{};
+      return H5Fget_info2(file, &info) >= 0 && info.super.version >= super_block_of_110;
+    }
+
+    bool is_in_its_file(const hid_t data)
+    {
+      const Id properties(H5Dget_create_plist(data), H5Pclose);
+      return properties >= 0 && H5Pget_layout(properties) != H5D_VIRTUAL && H5Pget_external_count(properties) == 0;
+    }
+
+    bool is_scalar(const hid_t data)
+    {
+      const Id space(H5Dget_space(data), H5Sclose);
+      return H5Sget_simple_extent_ndims(space) == 0;
+    }
+
+    bool has_checksum(const hid_t data)
+    {
+      const Id     properties(H5Dget_create_plist(data), H5Pclose);
+      unsigned     flags = 0;
+      std::size_t  n     = 0;
+      unsigned int config;
+      return H5Pget_filter_by_id2(properties, H5Z_FILTER_FLETCHER32, &flags, &n, nullptr, 0, nullptr, &config) >= 0;
+    }
+  } // namespace
+
   Hdf5Reader::Hdf5Reader(const std::string &path, const From from)
       : path_(path),
         from_(from)
   {
     require_regular_file(path);
     silence();
-    file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    links_ = std::make_unique<Links>(path);
+    file_  = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file_ < 0)
       throw std::invalid_argument(path + ": cannot be opened: missing, truncated or no HDF5 file");
+    has_checksums_ = is_of_format_110(file_);
   }
 
   Hdf5Reader::~Hdf5Reader()
@@ -39,30 +115,70 @@ namespace diptych::discrete
     H5Fclose(file_);
   }
 
+  std::int64_t Hdf5Reader::link_access() const
+  {
+    return links_->access;
+  }
+
+  void Hdf5Reader::refuse_links(const std::string &name) const
+  {
+    if (!links_->refused.empty())
+      refuse(path_, name, "stands in another file, '" + links_->refused + "': links into other files are not followed");
+  }
+
   bool Hdf5Reader::has(const std::string &name) const
   {
+    const auto is_there = [&](const std::string &object) {
+      const bool found = H5Lexists(file_, object.c_str(), links_->access) > 0;
+      refuse_links(object);
+      return found;
+    };
     for (std::size_t end = name.find('/', 1); end != std::string::npos; end = name.find('/', end + 1))
-      if (H5Lexists(file_, name.substr(0, end).c_str(), H5P_DEFAULT) <= 0)
+      if (!is_there(name.substr(0, end)))
         return false;
-    return H5Lexists(file_, name.c_str(), H5P_DEFAULT) > 0;
+    return is_there(name);
   }
 
   bool Hdf5Reader::is_link(const std::string &name) const
   {
     H5L_info_t info;
-    return H5Lget_info(file_, name.c_str(), &info, H5P_DEFAULT) >= 0 && info.type == H5L_TYPE_EXTERNAL;
+    return H5Lget_info(file_, name.c_str(), &info, links_->access) >= 0 && info.type == H5L_TYPE_EXTERNAL;
+  }
+
+  std::int64_t Hdf5Reader::opened(const std::string &name) const
+  {
+    const hid_t data = H5Dopen2(file_, name.c_str(), links_->access);
+    if (data < 0)
+      {
+        refuse_links(name);
+        refuse(path_, name, "is missing or no array (a file of another version?)");
+      }
+    if (!is_in_its_file(data))
+      {
+        H5Dclose(data);
+        refuse(path_, name, "has its numbers in other files, which are not read");
+      }
+    return data;
+  }
+
+  // Of an array, or of all that a group holds.
+  void Hdf5Reader::check_storage_below(const std::string &name) const
+  {
+    const auto look = [](hid_t object, const char *below, const H5O_info_t *info, void *) -> herr_t {
+      if (info->type != H5O_TYPE_DATASET)
+        return 0;
+      const Id data(H5Oopen(object, below, H5P_DEFAULT), H5Oclose);
+      return data >= 0 && is_in_its_file(data) ? 0 : -1;
+    };
+    const herr_t looked = H5Ovisit_by_name2(file_, name.c_str(), H5_INDEX_NAME, H5_ITER_INC, look, nullptr, H5O_INFO_BASIC,
+                                            links_->access);
+    refuse_links(name);
+    if (looked < 0)
+      refuse(path_, name, "cannot be read: damaged, or its numbers are in other files");
   }
 
   namespace
   {
-    hid_t opened(const hid_t file, const std::string &path, const std::string &name)
-    {
-      const hid_t data = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
-      if (data < 0)
-        refuse(path, name, "is missing or no array (a file of another version?)");
-      return data;
-    }
-
     bool is_number(const hid_t type)
     {
       const H5T_class_t kind = H5Tget_class(type);
@@ -72,7 +188,7 @@ namespace diptych::discrete
 
   std::vector<std::size_t> Hdf5Reader::extents(const std::string &name) const
   {
-    const Id             data(opened(file_, path_, name), H5Dclose), space(H5Dget_space(data), H5Sclose);
+    const Id             data(opened(name), H5Dclose), space(H5Dget_space(data), H5Sclose);
     std::vector<hsize_t> dimensions(std::size_t(std::max(0, H5Sget_simple_extent_ndims(space))));
     if (H5Sget_simple_extent_dims(space, dimensions.data(), nullptr) < 0)
       refuse(path_, name, "has no extents");
@@ -88,6 +204,8 @@ namespace diptych::discrete
       refuse(path_, name, "holds no numbers");
     if (from_ == From::this_program && H5Tequal(type, H5T_IEEE_F64LE) <= 0 && H5Tequal(type, H5T_STD_I32LE) <= 0)
       refuse(path_, name, "holds numbers of another type than this program writes");
+    if (from_ == From::this_program && has_checksums_ && n > 0 && !is_scalar(data) && !has_checksum(data))
+      refuse(path_, name, "has no checksum: this program has not written it");
     if (n > 0 && H5Dget_storage_size(data) == 0)
       refuse(path_, name, "was never written");
     if (double(n) * double(H5Tget_size(type)) > largest_compression * double(H5Dget_storage_size(data)))
@@ -97,7 +215,7 @@ namespace diptych::discrete
   std::vector<double> Hdf5Reader::read(const std::string &name) const
   {
     const std::size_t n = product(extents(name));
-    const Id          data(opened(file_, path_, name), H5Dclose);
+    const Id          data(opened(name), H5Dclose);
     check_numbers(name, data, n);
     std::vector<double> values(n);
     if (n > 0 && H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
@@ -142,7 +260,7 @@ namespace diptych::discrete
 
   std::string Hdf5Reader::read_string(const std::string &name) const
   {
-    const Id          data(opened(file_, path_, name), H5Dclose), type(H5Dget_type(data), H5Tclose);
+    const Id          data(opened(name), H5Dclose), type(H5Dget_type(data), H5Tclose);
     const bool        fixed = H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) <= 0 && product(extents(name)) == 1;
     std::vector<char> characters(fixed ? H5Tget_size(type) : 0);
     if (!fixed || H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, characters.data()) < 0)
@@ -152,8 +270,9 @@ namespace diptych::discrete
 
   std::vector<std::string> Hdf5Reader::members(const std::string &group) const
   {
-    const Id id(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
-    if (id < 0)
+    const Id id(H5Oopen(file_, group.c_str(), links_->access), H5Oclose);
+    refuse_links(group);
+    if (id < 0 || H5Iget_type(id) != H5I_GROUP)
       refuse(path_, group, "is missing or no group");
     std::vector<std::string> names;
     const auto               collect = [](hid_t, const char *name, const H5L_info_t *, void *to) -> herr_t {
@@ -167,12 +286,15 @@ namespace diptych::discrete
 
   bool Hdf5Reader::has_attribute(const std::string &object, const std::string &name) const
   {
-    return H5Aexists_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
+    const bool found = H5Aexists_by_name(file_, object.c_str(), name.c_str(), links_->access) > 0;
+    refuse_links(object);
+    return found;
   }
 
   std::vector<double> Hdf5Reader::attributes(const std::string &object, const std::string &name) const
   {
-    const Id attribute(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    const Id attribute(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, links_->access), H5Aclose);
+    refuse_links(object);
     if (attribute < 0)
       refuse(path_, object, "has no attribute " + name + " (a file of another version?)");
     const Id            space(H5Aget_space(attribute), H5Sclose), type(H5Aget_type(attribute), H5Tclose);
@@ -192,11 +314,14 @@ namespace diptych::discrete
 
   std::string Hdf5Reader::text_attribute(const std::string &object, const std::string &name) const
   {
-    const Id          attribute(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    const Id attribute(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, links_->access), H5Aclose);
+    refuse_links(object);
     const Id          type(attribute < 0 ? -1 : H5Aget_type(attribute), H5Tclose);
-    const bool        fixed = type >= 0 && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) <= 0;
-    std::vector<char> characters(fixed ? H5Tget_size(type) : 0);
-    if (!fixed || H5Aread(attribute, type, characters.data()) < 0)
+    const Id          space(attribute < 0 ? -1 : H5Aget_space(attribute), H5Sclose);
+    const bool        is_one = space >= 0 && H5Sget_simple_extent_npoints(space) == 1;
+    const bool        fixed  = type >= 0 && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) <= 0;
+    std::vector<char> characters(fixed && is_one ? H5Tget_size(type) : 0);
+    if (characters.empty() || H5Aread(attribute, type, characters.data()) < 0)
       refuse(path_, object, "has no attribute " + name + " that is a text");
     return text_of(characters);
   }

@@ -104,6 +104,8 @@ namespace diptych::discrete
         {
           Wall wall{{v[k], v[k + 1]}, {v[k + 2], v[k + 3]}, {v[k + 4], v[k + 5]}, {}, {}, v[k + 6], WallKind::platen};
           wall.kind = v[k + 7] == 0 ? WallKind::platen : WallKind::side;
+          if (!(std::abs(wall.normal.norm() - 1) < 1e-9 && wall.mass >= 0))
+            throw std::invalid_argument(file.path() + ": 'walls' holds a normal that is not of length 1 or a mass below 0");
           walls.push_back(wall);
         }
       return walls;
@@ -190,6 +192,23 @@ namespace diptych::discrete
       if (!are_finite(g))
         throw std::invalid_argument(path + ": 'grains' hold a number that is not finite, or a size that is not positive");
     }
+    // What no loading could have left.
+    void check_scalars(const std::string &path, const StoredCheckpoint &checkpoint)
+    {
+      const Checkpoint &p      = checkpoint.panel;
+      const auto        demand = [&](const bool holds, const char *what) {
+        if (!holds)
+          throw std::invalid_argument(path + ": " + what);
+      };
+      const std::vector<Wall> &walls = p.state.walls;
+      demand(checkpoint.n_rows >= 0 && p.stage >= 0, "'n_rows' or 'scalars/stage' is negative");
+      demand(std::isfinite(p.step) && (p.step > 0 || (p.step == 0 && p.steps_left == 0)), "'scalars/step' is not above 0");
+      demand(p.state.time >= 0 && std::isfinite(p.state.time), "'scalars/time' is negative or not finite");
+      demand(p.steps_left >= 0 && p.report.steps >= 0, "'scalars/steps_left' or 'scalars/steps' is negative");
+      demand(p.interval > 0, "'scalars/interval' is not above 0");
+      demand(p.reference.height > 0 && p.reference.area > 0, "'scalars/reference_height' or 'reference_area' is not above 0");
+      demand(walls[1].point.y() > walls[0].point.y(), "'walls' has the upper platen below the lower one");
+    }
   } // namespace
 
   void write_checkpoint(const std::string &path, const StoredCheckpoint &checkpoint)
@@ -234,8 +253,7 @@ namespace diptych::discrete
       visit_scalars(p, [&](const char *name, auto &value) {
         value = read_number<std::decay_t<decltype(value)>>(file, std::string("scalars/") + name);
       });
-      if (checkpoint.n_rows < 0 || p.stage < 0)
-        throw std::invalid_argument(path + ": 'n_rows' or 'scalars/stage' is negative");
+      check_scalars(path, checkpoint);
       checkpoint.scene    = file.read_string("scene");
       p.report.step_bound = file.read_string("step_bound");
       return checkpoint;

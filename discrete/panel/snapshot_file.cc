@@ -131,8 +131,9 @@ namespace diptych::discrete
         {
           contacts[k].i = body[2 * k], contacts[k].j = body[2 * k + 1];
           if (contacts[k].i < 0 || contacts[k].i >= int(n_grains) || contacts[k].j < 0 ||
-              contacts[k].j >= int(n_grains) + most_walls)
-            check.refuse(list + "body", "names a body that does not exist, in row " + std::to_string(k) + " (counted from 0)");
+              contacts[k].j >= int(n_grains) + most_walls || contacts[k].i == contacts[k].j)
+            check.refuse(list + "body", "names a body that does not exist, or one body twice, in row " + std::to_string(k) +
+                                          " (counted from 0)");
         }
       set_columns(contacts, contact_fields, [&](const std::string &name, auto &values) {
         values = read_field<typename std::decay_t<decltype(values)>::value_type>(file, group + "/" + name);
@@ -140,6 +141,22 @@ namespace diptych::discrete
         check.finite(list + name, values);
       });
       return contacts;
+    }
+
+    // Sizes are above 0, normals of length 1, to the digits that other codes write.
+    void check_values(const Snapshot &s, const ArrayCheck &check)
+    {
+      constexpr double digits   = 1e-3;
+      const auto       is_above = [](const double x) { return !(x <= 0); };
+      const auto       is_unit  = [](const ContactForce &c) {
+        return c.normal.array().isNaN().all() || std::abs(c.normal.norm() - 1) < digits;
+      };
+      if (!std::all_of(s.radius.begin(), s.radius.end(), is_above) || !std::all_of(s.mass.begin(), s.mass.end(), is_above))
+        check.refuse("grains", "holds a radius or a mass that is not above 0");
+      visit_contact_lists(s, [&](const std::string &name, const std::vector<ContactForce> &contacts, const char *, const char *) {
+        if (!std::all_of(contacts.begin(), contacts.end(), is_unit))
+          check.refuse(name + "/normal", "holds a normal that is not of length 1");
+      });
     }
 
     // Whether the list of attributes says that it may be no number.
@@ -168,13 +185,16 @@ namespace diptych::discrete
         else
           check.refuse(name, "is none of the names it may have");
       });
-      if (!(s.mean_diameter > 0))
-        check.refuse("mean_diameter", "is not above 0");
+      if (!(s.mean_diameter > 0) || !(s.area > 0))
+        check.refuse("mean_diameter or area", "is not above 0");
     }
 
     // The sides stand where grains or walls are: farther from their box than the box is large, no grain made them.
     void check_outline(const Snapshot &s, const ArrayCheck &check)
     {
+      const std::vector<Eigen::Vector2d> &left = s.outline.left, &right = s.outline.right;
+      if (!(left.front().x() < right.front().x() && left.back().x() < right.back().x()))
+        check.refuse("outline", "has its left side right of the right one");
       Eigen::Array2d low(INFINITY, s.lower_y), high(-INFINITY, s.upper_y);
       for (std::size_t i = 0; i < s.position.size(); ++i)
         {
@@ -226,6 +246,7 @@ namespace diptych::discrete
         if (points.size() < 2)
           check.refuse(name, "holds fewer than two points");
       });
+      check_values(s, check);
       check_outline(s, check);
       return s;
     }
@@ -295,7 +316,7 @@ namespace diptych::discrete
 
   std::vector<Snapshot> read_snapshots(const std::string &h5_path)
   {
-    const Hdf5Reader      file(h5_path);
+    const Hdf5Reader      file(h5_path, Hdf5Reader::From::this_program);
     const std::size_t     n = count_stages(file);
     std::vector<Snapshot> snapshots;
     for (std::size_t k = 0; k < n; ++k)

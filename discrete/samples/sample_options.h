@@ -61,7 +61,7 @@ namespace diptych::discrete
   template <class Visitor> void visit_parameters(SampleOptions &o, Visitor &&visitor)
   {
     visitor("grains", o.grains, "-", {10, 10000000}, "number of discs, unless width and height are both given");
-    visitor("mean_diameter", o.mean_diameter, "length", {1e-12, 1e12}, "mean diameter d");
+    visitor("mean_diameter", o.mean_diameter, "length", {1e-9, 1e9}, "mean diameter d");
     visitor("radius_distribution", o.radius_distribution, "-",
             "of the radii between radius_min and radius_max, or a grading curve; rescaled to the mean diameter 1");
     visitor("radius_min", o.radius_min, "mean diameters", {0.05, 0.5}, "smallest radius");

@@ -391,7 +391,7 @@ namespace diptych::discrete
         bring_to_rest(sample.state);
       }
     PreparationReport &report = sample.report;
-    report.touches = report.steps == 0 || std::holds_alternative<NoSides>(setting.lateral) || !sample.last_step.contacts.empty();
+    report.touches = report.steps == 0 || carries_anything(sample.last_step, sample.state.grains.size(), setting.lateral);
     report.quiet   = report.quiet && report.touches;
     if (options.rough_platens)
       roughen_platens(sample.state);

@@ -49,4 +49,13 @@ namespace diptych::discrete
       }
     return settled;
   }
+
+  bool carries_anything(const StepResult &step, const std::size_t n_grains, const LateralCondition &lateral)
+  {
+    const bool walls = std::holds_alternative<RigidSides>(lateral);
+    for (std::size_t k = 0; k < step.contacts.size(); ++k)
+      if (step.impulses[k].normal > 0 && (walls || std::size_t(step.contacts[k].j) < n_grains))
+        return true;
+    return std::holds_alternative<NoSides>(lateral);
+  }
 } // namespace diptych::discrete

@@ -31,4 +31,8 @@ namespace diptych::discrete
 
   // Everything stands still.
   void stop(State &state);
+
+  // Whether grains press on each other; between rigid walls one that presses on a wall will do, without sides there is no
+  // pressure.
+  bool carries_anything(const StepResult &step, std::size_t n_grains, const LateralCondition &lateral);
 } // namespace diptych::discrete

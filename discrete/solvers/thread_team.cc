@@ -2,6 +2,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/solvers/thread_team.h"
 
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
 namespace diptych::discrete
 {
   namespace
@@ -11,11 +16,26 @@ namespace diptych::discrete
 
   ThreadTeam::ThreadTeam(const int size)
   {
+    workers_.reserve(std::size_t(std::max(0, size - 1)));
     for (int rank = 1; rank < size; ++rank)
-      workers_.emplace_back([this, rank] { serve(rank); });
+      try
+        {
+          workers_.emplace_back([this, rank] { serve(rank); });
+        }
+      catch (const std::system_error &error)
+        {
+          end();
+          throw std::runtime_error("of " + std::to_string(size) + " threads the system starts " + std::to_string(rank) +
+                                   " (--threads): " + error.code().message());
+        }
   }
 
   ThreadTeam::~ThreadTeam()
+  {
+    end();
+  }
+
+  void ThreadTeam::end()
   {
     {
       const std::lock_guard<std::mutex> lock(mutex_);

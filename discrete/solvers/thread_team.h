@@ -15,7 +15,7 @@ namespace diptych::discrete
   class ThreadTeam
   {
   public:
-    explicit ThreadTeam(int size);
+    explicit ThreadTeam(int size); // throws std::runtime_error where the system starts fewer
     ~ThreadTeam();
     ThreadTeam(const ThreadTeam &)            = delete;
     ThreadTeam &operator=(const ThreadTeam &) = delete;
@@ -35,6 +35,7 @@ namespace diptych::discrete
     static constexpr long for_ever = 1L << 62;
 
     void serve(int rank);
+    void end();
 
     // Spins, then yields, until done() holds or `patience` rounds are over. Returns done().
     template <class Done> static bool wait_awake(const Done &done, const long patience)

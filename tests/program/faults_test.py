@@ -5,7 +5,6 @@
 
 import os
 import re
-import resource
 import shutil
 import signal
 import subprocess
@@ -15,7 +14,7 @@ import unittest
 
 import h5py
 
-from running import ENVIRONMENT, PROBLEMS, PROGRAM, QUICK, SMALL, bits, content, diptych, listing, main, setting, write
+from running import ENVIRONMENT, PROBLEMS, PROGRAM, QUICK, SMALL, content, diptych, listing, main, setting, write
 
 FEW = SMALL + setting(sample_grains=60, output_report="false")
 BOTH = FEW + setting(continuum_element_size=2.5, continuum_initial_step=0.0025, continuum_max_step=0.0025,
@@ -70,6 +69,12 @@ class Inputs(Folder):
                              "rows of discrete.csv", "discrete/history_interval", "nothing was written")
         self.assertFalse(os.path.exists(self.folder), result.stderr)
 
+    def test_a_scene_says_nothing_that_its_echo_could_not(self):
+        for name, text, said in (("a.json", '{"sampel": {}}', "'sampel'"), ("a.prm", "subsection sampel\nend\n", "'sampel'"),
+                                 ("a.json", '{"continuum": {"parameters_from": " x"}}', "begins or ends with a blank"),
+                                 ("a.json", '{"continuum": {"parameters_from": "x\\t"}}', "begins or ends with a blank")):
+            self.expect(2, ["discrete", write(os.path.join(self.work, name), text), "--output", self.folder, "--quiet"], name, said)
+
     def test_a_study_tells_what_each_of_its_runs_will_take(self):
         result = self.expect(0, ["discrete", QUICK, *FEW, *setting(discrete_step=0.1), "--study", "step", "--output", self.folder])
         first, half, quarter = [int(n) for n in re.findall(r"(\d+) steps", result.stdout)[:3]]
@@ -84,6 +89,7 @@ class Inputs(Folder):
         self.expect(0, words, "nothing is pressed together")
         self.assertIn(b"nothing is pressed together", content(os.path.join(self.folder, "provenance.json")))
         self.assertNotIn(b"nothing is pressed together", content(os.path.join(self.whole, "provenance.json")))
+        self.expect(3, [*words, *setting(sample_prepare_file="true", sample_preparation_steps=1)], "nothing carries loading/pressure")
 
     def test_an_empty_scene_is_not_the_scene_of_defaults(self):
         for name, text in (("a.prm", ""), ("a.prm", "\n \t\r\n"), ("a.json", "")):
@@ -296,45 +302,22 @@ class Folders(Folder):
         self.refused_while(os.path.join(self.folder, "seed_2"), words)
 
 
-class Machine(Folder):
-    def test_little_room_on_the_disk(self):
-        """The library's exit handler once ended every one of these in SIGSEGV."""
-        for room in (0, 64000, 120000, 250000, 500000):
-            def limit(room=room):
-                resource.setrlimit(resource.RLIMIT_FSIZE, (room, room))
-            with self.subTest(room=room):
-                shutil.rmtree(self.folder, ignore_errors=True)
-                result = diptych("discrete", QUICK, *FEW, "--output", self.folder, "--quiet", preexec_fn=limit)
-                self.assertIn(result.returncode, (0, 4) if room == 500000 else (4,), result.stderr)
-                if result.returncode == 4:
-                    self.assertTrue(self.folder in result.stderr or "nothing was written" in result.stderr, result.stderr)
+    def test_a_report_is_drawn_of_its_own_folder_alone(self):
+        """A link in comparison.h5 to a pipe, which would never end, and numbers that stand in another file."""
+        def link(file):
+            file["stage_0000/grains/stress"] = h5py.ExternalLink("pipe.h5", "/x")
 
-    def test_grains_run_where_the_continuum_would_not(self):
-        def limit():
-            resource.setrlimit(resource.RLIMIT_AS, (400 << 20, 400 << 20))
-        self.expect(0, ["discrete", QUICK, *FEW, "--output", self.folder, "--quiet"], preexec_fn=limit)
-
-    def test_little_memory_is_no_wrong_input(self):
-        table = write(os.path.join(self.work, "grains.csv"), "x,y,r\n" + "".join(f"{k % 700},{k // 700},0.5\n" for k in range(490000)))
-
-        def limit():
-            resource.setrlimit(resource.RLIMIT_AS, (120 << 20, 120 << 20))
-        for words in (["discrete", QUICK, *FEW, *setting(sample_file=table), "--output", self.folder, "--quiet"],
-                      ["import", "csv", table, "--output", self.folder, "--quiet"]):
-            result = self.expect(4, words, "not enough memory", "nothing was written", table, preexec_fn=limit)
-            self.assertNotIn("bad_alloc", result.stderr)
-
-    def test_without_h5py_what_was_computed_is_kept(self):
-        os.mkdir(os.path.join(self.work, "modules"))
-        write(os.path.join(self.work, "modules", "h5py.py"), "raise ModuleNotFoundError(\"No module named 'h5py'\", name='h5py')\n")
-        environment = dict(ENVIRONMENT, PYTHONPATH=os.path.join(self.work, "modules"))
-        result = subprocess.run([PROGRAM, "run", QUICK, *BOTH, *setting(output_report="true"), "--output", self.folder, "--quiet"],
-                                env=environment, capture_output=True, text=True)
-        self.assertEqual(result.returncode, 4, result.stderr)
-        for text in ("h5py", "kept in"):
-            self.assertIn(text, result.stderr)
-        self.assertNotIn("Traceback", result.stderr)
-        self.assertEqual(bits(os.path.join(self.folder, "comparison.h5")), bits(os.path.join(self.whole, "comparison.h5")))
+        def outside(file):
+            file.create_dataset("stage_0000/more", shape=(3,), dtype="f8", external=[("/dev/zero", 0, h5py.h5f.UNLIMITED)])
+        for change in (link, outside):
+            shutil.rmtree(self.folder, ignore_errors=True)
+            shutil.copytree(self.whole, self.folder)
+            os.mkfifo(os.path.join(self.folder, "pipe.h5"))
+            with h5py.File(os.path.join(self.folder, "comparison.h5"), "r+") as file:
+                change(file)
+            result = diptych("report", self.folder, "--quiet", timeout=60)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertRegex(result.stderr, r"comparison[.]h5: /stage_0000/.*other file")
 
 
 if __name__ == "__main__":

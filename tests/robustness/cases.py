@@ -103,11 +103,11 @@ class Case:
     def violate(self, sentence):
         self.violations.append(sentence)
 
-    def start(self, *words, env=None, cwd=None, preexec=limit, stdout=subprocess.PIPE):
+    def start(self, *words, env=None, cwd=None, preexec=limit, stdout=subprocess.PIPE, stderr=subprocess.PIPE):
         """The process; its texts come through pipes, which no limit of files ends, and are not waited for longer than it runs."""
         self.commands.append([os.fsdecode(word) for word in words])
         process = subprocess.Popen([PROGRAM, *words], env={**(env or ENVIRONMENT), **SANITIZER}, cwd=cwd or self.work, stdin=subprocess.DEVNULL, stdout=stdout,
-                                   stderr=subprocess.PIPE, preexec_fn=preexec, start_new_session=True)
+                                   stderr=stderr, preexec_fn=preexec, start_new_session=True)
         process.words, process.sent = self.commands[-1], 0
         process.told = {name: Listener(pipe) for name, pipe in (("out", process.stdout), ("errors", process.stderr)) if pipe}
         return process

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Each function takes the case's dice and content, and returns other content (text as bytes), or changes an HDF5 file in place."""
 
+import os
 import re
 
 import h5py
@@ -140,12 +141,40 @@ def items(path, kind):
     return found
 
 
-def replace(file, name, values):
+def replace(file, name, values, **storage):
+    """`storage`: of h5py's create_dataset."""
     attributes = dict(file[name].attrs)
     del file[name]
-    file[name] = values
+    file.create_dataset(name, data=values, **storage)
     for key, value in attributes.items():
         file[name].attrs[key] = value
+
+
+def checked(dice, file, name, values):
+    """Mostly the checksum that the array had: what was changed is then a number of the program's own, as far as its file tells."""
+    return {"fletcher32": True, "chunks": True} if file[name].fletcher32 and numpy.size(values) and numpy.ndim(values) and dice.random() < 0.7 else {}
+
+
+def pipe_beside(path, name):
+    """What leads there never ends, if it is followed."""
+    pipe = os.path.join(os.path.dirname(path), name)
+    if not os.path.lexists(pipe):
+        os.mkfifo(pipe)
+    return pipe
+
+
+def led_outside(dice, path, file, name):
+    """An array that stands in another file: by a link, or by where its numbers are."""
+    values = file[name][()] if isinstance(file.get(name), h5py.Dataset) else numpy.zeros(3)
+    del file[name]
+    pipe = pipe_beside(path, "pipe.h5")
+    if dice.random() < 0.5 or not (isinstance(values, numpy.ndarray) and values.size and values.dtype.kind in "if"):
+        target = dice.choice(["pipe.h5", pipe, "/dev/zero", "other.h5", "../pipe.h5"])
+        file[name] = h5py.ExternalLink(target, dice.choice(["/x", "/", "/" + name]))
+        return f"external link {target} as {name}"
+    target = dice.choice([pipe, "/dev/zero", "/dev/null", "/etc/passwd"])
+    file.create_dataset(name, shape=values.shape, dtype=values.dtype, external=[(target, 0, h5py.h5f.UNLIMITED)])
+    return f"numbers of {name} in {target}"
 
 
 def changed_values(dice, values, kind):
@@ -174,10 +203,10 @@ def damage_arrays(dice, path, often=""):
     """What a program that means well leaves: an HDF5 file that is one, with something missing or changed. `often`: pattern of arrays
     that are. Returns what was done, and whether it can be told from a whole file: more than a number is another."""
     datasets, groups = items(path, h5py.Dataset), items(path, h5py.Group)
-    kind = dice.choice(["dataset", "dataset", "dataset", "missing", "group", "attribute", "attribute", "kind", "link"])
+    kind = dice.choice(["dataset", "dataset", "dataset", "missing", "group", "attribute", "attribute", "kind", "link", "outside"])
     with h5py.File(path, "r+") as file:
         if not datasets:  # links into other files are all that it holds
-            datasets, kind = list(file), dice.choice(["missing", "kind", "link"])
+            datasets, kind = list(file), dice.choice(["missing", "kind", "link", "outside"])
         name = dice.choice([one for one in datasets if re.search(often, one)] or datasets if dice.random() < 0.7 else datasets)
         if kind == "missing":
             del file[name]
@@ -189,7 +218,8 @@ def damage_arrays(dice, path, often=""):
             if owners:
                 name = dice.choice(owners)
                 key = dice.choice(sorted(file[name].attrs))
-                new = dice.choice([None, numpy.zeros(1000), "word", numpy.nan, -1.0, numpy.zeros(0), 10**9])
+                new = dice.choice([None, numpy.zeros(1000), "word", numpy.nan, -1.0, numpy.zeros(0), 10**9, numpy.array([b"axial_strain"] * 4000), numpy.array([b""]),
+                                   "x" * 5000])
                 del file[name].attrs[key]
                 if new is not None:
                     file[name].attrs[key] = new
@@ -197,14 +227,17 @@ def damage_arrays(dice, path, often=""):
         elif kind == "kind":
             del file[name]
             file.create_group(name)
+        elif kind == "outside":
+            return led_outside(dice, path, file, name), True
         elif kind == "link":
             del file[name]
-            file[name] = dice.choice([h5py.SoftLink("/nowhere"), h5py.ExternalLink("other.h5", "/x"), h5py.SoftLink("/" + name)])
+            file[name] = dice.choice([h5py.SoftLink("/nowhere"), h5py.SoftLink("/" + name)])
         else:
             values = numpy.asarray(file[name][()])
             if values.dtype.kind in "if" and values.ndim:
                 change = dice.choice(["rows", "shape", "type", "value", "empty", "scalar", "more"])
-                replace(file, name, changed_values(dice, values, change))
+                values = changed_values(dice, values, change)
+                replace(file, name, values, **checked(dice, file, name, values))
                 return f"{change} of {name}", change not in ("value", "type")
             del file[name]
     return f"{kind} {name}", True

@@ -7,6 +7,7 @@ import functools
 import os
 import shutil
 import subprocess
+import threading
 
 import bases
 from bases import BOTH, NODES, TINY
@@ -57,12 +58,48 @@ def disk(case):
     space, is_small = int(2 ** dice.uniform(6, 11)), dice.random() < 0.5
     command = dice.choice(["discrete"] * 5 + ["run", "continuum", "compare", "compare", "import", "import", "export", "export", "solve"])
     os.mkdir(case.path("disk"))
+    if dice.random() < 0.4 and can_mount():
+        return filling_disk(case)
     if not is_small:
         return on_disk(case, command, functools.partial(limit, RLIMIT_FSIZE=room))
     held = size_of(os.path.join(case.base("both"), "out")) if command == "compare" else 0
     with small_disk(case, held + space) as is_one:
         on_disk(case, command, limit if is_one else functools.partial(limit, RLIMIT_FSIZE=room))
         case.found["on a small file system" if is_one else "no small file system"].add(case.seed)
+
+
+def filling_disk(case):
+    """A disk that becomes full while the command runs: what was whole stays, nothing half written does."""
+    dice, out = case.dice, case.path("disk", "out")
+    command = dice.choice(["run", "run", "discrete", "continuum", "report", "report", "compare"])
+    line = [command, QUICK, *{"run": [*BOTH, *setting(output_report="true")], "discrete": TINY, "continuum": NODES}[command], "--output",
+            out] if command in ("run", "discrete", "continuum") else [command, out]
+    with small_disk(case, 16000) as is_one:
+        if not is_one:
+            return
+        if command in ("report", "compare"):
+            shutil.copytree(os.path.join(case.base("both"), "out"), out)
+        process_room, wait = dice.choice([0, 4, 40, 200, 400]), dice.choice([0, 0, dice.uniform(0, 0.3), dice.uniform(0, 1.5)])
+        filler = threading.Timer(wait, fill, (case.path("disk"), process_room))
+        filler.start()
+        try:
+            case.run(*line, "--quiet", output=out, names=(out, "TMPDIR"), codes=(0, 4), patience=30, may_change=("disk/fill",))
+        finally:
+            filler.join()
+            case.found["on a disk that fills"].add(case.seed)
+            with contextlib.suppress(FileNotFoundError):
+                os.remove(case.path("disk", "fill"))
+
+
+def fill(folder, left):
+    """All but `left` kB."""
+    with open(os.path.join(folder, "fill"), "wb") as file:
+        place = os.statvfs(folder)
+        for _ in range(max(0, place.f_bavail * place.f_frsize // 1024 - left)):
+            try:
+                os.write(file.fileno(), bytes(1024))
+            except OSError:  # the program was quicker
+                return
 
 
 def on_disk(case, command, preexec):
@@ -86,7 +123,8 @@ def on_disk(case, command, preexec):
 
 def told(found):
     """Where the cases of `disk` were full, as a line below the table."""
-    return f"disk: {len(found['on a small file system'])} cases on a small file system" + (
+    return (f"disk: {len(found['on a small file system'])} cases on a small file system, {len(found['on a disk that fills'])} on one that fills "
+            "while the program runs") + (
         f"; {len(found['no small file system'])} should be and had a limit for their files instead: tmpfs cannot be mounted here"
         if found["no small file system"] else "")
 
@@ -141,24 +179,32 @@ def in_odd_environment(case):
         expect_same_as_base(case, base, out)
 
 
+RESULTS_ELSEWHERE = (["discrete", QUICK, *TINY], ["run", QUICK, *BOTH], ["continuum", QUICK, *NODES], ["run", QUICK, *BOTH, *bases.SEEDS],
+                     ["material-point", QUICK, *TINY])
+RESULTS_SAID = (["explain"], ["explain", "results"], ["--help"], ["--version"], ["completion", "bash"], ["solve", bases.PROBLEM])
+
+
 def with_no_reader(case):
-    """Its own output closed, full, or of nobody any more: the results do not care."""
-    out = case.path("out")
-    kind = case.dice.choice(["full", "closed", "pipe"])
-    line = case.dice.choice([["discrete", QUICK, *TINY, "--output", out], ["explain"], ["--help"], ["solve", bases.PROBLEM], ["explain", "results"]])
+    """Standard output, and often errors with it, closed, full, or of nobody any more: the results do not care. What is said and nowhere else is lost on a
+    full disk, and that is told."""
+    out, dice = case.path("out"), case.dice
+    kind, is_said = dice.choice(["full", "closed", "pipe", "pipe"]), dice.random() < 0.5
+    line = [*dice.choice(RESULTS_SAID)] if is_said else [*dice.choice(RESULTS_ELSEWHERE), "--output", out]
+    codes = (4,) if kind == "full" and is_said else (0,)
+    stderr = subprocess.STDOUT if dice.random() < 0.5 and kind == "pipe" else subprocess.PIPE
     if kind == "full":
         with open("/dev/full", "wb") as full:
-            case.run(*line, output=out, stdout=full, names=("output",), codes=(0, 4))
+            case.run(*line, output=out, stdout=full, names=("output",), codes=codes, patience=30)
     elif kind == "pipe":
         reader, writer = os.pipe()
         os.close(reader)
         with open(writer, "wb") as pipe:
-            case.run(*line, output=out, stdout=pipe, names=("output",), codes=(0, 4))
+            case.run(*line, output=out, stdout=pipe, stderr=stderr, names=("output",), codes=codes, patience=30)
     else:
         def closed():
             limit()
             os.close(1)
-        case.run(*line, output=out, preexec=closed, names=("output",), codes=(0, 4))
+        case.run(*line, output=out, preexec=closed, names=("output",), codes=codes, patience=30)
 
 
 def in_little(case):
@@ -168,7 +214,9 @@ def in_little(case):
         preexec = functools.partial(limit, RLIMIT_NOFILE=case.dice.choice([8, 12, 16, 32]))
     else:
         preexec = functools.partial(limit, memory=case.dice.randrange(400, 1500) << 20)
-    case.run(*line, "--output", out, "--quiet", output=out, preexec=preexec, names=(out, "memory", "file", "TMPDIR"), codes=(0, 3, 4), patience=30)
+    if line[0] != "continuum":
+        line += ["--threads", case.dice.choice(["1", "1", "2", "64", "1024"])]
+    case.run(*line, "--output", out, "--quiet", output=out, preexec=preexec, names=(out, "memory", "file", "TMPDIR", "--threads"), codes=(0, 3, 4), patience=30)
 
 
 def in_a_locked_folder(case):

@@ -35,7 +35,7 @@ namespace
           block_stop_signals();
           raise(signal);
           const bool early = stop_requested();
-          install_stop_signals();
+          install_signals();
           return !early && stop_requested() ? 7 : 8;
         });
         ASSERT_TRUE(WIFEXITED(status)) << "ended by signal " << WTERMSIG(status);
@@ -47,10 +47,27 @@ namespace
   {
     const int status = status_of_copy([] {
       std::signal(SIGHUP, SIG_IGN);
-      install_stop_signals();
+      install_signals();
       raise(SIGHUP);
       return stop_requested() ? 8 : 7;
     });
+    EXPECT_EQ(WEXITSTATUS(status), 7);
+  }
+
+  // The libraries that begin with MPI give signals back with their default actions, of which the program would die.
+  TEST(StopSignal, WhatIsIgnoredIsIgnoredAgainBehindMpi)
+  {
+    const int status = status_of_copy([] {
+      std::signal(SIGHUP, SIG_IGN);
+      install_signals();
+      for (const int signal : {SIGHUP, SIGPIPE, SIGXFSZ})
+        std::signal(signal, SIG_DFL);
+      install_signals();
+      for (const int signal : {SIGHUP, SIGPIPE, SIGXFSZ})
+        raise(signal);
+      return stop_requested() ? 8 : 7;
+    });
+    ASSERT_TRUE(WIFEXITED(status)) << "ended by signal " << WTERMSIG(status);
     EXPECT_EQ(WEXITSTATUS(status), 7);
   }
 
@@ -65,7 +82,7 @@ namespace
       if (fork() == 0)
         {
           prctl(PR_SET_PDEATHSIG, SIGTERM);
-          install_stop_signals();
+          install_signals();
           end_after_parent(1);
           if (getppid() != parent || write(ends[1], "r", 1) != 1)
             _exit(1);

@@ -21,11 +21,42 @@ namespace
     before.panel.state = disc_on_floor({0, 0});
     before.panel.state.walls.push_back({{0, 1}, {0, -1}});
     before.panel.reference.position = before.panel.state.grains.position;
-    const StoredCheckpoint after    = written_and_read(before);
+    before.panel.reference.height = before.panel.reference.area = 1;
+    const StoredCheckpoint after                                = written_and_read(before);
     EXPECT_EQ(bits(before.panel), bits(after.panel));
     EXPECT_FALSE(after.panel.state.cell);
     EXPECT_EQ(after.n_rows, 0);
     EXPECT_EQ(after.scene, "");
+  }
+
+  // A file that is one, checksums and all, and holds what no loading leaves.
+  TEST(Checkpoint, WhatNoLoadingLeavesIsRefused)
+  {
+    const auto refused = [](const std::string &word, const std::function<void(Checkpoint &)> &change) {
+      const CheckpointFile file;
+      StoredCheckpoint     checkpoint = random_checkpoint();
+      change(checkpoint.panel);
+      write_checkpoint(file.path, checkpoint);
+      try
+        {
+          (void)read_checkpoint(file.path);
+          ADD_FAILURE() << word << " was taken";
+        }
+      catch (const std::invalid_argument &error)
+        {
+          EXPECT_NE(std::string(error.what()).find(file.path), std::string::npos) << error.what();
+          EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+        }
+    };
+    for (const double step : {0., -1., std::numeric_limits<double>::quiet_NaN()})
+      refused("step", [&](Checkpoint &p) { p.step = step; });
+    refused("time", [](Checkpoint &p) { p.state.time = -5; });
+    refused("steps_left", [](Checkpoint &p) { p.steps_left = -1; });
+    refused("interval", [](Checkpoint &p) { p.interval = 0; });
+    refused("reference_height", [](Checkpoint &p) { p.reference.height = 0; });
+    refused("walls", [](Checkpoint &p) { p.state.walls[2].normal.setZero(); });
+    refused("walls", [](Checkpoint &p) { std::swap(p.state.walls[0].point, p.state.walls[1].point); });
+    refused("grains", [](Checkpoint &p) { p.state.grains.radius[4] = 0; });
   }
 
   TEST(Checkpoint, AFileThatIsNoneIsNamed)

@@ -151,14 +151,16 @@ namespace
       }
     for (int w = 0; w < 4; ++w)
       {
-        Wall wall{dice.vector(), dice.vector(), dice.vector(), {}, {}, dice()};
+        Wall wall{dice.vector(), dice.vector().normalized(), dice.vector(), {}, {}, dice.size()};
+        if (w == 1)
+          wall.point.y() = std::nextafter(std::abs(state.walls[0].point.y()), 2.); // the upper platen
         wall.kind = w < 2 ? WallKind::platen : WallKind::side;
         state.walls.push_back(wall);
       }
     state.cell = PeriodicCell{dice.size(), dice(), {}, dice()};
     for (int k = 0; k < 5; ++k)
       state.impulses.push_back({k, k + 3, dice(), dice(), dice(), dice()});
-    state.time = dice();
+    state.time = dice.size();
   }
 
   void fill_report(Dice &dice, Report &q)
@@ -181,12 +183,12 @@ namespace
     fill_report(dice, p.report);
     for (std::size_t i = 0; i < p.state.grains.size(); ++i)
       p.reference.position.push_back(dice.vector()), p.window.spin.push_back(dice());
-    p.reference.platen = dice.vector(), p.reference.height = dice(), p.reference.area = dice();
+    p.reference.platen = dice.vector(), p.reference.height = dice.size(), p.reference.area = dice.size();
     p.reference.grain_area = dice(), p.reference.kinetic_energy = dice(), p.reference.platen_kinetic_energy = dice();
     p.reference.strain_rate = dice(), p.reference.mean_density = dice();
     for (int k = 0; k < 6; ++k)
       p.window.sums.push_back({k, k + 1, dice(), dice(), dice.vector()});
-    p.window.time = dice(), p.stage = 3, p.steps_left = 77, p.step = dice(), p.interval = 5;
+    p.window.time = dice(), p.stage = 3, p.steps_left = 77, p.step = dice.size(), p.interval = 5;
     p.row                 = random_row(dice);
     p.row.energy_residual = std::numeric_limits<double>::quiet_NaN();
     checkpoint.n_rows     = 123456789;

@@ -153,6 +153,52 @@ namespace
     expect_refused("outline/left", [](Snapshot &s) { s.outline.left[0].y() = -1e6; });
   }
 
+  // Whole files, checksums and all, of grains and contacts that cannot be.
+  TEST(Output, GrainsAndContactsThatCannotBeAreRefused)
+  {
+    const auto refused = [](const std::string &word, const std::function<void(Snapshot &)> &change) {
+      std::vector<Snapshot> written = short_run();
+      const std::string     path    = temporary_path("impossible");
+      change(written[1]);
+      write_snapshots(path, written);
+      try
+        {
+          (void)read_snapshots(path + ".h5");
+          ADD_FAILURE() << word << " was taken";
+        }
+      catch (const std::invalid_argument &error)
+        {
+          EXPECT_NE(std::string(error.what()).find("stage_0001"), std::string::npos) << error.what();
+          EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+        }
+      std::filesystem::remove(path + ".h5"), std::filesystem::remove(path + ".xdmf");
+    };
+    refused("radius", [](Snapshot &s) { s.radius[0] = 0; });
+    refused("mass", [](Snapshot &s) { s.mass[0] = -1; });
+    refused("area", [](Snapshot &s) { s.area = -s.area; });
+    refused("window/normal", [](Snapshot &s) { s.window_forces[0].normal.setZero(); });
+    refused("contacts/body", [](Snapshot &s) { s.contacts[0].j = s.contacts[0].i; });
+    refused("outline", [](Snapshot &s) { std::swap(s.outline.left, s.outline.right); });
+  }
+
+  // An array that somebody else has put there carries none.
+  TEST(Output, AnArrayWithoutItsChecksumIsRefused)
+  {
+    const std::string path = temporary_path("unchecked");
+    write_snapshots(path, short_run());
+    const hid_t file  = H5Fopen((path + ".h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT),
+                stage = H5Gopen2(file, "stage_0001/grains", H5P_DEFAULT);
+    const hsize_t n   = short_run()[1].radius.size();
+    EXPECT_GE(H5Ldelete(stage, "radius", H5P_DEFAULT), 0);
+    const hid_t space = H5Screate_simple(1, &n, nullptr),
+                set   = H5Dcreate2(stage, "radius", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    EXPECT_GE(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, std::vector<double>(n, 0.5).data()), 0);
+    H5Dclose(set), H5Sclose(space), H5Gclose(stage), H5Fclose(file);
+    EXPECT_THROW(read_snapshots(path + ".h5"), std::invalid_argument);
+    EXPECT_EQ(Hdf5Reader(path + ".h5").read("stage_0001/grains/radius"), std::vector<double>(n, 0.5));
+    std::filesystem::remove(path + ".h5"), std::filesystem::remove(path + ".xdmf");
+  }
+
   TEST(Output, ATruncatedFileIsAnErrorThatNamesIt)
   {
     const std::string path = temporary_path("truncated") + ".h5";

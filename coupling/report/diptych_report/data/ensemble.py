@@ -7,9 +7,9 @@ import os
 import re
 from dataclasses import dataclass
 
-import h5py
 import numpy as np
 
+from diptych_report.data.arrays import open_arrays
 from diptych_report.data.files import InputError, read_json, read_provenance, read_text
 from diptych_report.data.numbers import Descriptions
 from diptych_report.data.panels import PANEL_NAMES
@@ -84,10 +84,10 @@ def _curves(path):
     if not os.path.isfile(path):
         return None, {}, None
     try:
-        with h5py.File(path, "r") as file:
+        with open_arrays(path) as file:
             curves = {f"{panel}/{name}": {key: item[()] for key, item in group.items()}
                       for panel in PANEL_NAMES for name, group in file.get(panel, {}).items()}
             averaging = file.attrs.get("averaging_width")
             return file["progress"][()], curves, None if averaging is None else float(averaging)
-    except (OSError, RuntimeError, KeyError) as error:
+    except KeyError as error:
         raise InputError(f"{path}: {error}") from error

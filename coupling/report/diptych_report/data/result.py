@@ -5,9 +5,9 @@
 import os
 from dataclasses import dataclass
 
-import h5py
 import numpy as np
 
+from diptych_report.data.arrays import open_arrays
 from diptych_report.data.files import InputError, read_csv, read_json, read_provenance, read_text, require
 from diptych_report.data.increments import read, read_arrays
 from diptych_report.data.numbers import Descriptions, Units, plain
@@ -81,14 +81,12 @@ def load(folder):
     histories = {panel: read_csv(os.path.join(folder, panel + ".csv")) for panel in PANEL_NAMES}
     path = os.path.join(folder, "comparison.h5")
     try:
-        with h5py.File(path, "r") as file:
+        with open_arrays(path) as file:
             increments, arrays = read(comparison, file, units)
             for panel, columns in histories.items():
                 if f"histories/{panel}" in file:
                     means = read_arrays(file[f"histories/{panel}"], units, arrays)
                     columns.update({name: values for name, values in means.items() if name not in columns})
-    except (OSError, RuntimeError) as error:  # of h5py: a damaged file is either, by the place of the damage
-        raise InputError(f"{path}: {error}") from error
     except (KeyError, TypeError) as error:
         raise InputError(f"{folder}/comparison.json, {path}: a stage or a window is incomplete: {error}") from error
     return Result(comparison, read_provenance(os.path.join(folder, "provenance.json")), histories, increments, units, numbers, arrays,

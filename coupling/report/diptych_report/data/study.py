@@ -5,8 +5,7 @@
 import os
 from dataclasses import dataclass
 
-import h5py
-
+from diptych_report.data.arrays import open_arrays
 from diptych_report.data.files import InputError, read_json
 
 FORMAT = 1
@@ -77,7 +76,7 @@ def _curves(path):
     if not os.path.isfile(path):
         return {}
     try:
-        with h5py.File(path, "r") as file:
+        with open_arrays(path) as file:
             return {panel: (group["progress"][()], {name: group[name][()] for name in CURVES}) for panel, group in file.items()}
-    except (OSError, RuntimeError, KeyError) as error:
+    except KeyError as error:
         raise InputError(f"{path}: {error}") from error

@@ -17,6 +17,9 @@ def template(name):
 def write(folder, text):
     """report.html; an old one stays until the new one is whole."""
     path = os.path.join(folder, "report.html")
-    with open(path + ".part", "w", encoding="utf-8") as stream:
-        stream.write(text)
-    os.replace(path + ".part", path)
+    try:
+        with open(path + ".part", "w", encoding="utf-8") as stream:
+            stream.write(text)
+        os.replace(path + ".part", path)
+    except OSError as error:  # of a write it names no file
+        raise OSError(error.errno, error.strerror, path) from error
