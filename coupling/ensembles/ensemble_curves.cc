@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "continuum/history.h"
 #include "coupling/ensembles/ensemble_folder.h"
@@ -26,7 +27,12 @@ namespace diptych::coupling
     {
       std::vector<HistoryTable> tables;
       for (const int seed : seeds)
-        tables.push_back(history_table(discrete::read_rows<Row>(member_folder(directory, seed) + "/" + file)));
+        {
+          const std::string path = member_folder(directory, seed) + "/" + file;
+          tables.push_back(history_table(discrete::read_rows<Row>(path)));
+          if (column(tables.back(), "progress").empty())
+            throw std::invalid_argument(path + ": holds no row");
+        }
       return tables;
     }
 
@@ -53,6 +59,16 @@ namespace diptych::coupling
         curves.mean.push_back(s.mean), curves.low.push_back(s.low), curves.high.push_back(s.high);
       }
     return curves;
+  }
+
+  void check_member_histories(const std::string &directory, const std::vector<int> &seeds)
+  {
+    for (const int seed : seeds)
+      {
+        const std::vector<int> one{seed};
+        (void)last_progress(histories<discrete::HistoryRow>(directory, one, "discrete.csv"));
+        (void)last_progress(histories<continuum::HistoryRow>(directory, one, "continuum.csv"));
+      }
   }
 
   void write_ensemble_curves(const std::string &directory, const Scene &scene, const std::vector<int> &seeds)

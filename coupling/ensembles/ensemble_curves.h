@@ -47,4 +47,7 @@ namespace diptych::coupling
   // ensemble.h5: progress (401 points), and for each panel and each of stress_ratio and volumetric_strain the running means of
   // the members' histories, their mean and its interval. `seeds`: those that finished.
   void write_ensemble_curves(const std::string &directory, const Scene &scene, const std::vector<int> &seeds);
+
+  // Throws std::invalid_argument naming the first of the members' histories that those could not be drawn of.
+  void check_member_histories(const std::string &directory, const std::vector<int> &seeds);
 } // namespace diptych::coupling

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "coupling/comparison/prepared_sample.h"
+#include "coupling/ensembles/ensemble_curves.h"
 #include "coupling/ensembles/ensemble_folder.h"
 #include "coupling/ensembles/seed_list.h"
 #include "coupling/folders/result_folder.h"
@@ -137,6 +138,18 @@ namespace diptych::coupling
       require_comparable_sample(scene, *sample);
     }
 
+    // Those that need not run again, by what stands in their folders. Throws, before anything changes, where that is damaged.
+    std::vector<int> finished_seeds(const Scene &scene, const std::vector<int> &seeds)
+    {
+      std::vector<int> finished;
+      for (const int seed : seeds)
+        if (is_finished_member(scene, seed))
+          finished.push_back(seed);
+      (void)record_of(scene, finished, {});
+      check_member_histories(scene.output.directory, finished);
+      return finished;
+    }
+
     // Makes the folder ready; the seeds that are not finished yet.
     std::vector<int> prepared_seeds(const CommandLine &line, const Scene &scene, const std::vector<int> &seeds)
     {
@@ -146,8 +159,9 @@ namespace diptych::coupling
           say(line, "no ensemble in " + scene.output.directory + ": from the beginning");
         if (!line.resume && scene.discrete.method.method != discrete::Method::imported)
           check_first_sample(line, scene, seeds.front());
+        const std::vector<int> finished = line.resume ? finished_seeds(scene, seeds) : std::vector<int>();
+        const auto is_finished          = [&](const int seed) { return std::count(finished.begin(), finished.end(), seed) > 0; };
         open_ensemble_folder(scene, seeds, line.resume);
-        const auto is_finished = [&](const int seed) { return line.resume && is_finished_member(scene, seed); };
         pending.erase(std::remove_if(pending.begin(), pending.end(), is_finished), pending.end());
         if (pending.size() < seeds.size())
           say(line, std::to_string(seeds.size() - pending.size()) + " of " + std::to_string(seeds.size()) +

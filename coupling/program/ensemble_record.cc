@@ -118,14 +118,16 @@ namespace diptych::coupling
     const std::string          path    = line.target + "/ensemble.json";
     const json                 earlier = read_record_file(path);
     std::vector<MemberOutcome> outcomes;
-    const auto                 seeds = from_record(path, [&] {
+    const auto                 seeds  = from_record(path, [&] {
       for (const json &failed : earlier.value("failed", json::array()))
         outcomes.push_back({failed.at("seed"), failed.at("exit_code")});
       for (const int seed : earlier.value("interrupted", std::vector<int>()))
         outcomes.push_back({seed, 0, true});
       return earlier.at("seeds").get<std::vector<int>>();
     });
-    write_record(line, scene, record_of(scene, seeds, outcomes), timer);
+    const EnsembleRecord       record = record_of(scene, seeds, outcomes);
+    check_member_histories(scene.output.directory, record.ensemble.seeds); // before anything is written
+    write_record(line, scene, record, timer);
     if (scene.output.report)
       draw_page(line, Drawing::ensemble, scene.output.directory);
     return done;

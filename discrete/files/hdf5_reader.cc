@@ -31,13 +31,11 @@ namespace diptych::discrete
         : path(path),
           access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose)
     {
+      const auto follow = [](const char *parent, const char *, const char *child, const char *, unsigned *, hid_t, void *links) {
+        return static_cast<Links *>(links)->is_own(parent, child) ? herr_t(0) : herr_t(-1);
+      };
       if (H5Pset_elink_cb(access, follow, this) < 0)
         throw std::runtime_error("HDF5: links cannot be watched");
-    }
-
-    static herr_t follow(const char *parent, const char *, const char *child, const char *, unsigned *, hid_t, void *links)
-    {
-      return static_cast<Links *>(links)->is_own(parent, child) ? 0 : -1;
     }
 
     // A stage of this file, as StagedFile links them. What stands there may link on itself: no further.

@@ -302,6 +302,15 @@ class Folders(Folder):
         self.refused_while(os.path.join(self.folder, "seed_2"), words)
 
 
+    def test_an_ensemble_is_not_resumed_over_a_damaged_member(self):
+        words = ["run", QUICK, *BOTH, "--seeds", "1-2", "--jobs", "1", "--output", self.folder, "--quiet"]
+        self.expect(0, words)
+        table = os.path.join(self.folder, "seed_2", "discrete.csv")
+        for text in (content(table).replace(b",", b";"), content(table).splitlines(keepends=True)[0]):
+            write(table, text.decode())
+            for again in ([*words, "--resume"], ["compare", self.folder, "--quiet"]):
+                self.expect(2, again, table)
+
     def test_a_report_is_drawn_of_its_own_folder_alone(self):
         """A link in comparison.h5 to a pipe, which would never end, and numbers that stand in another file."""
         def link(file):

@@ -32,7 +32,7 @@ namespace
   std::vector<std::string> warnings(const std::string &text, const std::vector<std::string> &overrides = {})
   {
     const SceneFolder folder;
-    return read_scene(folder.put("warned.prm", text), overrides).warnings;
+    return read_scene(folder.put("warned.prm", text.empty() ? "# all defaults\n" : text), overrides).warnings;
   }
 
   void expect_one(const std::vector<std::string> &found, const std::vector<std::string> &words)

@@ -21,7 +21,7 @@ namespace
     explicit SceneFile(const std::string &text, const std::string &ending = ".prm")
         : path((std::filesystem::path(testing::TempDir()) / ("scene_test" + std::to_string(::getpid()) + ending)).string())
     {
-      std::ofstream(path) << text;
+      std::ofstream(path) << (text.empty() ? "# all defaults\n" : text); // without a word it would be refused
     }
     ~SceneFile() { std::filesystem::remove(path); }
   };
@@ -105,7 +105,9 @@ namespace
 
   TEST(Scene, AnUnknownSectionIsNamed)
   {
-    expect_words(error_of("subsection continum\n  set law = linear_elastic\nend\n"), {"line 2", "continum", "'continuum'"});
+    expect_words(error_of("subsection continum\n  set law = linear_elastic\nend\n"), {"line 1", "continum", "'continuum'"});
+    expect_words(error_of("subsection continum\nend\n"), {"line 1", "continum", "'continuum'"});
+    expect_words(error_of("{\"sample\": {},\n\"continum\": {}}", {}, ".json"), {"line 2", "continum", "'continuum'"});
   }
 
   TEST(Scene, ValuesOfWrongTypeOrRangeAreNamedWithWhatIsAllowed)
