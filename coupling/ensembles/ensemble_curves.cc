@@ -28,10 +28,11 @@ namespace diptych::coupling
       std::vector<HistoryTable> tables;
       for (const int seed : seeds)
         {
-          const std::string path = member_folder(directory, seed) + "/" + file;
-          tables.push_back(history_table(discrete::read_rows<Row>(path)));
-          if (column(tables.back(), "progress").empty())
+          const std::string      path = member_folder(directory, seed) + "/" + file;
+          const std::vector<Row> rows = discrete::read_rows<Row>(path);
+          if (rows.empty())
             throw std::invalid_argument(path + ": holds no row");
+          tables.push_back(history_table(rows));
         }
       return tables;
     }
