@@ -168,7 +168,7 @@ namespace diptych::discrete
       const Id data(H5Oopen(object, below, H5P_DEFAULT), H5Oclose);
       return data >= 0 && is_in_its_file(data) ? 0 : -1;
     };
-    const herr_t looked = H5Ovisit_by_name2(file_, name.c_str(), H5_INDEX_NAME, H5_ITER_INC, look, nullptr, H5O_INFO_BASIC,
+    const herr_t looked = H5Ovisit_by_name2(file_, name.c_str(), H5_INDEX_NAME, H5_ITER_NATIVE, look, nullptr, H5O_INFO_BASIC,
                                             links_->access);
     refuse_links(name);
     if (looked < 0)
@@ -277,8 +277,10 @@ namespace diptych::discrete
       static_cast<std::vector<std::string> *>(to)->push_back(name);
       return 0;
     };
-    if (H5Literate(id, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names) < 0)
+    // In the order of names the library makes a table first, of which it frees what it never filled where the group is damaged.
+    if (H5Literate(id, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, collect, &names) < 0)
       refuse(path_, group, "cannot be listed: damaged");
+    std::sort(names.begin(), names.end());
     return names;
   }
 

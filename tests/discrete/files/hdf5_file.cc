@@ -127,6 +127,42 @@ namespace
     EXPECT_GT(refused, 1000);
   }
 
+  // Many links are kept in a heap; a table of them, half made, once took the program with it.
+  TEST_F(Hdf5, ADamagedListOfManyArraysIsRefused)
+  {
+    std::vector<std::string> names;
+    {
+      Hdf5Writer file(path);
+      for (int k = 10; k < 30; ++k)
+        file.write("group/" + names.emplace_back("array_" + std::to_string(k)), std::vector<double>{1. * k});
+      file.finish();
+    }
+    EXPECT_EQ(Hdf5Reader(path).members("group"), names);
+    std::ifstream     in(path, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    const std::size_t heap = bytes.find("FHDB"), length = 400;
+    ASSERT_NE(heap, std::string::npos);
+    for (std::size_t at = heap; at < heap + length; at += 3)
+      {
+        std::string changed = bytes;
+        changed[at] ^= 1;
+        std::ofstream(path, std::ios::binary) << changed;
+        const auto same_or_refused = [&](const auto &ask) {
+          try
+            {
+              ask();
+            }
+          catch (const std::invalid_argument &)
+            {}
+          catch (const std::runtime_error &) // of a copy
+            {}
+        };
+        same_or_refused([&] { EXPECT_EQ(Hdf5Reader(path).members("group"), names); });
+        same_or_refused([&] { Hdf5Writer(path + ".copy").copy(Hdf5Reader(path), "group"); });
+        same_or_refused([&] { Hdf5Writer(path + ".copy").copy_values(Hdf5Reader(path), "group"); });
+      }
+  }
+
   TEST_F(Hdf5, AFullDiskLeavesTheOldFileAndTheProgram)
   {
     write();

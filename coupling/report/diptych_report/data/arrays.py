@@ -20,8 +20,16 @@ def open_arrays(path):
         raise InputError(f"{path}: {error}") from error
 
 
+def _names(group):
+    """In the file's own order: for the order of names, in which h5py goes by itself, the library makes a table first, of which it frees what it never
+    filled where the group is damaged."""
+    names = []
+    group.id.links.iterate(lambda name, *_: names.append(name.decode("utf-8", "surrogateescape")), idx_type=h5py.h5.INDEX_NAME, order=h5py.h5.ITER_NATIVE)
+    return names
+
+
 def _demand_inside(path, group, seen):
-    for name in group:
+    for name in _names(group):
         place = f"{path}: {group.name.rstrip('/')}/{name}"
         link = group.get(name, getlink=True)
         if isinstance(link, h5py.ExternalLink):
