@@ -58,8 +58,9 @@ namespace diptych::coupling
   bool is_empty_folder(const std::string &directory)
   {
     const fs::directory_iterator entries(directory);
-    return std::all_of(begin(entries), end(entries),
-                       [](const auto &entry) { return entry.path().filename() == folder_lock_name; });
+    return std::all_of(begin(entries), end(entries), [](const fs::directory_entry &entry) {
+      return entry.path().filename() == folder_lock_name || (entry.path().extension() == ".part" && entry.is_regular_file());
+    });
   }
 
   void make_folder(const std::string &directory)

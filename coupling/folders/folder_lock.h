@@ -30,7 +30,7 @@ namespace diptych::coupling
 
   extern const char *const folder_lock_name;
 
-  // Nothing but a lock is in it.
+  // Nothing but a lock is in it, and what a killed run had begun to write (.part): its first file has no other name yet.
   bool is_empty_folder(const std::string &directory);
 
   // Makes a folder that can be written to. Throws std::runtime_error naming it and what the system says.

@@ -222,6 +222,9 @@ namespace diptych::coupling
 
   bool is_echo(const std::string &file)
   {
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(file, none)) // a pipe would be waited for
+      return false;
     std::ifstream in(file);
     std::string   title;
     return std::getline(in, title) && title.find(echo_title) != std::string::npos;

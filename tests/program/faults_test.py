@@ -250,6 +250,15 @@ class Folders(Folder):
         self.assertEqual(result.returncode, 4, result.stderr)
         self.assertEqual(content(mine), b"mine\n")
 
+    def test_a_pipe_in_the_place_of_the_echo_is_no_result(self):
+        os.mkdir(self.folder)
+        os.mkfifo(os.path.join(self.folder, "scene.prm"))
+        for command in ("discrete", "continuum", "run"):
+            for words in ([], ["--resume"]):
+                result = diptych(command, QUICK, *BOTH, "--output", self.folder, *words, "--quiet", timeout=60)
+                self.assertEqual(result.returncode, 2, result.stderr)
+                self.assertIn(self.folder, result.stderr)
+
     def test_an_export_goes_beside_its_folder(self):
         shutil.copytree(self.whole, self.folder)
         self.expect(2, ["export", self.folder, "--format", "csv", "--output", self.folder, "--quiet"], "--output")

@@ -205,7 +205,8 @@ def flip_export(case):
 
 def flip_comparison(case):
     """What a report draws: the same report, or none."""
-    folder = os.path.join(case.copy("both", "done"), "out")
+    folder = os.path.join(case.copy("report", "done"), "out")
+    os.remove(os.path.join(folder, "report.html"))
     flip_in(case, os.path.join(folder, "comparison.h5"))
     outcome = case.run("report", folder, "--quiet", output=folder, names=("comparison.h5",), codes=(0, 2), patience=30)
     if outcome.code == 0 and read(os.path.join(folder, "report.html")) != read(os.path.join(case.base("report"), "out", "report.html")):

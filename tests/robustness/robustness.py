@@ -107,14 +107,14 @@ def arguments():
     parser.add_argument("source")
     parser.add_argument("--cases", type=int, default=300)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--kinds", default=",".join(KINDS))
+    parser.add_argument("--kinds", help="some of them, with commas between (default: all)")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--keep", help="folder of violations (default: a temporary one, named)")
     parser.add_argument("--kills", type=int, help="instead: this many kills -9 and as many SIGTERM of each sort of run")
     parser.add_argument("--sanitized", action="store_true", help="PROGRAM was built with sanitizers: a report is a violation, more time is given")
     parser.add_argument("--case", action="append", metavar="KIND:SEED", help="this one alone; may be repeated")
     asked = parser.parse_args()
-    asked.kinds = list(interruption_kinds.EACH) if asked.kills else asked.kinds.split(",")
+    asked.kinds = asked.kinds.split(",") if asked.kinds else list(interruption_kinds.EACH if asked.kills else KINDS)
     unknown = [kind for kind in [*asked.kinds, *(case.split(":")[0] for case in asked.case or [])] if kind not in ALL]
     if unknown:
         parser.error(f"no kind {unknown[0]}; the kinds are " + ", ".join(KINDS))

@@ -72,6 +72,17 @@ namespace
     EXPECT_TRUE(fs::exists(out / "result"));
   }
 
+  // Killed while it wrote its very first file, which has no other name yet.
+  TEST_F(Lock, WhatAKilledProcessHadBegunToWriteIsNobodysFile)
+  {
+    fs::create_directories(out);
+    std::ofstream(file()) << "process 1 on nowhere since yesterday";
+    std::ofstream(out / "import.json.part") << "half";
+    EXPECT_TRUE(is_empty_folder(out));
+    std::ofstream(out / "letter.txt") << "somebody's";
+    EXPECT_FALSE(is_empty_folder(out));
+  }
+
   TEST_F(Lock, WhatAKilledProcessLeavesIsTakenOver)
   {
     fs::create_directories(out);
