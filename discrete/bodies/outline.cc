@@ -18,10 +18,11 @@ namespace diptych::discrete
       std::vector<double> edge(n, -std::numeric_limits<double>::infinity());
       for (std::size_t i = 0; i < g.size(); ++i)
         {
-          const Eigen::Vector2d &x     = g.position[i];
-          const double           r     = g.radius[i];
-          const int              first = std::max(0, int(std::ceil((x.y() - r - touch - bottom) / dy)));
-          const int              last  = std::min(n - 1, int(std::floor((x.y() + r + touch - bottom) / dy)));
+          const Eigen::Vector2d &x = g.position[i];
+          const double           r = g.radius[i];
+          // Of a grain far away, no line; its number would be none.
+          const int first = int(std::clamp(std::ceil((x.y() - r - touch - bottom) / dy), 0., double(n)));
+          const int last  = int(std::clamp(std::floor((x.y() + r + touch - bottom) / dy), -1., n - 1.));
           for (int k = first; k <= last; ++k)
             if (sign * x.x() + r > edge[k]) // nearly all discs lie inside: no root for them
               {
