@@ -176,7 +176,7 @@ namespace diptych::coupling
     }
 
     // The strain that grows from frame to frame.
-    Walk walk_of(const std::vector<Snapshot> &snapshots)
+    Walk walk_of(const std::vector<Snapshot> &snapshots, const Arrival &arrival)
     {
       const auto ascends = [&](const auto &strain) {
         for (std::size_t k = 1; k < snapshots.size(); ++k)
@@ -188,7 +188,8 @@ namespace diptych::coupling
                  shear = ascends([](const Snapshot &s) { return s.shear_strain; });
       if (!axial && !shear)
         throw SceneError(
-          "the frames are no loading: neither the descent of the upper wall nor its travel to the right grows from each "
+          "frame " + arrival.frames.front().name + " to frame " + arrival.frames.back().name +
+          ": the frames are no loading: neither the descent of the upper wall nor its travel to the right grows from each "
           "frame to the next; import frames of one monotonic path (each frame once)");
       return axial && std::abs(snapshots.back().axial_strain) >= std::abs(snapshots.back().shear_strain) ? Walk::axial_strain
              : axial && !shear                                                                           ? Walk::axial_strain
@@ -222,7 +223,7 @@ namespace diptych::coupling
       }
     if (results.snapshots.size() > 1)
       {
-        const Walk walk = walk_of(results.snapshots);
+        const Walk walk = walk_of(results.snapshots, arrival);
         for (Snapshot &s : results.snapshots)
           s.walk = walk, s.progress = walk == Walk::axial_strain ? s.axial_strain : s.shear_strain;
       }

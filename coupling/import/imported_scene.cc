@@ -27,7 +27,9 @@ namespace diptych::coupling
       for (const discrete::HistoryRow &row : results.rows)
         if (const double sxx = row.stress(0, 0); sxx > 0)
           return sxx;
-      throw SceneError("no lateral pressure can be found: no frame has a force on the right wall or contacts; say --pressure P");
+      throw SceneError(
+        "frame " + arrival.frames.front().name +
+        ": no lateral pressure can be found: no frame has a force on the right wall or contacts; say --pressure P");
     }
 
     std::string listed(const std::vector<double> &values)
