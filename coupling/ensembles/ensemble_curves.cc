@@ -64,12 +64,8 @@ namespace diptych::coupling
 
   void check_member_histories(const std::string &directory, const std::vector<int> &seeds)
   {
-    for (const int seed : seeds)
-      {
-        const std::vector<int> one{seed};
-        (void)last_progress(histories<discrete::HistoryRow>(directory, one, "discrete.csv"));
-        (void)last_progress(histories<continuum::HistoryRow>(directory, one, "continuum.csv"));
-      }
+    (void)histories<discrete::HistoryRow>(directory, seeds, "discrete.csv");
+    (void)histories<continuum::HistoryRow>(directory, seeds, "continuum.csv");
   }
 
   void write_ensemble_curves(const std::string &directory, const Scene &scene, const std::vector<int> &seeds)

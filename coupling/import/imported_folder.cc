@@ -46,10 +46,7 @@ namespace diptych::coupling
       for (std::size_t k = 0; k < wanted.size(); ++k)
         results.snapshots[k + 1].progress = results.rows[k + 1].progress = wanted[k];
     }
-  } // namespace
 
-  namespace
-  {
     // What the import found; runs take it along as it stands.
     void check_record_of_import(const std::string &file)
     {

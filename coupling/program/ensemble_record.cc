@@ -103,9 +103,9 @@ namespace diptych::coupling
   void write_record(const CommandLine &line, const Scene &scene, const EnsembleRecord &record, const PhaseTimer &timer)
   {
     const std::string &directory = scene.output.directory;
+    write_ensemble_curves(directory, scene, record.ensemble.seeds); // first: it meets a damaged history before it writes
     write_ensemble_json(directory, scene, record);
     write_ensemble_csv(directory, record.ensemble);
-    write_ensemble_curves(directory, scene, record.ensemble.seeds);
     record_phases(directory, scene, line.text, {timer.stop()}, record.seeds);
     for (const PanelVerdict &verdict : record.ensemble.verdicts)
       say(line, text_of(verdict));
@@ -118,16 +118,14 @@ namespace diptych::coupling
     const std::string          path    = line.target + "/ensemble.json";
     const json                 earlier = read_record_file(path);
     std::vector<MemberOutcome> outcomes;
-    const auto                 seeds  = from_record(path, [&] {
+    const auto                 seeds = from_record(path, [&] {
       for (const json &failed : earlier.value("failed", json::array()))
         outcomes.push_back({failed.at("seed"), failed.at("exit_code")});
       for (const int seed : earlier.value("interrupted", std::vector<int>()))
         outcomes.push_back({seed, 0, true});
       return earlier.at("seeds").get<std::vector<int>>();
     });
-    const EnsembleRecord       record = record_of(scene, seeds, outcomes);
-    check_member_histories(scene.output.directory, record.ensemble.seeds); // before anything is written
-    write_record(line, scene, record, timer);
+    write_record(line, scene, record_of(scene, seeds, outcomes), timer);
     if (scene.output.report)
       draw_page(line, Drawing::ensemble, scene.output.directory);
     return done;

@@ -192,6 +192,7 @@ namespace diptych::discrete
       if (!are_finite(g))
         throw std::invalid_argument(path + ": 'grains' hold a number that is not finite, or a size that is not positive");
     }
+
     // What no loading could have left.
     void check_scalars(const std::string &path, const StoredCheckpoint &checkpoint)
     {

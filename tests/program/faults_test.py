@@ -310,7 +310,6 @@ class Folders(Folder):
         self.expect(0, words)
         self.refused_while(os.path.join(self.folder, "seed_2"), words)
 
-
     def test_an_ensemble_is_not_resumed_over_a_damaged_member(self):
         words = ["run", QUICK, *BOTH, "--seeds", "1-2", "--jobs", "1", "--output", self.folder, "--quiet"]
         self.expect(0, words)

@@ -8,7 +8,6 @@ import itertools
 import os
 import random
 import resource
-import select
 import shutil
 import signal
 import subprocess
@@ -116,14 +115,15 @@ class Case:
         """Waits; asks to stop after `patience` seconds. True where it hung and had to be killed."""
         patience = patience if not SANITIZER else 5 * patience
         for wait, number in ((patience, signal.SIGTERM), (HANG, signal.SIGKILL)):
-            if ends_within(process, wait):
-                process.wait()
-                return False
             try:
-                os.killpg(process.pid, number)
-            except ProcessLookupError:
-                pass
-            process.sent = process.sent or number
+                process.wait(wait)
+                return False
+            except subprocess.TimeoutExpired:
+                try:
+                    os.killpg(process.pid, number)
+                except ProcessLookupError:
+                    pass
+                process.sent = process.sent or number
         process.wait()
         return True
 
@@ -180,17 +180,6 @@ def run_case(kind, function, seed, keep):
     case.close()
     seconds = ended.ru_utime + ended.ru_stime - began.ru_utime - began.ru_stime
     return Made(case.violations + (case.done if case.violations else []), case.codes, case.commands, seconds, case.found)
-
-
-def ends_within(process, seconds):
-    """Told at once: subprocess's own wait() with a time looks every 50 ms, which is as long as most runs take."""
-    if process.poll() is not None:
-        return True
-    handle = os.pidfd_open(process.pid)
-    try:
-        return bool(select.select([handle], [], [], seconds)[0])
-    finally:
-        os.close(handle)
 
 
 def wait_for(path, process, seconds=60):

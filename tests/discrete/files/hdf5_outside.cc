@@ -39,6 +39,20 @@ namespace
       ASSERT_GE(H5Fclose(file), 0);
     }
 
+    // The array again, stored as `set` makes the properties say.
+    template <class Set> void change_storage(const Set &set) const
+    {
+      change([&](const hid_t file) {
+        H5Ldelete(file, "group/values", H5P_DEFAULT);
+        const hsize_t n     = 3;
+        const hid_t   space = H5Screate_simple(1, &n, nullptr), properties = H5Pcreate(H5P_DATASET_CREATE);
+        ASSERT_GE(set(properties, space), 0);
+        const hid_t array = H5Dcreate2(file, "group/values", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, properties, H5P_DEFAULT);
+        ASSERT_GE(array, 0);
+        H5Dclose(array), H5Pclose(properties), H5Sclose(space);
+      });
+    }
+
     // Every way to it throws, naming file and object, and none waits for the pipe: the test would never end.
     void expect_refused(const std::string &object) const
     {
@@ -90,29 +104,14 @@ namespace
 
   TEST_F(Hdf5Outside, NumbersInOtherFilesAreNotRead)
   {
-    change([&](const hid_t file) {
-      H5Ldelete(file, "group/values", H5P_DEFAULT);
-      const hsize_t n     = 3;
-      const hid_t   space = H5Screate_simple(1, &n, nullptr), properties = H5Pcreate(H5P_DATASET_CREATE);
-      H5Pset_external(properties, pipe.c_str(), 0, H5F_UNLIMITED);
-      const hid_t set = H5Dcreate2(file, "group/values", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, properties, H5P_DEFAULT);
-      ASSERT_GE(set, 0);
-      H5Dclose(set), H5Pclose(properties), H5Sclose(space);
-    });
+    change_storage([&](const hid_t properties, hid_t) { return H5Pset_external(properties, pipe.c_str(), 0, H5F_UNLIMITED); });
     expect_refused("group/values");
   }
 
   TEST_F(Hdf5Outside, VirtualArraysAreNotRead)
   {
-    change([&](const hid_t file) {
-      H5Ldelete(file, "group/values", H5P_DEFAULT);
-      const hsize_t n     = 3;
-      const hid_t   space = H5Screate_simple(1, &n, nullptr), properties = H5Pcreate(H5P_DATASET_CREATE);
-      ASSERT_GE(H5Pset_virtual(properties, space, pipe.c_str(), "/x", space), 0);
-      const hid_t set = H5Dcreate2(file, "group/values", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, properties, H5P_DEFAULT);
-      ASSERT_GE(set, 0);
-      H5Dclose(set), H5Pclose(properties), H5Sclose(space);
-    });
+    change_storage(
+      [&](const hid_t properties, const hid_t space) { return H5Pset_virtual(properties, space, pipe.c_str(), "/x", space); });
     expect_refused("group/values");
   }
 

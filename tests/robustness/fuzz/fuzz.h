@@ -16,13 +16,15 @@
 
 namespace diptych::fuzz
 {
-  // A folder in memory, removed at the end of the process.
+  // A folder in memory where the system has one, removed at the end of the process.
   class Folder
   {
   public:
     Folder()
     {
-      std::string name = std::filesystem::is_directory("/dev/shm") ? "/dev/shm/diptych_fuzz_XXXXXX" : "/tmp/diptych_fuzz_XXXXXX";
+      const std::filesystem::path memory = "/dev/shm";
+      std::string                 name =
+        ((is_directory(memory) ? memory : std::filesystem::temp_directory_path()) / "diptych_fuzz_XXXXXX").string();
       if (mkdtemp(name.data()) == nullptr)
         std::abort();
       path = name;
