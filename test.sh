@@ -44,7 +44,7 @@ if [ "$preset" = fuzz ]; then
   fuzz_one() {
     local log=build/fuzz/$1.log inputs=build/fuzz/inputs/$1
     mkdir -p "$inputs"
-    TIMEFORMAT="fuzz_$1: %U s of CPU time"
+    TIMEFORMAT="fuzz_$1: %U s of CPU time, and %S s in the system"
     time ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 "build/fuzz/tests/robustness/fuzz/fuzz_$1" -max_total_time="$2" -timeout=25 -rss_limit_mb=4000 -malloc_limit_mb=-1 \
       -print_final_stats=1 -artifact_prefix="build/fuzz/finding_$1_" "$inputs" "tests/robustness/fuzz/kept/$1" >"$log" 2>&1 ||
       { tail -n 50 "$log"; echo "fuzz_$1: a finding, build/fuzz/finding_$1_*"; return 1; }

@@ -177,10 +177,15 @@ namespace diptych::discrete
 
   namespace
   {
+    // Whole bytes in a usual order: the library turns others bit by bit, by what the file says of their places, over the ends of
+    // its own memory.
     bool is_number(const hid_t type)
     {
-      const H5T_class_t kind = H5Tget_class(type);
-      return kind == H5T_FLOAT || kind == H5T_INTEGER;
+      const hid_t usual[] = {H5T_IEEE_F64LE, H5T_IEEE_F64BE, H5T_IEEE_F32LE, H5T_IEEE_F32BE, H5T_STD_I64LE,
+                             H5T_STD_I64BE,  H5T_STD_U64LE,  H5T_STD_U64BE,  H5T_STD_I32LE,  H5T_STD_I32BE,
+                             H5T_STD_U32LE,  H5T_STD_U32BE,  H5T_STD_I16LE,  H5T_STD_I16BE,  H5T_STD_U16LE,
+                             H5T_STD_U16BE,  H5T_STD_I8LE,   H5T_STD_I8BE,   H5T_STD_U8LE,   H5T_STD_U8BE};
+      return std::any_of(std::begin(usual), std::end(usual), [&](const hid_t one) { return H5Tequal(type, one) > 0; });
     }
   } // namespace
 
@@ -199,7 +204,7 @@ namespace diptych::discrete
     constexpr double largest_compression = 1100; // of deflate, and a little
     const Id         type(H5Dget_type(data), H5Tclose);
     if (!is_number(type))
-      refuse(path_, name, "holds no numbers");
+      refuse(path_, name, "holds no numbers, or none of a usual type (integers of 8 to 64 bits, floats of 32 or 64)");
     if (from_ == From::this_program && H5Tequal(type, H5T_IEEE_F64LE) <= 0 && H5Tequal(type, H5T_STD_I32LE) <= 0)
       refuse(path_, name, "holds numbers of another type than this program writes");
     if (from_ == From::this_program && has_checksums_ && n > 0 && !is_scalar(data) && !has_checksum(data))
@@ -300,7 +305,7 @@ namespace diptych::discrete
     const Id            space(H5Aget_space(attribute), H5Sclose), type(H5Aget_type(attribute), H5Tclose);
     std::vector<double> values(std::size_t(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space))));
     if (!is_number(type) || H5Aread(attribute, H5T_NATIVE_DOUBLE, values.data()) < 0)
-      refuse(path_, object, "has an attribute " + name + " that holds no numbers");
+      refuse(path_, object, "has an attribute " + name + " that holds no numbers, or none of a usual type");
     return values;
   }
 

@@ -320,13 +320,23 @@ class Folders(Folder):
                 self.expect(2, again, table)
 
     def test_a_report_is_drawn_of_its_own_folder_alone(self):
-        """A link in comparison.h5 to a pipe, which would never end, and numbers that stand in another file."""
+        """A link in comparison.h5 to a pipe, which would never end, numbers that stand in another file, and numbers of an odd type."""
         def link(file):
             file["stage_0000/grains/stress"] = h5py.ExternalLink("pipe.h5", "/x")
 
         def outside(file):
             file.create_dataset("stage_0000/more", shape=(3,), dtype="f8", external=[("/dev/zero", 0, h5py.h5f.UNLIMITED)])
-        for change in (link, outside):
+
+        def array_of_odd_bits(file):
+            kind = h5py.h5t.STD_I32LE.copy()
+            kind.set_precision(13)
+            h5py.h5d.create(file.require_group("stage_0000").id, b"more", kind, h5py.h5s.create_simple((3,)))
+
+        def attribute_of_odd_bits(file):
+            kind = h5py.h5t.STD_I32LE.copy()
+            kind.set_precision(13)
+            h5py.h5a.create(file.require_group("stage_0000").id, b"more", kind, h5py.h5s.create(h5py.h5s.SCALAR))
+        for change, why in ((link, "other file"), (outside, "other file"), (array_of_odd_bits, "another type"), (attribute_of_odd_bits, "another type")):
             shutil.rmtree(self.folder, ignore_errors=True)
             shutil.copytree(self.whole, self.folder)
             os.mkfifo(os.path.join(self.folder, "pipe.h5"))
@@ -334,7 +344,7 @@ class Folders(Folder):
                 change(file)
             result = diptych("report", self.folder, "--quiet", timeout=60)
             self.assertEqual(result.returncode, 2, result.stderr)
-            self.assertRegex(result.stderr, r"comparison[.]h5: /stage_0000/.*other file")
+            self.assertRegex(result.stderr, rf"comparison[.]h5: /stage_0000.*{why}")
 
 
 if __name__ == "__main__":

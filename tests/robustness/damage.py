@@ -163,6 +163,17 @@ def pipe_beside(path, name):
     return pipe
 
 
+def odd_bits(dice, file, name, values):
+    """Whole numbers in some of the bits of 64, as the library allows and no program writes."""
+    kind = h5py.h5t.STD_I64LE.copy()
+    kind.set_precision(dice.choice([5, 13, 32]))
+    kind.set_offset(dice.choice([0, 7, 31]))
+    del file[name]
+    array = h5py.h5d.create(file.id, name.encode(), kind, h5py.h5s.create_simple(values.shape))
+    array.write(h5py.h5s.ALL, h5py.h5s.ALL, numpy.arange(values.size).reshape(values.shape))
+    return f"odd bits of {name}"
+
+
 def led_outside(dice, path, file, name):
     """An array that stands in another file: by a link, or by where its numbers are."""
     values = file[name][()] if isinstance(file.get(name), h5py.Dataset) else numpy.zeros(3)
@@ -235,7 +246,9 @@ def damage_arrays(dice, path, often=""):
         else:
             values = numpy.asarray(file[name][()])
             if values.dtype.kind in "if" and values.ndim:
-                change = dice.choice(["rows", "shape", "type", "value", "empty", "scalar", "more"])
+                change = dice.choice(["rows", "shape", "type", "value", "empty", "scalar", "more", "bits"])
+                if change == "bits":
+                    return odd_bits(dice, file, name, values), True
                 values = changed_values(dice, values, change)
                 replace(file, name, values, **checked(dice, file, name, values))
                 return f"{change} of {name}", change not in ("value", "type")

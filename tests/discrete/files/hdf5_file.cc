@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include <gtest/gtest.h>
+#include <hdf5.h>
 
 #include "discrete/files/hdf5_file.h"
 
@@ -228,5 +229,72 @@ namespace
   {
     ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
     EXPECT_THROW(Hdf5Reader{path}, std::invalid_argument);
+  }
+
+  struct Hdf5Types : testing::Test
+  {
+    const std::string path = testing::TempDir() + "hdf5_types" + std::to_string(::getpid()) + ".h5";
+
+    void TearDown() override { std::filesystem::remove(path); }
+
+    // 1, 2, 3 as another program stores them (version 1.8 of the format, without checksums), in an array and an attribute.
+    void write(const hid_t type) const
+    {
+      const double  values[] = {1, 2, 3};
+      const hsize_t n        = 3;
+      const hid_t   file     = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+      const hid_t   space = H5Screate_simple(1, &n, nullptr), one = H5Screate(H5S_SCALAR);
+      const hid_t   array     = H5Dcreate2(file, "values", type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+      const hid_t   attribute = H5Acreate2(array, "first", type, one, H5P_DEFAULT, H5P_DEFAULT);
+      H5Dwrite(array, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
+      H5Awrite(attribute, H5T_NATIVE_DOUBLE, values);
+      H5Aclose(attribute), H5Dclose(array), H5Sclose(one), H5Sclose(space);
+      ASSERT_GE(H5Fclose(file), 0);
+    }
+
+    void expect_refused() const
+    {
+      const Hdf5Reader reader(path, Hdf5Reader::From::anybody);
+      EXPECT_THROW((void)reader.read("values"), std::invalid_argument);
+      EXPECT_THROW((void)reader.attribute("values", "first"), std::invalid_argument);
+    }
+  };
+
+  TEST_F(Hdf5Types, UsualTypesOfOtherProgramsAreRead)
+  {
+    for (const hid_t type : {H5T_IEEE_F32BE, H5T_IEEE_F64LE, H5T_STD_I8LE, H5T_STD_U16BE, H5T_STD_I32BE, H5T_STD_U64LE})
+      {
+        write(type);
+        const Hdf5Reader reader(path, Hdf5Reader::From::anybody);
+        EXPECT_EQ(reader.read("values"), (std::vector<double>{1, 2, 3}));
+        EXPECT_EQ(reader.attribute("values", "first"), 1);
+      }
+  }
+
+  TEST_F(Hdf5Types, IntegersOfSomeBitsAreRefused)
+  {
+    const hid_t type = H5Tcopy(H5T_STD_I32LE);
+    H5Tset_precision(type, 13);
+    H5Tset_offset(type, 7);
+    write(type);
+    H5Tclose(type);
+    expect_refused();
+  }
+
+  // The library turns them by the offset that stands in the file, which nothing bounds: HDF5 1.10 writes beyond its own memory.
+  TEST_F(Hdf5Types, BitsBeyondTheNumberAreRefused)
+  {
+    write(H5T_STD_I32LE);
+    std::ifstream in(path, std::ios::binary);
+    std::string   bytes(std::istreambuf_iterator<char>(in), {});
+    // Class and version, three bytes of flags (signed), size; then the offset and the number of bits, as the file format says
+    // them.
+    const std::string whole("\x10\x08\0\0\x04\0\0\0\0\0\x20\0", 12);
+    int               found = 0;
+    for (std::size_t at = bytes.find(whole); at != std::string::npos; at = bytes.find(whole, at + 1), ++found)
+      bytes[at + 9] = 0x3e;
+    ASSERT_EQ(found, 2);
+    std::ofstream(path, std::ios::binary) << bytes;
+    expect_refused();
   }
 } // namespace

@@ -1,5 +1,7 @@
 // diptych: contact problems stored in the layout of FCLIB
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hdf5.h>
+
 #include "tests/discrete/problem_files/fclib_examples.h"
 
 namespace

@@ -105,7 +105,7 @@ namespace
     return "";
   }
 
-  void expect_refused(const LocalFile &content, const std::vector<std::string> &words)
+  inline void expect_refused(const LocalFile &content, const std::vector<std::string> &words)
   {
     const TemporaryFile file;
     content.write(file.path);

@@ -10,8 +10,8 @@ from diptych_report.data.input_error import InputError
 
 @contextlib.contextmanager
 def open_arrays(path):
-    """The file. Raises InputError where it is none, or where something in it stands in another file: links may lead to a pipe, which never ends, and to
-    what is no result."""
+    """The file. Raises InputError where it is none, where something in it stands in another file (links may lead to a pipe, which never ends, and to
+    what is no result), or where numbers are of a type that no result has (the library turns odd ones by what the file says, over the ends of its memory)."""
     try:
         with h5py.File(path, "r") as file:
             _demand_inside(path, file, set())
@@ -35,8 +35,25 @@ def _demand_inside(path, group, seen):
         if isinstance(link, h5py.ExternalLink):
             raise InputError(f"{place} stands in another file, {link.filename!r}: links into other files are not followed")
         item = group.get(name)
+        if item is not None:
+            _demand_types(place, item)
         if isinstance(item, h5py.Dataset) and (item.external or item.is_virtual):
             raise InputError(f"{place} has its numbers in other files, which are not read")
         if isinstance(item, h5py.Group) and item.id not in seen:
             seen.add(item.id)
             _demand_inside(path, item, seen)
+
+
+def _attributes(item):
+    """In the file's own order, as _names."""
+    names = []
+    h5py.h5a.iterate(item.id, lambda name, *_: names.append(name), index_type=h5py.h5.INDEX_NAME, order=h5py.h5.ITER_NATIVE)
+    return names
+
+
+def _demand_types(place, item):
+    types = [("", item.id.get_type())] if isinstance(item, h5py.Dataset) else []
+    types += [(f"@{name.decode('utf-8', 'replace')}", h5py.h5a.open(item.id, name).get_type()) for name in _attributes(item)]
+    for where, kind in types:
+        if kind.get_class() in (h5py.h5t.INTEGER, h5py.h5t.FLOAT) and kind not in (h5py.h5t.IEEE_F64LE, h5py.h5t.STD_I32LE):
+            raise InputError(f"{place}{where} holds numbers of another type than this program writes")
