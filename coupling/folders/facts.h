@@ -112,11 +112,25 @@ namespace diptych::coupling
     v({"peak_memory_mb", "MB", "peak memory of the process so far", Kind::clock}, p.peak_memory_mb);
   }
 
+  // Over all bytes of the two files of a part when it ended (FNV-1a of 64 bits, hexadecimal). Empty: not known.
+  struct FileSums
+  {
+    std::string table, snapshots;
+  };
+
+  template <class Sums, class Visitor, std::enable_if_t<std::is_same_v<std::remove_const_t<Sums>, FileSums>, int> = 0>
+  void list_numbers(Sums &s, Visitor &v)
+  {
+    v({"table", "-", "sum over the bytes of the .csv file as the run left it (FNV-1a, 64 bits)", Kind::setting}, s.table);
+    v({"snapshots", "-", "the same of the .h5 file", Kind::setting}, s.snapshots);
+  }
+
   // What provenance.json holds of a run.
   struct RunFacts
   {
     DiscreteFacts          discrete;
     ContinuumFacts         continuum, continuum_coarse;
+    FileSums               discrete_files, continuum_files, continuum_coarse_files;
     std::vector<PhaseCost> phases;
   };
 } // namespace diptych::coupling

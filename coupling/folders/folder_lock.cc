@@ -32,14 +32,15 @@ namespace diptych::coupling
       return "process " + std::to_string(getpid()) + " on " + host + " since " + moment;
     }
 
-    // What is not there of a path, the innermost first.
+    // What is not there of a path, the innermost first. A link that leads nowhere is there.
     std::vector<std::string> missing_folders(const std::string &directory)
     {
       std::vector<std::string> missing;
       std::error_code          unreadable;
-      for (fs::path path = fs::absolute(directory).lexically_normal(); !fs::exists(path, unreadable); path = path.parent_path())
+      for (fs::path path = fs::absolute(directory).lexically_normal(); !fs::exists(fs::symlink_status(path, unreadable));
+           path          = path.parent_path())
         {
-          if (path.has_filename())
+                   if (path.has_filename())
             missing.push_back(path.string());
           if (path == path.parent_path())
             break;
@@ -67,6 +68,11 @@ namespace diptych::coupling
   {
     std::error_code error;
     fs::create_directories(directory, error);
+    const auto is = [&](const std::errc what) { return error == std::make_error_condition(what); };
+    if (is(std::errc::not_a_directory) || is(std::errc::file_exists) || is(std::errc::filename_too_long) ||
+        is(std::errc::too_many_symbolic_link_levels))
+      throw std::invalid_argument("the folder '" + directory + "' cannot be made: " + error.message() +
+                                  "; name another; nothing was written");
     if (error)
       throw std::runtime_error("the folder '" + directory + "' cannot be made: " + error.message());
     if (access(directory.c_str(), W_OK) != 0)

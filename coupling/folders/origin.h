@@ -68,5 +68,8 @@ namespace diptych::coupling
     v.group("discrete", "what the discrete panel said of itself", d.facts.discrete);
     v.group("continuum", "what the continuum said of itself", d.facts.continuum);
     v.group("continuum_coarse", "the same of the run on coarser elements", d.facts.continuum_coarse);
+    v.group("discrete_files", "by which the discrete panel's files are known again", d.facts.discrete_files);
+    v.group("continuum_files", "by which the continuum's files are known again", d.facts.continuum_files);
+    v.group("continuum_coarse_files", "the same of the run on coarser elements", d.facts.continuum_coarse_files);
   }
 } // namespace diptych::coupling

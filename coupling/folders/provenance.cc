@@ -3,6 +3,7 @@
 #include "coupling/folders/provenance.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -13,6 +14,7 @@
 #include "coupling/folders/origin.h"
 #include "coupling/numbers/number_json.h"
 #include "coupling/numbers/record_file.h"
+#include "coupling/scene/identity.h"
 #include "discrete/files/text_file.h"
 
 namespace diptych::coupling
@@ -117,11 +119,42 @@ namespace diptych::coupling
       discrete::write_text(path_of(directory), record.dump(2) + "\n");
     }
 
+    constexpr const char *all_parts[] = {"discrete", "continuum", "continuum_coarse"};
+
+    std::string table_of(const std::string &directory, const std::string &part)
+    {
+      return directory + (part == "continuum_coarse" ? "/coarse/continuum" : "/" + part) + ".csv";
+    }
+
+    std::string snapshots_of(const std::string &directory, const std::string &part)
+    {
+      return std::filesystem::path(table_of(directory, part)).replace_extension(".h5").string();
+    }
+
+    // Empty where there is no such file.
+    std::string sum_over(const std::string &file)
+    {
+      std::error_code none;
+      if (!std::filesystem::is_regular_file(file, none))
+        return {};
+      std::ifstream     in(file, std::ios::binary);
+      std::vector<char> piece(1 << 20);
+      std::uint64_t     sum = empty_digest;
+      while (in.read(piece.data(), std::streamsize(piece.size())), in.gcount() > 0)
+        sum = digest_on(sum, {piece.data(), std::size_t(in.gcount())});
+      char text[17];
+      std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(sum));
+      return text;
+    }
+
     template <class Facts> void put_facts(const std::string &directory, const std::string &part, const Facts &facts)
     {
       json          record = read_record(directory);
       NumbersToJson writer{record[part] = json::object(), 1};
       list_numbers(facts, writer);
+      NumbersToJson  sums{record[part + "_files"] = json::object(), 1};
+      const FileSums files{sum_over(table_of(directory, part)), sum_over(snapshots_of(directory, part))};
+      list_numbers(files, sums);
       write_record(directory, record);
     }
 
@@ -141,6 +174,9 @@ namespace diptych::coupling
       RunFacts facts{get_facts<DiscreteFacts>(record, "discrete"),
                      get_facts<ContinuumFacts>(record, "continuum"),
                      get_facts<ContinuumFacts>(record, "continuum_coarse"),
+                     get_facts<FileSums>(record, "discrete_files"),
+                     get_facts<FileSums>(record, "continuum_files"),
+                     get_facts<FileSums>(record, "continuum_coarse_files"),
                      {}};
       for (const json &row : record.value("phases", json::array()).get<std::vector<json>>())
         {
@@ -151,11 +187,40 @@ namespace diptych::coupling
     }
   } // namespace
 
-  void forget_fact(const std::string &directory, const std::string &name)
+  void forget_fact(const std::string &directory, const std::string &part)
   {
     json record = read_record(directory);
-    if (record.erase(name) > 0)
+    if (record.erase(part) + record.erase(part + "_files") > 0)
       write_record(directory, record);
+  }
+
+  void forget_files(const std::string &directory, const std::string &part)
+  {
+    json record = read_record(directory);
+    if (record.erase(part + "_files") > 0)
+      write_record(directory, record);
+  }
+
+  void check_files(const std::string &directory, const std::string &part)
+  {
+    const json record = read_record(directory);
+    const auto check  = [](const std::string &file, const std::string &recorded) {
+      if (recorded.empty())
+        return;
+      const std::string found = sum_over(file);
+      if (found != recorded)
+        throw std::invalid_argument(file + (found.empty() ? ": is missing" : ": is not what the run left") +
+                                     ", by the sum over its bytes in provenance.json: " +
+                                     (found.empty() ? "removed since" : "changed since, or another run's"));
+    };
+    for (const std::string one : all_parts)
+      if (part.empty() || part == one)
+        {
+          const FileSums sums = from_record(path_of(directory),
+                                            [&] { return get_facts<FileSums>(record, (one + "_files").c_str()); });
+          check(table_of(directory, one), sums.table);
+          check(snapshots_of(directory, one), sums.snapshots);
+        }
   }
 
   void record_phases(const std::string            &directory,

@@ -39,12 +39,18 @@ namespace diptych::coupling
                      const std::vector<PhaseCost> &phases,
                      const std::vector<int>       &seeds);
 
-  // The facts of one part: "discrete", "continuum" or "continuum_coarse".
+  // The facts of one part, "discrete", "continuum" or "continuum_coarse", and the sums of its files as they now are.
   void record_facts(const std::string &directory, const DiscreteFacts &facts);
   void record_facts(const std::string &directory, const std::string &part, const ContinuumFacts &facts);
 
-  // Takes a fact of an earlier run away, before a new one makes it untrue.
-  void forget_fact(const std::string &directory, const std::string &name);
+  // Takes the facts of a part of an earlier run away, before a new one makes them untrue; or the sums of its files alone, which
+  // an interrupted run that goes on is about to change.
+  void forget_fact(const std::string &directory, const std::string &part);
+  void forget_files(const std::string &directory, const std::string &part);
+
+  // Throws std::invalid_argument naming the file where one of those whose sums are recorded is missing, or is not what the run
+  // left: a number was changed, a row is gone, it is another run's. `part` empty: of all parts.
+  void check_files(const std::string &directory, const std::string &part = "");
 
   // What is not there has the values of facts that nobody recorded. Throws std::invalid_argument naming the file where one stands
   // there that is no record of a run.

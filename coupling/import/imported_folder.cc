@@ -72,6 +72,7 @@ namespace diptych::coupling
         results.rows      = discrete::read_rows<discrete::HistoryRow>(folder + "/discrete.csv");
         results.facts     = read_run_facts(folder).discrete;
         check_record_of_import(folder + "/import.json");
+        check_files(folder, "discrete");
       }
     catch (const std::invalid_argument &error)
       {

@@ -14,6 +14,7 @@
 #include "coupling/processes/stop_signal.h"
 #include "coupling/program/built_with.h"
 #include "coupling/program/completion.h"
+#include "coupling/program/option_values.h"
 #include "coupling/program/refused_line.h"
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_file.h"
@@ -71,7 +72,7 @@ namespace diptych::coupling
 
       // clang-format off
       void add_scene(CLI::App *to) { to->add_option("SCENE", line.target, "scene file, .prm or .json")->required(); }
-      void add_output(CLI::App *to) { to->add_option("--output", line.output, "result folder (default: results/<scene name>)")->type_name("DIR"); }
+      void add_output(CLI::App *to, const char *what = "result folder (default: results/<scene name>)") { to->add_option("--output", line.output, what)->type_name("DIR")->check(is_filled); }
       void add_set(CLI::App *to)
       {
         to->add_option("--set", line.overrides, "section/key=value: change one key of the scene; may be repeated")
@@ -120,7 +121,7 @@ namespace diptych::coupling
         CLI::App *study = add(Command::study,
                               "many settings of a scene on many samples: errors against a reference, cost, classes");
         study->add_option("STUDY", line.target, "study file, .json")->required();
-        study->add_option("--output", line.output, "folder of the study (default: results/<study name>_study)")->type_name("DIR");
+        add_output(study, "folder of the study (default: results/<study name>_study)");
         add_set(study), add_threads(study), add_jobs(study, "");
         study->add_flag("--resume", line.resume, "keep the runs that are finished in the folder, and run the others");
         add_quiet(study);
@@ -132,8 +133,7 @@ namespace diptych::coupling
                                   "parameters of the continuum from the grains' curves: fitted, with what the "
                                   "data do not tell, and predictions of what was not fitted");
         calibrate->add_option("CALIBRATION", line.target, "calibration file, .json")->required();
-        calibrate->add_option("--output", line.output, "folder of the calibration (default: results/<its name>_calibration)")
-          ->type_name("DIR");
+        add_output(calibrate, "folder of the calibration (default: results/<its name>_calibration)");
         add_threads(calibrate), add_jobs(calibrate, "");
         calibrate->add_flag("--resume", line.resume, "keep the runs that are finished in the folder");
         add_quiet(calibrate);
@@ -148,7 +148,7 @@ namespace diptych::coupling
           ->add_option("--accuracy", line.accuracy,
                        "of the means, relative: 2 % or 0.02; errors of the method and 95 % interval together")
           ->required();
-        plan->add_option("--output", line.output, "folder of the plan (default: results/<scene name>_plan)")->type_name("DIR");
+        add_output(plan, "folder of the plan (default: results/<scene name>_plan)");
         plan
           ->add_option("--for", line.wanted,
                        "quantities, separated by commas: peak_stress_ratio, strength (both by default), final_volumetric_strain, "
@@ -184,7 +184,7 @@ namespace diptych::coupling
       {
         CLI::App *solve = add(Command::solve, "one stored contact problem (FCLIB layout): sweeps, residual, seconds");
         solve->add_option("PROBLEM", line.target, "problem file, .h5 or .hdf5")->required();
-        solve->add_option("--output", line.output, "file for the problem with its solution")->type_name("FILE");
+        solve->add_option("--output", line.output, "file for the problem with its solution")->check(is_filled)->type_name("FILE");
         add_choice<discrete::ContactSolver>(solve, "--solver", "default: psor",
                                             [this](const auto chosen) { line.solver = chosen; });
         solve->add_option("--tolerance", line.tolerance, "natural map relative to |r| (default: 1e-8)")
@@ -214,7 +214,7 @@ namespace diptych::coupling
           ->required()
           ->check(CLI::IsMember({"lammps", "liggghts", "yade", "lmgc90", "mercurydpm", "csv"}));
         in->add_option("FILES", line.foreign.files, "of grains, contacts and walls, in any order")->required();
-        in->add_option("--output", line.output, "folder of the imported sample")->type_name("DIR")->required();
+        in->add_option("--output", line.output, "folder of the imported sample")->check(is_filled)->type_name("DIR")->required();
         in->add_option(
             "--columns", line.foreign.columns,
             "KIND=NAME,NAME,...: what columns mean that the files do not name; KIND: contacts or walls; may be repeated")
@@ -238,7 +238,7 @@ namespace diptych::coupling
         out->add_option("--format", line.format, "for whom")
           ->required()
           ->check(CLI::IsMember({"lammps", "yade", "lmgc90", "csv"}));
-        out->add_option("--output", line.output, "folder of the exported files (default: FOLDER_for_FORMAT)")->type_name("DIR");
+        add_output(out, "folder of the exported files (default: FOLDER_for_FORMAT)");
         out->add_option("--stage", line.stage, "of the snapshots (default: 0, the prepared sample)")
           ->check(CLI::Range(0, 1000000));
         add_quiet(out);

@@ -150,7 +150,9 @@ namespace diptych::coupling
         const bool found = wants_resume && std::filesystem::exists(part.checkpoint());
         if (wants_resume && !found)
           say(line, part.title + ": no checkpoint in " + part.directory + ": from the beginning");
-        if (!found)
+        if (found)
+          forget_files(scene.output.directory, part.name);
+        else
           clear(scene, part);
         return int(found);
       });
@@ -200,7 +202,7 @@ namespace diptych::coupling
     if (const int code = on_first_process([&] {
           remove_results(scene.output.directory, comparison_files);
           if (!task.resume)
-            remove_results(scene.output.directory, {"coarse"});
+            forget_fact(scene.output.directory, "continuum_coarse"), remove_results(scene.output.directory, {"coarse"});
           return take_grains(line, scene, task, grains);
         });
         code != done)

@@ -261,7 +261,9 @@ namespace diptych::coupling
     if (line.resume && !checkpoint)
       say(line, "no checkpoint in " + directory + ": from the beginning");
     remove_results(directory, comparison_files);
-    if (!checkpoint)
+    if (checkpoint)
+      forget_files(directory, "discrete");
+    else
       forget_earlier_run(scene);
 
     const PhaseTimer timer("discrete");

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "coupling/folders/provenance.h"
 #include "coupling/folders/result_folder.h"
 #include "coupling/import/exported_sample.h"
 #include "coupling/scene/scene_file.h"
@@ -25,6 +26,7 @@ namespace diptych::coupling
       scene = fs::exists(line.target + "/import.json") && !is_echo(prm) ? read_scene(prm, {}, false) // what an import proposes
                                                                         : read_computed_scene(prm, {}, false);
     const std::vector<discrete::Snapshot> snapshots = discrete::read_snapshots(file);
+    check_files(line.target, "discrete");
     if (std::size_t(line.stage) >= snapshots.size())
       throw SceneError("--stage " + std::to_string(line.stage) + ": " + file + " holds " + std::to_string(snapshots.size()) +
                        " snapshots, 0 to " + std::to_string(snapshots.size() - 1));

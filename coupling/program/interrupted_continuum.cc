@@ -43,9 +43,9 @@ namespace diptych::coupling
     const RunFacts facts = read_run_facts(scene.output.directory);
     for (const ContinuumPart &part : continuum_parts(scene))
       if (std::filesystem::exists(part.checkpoint()))
-        check_interrupted(scene, part);
+        check_interrupted(scene, part), check_files(scene.output.directory, part.name);
       else if ((part.is_coarse ? facts.continuum_coarse : facts.continuum).finished &&
                std::filesystem::exists(part.directory + "/continuum.h5"))
-        check_results(part);
+        check_results(part), check_files(scene.output.directory, part.name);
   }
 } // namespace diptych::coupling

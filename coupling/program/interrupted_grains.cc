@@ -53,6 +53,7 @@ namespace diptych::coupling
     const std::size_t n_snapshots = discrete::read_snapshots(snapshots).size();
     if (!found || found->n_rows > 0) // stopped before the first step there is none
       (void)discrete::read_history<discrete::HistoryRow>(rows);
+    check_files(scene.output.directory, "discrete");
     if (!found)
       return;
     discrete::check_table(rows, discrete::csv_header<discrete::HistoryRow>(), found->n_rows);

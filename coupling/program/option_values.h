@@ -9,6 +9,12 @@
 
 namespace diptych::coupling
 {
+  // Of an option that names a file or folder: an unset variable of a shell is no wish for the default.
+  inline std::string is_filled(const std::string &text)
+  {
+    return text.empty() ? "a name is needed" : "";
+  }
+
   // The few values of an option or a word, divided by spaces; empty where they are not few. CLI11 tells them as TEXT:{a,b}.
   inline std::string values_of(const CLI::Option &option)
   {

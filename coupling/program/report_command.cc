@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "coupling/ensembles/ensemble_folder.h"
+#include "coupling/folders/provenance.h"
 #include "coupling/folders/result_folder.h"
 #include "coupling/processes/child_process.h"
 #include "coupling/processes/progress.h"
@@ -98,6 +99,8 @@ namespace diptych::coupling
                                                                  : Drawing::page;
     if (drawing == Drawing::page && !fs::exists(line.target + "/comparison.json"))
       throw SceneError(line.target + ": holds no comparison.json, nor is it the folder of an ensemble, a study or a calibration");
+    if (drawing == Drawing::page)
+      check_files(line.target);
     return writing(line.target, [&] {
       draw_page(line, drawing, line.target);
       return int(done);

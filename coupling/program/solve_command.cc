@@ -88,6 +88,9 @@ namespace diptych::coupling
     std::error_code error;
     if (!line.output.empty() && std::filesystem::equivalent(line.target, line.output, error))
       throw SceneError("--output " + line.output + " is the problem itself: name another file");
+    const std::filesystem::path folder = std::filesystem::path(line.output).parent_path();
+    if (!folder.empty() && !std::filesystem::is_directory(folder, error))
+      throw SceneError("--output " + line.output + ": there is no folder " + folder.string());
     const discrete::StoredProblem problem = discrete::read_fclib(line.target);
     if (!line.output.empty() && std::filesystem::exists(line.output) && !holds_solution_of(problem, line.output))
       throw SceneError("--output " + line.output + " stands there and holds no solution of " + line.target +

@@ -60,6 +60,7 @@ namespace diptych::coupling
     Results        results{discrete_results(folder, facts.discrete), continuum_results(folder, facts.continuum),
                     coarse ? continuum_results(folder + "/coarse", facts.continuum_coarse) : ContinuumResults(), facts.phases};
     check_meshes(folder + "/continuum.h5", results.continuum);
+    check_files(folder); // last: what was found wrong before says more
     return results;
   }
 } // namespace diptych::coupling

@@ -120,12 +120,16 @@ namespace diptych::coupling
     return files;
   }
 
-  std::uint64_t digest_of(const std::string &bytes)
+  std::uint64_t digest_on(std::uint64_t digest, const std::string_view bytes)
   {
-    std::uint64_t hash = 14695981039346656037ull;
     for (const char byte : bytes)
-      hash = (hash ^ std::uint8_t(byte)) * 1099511628211ull;
-    return hash;
+      digest = (digest ^ std::uint8_t(byte)) * 1099511628211ull;
+    return digest;
+  }
+
+  std::uint64_t digest_of(const std::string_view bytes)
+  {
+    return digest_on(empty_digest, bytes);
   }
 
   Identity sample_identity(const Scene &scene)

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -24,7 +25,11 @@ namespace diptych::coupling
   std::vector<std::pair<std::string, std::string>> input_files(const Scene &scene);
 
   // FNV-1a, 64 bits, of bytes.
-  std::uint64_t digest_of(const std::string &bytes);
+  std::uint64_t digest_of(std::string_view bytes);
+
+  // The same of bytes that come piece by piece, from empty_digest on.
+  constexpr std::uint64_t empty_digest = 14695981039346656037ull;
+  std::uint64_t           digest_on(std::uint64_t digest, std::string_view bytes);
 
   // One line a value, for files.
   std::string text_of(const Identity &identity);

@@ -127,19 +127,11 @@ namespace diptych::coupling
 
   namespace
   {
-    // What a full disk leaves of a scene is not the scene of defaults.
-    void demand_text(const std::string &file, const std::istringstream &in)
-    {
-      if (in.str().find_first_not_of(" \t\r\n") == std::string::npos)
-        throw SceneError(file + ": is empty; a scene that leaves every key at its default says so in a comment, '# ...'");
-    }
-
     std::vector<Entry> entries_with(const std::string &file, const std::vector<Entry> &changes)
     {
       if (std::error_code none; std::filesystem::is_directory(file, none))
         throw SceneError(file + ": is a folder; a scene file, .prm or .json, is needed");
-      std::istringstream in = scene_input(file);
-      demand_text(file, in);
+      std::istringstream in      = scene_input(file);
       std::vector<Entry> entries = entries_of(file, in);
       if (is_echo(file))
         for (Entry &entry : entries)

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/scene/scene_text.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <map>
 #include <optional>
 
 #include <strings.h>
@@ -50,27 +52,41 @@ namespace diptych::coupling
         return std::nullopt;
       return trimmed(line.substr(keyword.size()));
     }
+    // What a full disk leaves of a scene is not the scene of defaults; nor is one line all that a file without line ends says.
+    void demand_text(const std::string &file, const std::string &text)
+    {
+      if (text.find_first_not_of(" \t\r\n") == std::string::npos)
+        throw SceneError(file + ": is empty; a scene that leaves every key at its default says so in a comment, '# ...'");
+      for (std::size_t at = text.find('\r'); at != std::string::npos; at = text.find('\r', at + 1))
+        if (at + 1 < text.size() && text[at + 1] != '\n')
+          throw SceneError(file + ", line " + std::to_string(1 + std::count(text.begin(), text.begin() + long(at), '\n')) +
+                           ": holds a carriage return within; lines end with a line feed, or with both");
+    }
   } // namespace
 
   std::istringstream scene_input(const std::string &file)
   {
     constexpr std::size_t most_bytes = 16 << 20;
+    std::string           text;
     try
       {
-        return std::istringstream(discrete::read_input(file, most_bytes));
+        text = discrete::read_input(file, most_bytes);
       }
     catch (const std::invalid_argument &error)
       {
         throw SceneError(error.what());
       }
+    demand_text(file, text);
+    return std::istringstream(text);
   }
 
   std::vector<Entry> entries_of_prm(const std::string &file, std::istream &in)
   {
-    const std::string  folder = std::filesystem::path(file).parent_path().string();
-    std::vector<Entry> entries;
-    std::string        section, raw;
-    int                number = 0;
+    const std::string                  folder = std::filesystem::path(file).parent_path().string();
+    std::vector<Entry>                 entries;
+    std::map<std::string, std::string> places; // of the keys
+    std::string                        section, raw;
+    int                                number = 0;
     while (std::getline(in, raw))
       {
         const std::string place = file + ", line " + std::to_string(++number);
@@ -96,8 +112,13 @@ namespace diptych::coupling
             section.clear();
           }
         else if (const auto set = after("set", line); set && set->find('=') != std::string::npos && set->find('=') > 0)
-          entries.push_back(
-            {section, trimmed(set->substr(0, set->find('='))), trimmed(set->substr(set->find('=') + 1)), place, folder});
+          {
+            const std::string key        = trimmed(set->substr(0, set->find('=')));
+            const auto [first, is_first] = places.try_emplace(section + "/" + key, place);
+            if (!is_first)
+              throw SceneError(place + ": " + section + "/" + key + " stands twice, first in " + first->second);
+            entries.push_back({section, key, trimmed(set->substr(set->find('=') + 1)), place, folder});
+          }
         else
           throw SceneError(place + ": '" + line + "' is neither 'subsection NAME', 'set KEY = VALUE' nor 'end'");
       }

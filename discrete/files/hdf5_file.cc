@@ -165,7 +165,7 @@ namespace diptych::discrete
         on_disk_(true)
   {
     silence();
-    const std::string part = path + ".part";
+    const std::string part = temporary_for(path);
     const Id          access(checked_access(), H5Pclose);
     {
       const Id file(H5Fcreate(part.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);

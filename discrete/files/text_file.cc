@@ -124,9 +124,18 @@ namespace diptych::discrete
     return text;
   }
 
+  std::string temporary_for(const std::string &path)
+  {
+    std::string     temporary = path + ".part";
+    std::error_code none;
+    if (std::filesystem::is_symlink(temporary, none))
+      std::filesystem::remove(temporary, none); // not written through: it leads to a file that is nobody's part
+    return temporary;
+  }
+
   void write_text(const std::string &path, const std::string &text)
   {
-    const std::string temporary = path + ".part";
+    const std::string temporary = temporary_for(path);
     const int         file      = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (file < 0)
       fail(path, errno);

@@ -9,6 +9,9 @@
 
 namespace diptych::discrete
 {
+  // `path`.part, under which a file is written; a link that stands there is removed, so that nothing is written where it leads.
+  std::string temporary_for(const std::string &path);
+
   // Writes under `path`.part, then renames. Throws std::runtime_error naming the file and what the system says; the file of that
   // name stays as it was.
   void write_text(const std::string &path, const std::string &text);

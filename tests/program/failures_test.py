@@ -102,8 +102,9 @@ class Failures(unittest.TestCase):
         path = write(os.path.join(self.work, "file"), "mine")
         for command in ("run", "discrete", "continuum"):
             result = diptych(command, QUICK, *FEW, "--output", os.path.join(path, "out"), "--quiet")
-            self.assertEqual(result.returncode, 4, result.stderr)
+            self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn(path, result.stderr)
+            self.assertIn("nothing was written", result.stderr)
 
     def test_a_report_script_that_dies(self):
         """The results stay; what the script said and its exit code are told."""

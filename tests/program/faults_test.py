@@ -91,6 +91,18 @@ class Inputs(Folder):
         self.assertNotIn(b"nothing is pressed together", content(os.path.join(self.whole, "provenance.json")))
         self.expect(3, [*words, *setting(sample_prepare_file="true", sample_preparation_steps=1)], "nothing carries loading/pressure")
 
+    def test_a_scene_of_which_nothing_is_read_is_not_the_scene_of_defaults(self):
+        """An empty file of keys, a scene whose lines end as on no system of today, a key that stands twice, an output without a name."""
+        empty = write(os.path.join(self.work, "empty.prm"), "")
+        self.expect(2, ["discrete", QUICK, *FEW, "--set-file", empty, "--output", self.folder, "--quiet"], empty, "is empty")
+        old = os.path.join(self.work, "old.prm")
+        with open(old, "wb") as file:
+            file.write(content(QUICK).replace(b"\n", b"\r"))
+        self.expect(2, ["discrete", old, *FEW, "--output", self.folder, "--quiet"], old + ", line 1", "carriage return")
+        twice = write(os.path.join(self.work, "twice.prm"), "subsection sample\n  set grains = 100\n  set grains = 60\nend\n")
+        self.expect(2, ["discrete", twice, "--output", self.folder, "--quiet"], twice + ", line 3", "sample/grains stands twice", "line 2")
+        self.expect(2, ["discrete", QUICK, *FEW, "--output", "", "--quiet"], "--output", "a name is needed")
+
     def test_an_empty_scene_is_not_the_scene_of_defaults(self):
         for name, text in (("a.prm", ""), ("a.prm", "\n \t\r\n"), ("a.json", "")):
             self.expect(2, ["discrete", write(os.path.join(self.work, name), text), *FEW, "--output", self.folder, "--quiet"], name, "is empty")
@@ -147,6 +159,25 @@ class Folders(Folder):
                     with open(os.path.join(self.folder, name), "wb") as file:
                         file.write(b"".join([header, *table]))
                     self.expect(2, ["compare", self.folder, "--quiet"], os.path.join(self.folder, name))
+
+    def test_files_that_are_not_what_the_run_left_are_named(self):
+        """One number of a table, rows from its middle, snapshots of another run: whatever reads the folder says so."""
+        other = os.path.join(self.work, "other")
+        self.expect(0, ["discrete", QUICK, *BOTH, "--set", "sample/seed=2", "--output", other, "--quiet"])
+        rows = content(os.path.join(self.whole, "discrete.csv")).splitlines(keepends=True)
+        column = rows[0].split(b",").index(b"stress_ratio")
+        fields = rows[20].split(b",")
+        fields[column] = b"0.9"
+        for name, damaged in (("discrete.csv", b"".join([*rows[:20], b",".join(fields), *rows[21:]])), ("discrete.csv", b"".join(rows[:20] + rows[23:])),
+                              ("discrete.h5", content(os.path.join(other, "discrete.h5")))):
+            shutil.rmtree(self.folder, ignore_errors=True)
+            shutil.copytree(self.whole, self.folder)
+            with open(os.path.join(self.folder, name), "wb") as file:
+                file.write(damaged)
+            for line in (["compare", self.folder], ["report", self.folder], ["export", self.folder, "--format", "csv", "--output", other + "_exported"],
+                         ["run", QUICK, *BOTH, "--output", self.folder, "--resume"]):
+                with self.subTest(name=name, length=len(damaged), line=line[0]):
+                    self.expect(2, [*line, "--quiet"], os.path.join(self.folder, name), "not what the run left")
 
     def test_numbers_that_no_panel_writes_are_named(self):
         def attribute(group):
@@ -336,7 +367,7 @@ class Folders(Folder):
             kind = h5py.h5t.STD_I32LE.copy()
             kind.set_precision(13)
             h5py.h5a.create(file.require_group("stage_0000").id, b"more", kind, h5py.h5s.create(h5py.h5s.SCALAR))
-        for change, why in ((link, "other file"), (outside, "other file"), (array_of_odd_bits, "another type"), (attribute_of_odd_bits, "another type")):
+        for change, why in ((link, "other file"), (outside, "other file"), (array_of_odd_bits, "no usual type"), (attribute_of_odd_bits, "no usual type")):
             shutil.rmtree(self.folder, ignore_errors=True)
             shutil.copytree(self.whole, self.folder)
             os.mkfifo(os.path.join(self.folder, "pipe.h5"))

@@ -104,16 +104,16 @@ def checkpoints(case):
     name = checkpoint if case.dice.random() < 0.75 else case.dice.choice(
         [name for name in sorted(os.listdir(folder)) if name.endswith(".h5") and name != checkpoint])
     path = os.path.join(folder, name)
-    way = case.dice.random()
+    way, can_be_told = case.dice.random(), True
     if way < 0.5:
-        case.damage_arrays(path)
+        can_be_told = case.damage_arrays(path)
     else:
         with open(path, "rb") as file:
             content = damage.damage_bytes(case.dice, file.read())
         with open(path, "wb") as file:
             file.write(content)
     outcome = case.run(command, QUICK, *words, "--output", folder, "--resume", "--quiet", output=folder, names=(name,), patience=20)
-    if outcome.code == 0:
+    if outcome.code == 0 and can_be_told:  # one number of the kind that stands there, with its checksum, is a checkpoint of another state
         expect_same_as_base(case, "long_" + kind, folder)
 
 

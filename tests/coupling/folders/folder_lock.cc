@@ -105,6 +105,14 @@ namespace
     EXPECT_TRUE(fs::exists(top));
   }
 
+  // A disk that is not mounted just now leaves such a link.
+  TEST_F(Lock, ALinkThatLeadsNowhereStays)
+  {
+    std::filesystem::create_symlink("nowhere/folder", top / "results");
+    EXPECT_THROW(FolderLock{out}, std::invalid_argument);
+    EXPECT_TRUE(std::filesystem::is_symlink(top / "results"));
+  }
+
   TEST_F(Lock, AFileInThePlaceOfTheFolderIsNamed)
   {
     std::ofstream(top / "results") << "a file";
@@ -113,7 +121,7 @@ namespace
         const FolderLock lock(out);
         FAIL() << "it was taken";
       }
-    catch (const std::runtime_error &error)
+    catch (const std::invalid_argument &error)
       {
         EXPECT_NE(std::string(error.what()).find((top / "results").string()), std::string::npos) << error.what();
       }

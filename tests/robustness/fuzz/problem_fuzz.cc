@@ -19,7 +19,7 @@ namespace
     return std::string(std::istreambuf_iterator<char>(in), {});
   }
 
-  // 100 grains, or twelve: ten times as many inputs in the same time, and more of the bytes are the format's own.
+  // 100 grains, or twelve: three times as many inputs in the same time, and more of the bytes are the format's own.
   const std::string &whole_problem(const bool is_little)
   {
     static const std::string small = content_of(DIPTYCH_SMALL_PROBLEM), little = content_of(DIPTYCH_LITTLE_PROBLEM);

@@ -7,11 +7,14 @@ import h5py
 
 from diptych_report.data.input_error import InputError
 
+USUAL = [getattr(h5py.h5t, f"{kind}{order}") for order in ("LE", "BE")
+         for kind in ("IEEE_F32", "IEEE_F64", *(f"STD_{sign}{bits}" for sign in "IU" for bits in (8, 16, 32, 64)))]
+
 
 @contextlib.contextmanager
 def open_arrays(path):
     """The file. Raises InputError where it is none, where something in it stands in another file (links may lead to a pipe, which never ends, and to
-    what is no result), or where numbers are of a type that no result has (the library turns odd ones by what the file says, over the ends of its memory)."""
+    what is no result), or where numbers are of no usual type (the library turns odd ones bit by bit, by what the file says, over the ends of its memory)."""
     try:
         with h5py.File(path, "r") as file:
             _demand_inside(path, file, set())
@@ -55,5 +58,5 @@ def _demand_types(place, item):
     types = [("", item.id.get_type())] if isinstance(item, h5py.Dataset) else []
     types += [(f"@{name.decode('utf-8', 'replace')}", h5py.h5a.open(item.id, name).get_type()) for name in _attributes(item)]
     for where, kind in types:
-        if kind.get_class() in (h5py.h5t.INTEGER, h5py.h5t.FLOAT) and kind not in (h5py.h5t.IEEE_F64LE, h5py.h5t.STD_I32LE):
-            raise InputError(f"{place}{where} holds numbers of another type than this program writes")
+        if kind.get_class() in (h5py.h5t.INTEGER, h5py.h5t.FLOAT) and kind not in USUAL:
+            raise InputError(f"{place}{where} holds numbers of no usual type (integers of 8 to 64 bits, floats of 32 or 64)")
