@@ -51,6 +51,31 @@ namespace diptych::coupling
     }
   } // namespace
 
+  namespace
+  {
+    // Folders go whole when a run replaces them: what somebody else put there would go with them.
+    void demand_own(const fs::path &folder, const std::function<bool(const std::string &)> &is_own)
+    {
+      std::error_code none;
+      for (const fs::directory_entry &entry : fs::directory_iterator(folder, none))
+        if (std::string name = entry.path().filename().string(); !is_own(name) && name.rfind(".nfs", 0) != 0)
+          throw SceneError("output/directory: " + entry.path().string() +
+                           " is no file of a run, and would be removed with the folder that it is in; move it elsewhere");
+    }
+
+    void demand_own_folders(const std::string &directory)
+    {
+      const auto is_stage  = [](const std::string &name) { return name.rfind("stage_", 0) == 0; };
+      const auto is_result = [](const std::string &name) {
+        const std::string whole = name.substr(0, name.rfind(".part"));
+        return std::find(panel_files.begin(), panel_files.end(), whole) != panel_files.end();
+      };
+      for (const char *name : {"/discrete", "/continuum", "/coarse/continuum"})
+        demand_own(directory + name, is_stage);
+      demand_own(directory + "/coarse", is_result);
+    }
+  } // namespace
+
   void open_result_folder(const Scene &scene, const bool resume, const std::function<void()> &check)
   {
     const std::string &directory = scene.output.directory;
@@ -68,6 +93,7 @@ namespace diptych::coupling
     std::string difference;
     if (is_result_folder)
       {
+        demand_own_folders(directory);
         const std::optional<Scene> earlier = echoed_scene(echo_file);
         difference                         = earlier ? first_difference(sample_identity(scene), sample_identity(*earlier))
                                                      : "it was written by another version";

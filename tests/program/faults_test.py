@@ -160,6 +160,14 @@ class Folders(Folder):
                         file.write(b"".join([header, *table]))
                     self.expect(2, ["compare", self.folder, "--quiet"], os.path.join(self.folder, name))
 
+    def test_what_somebody_put_beside_the_stages_is_not_removed(self):
+        for name in ("discrete", "continuum", "coarse"):
+            shutil.rmtree(self.folder, ignore_errors=True)
+            shutil.copytree(self.whole, self.folder)
+            os.makedirs(os.path.join(self.folder, name), exist_ok=True)
+            mine = write(os.path.join(self.folder, name, "mine.txt"), "mine")
+            self.expect(2, ["run", QUICK, *BOTH, "--output", self.folder, "--quiet"], mine)
+
     def test_files_that_are_not_what_the_run_left_are_named(self):
         """One number of a table, rows from its middle, snapshots of another run: whatever reads the folder says so."""
         other = os.path.join(self.work, "other")
