@@ -75,6 +75,28 @@ namespace diptych::coupling
       return options.thickness.value_or(1.);
     }
 
+    [[noreturn]] void refuse_without_effect(const ForeignSample &sample, const std::string &option, const std::string &why)
+    {
+      throw SceneError("import " + sample.format + ": " + option + " would have no effect: " + why);
+    }
+
+    // Whoever says what the files leave no room for believes that it counts.
+    void require_effect(const ForeignSample &sample, const ForeignOptions &options)
+    {
+      if (options.timestep && !sample.counts_steps)
+        refuse_without_effect(sample, "--timestep", "these files do not count steps; their times are taken as they stand");
+      if (options.pressure && sample.frames.size() == 1)
+        refuse_without_effect(sample, "--pressure", "one frame is no loading, so there is no scene");
+      for (const std::string &text : options.columns)
+        {
+          const std::string kind = text.substr(0, text.find('='));
+          if (text.size() < kind.size() + 2 || (kind != "contacts" && kind != "walls"))
+            throw SceneError("--columns " + text + ": is not KIND=NAME,NAME,... with KIND contacts or walls");
+          if (std::find(sample.unnamed.begin(), sample.unnamed.end(), kind) == sample.unnamed.end())
+            refuse_without_effect(sample, "--columns " + text, "no file of " + kind + " leaves them without names");
+        }
+    }
+
     // Masses that grow as r^3 are of spheres, whatever the dimension of the run was.
     bool has_masses_of_spheres(const std::vector<ForeignGrain> &grains)
     {
@@ -89,14 +111,16 @@ namespace diptych::coupling
     }
 
     // Over the area of the discs: what enters inertial numbers and weights.
-    double density_of(const ArrivedFrame &frame, const ForeignOptions &options, const double material)
+    double density_of(const ArrivedFrame &frame, const ForeignSample &sample, const ForeignOptions &options)
     {
       double mass = 0, area = 0;
       for (std::size_t i = 0; i < frame.mass.size(); ++i)
         mass += frame.mass[i], area += M_PI * frame.radius[i] * frame.radius[i];
+      if (std::isfinite(mass) && options.density)
+        refuse_without_effect(sample, "--density", "the files tell the masses of the grains");
       if (std::isfinite(mass))
         return mass / area;
-      return options.density ? *options.density : material;
+      return options.density.value_or(sample.is_spheres ? not_told : sample.density);
     }
 
     void note_what_is_lacking(const Arrival &arrival, std::vector<std::string> &lacking)
@@ -133,6 +157,7 @@ namespace diptych::coupling
   {
     if (sample.frames.empty())
       throw SceneError("import " + sample.format + ": the files hold no frame");
+    require_effect(sample, options);
     std::vector<std::vector<ForeignGrain>> grains;
     for (ForeignFrame &frame : sample.frames)
       grains.push_back(sorted(std::move(frame.grains), frame));
@@ -167,7 +192,7 @@ namespace diptych::coupling
         take_contacts(from, arrival, options, frame);
         arrival.frames.push_back(std::move(frame));
       }
-    arrival.density = density_of(arrival.frames.front(), options, sample.is_spheres ? not_told : sample.density);
+    arrival.density = density_of(arrival.frames.front(), sample, options);
     for (const std::string &text : sample.lacking)
       arrival.lacking.push_back(text);
     note_what_is_lacking(arrival, arrival.lacking);

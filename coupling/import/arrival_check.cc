@@ -14,9 +14,20 @@ namespace diptych::coupling
   namespace
   {
     // Above these a user should look. Balance is over the mean contact force: 1e-6 where a code writes nine digits of forces that
-    // it integrated, 0.02 where it evaluates them anew after the step. In slow motion without resultants it stays below 0.3.
-    constexpr double doubtful_balance = 0.05, doubtful_motion = 0.3, doubtful_stress = 0.05, doubtful_overlap = 0.05,
-                     doubtful_overlap_told = 0.005, doubtful_wall_force = 0.03, doubtful_wall_place = 0.02;
+    // it integrated, 0.02 where it evaluates them anew after the step. In slow motion without resultants the rms of all stays
+    // below 0.3, no grain is above 1.4. Contacts of rigid grains have gaps up to 0.002 mean diameters, points of soft ones lie up
+    // to half an overlap off.
+    constexpr double doubtful_balance = 0.05, doubtful_motion = 0.3, doubtful_grain = 3, doubtful_stress = 0.05,
+                     doubtful_overlap = 0.05, doubtful_overlap_told = 0.005, doubtful_wall_force = 0.03,
+                     doubtful_wall_place = 0.02, doubtful_apart = 0.05;
+
+    // Contacts that carry force, per grain: discs with friction that hold each other have 1.5 without those that float among
+    // them.
+    constexpr double few_contacts = 0.5;
+
+    // From one frame to the next: rigid grains keep their radius to the digits of the file, and no sample of a test becomes that
+    // much denser.
+    constexpr double doubtful_radius = 1e-4, doubtful_density = 0.15;
 
     double area_of(const ArrivedFrame &f)
     {
@@ -150,6 +161,9 @@ namespace diptych::coupling
       doubt(!c.against_resultants && c.balance_rms > doubtful_motion,
             "grains are far from balance (a contact missing, of the wrong sign or twice?): rms over the mean contact force",
             c.balance_rms);
+      doubt(!c.against_resultants && c.balance_worst > doubtful_grain,
+            grain + " is far from balance (a contact missing or of another grain?): over the mean contact force",
+            c.balance_worst);
       doubt(c.stress_difference > doubtful_stress, "stress of contacts and of wall forces differ by", c.stress_difference);
       doubt(c.wall_force_difference > doubtful_wall_force, "wall forces told and summed over contacts differ by",
             c.wall_force_difference);
@@ -159,8 +173,34 @@ namespace diptych::coupling
             "overlaps told and those of the discs differ by up to, over a mean diameter,", f.overlap_miss / diameter);
       doubt(f.wall_miss > doubtful_wall_place * diameter, "a wall and its contact points lie apart by, over a mean diameter,",
             f.wall_miss / diameter);
+      const double contacts = double(f.contacts.size()) / double(c.grains);
+      doubt(f.has_contacts && contacts < few_contacts, "contacts are too few to hold the grains (lost?): per grain", contacts);
+      doubt(f.widest_gap > doubtful_apart * diameter, "a contact joins two that stand apart by, over a mean diameter,",
+            f.widest_gap / diameter);
+      doubt(f.point_miss > doubtful_apart * diameter,
+            "a contact point lies off the place where the two meet by, over a mean diameter,", f.point_miss / diameter);
       doubt(f.has_contacts && c.contact_stress.trace() <= 0, "the mean stress pulls: its trace over its largest component is",
             c.contact_stress.trace() / c.contact_stress.cwiseAbs().maxCoeff());
+    }
+
+    void compare_with_frame_before(Arrival &arrival, const std::size_t k)
+    {
+      const ArrivedFrame &before = arrival.frames[k - 1], &now = arrival.frames[k];
+      const auto          say = [&](const std::string &what, const double was, const double is) {
+        std::ostringstream text;
+        text.precision(6);
+        text << "frame " << now.name << ": " << what << " is " << is << ", in the frame before " << was;
+        arrival.doubtful.push_back(text.str());
+      };
+      for (std::size_t i = 0; i < now.radius.size(); ++i)
+        if (std::abs(now.radius[i] - before.radius[i]) > doubtful_radius * before.radius[i])
+          {
+            say("the radius of grain " + std::to_string(arrival.id[i]), before.radius[i], now.radius[i]);
+            break; // one tells it
+          }
+      const double was = arrival.checks[k - 1].solid_fraction, is = arrival.checks[k].solid_fraction;
+      if (std::abs(is - was) > doubtful_density * was)
+        say("the solid fraction between the walls", was, is);
     }
   } // namespace
 
@@ -191,5 +231,7 @@ namespace diptych::coupling
         find_doubts(f, check, arrival.mean_diameter, arrival.doubtful);
         arrival.checks.push_back(check);
       }
+    for (std::size_t k = 1; k < arrival.frames.size(); ++k)
+      compare_with_frame_before(arrival, k);
   }
 } // namespace diptych::coupling

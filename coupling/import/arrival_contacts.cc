@@ -233,8 +233,12 @@ namespace diptych::coupling
           contact.normal               = branch.normalized();
           contact.point                = x - (to.radius[i] - 0.5 * overlap) * contact.normal;
         }
+      to.widest_gap = std::max(to.widest_gap, -overlap);
       if (c.point.allFinite())
-        contact.point = c.point;
+        {
+          to.point_miss = std::max(to.point_miss, (c.point - contact.point).norm());
+          contact.point = c.point;
+        }
       if (std::isfinite(c.overlap))
         to.overlap_miss = std::max(to.overlap_miss, std::abs(c.overlap - overlap));
     }

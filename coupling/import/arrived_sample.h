@@ -30,6 +30,8 @@ namespace diptych::coupling
     double                               upper_travel = 0; // of the upper wall to the right since the first frame
     double                               overlap_miss = 0; // largest difference of overlaps told from those of the discs
     double                               wall_miss    = 0; // largest distance of a wall from its contact points
+    double                               widest_gap   = 0; // between two bodies that a contact joins
+    double                               point_miss   = 0; // largest distance of a contact point told from where the two meet
   };
 
   // What the check of one frame found. Stresses are positive in compression.

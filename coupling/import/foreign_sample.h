@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -74,12 +75,20 @@ namespace diptych::coupling
   struct ForeignSample
   {
     std::string               format;
-    bool                      is_spheres = false;    // one layer of them: stresses need a thickness
-    double                    density    = not_told; // of the material [mass/length^2 of discs, mass/length^3 of spheres]
-    std::vector<ForeignFrame> frames;                // ascending
-    std::vector<std::string>  remarks;               // what the reader left out or took in another way than it stood
-    std::vector<std::string>  lacking;               // what this format never holds, beside what is NaN
+    bool                      is_spheres   = false;    // one layer of them: stresses need a thickness
+    double                    density      = not_told; // of the material [mass/length^2 of discs, mass/length^3 of spheres]
+    bool                      counts_steps = false;    // frames know their step: a timestep makes a time of it
+    std::vector<std::string>  unnamed;                 // kinds of tables whose columns the files may leave without names
+    std::vector<ForeignFrame> frames;                  // ascending
+    std::vector<std::string>  remarks;                 // what the reader left out or took in another way than it stood
+    std::vector<std::string>  lacking;                 // what this format never holds, beside what is NaN
   };
+
+  // Normals in the plane, of files with seven digits.
+  inline bool is_unit(const Eigen::Vector2d &normal)
+  {
+    return std::abs(normal.squaredNorm() - 1) < 1e-5;
+  }
 
   // What the command line says beside the files.
   struct ForeignOptions

@@ -251,6 +251,9 @@ namespace diptych::coupling
     else if (!files.data_files.empty())
       sample.remarks.push_back(files.data_files.front() + ": a data file beside dumps is not used");
     require_same_steps(files, sample);
+    sample.counts_steps = !files.grains.empty();
+    if (!files.contacts.empty())
+      sample.unnamed = {"contacts"};
     for (auto &[step, grains] : files.grains)
       sample.frames.push_back(dump_frame(grains, files, options));
     add_wall_tables(sample, files.wall_tables);

@@ -237,7 +237,11 @@ namespace diptych::coupling
     LiggghtsFiles files = liggghts_files(options);
     ForeignSample sample;
     sample.format     = "liggghts";
-    sample.is_spheres = true;
+    sample.is_spheres = sample.counts_steps = true;
+    if (!files.contacts.empty())
+      sample.unnamed.push_back("contacts");
+    if (!files.walls.empty())
+      sample.unnamed.push_back("walls");
     for (auto &[step, grains] : files.grains)
       sample.frames.push_back(liggghts_frame(grains, files, options));
     if (sample.frames.empty())

@@ -10,6 +10,7 @@
 #include "coupling/import/readers.h"
 #include "coupling/import/wall_table.h"
 #include "coupling/scene/scene_error.h"
+#include "discrete/files/csv_file.h"
 
 namespace diptych::coupling
 {
@@ -73,8 +74,11 @@ namespace diptych::coupling
       contact.gap       = field(lines.take("gapTT"), "gapTT");
       line              = lines.take("n(1) and n(2)");
       contact.direction = {field(line, "n(1)="), field(line, "n(2)=")};
-      line              = lines.take("coo1 and coo2");
-      contact.point     = {field(line, "coo1="), field(line, "coo2=")};
+      if (!is_unit(contact.direction))
+        lines.refuse("n(1), n(2) are no normal: their squares add up to " +
+                     discrete::exact_text(contact.direction.squaredNorm()));
+      line          = lines.take("coo1 and coo2");
+      contact.point = {field(line, "coo1="), field(line, "coo2=")};
       return contact;
     }
 

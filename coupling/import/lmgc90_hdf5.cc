@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "coupling/scene/scene_error.h"
+#include "discrete/files/csv_file.h"
 #include "discrete/files/hdf5_file.h"
 
 namespace diptych::coupling
@@ -100,7 +101,10 @@ namespace diptych::coupling
           c.gap       = real.at(row, gap);
           c.point     = {real.at(row, coor), real.at(row, coor + 1)};
           c.direction = {real.at(row, uc), real.at(row, uc + 1)};
-          c.slides    = numbers[status] == slides_backward || numbers[status] == slides_forward;
+          if (!is_unit(c.direction))
+            throw SceneError(real.place + ": row " + std::to_string(row + 1) + ": uc is no normal: its squares add up to " +
+                             discrete::exact_text(c.direction.squaredNorm()));
+          c.slides = numbers[status] == slides_backward || numbers[status] == slides_forward;
           if (c.normal > 0)
             contacts.push_back(foreign_contact(c, walls));
         }

@@ -9,6 +9,7 @@
 #include "coupling/import/readers.h"
 #include "coupling/import/wall_table.h"
 #include "coupling/scene/scene_error.h"
+#include "discrete/files/csv_file.h"
 
 namespace diptych::coupling
 {
@@ -101,7 +102,9 @@ namespace diptych::coupling
         lines.refuse(std::to_string(words.size()) + " entries; a contact has 16");
       const auto            number = [&](const std::size_t k, const char *what) { return lines.number(words[k], what); };
       const Eigen::Vector2d normal(number(10, "nx"), number(11, "ny")), tangent(number(13, "tx"), number(14, "ty"));
-      ForeignContact        contact;
+      if (!is_unit(normal))
+        lines.refuse("nx, ny are no normal: their squares add up to " + discrete::exact_text(normal.squaredNorm()));
+      ForeignContact contact;
       contact.first   = lines.whole(words[1], "the first grain");
       contact.second  = lines.whole(words[2], "the second body");
       contact.point   = {number(3, "cx"), number(4, "cy")};
@@ -250,8 +253,12 @@ namespace diptych::coupling
     else
       sample.lacking.push_back("density (a .restart of the run holds it)");
     for (const std::string &path : files.wall_tables)
-      add_wall_table(sample,
-                     read_number_table(path, is_wall_table(path) ? std::vector<std::string>() : columns_for(options, "walls")));
+      {
+        const bool is_named = is_wall_table(path);
+        add_wall_table(sample, read_number_table(path, is_named ? std::vector<std::string>() : columns_for(options, "walls")));
+        if (!is_named)
+          sample.unnamed = {"walls"};
+      }
     return sample;
   }
 } // namespace diptych::coupling

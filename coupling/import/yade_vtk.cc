@@ -108,7 +108,7 @@ namespace diptych::coupling
       }
     ForeignSample sample;
     sample.format     = "yade";
-    sample.is_spheres = true;
+    sample.is_spheres = sample.counts_steps = true;
     for (const auto &[number, path] : spheres)
       {
         ForeignFrame frame;

@@ -3,6 +3,7 @@
 
 import json
 import os
+import shutil
 import signal
 import time
 
@@ -45,7 +46,10 @@ def killed_and_taken_up(case, base, numbers):
         case.write(name, json.dumps(content))
     out, resume = case.path("out"), [] if base == "imported" else ["--resume"]
     for number in numbers:
-        killed_once(case, [*line, *resume, "--output", out, "--quiet"], case.dice.uniform(0, length), number)
+        is_first = not os.path.exists(out)
+        while not killed_once(case, [*line, *resume, "--output", out, "--quiet"], case.dice.uniform(0, length), number) and is_first:
+            shutil.rmtree(out)  # done before the signal counted
+            length *= 0.7
     case.run(*line, *resume, "--output", out, "--quiet", output=out, codes=(0,), patience=120)
     expect_same_as_base(case, base, out)
     left = [name for name in judge.digest(out) if name.endswith(".part") or judge.LOCK.search(os.path.basename(name))]
@@ -54,7 +58,7 @@ def killed_and_taken_up(case, base, numbers):
 
 
 def killed_once(case, line, seconds, number):
-    """It may end by itself before, by the signal, or, asked to stop, with code 3."""
+    """It may end by itself before, by the signal, or, asked to stop, with code 3. Whether the signal ended it."""
     before = judge.digest(case.work)
     process = case.start(*line)
     time.sleep(seconds)
@@ -63,6 +67,7 @@ def killed_once(case, line, seconds, number):
         process.sent = number
     is_hung = case.finish(process, cases.HANG)
     case.judge(case.outcome(process, before, case.path("out"), is_hung), codes=(0, 3))
+    return process.returncode != 0
 
 
 def two(case):

@@ -1,6 +1,7 @@
 // diptych: files of other codes cut off or with a flipped bit: told, never a crash, never nonsense in silence
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
+#include <cstdlib>
 #include <random>
 
 #include "coupling/import/imported_results.h"
@@ -56,6 +57,13 @@ namespace
     return with_changed(c, scratch, c.files[random() % c.files.size()], damage);
   }
 
+  // A hundred, or as many as the environment variable DIPTYCH_DRAWS says.
+  int n_draws()
+  {
+    const char *text = std::getenv("DIPTYCH_DRAWS");
+    return text == nullptr ? 100 : std::stoi(text);
+  }
+
   class ImportDamage : public testing::TestWithParam<std::string>
   {};
 
@@ -66,7 +74,7 @@ namespace
     const Arrival whole = arrival_of(c, options_of(c));
     std::mt19937  random(1);
     int           silent = 0, refused = 0;
-    for (int k = 0; k < 100; ++k)
+    for (int k = 0; k < n_draws(); ++k)
       {
         const Scratch scratch;
         const Outcome outcome = outcome_of(
@@ -75,7 +83,7 @@ namespace
         silent += !outcome.refused && !outcome.doubtful && !outcome.near;
       }
     EXPECT_EQ(silent, 0);
-    EXPECT_GE(refused, 85) << "of 100";
+    EXPECT_GE(refused, 0.85 * n_draws());
   }
 
   TEST_P(ImportDamage, AFlippedBitIsRefusedDoubtedOrSmall)
@@ -84,7 +92,7 @@ namespace
     const Arrival whole = arrival_of(c, options_of(c));
     std::mt19937  random(2);
     int           silent = 0;
-    for (int k = 0; k < 100; ++k)
+    for (int k = 0; k < n_draws(); ++k)
       {
         const Scratch  scratch;
         std::string    what;
@@ -104,4 +112,57 @@ namespace
                            ImportDamage,
                            testing::Values("lammps", "liggghts", "yade", "lmgc90", "lmgc90_hdf5", "mercurydpm", "csv"),
                            [](const auto &info) { return info.param; });
+
+  // Nothing of one frame contradicts them: forces and places are right, and the area of a stress is between the walls.
+  TEST(ImportDoubts, AFrameThatIsUnlikeTheOneBeforeIsDoubtful)
+  {
+    const Case    c = case_of("csv");
+    const Scratch scratch;
+    EXPECT_FALSE(holds(arrival_of(c, options_of(c)).doubtful, "in the frame before"));
+    const Arrival wide = arrival_of(c, with_changed(c, scratch, "plain_csv/walls.csv", [](std::string &text) {
+                                      replace_once(text, "1,0.0317409221,", "1,0.2317409221,");
+                                    }));
+    EXPECT_TRUE(holds(wide.doubtful, "frame 1: the solid fraction between the walls is 0.11"));
+    const Arrival small = arrival_of(c, with_changed(c, scratch, "plain_csv/particles_1.csv", [](std::string &text) {
+                                       replace_once(text, "0.00077969925", "0.00077069925");
+                                     }));
+    EXPECT_TRUE(holds(small.doubtful, "frame 1: the radius of grain 1 is 0.000770699, in the frame before 0.000779699"));
+  }
+
+  TEST(ImportDoubts, ContactsOfOtherGrainsAndContactsLostAreSeen)
+  {
+    const Case c        = case_of("csv");
+    const auto doubtful = [&](const std::function<void(std::string &)> &change) {
+      const Scratch scratch;
+      return arrival_of(c, with_changed(c, scratch, "plain_csv/contacts_1.csv", change)).doubtful;
+    };
+    EXPECT_TRUE(holds(doubtful([](std::string &text) { replace_once(text, "69,49,", "69,50,"); }), "stand apart"));
+    EXPECT_TRUE(holds(doubtful([](std::string &text) { replace_once(text, "161,154,-14.748704,-21.2551418", "161,154,0,0"); }),
+                      "is far from balance"));
+    EXPECT_TRUE(holds(doubtful([](std::string &text) { text.resize(text.find("434,15,")); }), "too few to hold the grains"));
+  }
+
+  TEST(ImportDoubts, AContactPointOffTheSurfaceIsSeen)
+  {
+    const Case    c = case_of("liggghts");
+    const Scratch scratch;
+    EXPECT_TRUE(
+      holds(arrival_of(c, with_changed(c, scratch, "liggghts/wallcontacts_100000.dump",
+                                       [](std::string &text) { replace_once(text, "\n0 0.0257691629 0", "\n0 0.0457691629 0"); }))
+              .doubtful,
+            "off the place where the two meet"));
+  }
+
+  TEST(ImportDoubts, NormalsThatAreNoneAreRefused)
+  {
+    const auto refused = [](const char *name, const char *file, const std::function<void(std::string &)> &change) {
+      const Case    c = case_of(name);
+      const Scratch scratch;
+      EXPECT_NE(refusal_of(c, with_changed(c, scratch, file, change)).find("no normal"), std::string::npos) << name;
+    };
+    refused("lmgc90", "lmgc90/OUTBOX/Vloc_Rloc.OUT.1", [](std::string &text) { replace_once(text, "n(1)=-0.5", "n(1)=-0.9"); });
+    refused("lmgc90_hdf5", "lmgc90_hdf5/lmgc90.h5", [](std::string &text) { text[338503] = char(text[338503] ^ 1); });
+    refused("mercurydpm", "mercurydpm/Biaxial2D.fstat",
+            [](std::string &text) { replace_once(text, " 0.7865765336 -0.617492799 ", " 0.1865765336 -0.617492799 "); });
+  }
 } // namespace

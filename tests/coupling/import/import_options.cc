@@ -1,0 +1,40 @@
+// diptych: what the command line says beside other codes' files
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "tests/coupling/import/foreign_files.h"
+
+namespace
+{
+  using namespace diptych::coupling;
+  using namespace diptych::coupling::foreign_files;
+
+  TEST(ImportOptions, OptionsWithoutEffectAreRefused)
+  {
+    const auto refused = [](const char *name, const std::function<void(ForeignOptions &)> &change, const std::string &why) {
+      const Case     c       = case_of(name);
+      ForeignOptions options = options_of(c);
+      change(options);
+      const std::string refusal = refusal_of(c, options);
+      EXPECT_NE(refusal.find(why), std::string::npos) << name << ": " << refusal;
+    };
+    for (const char *name : {"yade", "lmgc90", "mercurydpm", "csv"})
+      refused(
+        name, [](auto &o) { o.timestep = 1e-6; }, "--timestep would have no effect");
+    for (const char *name : {"yade", "lmgc90", "mercurydpm", "csv"})
+      refused(
+        name, [](auto &o) { o.columns = {"contacts=i,j,fx,fy"}; }, "--columns contacts=i,j,fx,fy would have no effect");
+    refused(
+      "lammps", [](auto &o) { o.columns = {"walls=step,width"}; }, "no file of walls leaves them without names");
+    for (const char *text : {"contacts", "contacts=", "grains=id,x,y", "=a"})
+      refused(
+        "lammps", [&](auto &o) { o.columns = {text}; }, "is not KIND=NAME");
+    refused(
+      "lammps", [](auto &o) { o.density = 2600; }, "--density would have no effect");
+    refused(
+      "csv",
+      [](auto &o) {
+        o.pressure = 1000;
+        o.files    = {path_of("plain_csv/particles_0.csv"), path_of("plain_csv/walls.csv")};
+      },
+      "--pressure would have no effect");
+  }
+} // namespace
