@@ -71,5 +71,6 @@ namespace diptych::coupling
     v.group("discrete_files", "by which the discrete panel's files are known again", d.facts.discrete_files);
     v.group("continuum_files", "by which the continuum's files are known again", d.facts.continuum_files);
     v.group("continuum_coarse_files", "the same of the run on coarser elements", d.facts.continuum_coarse_files);
+    v.group("comparison_files", "by which the comparison's files are known again", d.facts.comparison_files);
   }
 } // namespace diptych::coupling

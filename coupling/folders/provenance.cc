@@ -119,11 +119,14 @@ namespace diptych::coupling
       discrete::write_text(path_of(directory), record.dump(2) + "\n");
     }
 
-    constexpr const char *all_parts[] = {"discrete", "continuum", "continuum_coarse"};
+    constexpr const char *panel_parts[] = {"discrete", "continuum", "continuum_coarse"};
+    constexpr const char *comparison    = "comparison";
 
     std::string table_of(const std::string &directory, const std::string &part)
     {
-      return directory + (part == "continuum_coarse" ? "/coarse/continuum" : "/" + part) + ".csv";
+      return directory + (part == "continuum_coarse" ? "/coarse/continuum.csv"
+                          : part == comparison       ? "/comparison.json"
+                                                     : "/" + part + ".csv");
     }
 
     std::string snapshots_of(const std::string &directory, const std::string &part)
@@ -147,14 +150,19 @@ namespace diptych::coupling
       return text;
     }
 
+    void put_sums(const std::string &directory, const std::string &part, json &record)
+    {
+      NumbersToJson  sums{record[part + "_files"] = json::object(), 1};
+      const FileSums files{sum_over(table_of(directory, part)), sum_over(snapshots_of(directory, part))};
+      list_numbers(files, sums);
+    }
+
     template <class Facts> void put_facts(const std::string &directory, const std::string &part, const Facts &facts)
     {
       json          record = read_record(directory);
       NumbersToJson writer{record[part] = json::object(), 1};
       list_numbers(facts, writer);
-      NumbersToJson  sums{record[part + "_files"] = json::object(), 1};
-      const FileSums files{sum_over(table_of(directory, part)), sum_over(snapshots_of(directory, part))};
-      list_numbers(files, sums);
+      put_sums(directory, part, record);
       write_record(directory, record);
     }
 
@@ -171,13 +179,10 @@ namespace diptych::coupling
 
     RunFacts run_facts_of(const json &record)
     {
-      RunFacts facts{get_facts<DiscreteFacts>(record, "discrete"),
-                     get_facts<ContinuumFacts>(record, "continuum"),
-                     get_facts<ContinuumFacts>(record, "continuum_coarse"),
-                     get_facts<FileSums>(record, "discrete_files"),
-                     get_facts<FileSums>(record, "continuum_files"),
-                     get_facts<FileSums>(record, "continuum_coarse_files"),
-                     {}};
+      RunFacts facts{get_facts<DiscreteFacts>(record, "discrete"),          get_facts<ContinuumFacts>(record, "continuum"),
+                     get_facts<ContinuumFacts>(record, "continuum_coarse"), get_facts<FileSums>(record, "discrete_files"),
+                     get_facts<FileSums>(record, "continuum_files"),        get_facts<FileSums>(record, "continuum_coarse_files"),
+                     get_facts<FileSums>(record, "comparison_files"),       {}};
       for (const json &row : record.value("phases", json::array()).get<std::vector<json>>())
         {
           NumbersFromJson reader{row};
@@ -201,6 +206,13 @@ namespace diptych::coupling
       write_record(directory, record);
   }
 
+  void record_comparison_files(const std::string &directory)
+  {
+    json record = read_record(directory);
+    put_sums(directory, comparison, record);
+    write_record(directory, record);
+  }
+
   void check_files(const std::string &directory, const std::string &part)
   {
     const json record = read_record(directory);
@@ -213,14 +225,16 @@ namespace diptych::coupling
                                      ", by the sum over its bytes in provenance.json: " +
                                      (found.empty() ? "removed since" : "changed since, or another run's"));
     };
-    for (const std::string one : all_parts)
-      if (part.empty() || part == one)
-        {
-          const FileSums sums = from_record(path_of(directory),
-                                            [&] { return get_facts<FileSums>(record, (one + "_files").c_str()); });
-          check(table_of(directory, one), sums.table);
-          check(snapshots_of(directory, one), sums.snapshots);
-        }
+    const auto check_part = [&](const std::string &one) {
+      const FileSums sums = from_record(path_of(directory),
+                                        [&] { return get_facts<FileSums>(record, (one + "_files").c_str()); });
+      check(table_of(directory, one), sums.table);
+      check(snapshots_of(directory, one), sums.snapshots);
+    };
+    if (!part.empty())
+      return check_part(part);
+    for (const char *one : panel_parts)
+      check_part(one);
   }
 
   void record_phases(const std::string            &directory,

@@ -43,13 +43,16 @@ namespace diptych::coupling
   void record_facts(const std::string &directory, const DiscreteFacts &facts);
   void record_facts(const std::string &directory, const std::string &part, const ContinuumFacts &facts);
 
+  // The sums of comparison.json and comparison.h5 as they now are, the part "comparison".
+  void record_comparison_files(const std::string &directory);
+
   // Takes the facts of a part of an earlier run away, before a new one makes them untrue; or the sums of its files alone, which
   // an interrupted run that goes on is about to change.
   void forget_fact(const std::string &directory, const std::string &part);
   void forget_files(const std::string &directory, const std::string &part);
 
   // Throws std::invalid_argument naming the file where one of those whose sums are recorded is missing, or is not what the run
-  // left: a number was changed, a row is gone, it is another run's. `part` empty: of all parts.
+  // left: a number was changed, a row is gone, it is another run's. `part` empty: of both panels.
   void check_files(const std::string &directory, const std::string &part = "");
 
   // What is not there has the values of facts that nobody recorded. Throws std::invalid_argument naming the file where one stands

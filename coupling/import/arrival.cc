@@ -11,6 +11,7 @@
 #include "coupling/import/arrival_check.h"
 #include "coupling/import/arrival_contacts.h"
 #include "coupling/scene/scene_error.h"
+#include "discrete/files/csv_file.h"
 
 namespace diptych::coupling
 {
@@ -62,6 +63,13 @@ namespace diptych::coupling
       if (here.size() != ids.size())
         throw SceneError(frame.grain_file + ": frame " + frame.name + " has " + std::to_string(here.size()) +
                          " grains, the first frame " + std::to_string(ids.size()));
+    }
+
+    void require_later_time(const Arrival &arrival, const ArrivedFrame &frame, const std::string &file)
+    {
+      if (!arrival.frames.empty() && frame.time <= arrival.frames.back().time) // false where one is not told
+        throw SceneError(file + ": frame " + frame.name + " is of the time " + discrete::exact_text(frame.time) + ", frame " +
+                         arrival.frames.back().name + " before it of " + discrete::exact_text(arrival.frames.back().time));
     }
 
     // Layers of spheres: forces are of the whole thickness.
@@ -138,6 +146,12 @@ namespace diptych::coupling
       const bool status = std::any_of(last.status.begin(), last.status.end(),
                                       [](const auto s) { return s != discrete::ContactStatus::unknown; });
       lack(status, "which contacts slide");
+      const auto on_walls = [&](const ArrivedFrame &frame) {
+        return std::any_of(frame.contacts.begin(), frame.contacts.end(),
+                           [&](const auto &c) { return std::size_t(c.j) >= frame.position.size(); });
+      };
+      const bool told_before = std::find(lacking.begin(), lacking.end(), "contacts with walls") != lacking.end();
+      lack(told_before || std::any_of(arrival.frames.begin(), arrival.frames.end(), on_walls), "contacts with walls");
       lack(false, "dissipation, energies and means over stages (a frame is one instant)");
       for (std::size_t k = 0; k < arrival.frames.size(); ++k)
         lack(arrival.frames[k].has_contacts, ("contacts of frame " + arrival.frames[k].name).c_str());
@@ -190,8 +204,12 @@ namespace diptych::coupling
         frame.step = from.step.value_or(long(k));
         take_grains(grains[k], arrival.thickness, frame);
         take_contacts(from, arrival, options, frame);
+        require_later_time(arrival, frame, from.grain_file);
         arrival.frames.push_back(std::move(frame));
       }
+    if (options.walls_touch &&
+        std::none_of(arrival.frames.begin(), arrival.frames.end(), [](const auto &f) { return f.walls_touch; }))
+      refuse_without_effect(sample, "--walls-touch", "the files place every wall");
     arrival.density = density_of(arrival.frames.front(), sample, options);
     for (const std::string &text : sample.lacking)
       arrival.lacking.push_back(text);

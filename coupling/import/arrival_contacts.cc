@@ -165,7 +165,7 @@ namespace diptych::coupling
           else if (std::isfinite(from_points))
             to.wall_miss = std::max(to.wall_miss, std::abs(from_points - to.wall[std::size_t(side)]));
           if (options.walls_touch && std::isnan(to.wall[std::size_t(side)]) && (there || axis_of[side] == 1))
-            to.wall[std::size_t(side)] = extreme[std::size_t(side)];
+            to.wall[std::size_t(side)] = extreme[std::size_t(side)], to.walls_touch = true;
           if (there && std::isnan(to.wall[std::size_t(side)]))
             throw SceneError(
               "frame " + from.name + ": where the " + side_names[side] +

@@ -25,13 +25,14 @@ namespace diptych::coupling
     std::vector<discrete::ContactStatus> status;
     bool                                 has_contacts = false;
     std::array<double, 4>                wall         = {not_told, not_told, not_told, not_told}; // places, as Side
-    std::array<Eigen::Vector2d, 4>       wall_force;       // on the sample: of the contacts, else as a table tells it
-    std::array<Eigen::Vector2d, 4>       told_wall_force;  // as a table tells it
-    double                               upper_travel = 0; // of the upper wall to the right since the first frame
-    double                               overlap_miss = 0; // largest difference of overlaps told from those of the discs
-    double                               wall_miss    = 0; // largest distance of a wall from its contact points
-    double                               widest_gap   = 0; // between two bodies that a contact joins
-    double                               point_miss   = 0; // largest distance of a contact point told from where the two meet
+    std::array<Eigen::Vector2d, 4>       wall_force;           // on the sample: of the contacts, else as a table tells it
+    std::array<Eigen::Vector2d, 4>       told_wall_force;      // as a table tells it
+    double                               upper_travel = 0;     // of the upper wall to the right since the first frame
+    double                               overlap_miss = 0;     // largest difference of overlaps told from those of the discs
+    double                               wall_miss    = 0;     // largest distance of a wall from its contact points
+    double                               widest_gap   = 0;     // between two bodies that a contact joins
+    bool                                 walls_touch  = false; // one is placed by the grains that reach farthest
+    double                               point_miss   = 0;     // largest distance of a contact point told from where the two meet
   };
 
   // What the check of one frame found. Stresses are positive in compression.
@@ -65,7 +66,10 @@ namespace diptych::coupling
     v({"solid_fraction", "-", "area of the grains / area between the walls"}, c.solid_fraction);
     v({"balance_against_resultants", "-", "grains are held against the resultant that the file has of each; else against rest"},
       c.against_resultants);
-    v({"balance_rms", "-", "rms over grains of the sum of contact forces minus resultant (or 0) / mean contact force"},
+    v({"balance_rms", "-",
+       "rms over grains of the sum of contact forces minus resultant (or 0) / mean contact force; where no resultant is told and "
+       "the "
+       "sides are free, of its vertical component"},
       c.balance_rms);
     v({"balance_worst", "-", "largest of the same"}, c.balance_worst);
     v({"balance_worst_grain", "-", "id of that grain", Kind::setting}, c.balance_worst_grain);

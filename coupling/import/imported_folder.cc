@@ -10,6 +10,7 @@
 #include "coupling/folders/provenance.h"
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_error.h"
+#include "coupling/scene/scene_file.h"
 #include "discrete/files/table_file.h"
 #include "discrete/files/text_file.h"
 #include "discrete/panel/snapshot_file.h"
@@ -50,14 +51,23 @@ namespace diptych::coupling
     // What the import found; runs take it along as it stands.
     void check_record_of_import(const std::string &file)
     {
-      constexpr std::size_t most_bytes = std::size_t(1) << 28;
       if (!std::filesystem::exists(file))
         return;
-      const nlohmann::json record = nlohmann::json::parse(discrete::read_input(file, most_bytes), nullptr, false);
-      if (!record.is_object())
+      constexpr std::size_t most_bytes = std::size_t(1) << 28;
+      const nlohmann::json  record     = nlohmann::json::parse(discrete::read_input(file, most_bytes), nullptr, false);
+      if (!record.is_object() || !record.contains("format") || !record.contains("frames"))
         throw std::invalid_argument(file + ": is no record of an import");
     }
   } // namespace
+
+  bool holds_import(const std::string &directory)
+  {
+    const std::string file = directory + "/import.json";
+    if (!std::filesystem::exists(file) || is_echo(directory + "/scene.prm"))
+      return false;
+    check_record_of_import(file);
+    return true;
+  }
 
   DiscreteResults load_imported(const Scene &scene)
   {

@@ -29,7 +29,8 @@ namespace diptych::coupling
           return sxx;
       throw SceneError(
         "frame " + arrival.frames.front().name +
-        ": no lateral pressure can be found: no frame has a force on the right wall or contacts; say --pressure P");
+        ": no lateral pressure can be found: in no frame is the right wall pressed, or the horizontal stress above 0; say "
+        "--pressure P");
     }
 
     std::string listed(const std::vector<double> &values)

@@ -119,8 +119,9 @@ namespace diptych::coupling
   {
     TextLines   lines(path);
     NumberTable table;
-    table.path    = path;
-    table.columns = columns;
+    table.path      = path;
+    table.columns   = columns;
+    bool are_marked = true; // the names; a remark below names without a mark is none
     while (!lines.at_end())
       {
         const std::string_view text = lines.take("a row"), plain = without_mark(text);
@@ -129,10 +130,13 @@ namespace diptych::coupling
         auto words = words_of(plain);
         if (words.size() > 1 && words[0].empty() && table.columns.empty())
           words[0] = "-"; // the index that pandas writes has no name
-        const bool is_names = std::all_of(words.begin() + (words[0] == "-" ? 1 : 0), words.end(), starts_with_a_letter);
-        if (is_names && table.n_rows() == 0 && columns.empty())
-          table.columns = names_of(words);
-        if (is_names || trimmed(text)[0] == '#')
+        const bool is_names  = std::all_of(words.begin() + (words[0] == "-" ? 1 : 0), words.end(), starts_with_a_letter);
+        const bool is_marked = trimmed(text)[0] == '#';
+        if (is_names && table.n_rows() == 0 && columns.empty() && (are_marked || !is_marked))
+          table.columns = names_of(words), are_marked = is_marked;
+        if (is_names && table.n_rows() > 0 && !is_marked && names_of(words) != table.columns)
+          lines.refuse("words among rows of numbers: neither a row nor the names of the columns again");
+        if (is_names || is_marked)
           continue;
         if (table.columns.empty())
           lines.refuse("numbers, but no line above names the columns");
@@ -150,6 +154,7 @@ namespace diptych::coupling
   {
     const std::size_t x = table.place_of("x"), y = table.place_of("y");
     const auto        diameter = table.find_any({"diameter", "d"});
+    const auto        radius   = table.find_any({"radius", "r", "R"});
     const std::size_t r        = diameter ? *diameter : table.place_of_any({"radius", "r", "R"}, "the radius");
     const auto        id       = table.find("id");
     const auto        optional = [&](const std::vector<std::string> &names) {
@@ -166,7 +171,10 @@ namespace diptych::coupling
         g.id            = id ? table.whole(k, *id) : long(k);
         g.position      = {table.at(k, x), table.at(k, y)};
         g.radius        = table.positive(k, r) * (diameter ? 0.5 : 1.);
-        g.mass          = mass(k);
+        if (diameter && radius && std::abs(table.at(k, *radius) - g.radius) > 1e-5 * g.radius)
+          table.refuse(k, "a radius of " + discrete::exact_text(table.at(k, *radius)) + " and a diameter of " +
+                            discrete::exact_text(2 * g.radius) + " contradict each other");
+        g.mass = mass(k);
         if (g.mass <= 0)
           table.refuse(k, "a mass of " + discrete::exact_text(g.mass) + " must be positive");
         g.velocity  = {vx(k), vy(k)};

@@ -9,13 +9,15 @@
 #include <fstream>
 #include <sstream>
 
+#include "coupling/processes/stop_signal.h"
 #include "coupling/scene/scene_error.h"
 
 namespace diptych::coupling
 {
   namespace
   {
-    constexpr char blanks[] = " \t\r\f\v";
+    constexpr char        blanks[]                = " \t\r\f\v";
+    constexpr std::size_t lines_between_questions = 4096; // whether to stop
 
     std::string content_of(const std::string &path)
     {
@@ -75,6 +77,8 @@ namespace diptych::coupling
   {
     if (at_end())
       throw SceneError(path_ + ", line " + std::to_string(starts_.size() + 1) + ": the file ends; expected " + expected);
+    if (next_ % lines_between_questions == 0)
+      leave_if_stopped("import");
     const std::string_view line = peek();
     ++next_;
     return line;

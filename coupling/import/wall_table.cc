@@ -26,10 +26,16 @@ namespace diptych::coupling
     {
       const auto step = table.find("step"), time = table.find("time"), count = table.find("frame");
       const auto first = [&](const auto &is_of) -> std::optional<std::size_t> {
+        std::optional<std::size_t> one;
         for (std::size_t row = 0; row < table.n_rows(); ++row)
-          if (is_of(row))
-            return row;
-        return std::nullopt;
+          if (is_of(row) && !one)
+            one = row;
+          else if (is_of(row))
+            for (std::size_t column = 0; column < table.columns.size(); ++column)
+              if (table.at(row, column) != table.at(*one, column))
+                table.refuse(row, "frame " + frame.name + " stands in line " + std::to_string(table.line[*one]) +
+                                    " with another " + table.columns[column]);
+        return one;
       };
       std::optional<std::size_t> found;
       if (step && frame.step)

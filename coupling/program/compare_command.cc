@@ -45,11 +45,13 @@ namespace diptych::coupling
       const PhaseTimer timer("comparison");
       Results          results = load_results(directory);
       Comparison       c       = compared(scene, results, progress);
+      forget_files(directory, "comparison");
       write_comparison_h5(directory, scene, c, results);
       write_fields_vtu(directory, c);
       record_phases(directory, scene, line.text, {timer.stop()});
       c.cost = summary_of(read_run_facts(directory).phases); // now with the comparison's own
       write_comparison(directory, scene, c);
+      record_comparison_files(directory);
       progress.finish();
       for (const StageRecord &stage : c.stages)
         if (!(stage.mapping.total_relative_error < 1e-12))

@@ -24,11 +24,14 @@ namespace diptych::coupling
 
     Member read_member(const Scene &scene, const int seed)
     {
-      const std::string path   = member_folder(scene.output.directory, seed) + "/comparison.json";
-      const json        record = read_record_file(path);
+      const std::string folder = member_folder(scene.output.directory, seed), path = folder + "/comparison.json";
+      check_files(folder, "comparison");
+      const json record = read_record_file(path);
       try
         {
           Member member = member_of(record);
+          if (member.seed != seed)
+            throw std::invalid_argument("is of the seed " + std::to_string(member.seed) + ", in the folder of another");
           if (is_mirror_symmetric(scene))
             fold(member);
           return member;

@@ -8,6 +8,7 @@
 #include <functional>
 #include <iostream>
 #include <map>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -15,10 +16,12 @@
 #include "coupling/folders/result_folder.h"
 #include "coupling/import/arrival.h"
 #include "coupling/import/import_record.h"
+#include "coupling/import/imported_folder.h"
 #include "coupling/import/imported_results.h"
 #include "coupling/import/readers.h"
 #include "coupling/numbers/number_json.h"
 #include "coupling/scene/scene_file.h"
+#include "coupling/scene/scene_text.h"
 #include "discrete/files/table_file.h"
 #include "discrete/files/text_file.h"
 #include "discrete/panel/snapshot_file.h"
@@ -44,12 +47,26 @@ namespace diptych::coupling
         throw SceneError("diptych import: --output DIR says where the sample goes");
       if (fs::exists(directory) && !fs::is_directory(directory))
         throw SceneError("--output " + directory + ": is a file, not a folder");
-      if (fs::exists(directory) && !is_empty_folder(directory) && !fs::exists(directory + "/import.json"))
+      if (fs::exists(directory) && !is_empty_folder(directory) && !holds_import(directory))
         throw SceneError("--output " + directory + ": holds other files and no import; name a new or an empty folder");
       for (const std::string &file : files)
         if (fs::weakly_canonical(fs::path(file).parent_path().empty() ? "." : fs::path(file).parent_path()) ==
             fs::weakly_canonical(directory))
           throw SceneError("--output " + directory + ": is the folder of " + file + ", which is to be read");
+    }
+
+    // What is announced as a scene must be one: units, or what the command line says, may lead out of the ranges of its keys.
+    void check_scene(const std::string &format, const std::string &text)
+    {
+      std::istringstream in(text);
+      try
+        {
+          (void)scene_of_entries("scene.prm", entries_of_prm("scene.prm", in), false);
+        }
+      catch (const SceneError &error)
+        {
+          throw SceneError("import " + format + ": the scene of this sample would not run: " + error.what());
+        }
     }
 
     std::string cell(const double value, const char *format)
@@ -95,7 +112,7 @@ namespace diptych::coupling
     {
       const std::string &directory = line.output;
       make_folder(directory);
-      remove_results(directory, {"discrete.h5", "discrete.xdmf", "discrete.csv", "discrete", "scene.prm", "provenance.json"});
+      remove_results(directory, {"discrete.h5", "discrete.xdmf", "discrete.csv", "scene.prm", "provenance.json"});
       nlohmann::json     json;
       const ImportRecord record{line.foreign.files, arrival};
       NumbersToJson      into{json, 1};
@@ -123,6 +140,8 @@ namespace diptych::coupling
     const DiscreteResults results = imported_results(arrival);
     const bool            loaded  = results.snapshots.size() > 1;
     const std::string     scene   = loaded ? imported_scene(arrival, results, line.foreign.pressure) : "";
+    if (loaded)
+      check_scene(line.target, scene);
     return writing(line.output, [&] {
       write_imported(line, arrival, results, scene);
       Scene described;

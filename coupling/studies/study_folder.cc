@@ -88,7 +88,7 @@ namespace diptych::coupling
     RunEnd     result;
     try
       {
-        check_files(run_folder(directory, run));
+        check_files(run_folder(directory, run)), check_files(run_folder(directory, run), "comparison");
         result = {end.at("exit_code"), end.at("revision"), end.at("load").is_number() ? double(end["load"]) : NAN,
                   end.value("at_once", 1)};
       }

@@ -86,6 +86,8 @@ namespace diptych::discrete
     const std::string sides = "discrete/lateral = " + name_of(lateral);
     Unused{"sample", keys}.unless(lateral == Lateral::rigid_walls, sides, {"left_wall", "right_wall"});
     Unused{"sample", keys}.unless(!of_file || lateral == Lateral::periodic, "sample/file with " + sides, {"width"});
+    Unused{"discrete", keys}.unless(options.method.method == Method::imported,
+                                    "discrete/method = " + name_of(options.method.method), {"file"});
     Unused{"discrete", keys}.unless(options.method.method == Method::nscd || sweeps,
                                     "discrete/method = penalty, and a sample from a file that is not prepared",
                                     {"solver", "omega_sticking", "omega_slipping", "sweeps_per_check"});

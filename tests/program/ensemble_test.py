@@ -135,6 +135,23 @@ class Statistics(Folder):
         self.assertEqual(refused.returncode, 2)
         self.assertIn("margin_", refused.stderr)
 
+    def test_a_comparison_that_is_not_the_members_is_named(self):
+        """Another member in its place counts one sample twice; a number changed by hand counts as measured."""
+        with open(os.path.join(self.three, "seed_2", "comparison.json"), encoding="utf-8") as file:
+            record = json.load(file)
+        record["discrete_summary"]["peak_stress_ratio"] = 5.0
+        for put, told in ((lambda: shutil.copytree(self.path("seed_1"), self.path("seed_2"), dirs_exist_ok=True), "is of the seed 1"),
+                          (lambda: shutil.copy(self.path("seed_1", "comparison.json"), self.path("seed_2")), "is not what the run left"),
+                          (lambda: write(self.path("seed_2", "comparison.json"), json.dumps(record)), "is not what the run left")):
+            with self.subTest(told=told):
+                shutil.rmtree(self.folder, ignore_errors=True)
+                shutil.copytree(self.three, self.folder)
+                put()
+                refused = diptych("compare", self.folder)
+                self.assertEqual(refused.returncode, 2, refused.stderr)
+                self.assertIn(self.path("seed_2", "comparison.json") + ": " + told, refused.stderr)
+                self.assertEqual(content(self.path("ensemble.json")), content(os.path.join(self.three, "ensemble.json")))
+
     def test_more_seeds_are_added_by_resuming(self):
         shutil.copytree(self.three, self.folder)
         before = {k: os.stat(self.path(f"seed_{k}", "discrete.h5")).st_mtime_ns for k in (1, 2, 3)}

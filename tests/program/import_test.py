@@ -147,6 +147,27 @@ class Refused(Case):
         self.refused("import", "lammps", *LAMMPS, "--output", out, says="holds other files")
         self.refused("import", "csv", *CSV, "--output", os.path.dirname(CSV[0]), says="plain_csv")
 
+    def test_only_a_folder_of_an_import_is_imported_into(self):
+        """Nor one in which a run has its results, though it keeps the import's record."""
+        self.done("import", "csv", *CSV, "--output", self.path("mine"), "--quiet")
+        self.done("import", "csv", *CSV, "--output", self.path("mine"), "--quiet")
+        os.mkdir(self.path("mine", "discrete"))
+        notes = write(self.path("mine", "discrete", "notes.txt"), "mine")
+        self.done("import", "csv", *CSV, "--output", self.path("mine"), "--quiet")
+        self.assertEqual(content(notes), b"mine")
+        self.done("discrete", self.path("mine", "scene.prm"), "--output", self.path("ran"), "--quiet")
+        self.refused("import", "csv", *CSV, "--output", self.path("ran"), says="holds other files")
+        os.mkdir(self.path("foreign"))
+        for record in ("mine", "{}", "", "[1]"):
+            write(self.path("foreign", "import.json"), record)
+            write(self.path("foreign", "discrete.csv"), "precious")
+            self.refused("import", "csv", *CSV, "--output", self.path("foreign"), says="import.json")
+            self.assertEqual(content(self.path("foreign", "discrete.csv")), b"precious")
+
+    def test_a_scene_that_would_not_run_is_not_announced(self):
+        for words, key in ((("--density", "1e13"), "sample/density"), (("--pressure", "1e30"), "loading/pressure")):
+            self.refused("import", "csv", *CSV, *words, "--output", self.path("out"), says=key)
+
     def test_a_scene_of_an_import_is_checked(self):
         self.done("import", "lammps", *LAMMPS, "--output", self.path("mine"), "--quiet")
         scene = self.path("mine", "scene.prm")

@@ -165,4 +165,69 @@ namespace
     refused("mercurydpm", "mercurydpm/Biaxial2D.fstat",
             [](std::string &text) { replace_once(text, " 0.7865765336 -0.617492799 ", " 0.1865765336 -0.617492799 "); });
   }
+
+  // Whatever of a row or a head is words: no row is passed over, no head believed where columns have changed places.
+  TEST(ImportDoubts, TablesAtOddsWithThemselvesAreRefused)
+  {
+    const auto expect = [](const char *file, const std::string &what, const std::function<void(std::string &)> &change) {
+      const Case        c = case_of("csv");
+      const Scratch     scratch;
+      const std::string refusal = refusal_of(c, with_changed(c, scratch, std::string("plain_csv/") + file, change));
+      EXPECT_NE(refusal.find(what), std::string::npos) << refusal;
+      EXPECT_NE(refusal.find(file), std::string::npos) << refusal;
+    };
+    const auto after_line = [](const std::string &line) {
+      return [line](std::string &text) { text.insert(text.find("\n434,15") + 1, line + "\n"); };
+    };
+    for (const char *row : {"NaN,NaN,NaN,NaN", "NA,NA,NA,NA", "j,i,fx,fy"})
+      expect("contacts_1.csv", "words among rows of numbers", after_line(row));
+    expect("walls.csv", "line 5: frame 1 stands in line 3 with another width",
+           [](std::string &text) { text += "1,0.03,0.05\n"; });
+    expect("particles_1.csv", "contradict each other",
+           [](std::string &text) { replace_once(text, "id,x,y,r,vx", "id,x,y,r,d"); });
+    const Case    c = case_of("csv");
+    const Scratch scratch;
+    const auto    same = with_changed(c, scratch, "plain_csv/contacts_1.csv", after_line("i,j,fx,fy\n# a remark in words"));
+    EXPECT_EQ(arrival_of(c, same).checks[1].contacts, arrival_of(c, options_of(c)).checks[1].contacts);
+    const auto time = with_changed(c, scratch, "plain_csv/walls.csv", [](std::string &text) {
+      text = "frame,width,height,time\n0,0.03145263837,0.05022203151,5\n1,0.0317409221,0.04971981119,4\n2,0.032,0.0492,6\n";
+    });
+    EXPECT_NE(refusal_of(c, time).find("frame 1 is of the time 4, frame 0 before it of 5"), std::string::npos)
+      << refusal_of(c, time);
+  }
+
+  ForeignSample row_of_grains(const int n, const double spacing, const double radius_of_the_first)
+  {
+    ForeignSample sample;
+    sample.format = "csv";
+    ForeignFrame frame;
+    frame.name = "0";
+    for (int i = 0; i < n; ++i)
+      {
+        ForeignGrain g;
+        g.id = i, g.position = {spacing * i, 0}, g.radius = i == 0 ? radius_of_the_first : 0.5;
+        frame.grains.push_back(g);
+      }
+    for (const auto &[side, place] :
+         {std::pair(Side::lower, -1e3), std::pair(Side::upper, 1e3), std::pair(Side::left, -1e3), std::pair(Side::right, 1e6)})
+      {
+        ForeignWall wall;
+        wall.side = side, wall.place = place;
+        frame.walls.push_back(wall);
+      }
+    sample.frames.push_back(frame);
+    return sample;
+  }
+
+  // The overlap of a large grain with the farthest small one that it reaches is found by the large one.
+  TEST(ImportDoubts, OverlapsOfAnySizesAreFoundAndCrowdsRefused)
+  {
+    ForeignOptions options;
+    options.mean_diameter = 1;
+    EXPECT_NEAR(arrive(row_of_grains(1000, 1, 0.5), options).checks[0].largest_overlap, 0, 1e-12);
+    EXPECT_NEAR(arrive(row_of_grains(1000, 1, 300), options).checks[0].largest_overlap, 299.5, 1e-9); // with its neighbour
+    ForeignSample touching = row_of_grains(3, 100.4, 100); // the small one lies within the large one's reach alone
+    EXPECT_NEAR(arrive(touching, options).checks[0].largest_overlap, 0.1, 1e-9);
+    EXPECT_THROW((void)arrive(row_of_grains(1000, 1e-3, 0.5), options), SceneError);
+  }
 } // namespace

@@ -37,4 +37,12 @@ namespace
       },
       "--pressure would have no effect");
   }
+
+  TEST(ImportOptions, WallsTouchOnlyWhereAWallHasNoPlace)
+  {
+    const Case     c       = case_of("csv");
+    ForeignOptions options = options_of(c);
+    options.walls_touch    = true;
+    EXPECT_NE(refusal_of(c, options).find("--walls-touch would have no effect"), std::string::npos) << refusal_of(c, options);
+  }
 } // namespace
