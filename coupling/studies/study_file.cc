@@ -23,14 +23,6 @@ namespace diptych::coupling
       return point;
     }
 
-    // Each run has a folder of its own, by its number.
-    void refuse_folders(const Part &part, const Settings &settings)
-    {
-      for (const Entry &entry : settings)
-        if (entry.section == "output" && entry.key == "directory")
-          part.refuse("output/directory cannot be set: runs have folders of their own in that of the study");
-    }
-
     Axis axis_of(const Part &part)
     {
       part.allow({"name", "key", "values", "points", "converges", "own_reference"});
@@ -56,7 +48,6 @@ namespace diptych::coupling
         {
           if (std::find(labels.begin(), labels.end(), point.label) != labels.end())
             part.refuse("axis '" + axis.name + "' has '" + point.label + "' twice");
-          refuse_folders(part, point.settings);
           labels.push_back(point.label);
           if (axis.converges && !(point.value > 0))
             part.refuse("converges", " needs values above 0; '" + point.label + "' is none");
@@ -244,14 +235,22 @@ namespace diptych::coupling
         root.refuse("families", ": two are called '" + *twice + "'");
     }
 
-    // Every point is run with every seed.
-    void demand_one_source_of_seeds(const Part &root, const Study &study, const Family &family)
+    // Every point is run with every seed: one that is set would be replaced.
+    void demand_one_source_of_seeds(const Part &root, const Study &study)
     {
-      for (const Axis &axis : family.axes)
-        for (const AxisPoint &point : axis.points)
-          for (const Entry &entry : point.settings)
-            if (entry.section == "sample" && entry.key == "seed" && !study.seeds.empty())
-              root.refuse("seeds", " are given, and axis '" + axis.name + "' sets sample/seed, which they would replace");
+      const auto demand = [&](const Settings &settings) {
+        for (const Entry &entry : settings)
+          if (entry.section == "sample" && entry.key == "seed" && !study.seeds.empty())
+            root.refuse("seeds", " are given, and sample/seed = " + entry.value + " is set beside them: " + entry.place);
+      };
+      demand(study.settings), demand(study.reference);
+      for (const Family &family : study.families)
+        {
+          demand(family.settings);
+          for (const Axis &axis : family.axes)
+            for (const AxisPoint &point : axis.points)
+              demand(point.settings);
+        }
     }
 
     std::string study_name(const std::string &file)
@@ -281,6 +280,7 @@ namespace diptych::coupling
       {
         study.settings.push_back(entry_of_override(text_of_override));
         check_entry(with_seed(study.settings.back(), "1"));
+        refuse_folder(study.settings.back());
       }
     study.seeds = root.seeds("seeds");
     root.at("reference");
@@ -295,12 +295,7 @@ namespace diptych::coupling
     for (const Part &part : root.list("borders"))
       study.borders.push_back(border_of(part, study.families));
     demand_distinct_names(root, study);
-    refuse_folders(root, study.settings), refuse_folders(root, study.reference);
-    for (const Family &family : study.families)
-      {
-        refuse_folders(root, family.settings);
-        demand_one_source_of_seeds(root, study, family);
-      }
+    demand_one_source_of_seeds(root, study);
     return study;
   }
 } // namespace diptych::coupling

@@ -113,6 +113,12 @@ namespace diptych::coupling
       }
   }
 
+  void refuse_folder(const Entry &entry)
+  {
+    if (entry.section == "output" && entry.key == "directory")
+      throw SceneError(entry.place + ": output/directory cannot be set: runs have folders of their own below --output");
+  }
+
   Settings Part::settings(const std::string &key) const
   {
     Settings result;
@@ -135,6 +141,7 @@ namespace diptych::coupling
     const Entry entry{name.substr(0, slash), name.substr(slash + 1), value_text(to), place,
                       std::filesystem::path(text.file).parent_path().string()};
     check_entry(with_seed(entry, "1"));
+    refuse_folder(entry);
     return entry;
   }
 } // namespace diptych::coupling

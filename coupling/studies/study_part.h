@@ -23,6 +23,9 @@ namespace diptych::coupling
     return names;
   }
 
+  // Runs have folders of their own. Throws SceneError naming the place of an entry that sets output/directory.
+  void refuse_folder(const Entry &entry);
+
   // A member of the text: its value and where it stands. What is asked for and not there, or no such value, throws SceneError
   // naming file, line, key, value and what is allowed.
   class Part

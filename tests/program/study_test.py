@@ -255,7 +255,7 @@ class Failures(Folder):
         for study, words in [({**STUDY, "seedz": 3}, ["seedz", "'seeds'"]),
                              ({**STUDY, "scene": "nowhere.prm"}, ["scene", "nowhere.prm"]),
                              ({**STUDY, "axes": [{"key": "output/directory", "values": ["x", "y"]}]}, ["output/directory cannot be set"]),
-                             ({**STUDY, "seeds": "1-2", "axes": [{"key": "sample/seed", "values": [1, 2]}]}, ["seeds", "sets sample/seed"]),
+                             ({**STUDY, "seeds": "1-2", "axes": [{"key": "sample/seed", "values": [1, 2]}]}, ["seeds", "sample/seed = 1 is set"]),
                              ({**STUDY, "set": {"sample/grians": 3}}, ["sample/grians", "sample/grains"]),
                              ({**STUDY, "set": {"sample/grains": 0}}, ["sample/grains = '0'", "whole number"])]:
             with self.subTest(words=words):
