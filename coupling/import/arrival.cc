@@ -199,9 +199,11 @@ namespace diptych::coupling
           throw SceneError(from.grain_file + ": frame " + from.name +
                            " has no contacts: stresses of every frame after the first are made of them");
         ArrivedFrame frame;
-        frame.name = from.name;
-        frame.time = from.time.value_or(not_told);
-        frame.step = from.step.value_or(long(k));
+        frame.name       = from.name;
+        frame.grain_file = from.grain_file;
+        frame.wall_file  = from.wall_file.empty() ? from.grain_file : from.wall_file;
+        frame.time       = from.time.value_or(not_told);
+        frame.step       = from.step.value_or(long(k));
         take_grains(grains[k], arrival.thickness, frame);
         take_contacts(from, arrival, options, frame);
         require_later_time(arrival, frame, from.grain_file);

@@ -42,7 +42,7 @@ namespace diptych::coupling
     {
       for (const auto &[low, high] : {std::pair(Side::lower, Side::upper), std::pair(Side::left, Side::right)})
         if (f.wall[std::size_t(low)] >= f.wall[std::size_t(high)])
-          throw SceneError("frame " + f.name + ": the " + side_names[int(low)] + " wall stands beyond the " +
+          throw SceneError(f.wall_file + ": frame " + f.name + ": the " + side_names[int(low)] + " wall stands beyond the " +
                            side_names[int(high)] + " one");
     }
 
@@ -159,7 +159,7 @@ namespace diptych::coupling
             n_overlaps += overlap > 0;
           });
           if (n_overlaps > most_overlaps * f.position.size())
-            throw SceneError("frame " + f.name + ": more than " + std::to_string(most_overlaps) +
+            throw SceneError(f.grain_file + ": frame " + f.name + ": more than " + std::to_string(most_overlaps) +
                              " overlaps per grain; grains stand on each other");
         }
       check.largest_overlap = largest / arrival.mean_diameter;

@@ -168,7 +168,7 @@ namespace diptych::coupling
             to.wall[std::size_t(side)] = extreme[std::size_t(side)], to.walls_touch = true;
           if (there && std::isnan(to.wall[std::size_t(side)]))
             throw SceneError(
-              "frame " + from.name + ": where the " + side_names[side] +
+              from.grain_file + ": frame " + from.name + ": where the " + side_names[side] +
               " wall stands is in none of the files; give a table with frame, width and height (or left_x, right_x, "
               "lower_y, upper_y), or say --walls-touch: they stand where the grains reach farthest");
         }

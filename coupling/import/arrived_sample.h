@@ -17,6 +17,7 @@ namespace diptych::coupling
   struct ArrivedFrame
   {
     std::string                          name;
+    std::string                          grain_file, wall_file; // for messages
     double                               time = not_told;
     long                                 step = 0;
     std::vector<Eigen::Vector2d>         position, velocity, resultant;

@@ -64,6 +64,7 @@ namespace diptych::coupling
   {
     std::string                 name;                     // as the files tell it from others: "step 120000", "_3"
     std::string                 grain_file, contact_file; // for messages
+    std::string                 wall_file;                // likewise, where not the grains' file tells where walls stand
     std::optional<double>       time = {};
     std::optional<long>         step = {};
     std::vector<ForeignGrain>   grains;

@@ -72,7 +72,7 @@ namespace diptych::coupling
       s.lower_platen_force = f.wall_force[int(Side::lower)], s.upper_platen_force = f.wall_force[int(Side::upper)];
       constexpr double most_diameters = 1e5;
       if (const double n = (s.upper_y - s.lower_y) / diameter; !(n >= 1 && n <= most_diameters))
-        throw SceneError("frame " + f.name + ": the lower and the upper wall stand " + discrete::exact_text(n) +
+        throw SceneError(f.wall_file + ": frame " + f.name + ": the lower and the upper wall stand " + discrete::exact_text(n) +
                          " mean diameters apart; 1 to 100000 are possible");
       const discrete::State state = state_of(f);
       s.outline                   = discrete::make_outline(state, diameter);
@@ -188,7 +188,7 @@ namespace diptych::coupling
                  shear = ascends([](const Snapshot &s) { return s.shear_strain; });
       if (!axial && !shear)
         throw SceneError(
-          "frame " + arrival.frames.front().name + " to frame " + arrival.frames.back().name +
+          arrival.frames.back().wall_file + ": frame " + arrival.frames.front().name + " to frame " + arrival.frames.back().name +
           ": the frames are no loading: neither the descent of the upper wall nor its travel to the right grows from each "
           "frame to the next; import frames of one monotonic path (each frame once)");
       return axial && std::abs(snapshots.back().axial_strain) >= std::abs(snapshots.back().shear_strain) ? Walk::axial_strain
@@ -210,7 +210,7 @@ namespace diptych::coupling
   {
     for (const ArrivedFrame &f : arrival.frames)
       if (!std::isfinite(f.wall[int(Side::lower)]) || !std::isfinite(f.wall[int(Side::upper)]))
-        throw SceneError("frame " + f.name +
+        throw SceneError(f.grain_file + ": frame " + f.name +
                          ": where the lower and the upper wall stand is in none of the files; give a table with "
                          "frame, lower_y and upper_y (or width and height), or say --walls-touch");
     DiscreteResults results;

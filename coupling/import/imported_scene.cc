@@ -28,7 +28,7 @@ namespace diptych::coupling
         if (const double sxx = row.stress(0, 0); sxx > 0)
           return sxx;
       throw SceneError(
-        "frame " + arrival.frames.front().name +
+        arrival.frames.front().wall_file + ": frame " + arrival.frames.front().name +
         ": no lateral pressure can be found: in no frame is the right wall pressed, or the horizontal stress above 0; say "
         "--pressure P");
     }

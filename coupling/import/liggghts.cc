@@ -75,6 +75,8 @@ namespace diptych::coupling
       Eigen::Vector2d middle = Eigen::Vector2d::Zero();
       for (const ForeignGrain &g : frame.grains)
         middle += g.position / double(frame.grains.size());
+      if (frame.wall_file.empty())
+        frame.wall_file = path;
       for (const auto &[axis, place] : planes_of_stl(path))
         {
           const Side side = axis == 1 ? (place < middle.y() ? Side::lower : Side::upper)

@@ -21,37 +21,65 @@ namespace diptych::coupling
       return frame.walls.back();
     }
 
-    // The row of a frame: that of its step, its time or its number.
-    std::size_t row_of(const NumberTable &table, const ForeignFrame &frame, const std::size_t number)
+    struct WallRow
     {
-      const auto step = table.find("step"), time = table.find("time"), count = table.find("frame");
-      const auto first = [&](const auto &is_of) -> std::optional<std::size_t> {
-        std::optional<std::size_t> one;
+      const NumberTable *table;
+      std::size_t        row;
+    };
+
+    void require_equal(const WallRow &one, const WallRow &other, const ForeignFrame &frame)
+    {
+      for (std::size_t column = 0; column < one.table->columns.size(); ++column)
+        if (other.table->at(other.row, column) != one.table->at(one.row, column))
+          other.table->refuse(other.row, "frame " + frame.name + " stands in line " + std::to_string(one.table->line[one.row]) +
+                                           (one.table == other.table ? "" : " of " + one.table->path) + " with another " +
+                                           one.table->columns[column]);
+    }
+
+    std::vector<WallRow> rows_of(const std::vector<NumberTable> &tables)
+    {
+      std::vector<WallRow> rows;
+      for (const NumberTable &table : tables)
         for (std::size_t row = 0; row < table.n_rows(); ++row)
-          if (is_of(row) && !one)
+          rows.push_back({&table, row});
+      return rows;
+    }
+
+    // The row of a frame: that of its step, its time or its number. `columns`: of a table with those of all.
+    WallRow row_of(const std::vector<WallRow> &rows,
+                   const NumberTable          &columns,
+                   const ForeignFrame         &frame,
+                   const std::size_t           number)
+    {
+      const auto step = columns.find("step"), time = columns.find("time"), count = columns.find("frame");
+      const auto first = [&](const auto &is_of) -> std::optional<WallRow> {
+        std::optional<WallRow> one;
+        for (const WallRow &row : rows)
+          if (is_of(*row.table, row.row) && !one)
             one = row;
-          else if (is_of(row))
-            for (std::size_t column = 0; column < table.columns.size(); ++column)
-              if (table.at(row, column) != table.at(*one, column))
-                table.refuse(row, "frame " + frame.name + " stands in line " + std::to_string(table.line[*one]) +
-                                    " with another " + table.columns[column]);
+          else if (is_of(*row.table, row.row))
+            require_equal(*one, row, frame);
         return one;
       };
-      std::optional<std::size_t> found;
+      const auto first_whole = [&](const std::size_t column, const long value) {
+        return first([&](const NumberTable &table, const std::size_t row) { return table.whole(row, column) == value; });
+      };
+      std::optional<WallRow> found;
       if (step && frame.step)
-        found = first([&](const std::size_t row) { return table.whole(row, *step) == *frame.step; });
+        found = first_whole(*step, *frame.step);
       else if (time && frame.time)
-        found = first(
-          [&](const std::size_t row) { return std::abs(table.at(row, *time) - *frame.time) <= 1e-9 * std::abs(*frame.time); });
+        found = first([&](const NumberTable &table, const std::size_t row) {
+          return std::abs(table.at(row, *time) - *frame.time) <= 1e-9 * std::abs(*frame.time);
+        });
       if (!found && count && frame.step) // the number in the name of a table
-        found = first([&](const std::size_t row) { return table.whole(row, *count) == *frame.step; });
+        found = first_whole(*count, *frame.step);
       if (!found && count)
-        found = first([&](const std::size_t row) { return table.whole(row, *count) == long(number); });
+        found = first_whole(*count, long(number));
       if (found)
         return *found;
-      if (!(step && frame.step) && !(time && frame.time) && !count && number < table.n_rows())
-        return number;
-      throw SceneError(table.path + ": has no row for frame " + frame.name + " (column step, time or frame)");
+      if (!(step && frame.step) && !(time && frame.time) && !count && number < rows.size())
+        return rows[number];
+      throw SceneError(columns.path + ": has no row for frame " + frame.name + " (column step, time or frame)");
     }
 
     void add_places(const NumberTable &table, const std::size_t row, ForeignFrame &frame)
@@ -79,6 +107,21 @@ namespace diptych::coupling
             wall_of(frame, Side(side)).force = {table.at(row, *fx), table.at(row, *fy)};
         }
     }
+
+    void add_wall_rows(ForeignSample &sample, const std::vector<NumberTable> &tables)
+    {
+      const std::vector<WallRow> rows = rows_of(tables);
+      for (std::size_t k = 0; k < sample.frames.size(); ++k)
+        {
+          ForeignFrame &frame     = sample.frames[k];
+          const auto [table, row] = row_of(rows, tables.front(), frame, k);
+          add_places(*table, row, frame);
+          add_forces(*table, row, frame);
+          frame.wall_file = table->path + ", line " + std::to_string(table->line[row]);
+          if (const auto time = table->find("time"); time && !frame.time)
+            frame.time = table->at(row, *time);
+        }
+    }
   } // namespace
 
   bool is_wall_table(const std::string &path)
@@ -101,34 +144,19 @@ namespace diptych::coupling
 
   void add_wall_tables(ForeignSample &sample, const std::vector<std::string> &paths)
   {
-    NumberTable all;
+    std::vector<NumberTable> tables;
     for (const std::string &path : paths)
       {
-        const NumberTable table = read_number_table(path);
-        if (all.columns.empty())
-          all = table;
-        else if (all.columns != table.columns)
-          throw SceneError(path + ": other columns than " + all.path);
-        else
-          {
-            all.values.insert(all.values.end(), table.values.begin(), table.values.end());
-            all.line.insert(all.line.end(), table.line.begin(), table.line.end());
-          }
+        tables.push_back(read_number_table(path));
+        if (tables.back().columns != tables.front().columns)
+          throw SceneError(path + ": other columns than " + tables.front().path);
       }
-    if (!paths.empty())
-      add_wall_table(sample, all);
+    if (!tables.empty())
+      add_wall_rows(sample, tables);
   }
 
   void add_wall_table(ForeignSample &sample, const NumberTable &table)
   {
-    for (std::size_t k = 0; k < sample.frames.size(); ++k)
-      {
-        ForeignFrame     &frame = sample.frames[k];
-        const std::size_t row   = row_of(table, frame, k);
-        add_places(table, row, frame);
-        add_forces(table, row, frame);
-        if (const auto time = table.find("time"); time && !frame.time)
-          frame.time = table.at(row, *time);
-      }
+    add_wall_rows(sample, {table});
   }
 } // namespace diptych::coupling

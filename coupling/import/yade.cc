@@ -198,6 +198,7 @@ namespace diptych::coupling
                          " names grains by them; export.textExt with format='x_y_z_r_attrs' and attrs=['b.id', ...] writes them");
       frame.grains = grains_of(table);
       std::map<long, int> walls;
+      frame.wall_file = files.walls;
       if (!files.walls.empty())
         for (const auto &[name, wall] : walls_in(files.walls, frame))
           {

@@ -38,12 +38,16 @@ LONG_BOTH = BOTH + setting(loading_axial_strain=0.02, comparison_window_edges="0
                            continuum_max_step=1e-3, discrete_checkpoint_minutes=0, continuum_checkpoint_minutes=0)
 PROBLEM = os.path.join(SOURCE, "tests", "discrete", "contact_problems", "small.h5")
 FOREIGN = os.path.join(SOURCE, "tests", "foreign")
-FORMATS = {  # files in tests/foreign by format, and the words beside them
-    "csv": (("plain_csv", r"\.csv$"), []),
-    "lammps": (("lammps", r"\.dump$|walls\.txt$"), []),
-    "mercurydpm": (("mercurydpm", r"Biaxial2D\.(data|fstat|ene|restart\.4)$"), []),
-    "yade": (("yade", r"^(spheres|contacts|walls)_\d\.txt$"), ["--thickness", "1"]),
-    "lmgc90": (("lmgc90_hdf5", r"\.h5$"), []),
+FORMATS = {  # what a code writes: its format, which files in tests/foreign, and the words beside them
+    "csv": ("csv", r"plain_csv/.*\.csv$", []),
+    "lammps": ("lammps", r"lammps/(.*\.dump|walls\.txt)$", []),
+    "liggghts": ("liggghts", r"liggghts/.*\.(dump|stl)$", ["--thickness", "1"]),
+    "mercurydpm": ("mercurydpm", r"mercurydpm/Biaxial2D\.(data|fstat|ene|restart\.4)$", []),
+    "yade": ("yade", r"yade/(spheres|contacts|walls)_\d\.txt$", ["--thickness", "1"]),
+    "yade_vtk": ("yade", r"yade/rec-(spheres|intrs)\..*\.vt[up]$", ["--thickness", "1", "--walls-touch"]),
+    "yade_vtk_ascii": ("yade", r"yade/rec-ascii-.*\.vt[up]$", ["--thickness", "1", "--walls-touch"]),
+    "lmgc90": ("lmgc90", r"lmgc90/.*/(BODIES\.DAT|BULK_BEHAV\.DAT|DOF\.OUT\.\d|Vloc_Rloc\.OUT\.\d)$", []),
+    "lmgc90_hdf5": ("lmgc90", r"lmgc90_hdf5/.*\.h5$|lmgc90/DATBOX/(BODIES|BULK_BEHAV)\.DAT$", []),
 }
 STUDY = {
     "title": "Steps", "scene": os.path.join(SOURCE, "benchmarks", "dense_biaxial", "scene.prm"), "command": "discrete",
@@ -148,10 +152,9 @@ MAKE = {
 
 
 def foreign(kind):
-    """The files of one format, by their names in order."""
-    (folder, pattern), _ = FORMATS[kind]
-    top = os.path.join(FOREIGN, folder)
-    return [os.path.join(top, name) for name in sorted(os.listdir(top)) if re.search(pattern, name)]
+    """The files of one kind, by their names in order."""
+    found = [os.path.join(top, name) for top, _, names in os.walk(FOREIGN) for name in names]
+    return sorted((path for path in found if re.match(FORMATS[kind][1], os.path.relpath(path, FOREIGN))), key=os.path.basename)
 
 
 def prepared(keep, name):

@@ -84,18 +84,12 @@ def problems(case):
             case.violate("exit code 0, but not the solution of the undamaged problem")
 
 
-def imports(case):
-    """One of another code's files damaged, or not there, or there twice."""
-    kind = case.dice.choice(sorted(FORMATS))
-    os.mkdir(case.path("theirs"))
-    names = []
-    for path in bases.foreign(kind):
-        names.append("theirs/" + os.path.basename(path))
-        shutil.copy(path, case.path(names[-1]))
-    victim = case.dice.choice(names)
+def damage_one_of(case, names):
+    """One of another code's files damaged; then perhaps not among `names` any more, or there twice. Its name, and whether it must be told."""
+    victim, is_plain = case.dice.choice(names), False
     if victim.endswith(".h5"):
         if case.dice.random() < 0.6:
-            case.damage_arrays(victim)
+            is_plain = case.damage_arrays(victim)
         else:
             case.write(victim, damage.damage_bytes(case.dice, read(case.path(victim))))
     else:
@@ -104,13 +98,32 @@ def imports(case):
         names.remove(victim)
     elif case.dice.random() < 0.05:
         names.append(victim)
-    if not names:
-        names = [victim]
+    return victim, is_plain
+
+
+def imports(case):
+    """Another code's files, one of them damaged; now and then whole, in any order: then they are read."""
+    kind = case.dice.choice(sorted(FORMATS))
+    form, _, words = FORMATS[kind]
+    os.mkdir(case.path("theirs"))
+    names = ["theirs/" + os.path.basename(path) for path in bases.foreign(kind)]
+    for path, name in zip(bases.foreign(kind), names):
+        shutil.copy(path, case.path(name))
+    out, expected, is_plain = case.path("mine"), {"patience": 20}, False
+    if case.dice.random() < 0.05:
+        expected["codes"] = (0,)
+    else:
+        victim, is_plain = damage_one_of(case, names)
+        names = names or [victim]
+        expected["names"] = (*names, victim, "the files", "--", "import " + form)
+        if victim in names:
+            expected.update(special_files.instead(case, victim))
     case.dice.shuffle(names)
-    out, expected = case.path("mine"), {"names": (*names, victim, "the files", "--", "import " + kind), "patience": 20}
-    if victim in names:
-        expected.update(special_files.instead(case, victim))
-    case.run("import", kind, *names, *FORMATS[kind][1], "--output", out, "--quiet", output=out, **expected)
+    outcome = case.run("import", form, *names, *words, "--output", out, "--quiet", output=out, **expected)
+    if outcome.code == 0 and is_plain and "warning" not in outcome.errors:
+        def make(folder):
+            bases.done(case.work, "import", form, *bases.foreign(kind), *words, "--output", folder, "--quiet")
+        expect_same_as_whole(case, kind, make, out)
 
 
 HOSTILE = ["Exit;", "Abort;", 'SystemCall "touch touched";', 'NonBlockingSystemCall "touch touched";', 'Merge "other.geo";',

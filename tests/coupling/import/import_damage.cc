@@ -196,6 +196,42 @@ namespace
       << refusal_of(c, time);
   }
 
+  // Where walls stand is told by a table, by the line of the frame: in one file or in several.
+  TEST(ImportDoubts, WallsThatCannotBeAreThoseOfALineOfTheirTable)
+  {
+    const Case    c = case_of("csv");
+    const Scratch scratch;
+    const auto    expect = [&](const std::string &what, const std::function<void(std::string &)> &change) {
+      const ForeignOptions options = with_changed(c, scratch, "plain_csv/walls.csv", change);
+      try
+        {
+          (void)imported_results(arrival_of(c, options));
+          ADD_FAILURE() << what;
+        }
+      catch (const SceneError &error)
+        {
+          EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+        }
+    };
+    expect("walls.csv, line 3: frame 1: the lower and the upper wall stand",
+           [](std::string &text) { replace_once(text, "0.04971981119", "1e300"); });
+    expect("walls.csv, line 4: frame 2: the lower wall stands beyond the upper one", [](std::string &text) {
+      text = "frame,left_x,right_x,lower_y,upper_y\n0,0,0.03145,0,0.0502\n1,0,0.0317,0,0.0497\n2,0,0.0329,0.1,0.0487\n";
+    });
+
+    ForeignOptions several = with_changed(c, scratch, "plain_csv/walls.csv",
+                                          [](std::string &text) { text.resize(text.find("\n2,") + 1); });
+    several.files.push_back(scratch.write("last.csv", "frame,width,height\n2,0.03289052612,0.04871537056\n"));
+    const Arrival apart = arrival_of(c, several), whole = arrival_of(c, options_of(c));
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(apart.frames[k].wall, whole.frames[k].wall);
+    several.files.back() = scratch.write("last.csv", "frame,width,height\n2,-1,0.04871537056\n");
+    EXPECT_NE(refusal_of(c, several).find("last.csv, line 2"), std::string::npos) << refusal_of(c, several);
+    several.files.back() = scratch.write("last.csv", "frame,width,height\n2,0.03,0.0487\n1,0.03,0.0487\n");
+    EXPECT_NE(refusal_of(c, several).find("last.csv, line 3: frame 1 stands in line 3 of "), std::string::npos)
+      << refusal_of(c, several);
+  }
+
   ForeignSample row_of_grains(const int n, const double spacing, const double radius_of_the_first)
   {
     ForeignSample sample;
