@@ -237,6 +237,26 @@ namespace diptych::coupling
       check_part(one);
   }
 
+  std::string doubt_about_files(const std::string &directory)
+  {
+    const json  record = read_record(directory);
+    std::string unknown;
+    const auto  expect = [&](const std::string &file, const std::string &recorded) {
+      if (std::error_code none; recorded.empty() && std::filesystem::is_regular_file(file, none))
+        unknown += (unknown.empty() ? "" : ", ") + std::filesystem::relative(file, directory, none).string();
+    };
+    for (const char *part : {panel_parts[0], panel_parts[1], panel_parts[2], comparison})
+      {
+        const FileSums sums = from_record(path_of(directory),
+                                          [&] { return get_facts<FileSums>(record, (std::string(part) + "_files").c_str()); });
+        expect(table_of(directory, part), sums.table);
+        expect(snapshots_of(directory, part), sums.snapshots);
+      }
+    return unknown.empty() ? ""
+                           : path_of(directory) + ": holds no sums over the bytes of " + unknown +
+                               "; whether they are as the run left them cannot be told";
+  }
+
   void record_phases(const std::string            &directory,
                      const Scene                  &scene,
                      const std::string            &command,

@@ -55,6 +55,11 @@ namespace diptych::coupling
   // left: a number was changed, a row is gone, it is another run's. `part` empty: of both panels.
   void check_files(const std::string &directory, const std::string &part = "");
 
+  // A sentence where tables, snapshots or a comparison stand there of which no sum is recorded, as where provenance.json was
+  // removed or is of an earlier version: nothing tells then whether they are as the run left them. Empty where all have theirs.
+  // Throws as check_files() of a broken record.
+  std::string doubt_about_files(const std::string &directory);
+
   // What is not there has the values of facts that nobody recorded. Throws std::invalid_argument naming the file where one stands
   // there that is no record of a run.
   RunFacts    read_run_facts(const std::string &directory);

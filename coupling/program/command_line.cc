@@ -11,7 +11,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
-#include "coupling/processes/stop_signal.h"
 #include "coupling/program/built_with.h"
 #include "coupling/program/completion.h"
 #include "coupling/program/option_values.h"
@@ -19,7 +18,6 @@
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_file.h"
 #include "discrete/files/nearest_name.h"
-#include "discrete/files/out_of_memory.h"
 #include "discrete/files/text_file.h"
 
 namespace diptych::coupling
@@ -369,7 +367,7 @@ namespace diptych::coupling
       scene.output.directory = line.output;
     scene.discrete.threads = line.threads;
     for (const std::string &warning : line.tells_warnings ? scene.warnings : std::vector<std::string>())
-      std::cerr << "diptych: warning: " << warning << std::endl;
+      warn(warning);
     return scene;
   }
 
@@ -379,22 +377,9 @@ namespace diptych::coupling
       std::cout << text << std::endl;
   }
 
-  std::string text_of_end(const std::exception &error)
+  void warn(const std::string &text)
   {
-    const std::string what      = discrete::text_of(error);
-    const bool        is_told   = what.find("kept") != std::string::npos || what.find("nothing was written") != std::string::npos;
-    const bool        is_before = discrete::is_out_of_memory(error) || dynamic_cast<const StoppedOnRequest *>(&error) != nullptr;
-    return "diptych: " + what + (is_before && !is_told ? "; nothing was written" : "");
-  }
-
-  int code_of(const std::exception &error)
-  {
-    if (discrete::is_out_of_memory(error))
-      return system_failure;
-    if (dynamic_cast<const StoppedOnRequest *>(&error) != nullptr)
-      return not_converged;
-    return dynamic_cast<const std::invalid_argument *>(&error) != nullptr ? wrong_input
-           : dynamic_cast<const std::logic_error *>(&error) != nullptr    ? invariant
-                                                                          : system_failure;
+    if (!text.empty())
+      std::cerr << "diptych: warning: " << text << std::endl;
   }
 } // namespace diptych::coupling

@@ -7,21 +7,13 @@
 #include <vector>
 
 #include "coupling/import/foreign_sample.h"
+#include "coupling/program/exit_code.h"
 #include "coupling/scene/scene.h"
 #include "discrete/problem_files/fclib.h"
 #include "discrete/solvers/solver.h"
 
 namespace diptych::coupling
 {
-  enum ExitCode
-  {
-    done           = 0,
-    invariant      = 1, // a stated one failed: the program is wrong
-    wrong_input    = 2,
-    not_converged  = 3, // or stopped; what was reached is kept
-    system_failure = 4  // a full disk, a folder that cannot be written to, a library or a script that fails
-  };
-
   enum class Command
   {
     run,
@@ -83,10 +75,5 @@ namespace diptych::coupling
   Scene scene_of(const CommandLine &line);
 
   void say(const CommandLine &line, const std::string &text); // to standard output, unless --quiet
-
-  // 1 for a broken invariant, 2 for wrong input, 4 for everything else that is thrown.
-  [[nodiscard]] int code_of(const std::exception &error);
-
-  // What standard error says at the end: the error, and that nothing was written where a request to stop came before that.
-  std::string text_of_end(const std::exception &error);
+  void warn(const std::string &text);                         // to standard error; nothing where it is empty
 } // namespace diptych::coupling

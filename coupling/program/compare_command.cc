@@ -109,6 +109,8 @@ namespace diptych::coupling
       throw SceneError(line.target + ": holds an imported sample and no continuum yet; diptych run " + line.target +
                        "/scene.prm computes it beside the grains and compares");
     const Scene scene = scene_of_folder(line);
-    return writing(line.target, [&] { return compare_and_report(line, scene); });
+    const int   code  = writing(line.target, [&] { return compare_and_report(line, scene); });
+    warn(doubt_about_files(line.target)); // the comparison's own are there now
+    return code;
   }
 } // namespace diptych::coupling

@@ -133,7 +133,7 @@ namespace diptych::coupling
     }
 
     // To standard error, quiet or not.
-    void warn(const std::string &doubts)
+    void tell_doubts(const std::string &doubts)
     {
       std::istringstream lines(doubts);
       for (std::string line; std::getline(lines, line);)
@@ -276,7 +276,7 @@ namespace diptych::coupling
     facts.warnings                 = doubts(rows, report, scene);
     record(line, scene, report, facts, timer, before);
     recorded.warnings += reference_text(report);
-    warn(facts.warnings);
+    tell_doubts(facts.warnings);
     if (!recorded.warnings.empty() && report.snapshots_accurate < report.snapshots_sampled)
       std::cerr << recorded.warnings << std::flush;
     else if (!recorded.warnings.empty())

@@ -89,6 +89,8 @@ namespace diptych::coupling
     try
       {
         check_files(run_folder(directory, run)), check_files(run_folder(directory, run), "comparison");
+        if (!doubt_about_files(run_folder(directory, run)).empty()) // its record was removed
+          return std::nullopt;
         result = {end.at("exit_code"), end.at("revision"), end.at("load").is_number() ? double(end["load"]) : NAN,
                   end.value("at_once", 1)};
       }

@@ -152,6 +152,21 @@ class Statistics(Folder):
                 self.assertIn(self.path("seed_2", "comparison.json") + ": " + told, refused.stderr)
                 self.assertEqual(content(self.path("ensemble.json")), content(os.path.join(self.three, "ensemble.json")))
 
+    def test_files_of_which_no_sum_is_kept_are_pointed_out(self):
+        shutil.copytree(self.three, self.folder)
+        member = self.path("seed_2")
+        os.remove(os.path.join(member, "provenance.json"))
+        for words, files in ((["compare", self.folder, "--quiet"], "comparison.json, comparison.h5;"),
+                             (["export", member, "--format", "csv", "--output", self.path("start")], "comparison.json, comparison.h5;"),
+                             (["compare", member, "--quiet"], "coarse/continuum.h5;"), (["report", member, "--quiet"], "coarse/continuum.h5;")):
+            with self.subTest(command=words[0], folder=words[1]):
+                told = diptych(*words)
+                self.assertEqual(told.returncode, 0, told.stderr)
+                self.assertIn(member + "/provenance.json: holds no sums over the bytes of discrete.csv, discrete.h5", told.stderr)
+                self.assertIn(files, told.stderr)
+        whole = diptych("report", self.path("seed_1"), "--quiet")
+        self.assertEqual((whole.returncode, whole.stderr), (0, ""))
+
     def test_more_seeds_are_added_by_resuming(self):
         shutil.copytree(self.three, self.folder)
         before = {k: os.stat(self.path(f"seed_{k}", "discrete.h5")).st_mtime_ns for k in (1, 2, 3)}

@@ -45,6 +45,11 @@ def limit(memory=MEMORY, **limits):
         resource.setrlimit(getattr(resource, name), (value, value))
 
 
+def heard():
+    """For preexec_fn: a signal that is to end the program does, also where the tests were begun with nohup, which is inherited."""
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
+
+
 class Listener(threading.Thread):
     """Reads a pipe to its end. What outlives the program and holds the pipe is not waited for."""
 
@@ -104,9 +109,13 @@ class Case:
 
     def start(self, *words, env=None, cwd=None, preexec=limit, stdout=subprocess.PIPE, stderr=subprocess.PIPE):
         """The process; its texts come through pipes, which no limit of files ends, and are not waited for longer than it runs."""
+        def begin():
+            heard()
+            preexec()
+
         self.commands.append([os.fsdecode(word) for word in words])
         process = subprocess.Popen([PROGRAM, *words], env={**(env or ENVIRONMENT), **SANITIZER}, cwd=cwd or self.work, stdin=subprocess.DEVNULL, stdout=stdout,
-                                   stderr=stderr, preexec_fn=preexec, start_new_session=True)
+                                   stderr=stderr, preexec_fn=begin, start_new_session=True)
         process.words, process.sent = self.commands[-1], 0
         process.told = {name: Listener(pipe) for name, pipe in (("out", process.stdout), ("errors", process.stderr)) if pipe}
         return process

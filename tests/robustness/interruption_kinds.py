@@ -26,6 +26,7 @@ KILLED = {  # by base: the command line but for --output and --resume, and how l
     "calibration": (["calibrate", "one.json", "--jobs", "1"], 4),
     "imported": (["import", "csv", *bases.foreign("csv")], 0.05),
 }
+MOST_BEGINNINGS = 20  # 0.7^20: a thousandth of the time that it takes
 WEIGHTS = {"long_grains": 10, "long_nodes": 3, "long_both": 3, "ensemble": 1, "study": 1, "calibration": 1, "imported": 3}
 
 
@@ -46,10 +47,14 @@ def killed_and_taken_up(case, base, numbers):
         case.write(name, json.dumps(content))
     out, resume = case.path("out"), [] if base == "imported" else ["--resume"]
     for number in numbers:
-        is_first = not os.path.exists(out)
-        while not killed_once(case, [*line, *resume, "--output", out, "--quiet"], case.dice.uniform(0, length), number) and is_first:
+        may_begin_again = MOST_BEGINNINGS if not os.path.exists(out) else 0
+        while not killed_once(case, [*line, *resume, "--output", out, "--quiet"], case.dice.uniform(0, length), number) and may_begin_again:
             shutil.rmtree(out)  # done before the signal counted
             length *= 0.7
+            may_begin_again -= 1
+            if not may_begin_again:
+                case.violate(f"the signal {number} did not end it, {MOST_BEGINNINGS} times")
+                return
     case.run(*line, *resume, "--output", out, "--quiet", output=out, codes=(0,), patience=120)
     expect_same_as_base(case, base, out)
     left = [name for name in judge.digest(out) if name.endswith(".part") or judge.LOCK.search(os.path.basename(name))]

@@ -93,5 +93,20 @@ namespace
   {
     EXPECT_FALSE(read_run_facts(folder).discrete.finished);
     EXPECT_EQ(recorded_scene(folder), "");
+    EXPECT_EQ(doubt_about_files(folder), "");
+  }
+
+  TEST_F(Provenance, FilesWithoutASumAreDoubtful)
+  {
+    (void)recorded(folder);
+    std::ofstream(folder / "discrete.csv") << "a\n";
+    std::ofstream(folder / "comparison.h5") << "b\n";
+    const std::string told = doubt_about_files(folder);
+    EXPECT_NE(told.find((folder / "provenance.json").string()), std::string::npos) << told;
+    EXPECT_NE(told.find("discrete.csv, comparison.h5;"), std::string::npos) << told;
+    record_facts(folder, DiscreteFacts());
+    EXPECT_NE(doubt_about_files(folder).find("of comparison.h5;"), std::string::npos) << doubt_about_files(folder);
+    record_comparison_files(folder);
+    EXPECT_EQ(doubt_about_files(folder), "");
   }
 } // namespace

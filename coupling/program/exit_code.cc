@@ -1,0 +1,30 @@
+// diptych: how the program ends on what is thrown
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/program/exit_code.h"
+
+#include <stdexcept>
+
+#include "coupling/processes/stop_signal.h"
+#include "discrete/files/out_of_memory.h"
+
+namespace diptych::coupling
+{
+  std::string text_of_end(const std::exception &error)
+  {
+    const std::string what      = discrete::text_of(error);
+    const bool        is_told   = what.find("kept") != std::string::npos || what.find("nothing was written") != std::string::npos;
+    const bool        is_before = discrete::is_out_of_memory(error) || dynamic_cast<const StoppedOnRequest *>(&error) != nullptr;
+    return "diptych: " + what + (is_before && !is_told ? "; nothing was written" : "");
+  }
+
+  int code_of(const std::exception &error)
+  {
+    if (discrete::is_out_of_memory(error))
+      return system_failure;
+    if (dynamic_cast<const StoppedOnRequest *>(&error) != nullptr)
+      return not_converged;
+    return dynamic_cast<const std::invalid_argument *>(&error) != nullptr ? wrong_input
+           : dynamic_cast<const std::logic_error *>(&error) != nullptr    ? invariant
+                                                                          : system_failure;
+  }
+} // namespace diptych::coupling
