@@ -9,6 +9,7 @@
 #include "coupling/scene/keys.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
+#include "coupling/folders/provenance.h"
 #include "coupling/studies/study_part.h"
 
 namespace diptych::coupling
@@ -65,6 +66,19 @@ namespace diptych::coupling
           }
     }
 
+    // What changed since would be fitted as measured.
+    void demand_as_left(const Part &part, const std::string &folder)
+    {
+      try
+        {
+          check_files(folder, "discrete");
+        }
+      catch (const std::invalid_argument &error)
+        {
+          part.refuse(std::string("results: ") + error.what());
+        }
+    }
+
     // Finished result folders; their first scene is the continuum's.
     void read_results(const Part &part, const std::string &file, CalibrationTarget &target)
     {
@@ -76,6 +90,7 @@ namespace diptych::coupling
           const std::optional<Scene> scene  = echoed_scene(folder + "/scene.prm");
           if (!scene || !std::filesystem::exists(folder + "/discrete.csv") || !std::filesystem::exists(folder + "/discrete.h5"))
             one.refuse("results: '" + folder + "' is no result folder with scene.prm, discrete.csv and discrete.h5");
+          demand_as_left(one, folder);
           target.results.push_back(folder);
           target.seeds.push_back(scene->sample.seed);
         }
@@ -328,17 +343,17 @@ namespace diptych::coupling
     read_parameters(root, c);
     c.noise = noise_options_of(root);
     if (root.has("starts"))
-      c.starts = int(root.number("starts", 1, 20));
+      c.starts = root.whole("starts", 1, 20);
     if (root.has("start_jacobians"))
-      c.start_jacobians = int(root.number("start_jacobians", 1, 20));
+      c.start_jacobians = root.whole("start_jacobians", 1, 20);
     if (root.has("load_step"))
       c.load_step = root.number("load_step", 1e-9, 1);
     if (root.has("coarse_element_size"))
       c.coarse_element_size = root.number("coarse_element_size", 0.01, 1e3);
     if (root.has("check_samples"))
-      c.check_samples = int(root.number("check_samples", 0, 1000));
+      c.check_samples = root.whole("check_samples", 0, 1000);
     if (root.has("seed"))
-      c.seed = int(root.number("seed", 0, 1e6));
+      c.seed = root.whole("seed", 0, 1000000);
     return c;
   }
 } // namespace diptych::coupling

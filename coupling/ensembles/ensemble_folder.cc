@@ -46,10 +46,35 @@ namespace diptych::coupling
       return held;
     }
 
-    void forget_member(const std::string &folder)
+    // What the run of a member would refuse, or take away with its folder, is refused while the statistics still stand.
+    void demand_own_members(const std::string &directory, const std::vector<int> &seeds)
     {
+      for (const int seed : seeds)
+        {
+          const std::string folder = member_folder(directory, seed), log = member_log(directory, seed);
+          std::error_code   none;
+          if (fs::exists(log, none) && !fs::is_regular_file(log, none))
+            throw SceneError("output/directory: " + log + " is no file, and stands where seed " + std::to_string(seed) +
+                             " tells how it went; move it elsewhere");
+          if (!fs::exists(folder, none))
+            continue;
+          if (!fs::is_directory(folder, none) || (!is_echo(folder + "/scene.prm") && !is_empty_folder(folder)))
+            throw SceneError("output/directory: " + folder +
+                             " holds other files and no result of diptych, and stands where seed " + std::to_string(seed) +
+                             " has its own; move it elsewhere");
+          demand_own_folders(folder);
+        }
+    }
+
+    // Killed before this one runs again, what is left of it must not be resumed: its echo goes last, and only where it is
+    // another's.
+    void forget_member(const std::string &folder, const Scene &scene)
+    {
+      const std::optional<Scene> earlier = echoed_scene(folder + "/scene.prm");
       remove_results(folder, comparison_files);
       remove_results(folder, {"provenance.json", "checkpoint.h5", "continuum_checkpoint.h5", "coarse"});
+      if (!earlier || member_identity(*earlier) != member_identity(scene))
+        remove_panels(folder), remove_results(folder, {"scene.prm"});
     }
   } // namespace
 
@@ -79,15 +104,33 @@ namespace diptych::coupling
     if (resume && is_ensemble)
       demand_same_scene(scene);
     (void)recorded_scene(directory); // throws where this run could not add to what stands there
+    demand_own_members(directory, seeds);
+    for (const int seed : resume ? seeds : std::vector<int>())
+      if (is_echo(member_folder(directory, seed) + "/scene.prm"))
+        demand_member(scene, seed);
     const auto members = resume ? std::map<std::string, FolderLock>() : held_members(directory, seeds);
     // Killed before its end, this run must not leave the statistics of an earlier one.
+    forget_files(directory, "ensemble");
     remove_results(directory, {"ensemble.json", "ensemble.csv", "ensemble.h5", "report.html"});
     for (const auto &[folder, lock] : members)
-      forget_member(folder);
+      forget_member(folder, scene);
     if (!resume)
       for (const int seed : seeds)
-        fs::remove(member_log(directory, seed));
+        remove_results(directory, {fs::path(member_log(directory, seed)).filename().string()});
     discrete::write_text(directory + "/ensemble.prm", echo(scene));
+  }
+
+  void demand_member(const Scene &scene, const int seed)
+  {
+    const std::string          file    = member_folder(scene.output.directory, seed) + "/scene.prm";
+    const std::optional<Scene> earlier = echoed_scene(file);
+    if (!earlier)
+      throw SceneError(file + ": was written by another version, or is no scene of a run");
+    std::string difference = first_difference(member_identity(scene), member_identity(*earlier));
+    if (earlier->sample.seed != seed)
+      difference = "sample/seed = " + std::to_string(earlier->sample.seed);
+    if (!difference.empty())
+      throw SceneError(file + ": is not of this ensemble: " + difference + "; without --resume its member is run again");
   }
 
   bool is_finished_member(const Scene &scene, const int seed)

@@ -19,9 +19,13 @@ namespace diptych::coupling
 
   // Makes the folder of the scene and writes ensemble.prm. Without `resume` results of these seeds are taken away; with it they
   // stay, and must belong to the same scene but for seed, output, margins and checkpoint_minutes. Throws SceneError, before
-  // anything is changed, where the folder holds foreign content or belongs to another scene, std::runtime_error where it cannot
-  // be made or another run writes to a member's.
+  // anything is changed, where the folder or a member's holds foreign content or (resume) belongs to another scene,
+  // std::runtime_error where it cannot be made or another run writes to a member's.
   void open_ensemble_folder(const Scene &scene, const std::vector<int> &seeds, bool resume);
+
+  // Means are over samples of one scene. Throws SceneError where the member that stands there is of another one, or of another
+  // seed.
+  void demand_member(const Scene &scene, int seed);
 
   // Whether a member of this scene ran to its end: both panels, a comparison whose mapping keeps the total, and the report where
   // one is asked for.

@@ -121,7 +121,8 @@ namespace diptych::coupling
   template <class Sums, class Visitor, std::enable_if_t<std::is_same_v<std::remove_const_t<Sums>, FileSums>, int> = 0>
   void list_numbers(Sums &s, Visitor &v)
   {
-    v({"table", "-", "sum over the bytes of the .csv file (of a comparison: of the .json) as the run left it (FNV-1a, 64 bits)",
+    v({"table", "-",
+       "sum over the bytes of the .csv file (of a comparison or an ensemble: of the .json) as the run left it (FNV-1a, 64 bits)",
        Kind::setting},
       s.table);
     v({"snapshots", "-", "the same of the .h5 file", Kind::setting}, s.snapshots);
@@ -132,7 +133,7 @@ namespace diptych::coupling
   {
     DiscreteFacts          discrete;
     ContinuumFacts         continuum, continuum_coarse;
-    FileSums               discrete_files, continuum_files, continuum_coarse_files, comparison_files;
+    FileSums               discrete_files, continuum_files, continuum_coarse_files, comparison_files, ensemble_files;
     std::vector<PhaseCost> phases;
   };
 } // namespace diptych::coupling

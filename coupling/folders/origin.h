@@ -72,5 +72,6 @@ namespace diptych::coupling
     v.group("continuum_files", "by which the continuum's files are known again", d.facts.continuum_files);
     v.group("continuum_coarse_files", "the same of the run on coarser elements", d.facts.continuum_coarse_files);
     v.group("comparison_files", "by which the comparison's files are known again", d.facts.comparison_files);
+    v.group("ensemble_files", "by which the ensemble's files are known again", d.facts.ensemble_files);
   }
 } // namespace diptych::coupling

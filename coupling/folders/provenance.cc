@@ -119,14 +119,19 @@ namespace diptych::coupling
       discrete::write_text(path_of(directory), record.dump(2) + "\n");
     }
 
-    constexpr const char *panel_parts[] = {"discrete", "continuum", "continuum_coarse"};
-    constexpr const char *comparison    = "comparison";
+    constexpr const char *panel_parts[]      = {"discrete", "continuum", "continuum_coarse"};
+    constexpr const char *tables_of_panels[] = {"comparison", "ensemble"}; // what is made of their results
+
+    bool is_panel(const std::string &part)
+    {
+      return std::find(std::begin(panel_parts), std::end(panel_parts), part) != std::end(panel_parts);
+    }
 
     std::string table_of(const std::string &directory, const std::string &part)
     {
       return directory + (part == "continuum_coarse" ? "/coarse/continuum.csv"
-                          : part == comparison       ? "/comparison.json"
-                                                     : "/" + part + ".csv");
+                          : is_panel(part)           ? "/" + part + ".csv"
+                                                     : "/" + part + ".json");
     }
 
     std::string snapshots_of(const std::string &directory, const std::string &part)
@@ -179,10 +184,15 @@ namespace diptych::coupling
 
     RunFacts run_facts_of(const json &record)
     {
-      RunFacts facts{get_facts<DiscreteFacts>(record, "discrete"),          get_facts<ContinuumFacts>(record, "continuum"),
-                     get_facts<ContinuumFacts>(record, "continuum_coarse"), get_facts<FileSums>(record, "discrete_files"),
-                     get_facts<FileSums>(record, "continuum_files"),        get_facts<FileSums>(record, "continuum_coarse_files"),
-                     get_facts<FileSums>(record, "comparison_files"),       {}};
+      RunFacts facts{get_facts<DiscreteFacts>(record, "discrete"),
+                     get_facts<ContinuumFacts>(record, "continuum"),
+                     get_facts<ContinuumFacts>(record, "continuum_coarse"),
+                     get_facts<FileSums>(record, "discrete_files"),
+                     get_facts<FileSums>(record, "continuum_files"),
+                     get_facts<FileSums>(record, "continuum_coarse_files"),
+                     get_facts<FileSums>(record, "comparison_files"),
+                     get_facts<FileSums>(record, "ensemble_files"),
+                     {}};
       for (const json &row : record.value("phases", json::array()).get<std::vector<json>>())
         {
           NumbersFromJson reader{row};
@@ -206,10 +216,10 @@ namespace diptych::coupling
       write_record(directory, record);
   }
 
-  void record_comparison_files(const std::string &directory)
+  void record_files(const std::string &directory, const std::string &part)
   {
     json record = read_record(directory);
-    put_sums(directory, comparison, record);
+    put_sums(directory, part, record);
     write_record(directory, record);
   }
 
@@ -245,7 +255,7 @@ namespace diptych::coupling
       if (std::error_code none; recorded.empty() && std::filesystem::is_regular_file(file, none))
         unknown += (unknown.empty() ? "" : ", ") + std::filesystem::relative(file, directory, none).string();
     };
-    for (const char *part : {panel_parts[0], panel_parts[1], panel_parts[2], comparison})
+    for (const char *part : {panel_parts[0], panel_parts[1], panel_parts[2], tables_of_panels[0], tables_of_panels[1]})
       {
         const FileSums sums = from_record(path_of(directory),
                                           [&] { return get_facts<FileSums>(record, (std::string(part) + "_files").c_str()); });

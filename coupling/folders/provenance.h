@@ -43,8 +43,8 @@ namespace diptych::coupling
   void record_facts(const std::string &directory, const DiscreteFacts &facts);
   void record_facts(const std::string &directory, const std::string &part, const ContinuumFacts &facts);
 
-  // The sums of comparison.json and comparison.h5 as they now are, the part "comparison".
-  void record_comparison_files(const std::string &directory);
+  // The sums of a part's files as they now are: comparison.json and .h5 of the part "comparison", those of "ensemble".
+  void record_files(const std::string &directory, const std::string &part);
 
   // Takes the facts of a part of an earlier run away, before a new one makes them untrue; or the sums of its files alone, which
   // an interrupted run that goes on is about to change.

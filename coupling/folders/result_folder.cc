@@ -32,47 +32,116 @@ namespace diptych::coupling
   void remove_results(const std::string &directory, const std::vector<std::string> &names)
   {
     for (const std::string &name : names)
-      fs::remove_all(directory + "/" + name);
+      {
+        std::error_code error;
+        fs::remove_all(directory + "/" + name, error);
+        if (error)
+          throw std::runtime_error(directory + "/" + name + ": cannot be removed: " + error.message());
+      }
+  }
+
+  void remove_panels(const std::string &directory)
+  {
+    remove_results(directory, panel_files);
+  }
+
+  std::string name_inside(const std::string &file, const std::string &directory)
+  {
+    const fs::path inside = fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(directory));
+    return inside.empty() || *inside.begin() == ".." ? "" : inside.begin()->string();
+  }
+
+  void demand_own(const std::string &folder, const std::function<bool(const std::string &)> &is_own)
+  {
+    std::error_code none;
+    for (const fs::directory_entry &entry : fs::directory_iterator(folder, none))
+      if (std::string name = entry.path().filename().string(); !is_own(name) && name.rfind(".nfs", 0) != 0)
+        throw SceneError("output/directory: " + entry.path().string() +
+                         " is no file of a run, and would be removed with the folder that it is in; move it elsewhere");
   }
 
   namespace
   {
+    bool is_among(const std::string &name, const std::vector<std::string> &names)
+    {
+      return std::find(names.begin(), names.end(), name) != names.end();
+    }
+
+    bool is_result(const std::string &name)
+    {
+      return is_among(name.substr(0, name.rfind(".part")), panel_files);
+    }
+
     // Whether a run into the folder removes or writes the file: by its own name, whatever leads there.
     bool is_replaced(const std::string &file, const std::string &directory)
     {
-      const fs::path inside = fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(directory));
-      if (inside.empty() || *inside.begin() == "..")
-        return false;
-      const std::string name = inside.begin()->string();
-      const auto        any  = [&](const std::vector<std::string> &names) {
-        return std::find(names.begin(), names.end(), name) != names.end();
-      };
-      return any(panel_files) || any(comparison_files) || name == "scene.prm" || name.rfind("problem_", 0) == 0;
+      const std::string name = name_inside(file, directory);
+      return is_among(name, panel_files) || is_among(name, comparison_files) || name == "scene.prm" ||
+             name.rfind("problem_", 0) == 0;
     }
   } // namespace
 
+  void demand_own_folders(const std::string &directory)
+  {
+    const auto is_stage = [](const std::string &name) { return name.rfind("stage_", 0) == 0; };
+    for (const char *name : {"/discrete", "/continuum", "/coarse/continuum"})
+      demand_own(directory + name, is_stage);
+    demand_own(directory + "/coarse", is_result);
+  }
+
+  void demand_own_run(const std::string &directory)
+  {
+    demand_own(directory, [](const std::string &name) {
+      const std::string whole = name.substr(0, name.rfind(".part"));
+      return is_result(name) || is_among(whole, comparison_files) || whole == "scene.prm" || name == folder_lock_name ||
+             whole.rfind("problem_", 0) == 0;
+    });
+    demand_own_folders(directory);
+  }
+
   namespace
   {
-    // Folders go whole when a run replaces them: what somebody else put there would go with them.
-    void demand_own(const fs::path &folder, const std::function<bool(const std::string &)> &is_own)
+    // What an earlier run of the folder was of, as far as this one's is something else.
+    struct EarlierScene
     {
-      std::error_code none;
-      for (const fs::directory_entry &entry : fs::directory_iterator(folder, none))
-        if (std::string name = entry.path().filename().string(); !is_own(name) && name.rfind(".nfs", 0) != 0)
-          throw SceneError("output/directory: " + entry.path().string() +
-                           " is no file of a run, and would be removed with the folder that it is in; move it elsewhere");
+      std::string sample, continuum, comparison; // the first difference; empty: none
+    };
+
+    EarlierScene earlier_scene(const Scene &scene, const std::string &echo_file)
+    {
+      const std::optional<Scene> earlier = echoed_scene(echo_file);
+      if (!earlier)
+        return {"it was written by another version", "", ""};
+      return {first_difference(sample_identity(scene), sample_identity(*earlier)),
+              first_difference(continuum_identity(scene), continuum_identity(*earlier)),
+              first_difference(member_identity(scene), member_identity(*earlier))};
     }
 
-    void demand_own_folders(const std::string &directory)
+    void demand_resumable(const std::string &directory, const EarlierScene &difference)
     {
-      const auto is_stage  = [](const std::string &name) { return name.rfind("stage_", 0) == 0; };
-      const auto is_result = [](const std::string &name) {
-        const std::string whole = name.substr(0, name.rfind(".part"));
-        return std::find(panel_files.begin(), panel_files.end(), whole) != panel_files.end();
-      };
-      for (const char *name : {"/discrete", "/continuum", "/coarse/continuum"})
-        demand_own(directory + name, is_stage);
-      demand_own(directory + "/coarse", is_result);
+      if (!difference.sample.empty())
+        throw SceneError("--resume: the scene is not that of " + directory + "/scene.prm, which was interrupted: " +
+                         difference.sample + "; resume with the same scene or start without --resume");
+      for (const std::string &folder : {directory, directory + "/coarse"})
+        if (const std::string file = folder + "/continuum_checkpoint.h5"; !difference.continuum.empty() && fs::exists(file))
+          throw SceneError("--resume: " + file + " belongs to another scene: " + difference.continuum +
+                           "; resume with the same scene or start without --resume");
+    }
+
+    // The echo of another scene would say of what is left that it was computed with that.
+    void remove_results_of_another_scene(const std::string &directory, const EarlierScene &difference)
+    {
+      if (!difference.sample.empty())
+        remove_panels(directory);
+      else if (!difference.continuum.empty())
+        {
+          for (const char *part : {"continuum", "continuum_coarse"})
+            forget_fact(directory, part);
+          remove_results(directory, {"continuum.h5", "continuum.xdmf", "continuum.csv", "continuum.pvd", "continuum", "coarse",
+                                     "sample.msh", "continuum_checkpoint.h5", "material_point.csv"});
+        }
+      if (!difference.sample.empty() || !difference.continuum.empty() || !difference.comparison.empty())
+        remove_results(directory, comparison_files), forget_files(directory, "comparison");
     }
   } // namespace
 
@@ -90,24 +159,16 @@ namespace diptych::coupling
     if (!is_result_folder && !is_empty_folder(directory))
       throw SceneError("output/directory = '" + directory +
                        "' holds other files and no result of diptych; name a new or an empty folder");
-    std::string difference;
+    EarlierScene difference;
     if (is_result_folder)
-      {
-        demand_own_folders(directory);
-        const std::optional<Scene> earlier = echoed_scene(echo_file);
-        difference                         = earlier ? first_difference(sample_identity(scene), sample_identity(*earlier))
-                                                     : "it was written by another version";
-      }
-    if (resume && !difference.empty())
-      throw SceneError("--resume: the scene is not that of " + echo_file + ", which was interrupted: " + difference +
-                       "; resume with the same scene or start without --resume");
-    if (difference.empty())
+      demand_own_folders(directory), difference = earlier_scene(scene, echo_file);
+    if (resume)
+      demand_resumable(directory, difference);
+    if (difference.sample.empty())
       (void)recorded_scene(directory); // throws where this run could not add to what stands there
     if (check)
       check();
-    // Results of another sample must not be compared with what this run will make.
-    if (!difference.empty())
-      remove_results(directory, panel_files);
+    remove_results_of_another_scene(directory, difference);
     discrete::write_text(echo_file, echo(scene));
   }
 
@@ -116,11 +177,17 @@ namespace diptych::coupling
     std::vector<std::string> names = {"scene.prm"};
     names.insert(names.end(), panel_files.begin(), panel_files.end());
     names.insert(names.end(), comparison_files.begin(), comparison_files.end());
+    for (const char *name : {"ensemble.json", "ensemble.csv", "ensemble.h5", "study.json", "study.csv", "study.h5",
+                             "calibration.json", "calibration.csv", "calibrated.prm", "plan.json", "planned.prm", "runs"})
+      names.emplace_back(name);
     std::string     list;
     std::error_code unreadable;
     for (const std::string &name : names)
       if (fs::exists(directory + "/" + name, unreadable))
         list += (list.empty() ? "" : ", ") + name;
+    for (const fs::directory_entry &entry : fs::directory_iterator(directory, unreadable))
+      if (entry.is_directory(unreadable) && entry.path().filename().string().rfind("seed_", 0) == 0)
+        list += (list.empty() ? "" : ", ") + entry.path().filename().string();
     return list.empty() ? "nothing was kept" : "kept in " + directory + ": " + list;
   }
 

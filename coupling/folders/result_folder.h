@@ -18,7 +18,20 @@ namespace diptych::coupling
   // What was derived from other results of the folder must not outlive them.
   void remove_results(const std::string &directory, const std::vector<std::string> &names);
 
-  // Makes the folder and writes the echo, once the whole scene has been found good. Results of another sample are removed.
+  void remove_panels(const std::string &directory); // all that both write
+
+  // The first part of the path of a file below a folder, by whatever links either is named; empty where it lies elsewhere.
+  std::string name_inside(const std::string &file, const std::string &directory);
+
+  // Folders go whole when a run replaces them: throws SceneError naming what somebody else put there, which would go with them.
+  // A folder that is not there holds nothing. Of demand_own_folders() those in a result folder; of demand_own_run() the whole of
+  // it.
+  void demand_own(const std::string &folder, const std::function<bool(const std::string &)> &is_own);
+  void demand_own_folders(const std::string &directory);
+  void demand_own_run(const std::string &directory);
+
+  // Makes the folder and writes the echo, once the whole scene has been found good. Results of another sample are removed, of
+  // another continuum that panel's, of another comparison what was compared: the echo tells of what stands there.
   // Throws SceneError where the folder holds foreign content, a file that the scene reads and this run would replace, or (resume)
   // belongs to another scene, std::runtime_error where it cannot be made. The caller holds its lock. `check`, if given, is called
   // once the folder is found to be this scene's and before anything in it is changed: it may throw.

@@ -11,6 +11,7 @@
 
 #include "coupling/calibration/calibration_file.h"
 #include "coupling/calibration/calibration_output.h"
+#include "coupling/folders/provenance.h"
 #include "coupling/folders/result_folder.h"
 #include "coupling/panels/continuum_loading.h"
 #include "coupling/plans/plan_text.h"
@@ -18,6 +19,7 @@
 #include "coupling/processes/stop_signal.h"
 #include "coupling/program/calibration_runs.h"
 #include "coupling/program/report_command.h"
+#include "coupling/scene/identity.h"
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_file.h"
 #include "coupling/studies/study_folder.h"
@@ -103,6 +105,42 @@ namespace diptych::coupling
           before.insert(before.end(), target.before.begin(), target.before.end());
           (void)read_changed_scene(target.scene, before, true);
         }
+    }
+
+    // Whether the samples can tell how they scatter shows in how many they are.
+    void check_noise(const Calibration &calibration)
+    {
+      std::vector<TargetData> all;
+      for (const CalibrationTarget &target : calibration.targets)
+        {
+          TargetData data;
+          data.observables = observables_of(calibration, read_changed_scene(target.scene, target.settings, true));
+          data.samples.assign(target.seeds.size(), Eigen::VectorXd::Zero(Eigen::Index(data.observables.size())));
+          summarise(data);
+          all.push_back(data);
+        }
+      try
+        {
+          (void)noise_of(all, calibration.noise);
+        }
+      catch (const std::invalid_argument &error)
+        {
+          throw SceneError(calibration.file + ": " + error.what());
+        }
+    }
+
+    InputFiles inputs_of(const Calibration &calibration)
+    {
+      InputFiles inputs{{"the calibration", calibration.file}};
+      for (const CalibrationTarget &target : calibration.targets)
+        {
+          inputs.emplace_back("targets: '" + target.name + "': the scene", target.scene);
+          for (const std::string &folder : target.results)
+            inputs.emplace_back("targets: '" + target.name + "': results", folder), warn(doubt_about_files(folder));
+          for (const auto &input : input_files(read_changed_scene(target.scene, target.settings, true)))
+            inputs.push_back(input);
+        }
+      return inputs;
     }
 
     Coordinates coordinates_of(const Calibration &calibration)
@@ -230,6 +268,8 @@ namespace diptych::coupling
     const std::string directory   = line.output.empty() ? "results/" + calibration.name + "_calibration" : line.output;
     const Coordinates coordinates = coordinates_of(calibration);
     check_start(calibration, coordinates); // before anything is changed
+    check_noise(calibration);
+    refuse_inputs_inside(directory, folder_of_a_calibration, inputs_of(calibration));
     std::optional<FolderLock> lock;
     return keeping(directory, [&] {
       on_first_process([&] {

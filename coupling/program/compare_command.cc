@@ -51,7 +51,7 @@ namespace diptych::coupling
       record_phases(directory, scene, line.text, {timer.stop()});
       c.cost = summary_of(read_run_facts(directory).phases); // now with the comparison's own
       write_comparison(directory, scene, c);
-      record_comparison_files(directory);
+      record_files(directory, "comparison");
       progress.finish();
       for (const StageRecord &stage : c.stages)
         if (!(stage.mapping.total_relative_error < 1e-12))
@@ -70,6 +70,8 @@ namespace diptych::coupling
         throw SceneError(line.target + ": no result folder");
       if (is_study_folder(line.target))
         throw SceneError(line.target + ": holds a study; diptych study with its file and --resume evaluates it again");
+      if (is_calibration_folder(line.target))
+        throw SceneError(line.target + ": holds a calibration; diptych calibrate with its file and --resume evaluates it again");
       for (const std::string &text : line.overrides)
         if (text.rfind("comparison/", 0) != 0 && text.rfind("output/", 0) != 0)
           throw SceneError("--set " + text + ": only comparison/ and output/ can be changed without running the panels again");

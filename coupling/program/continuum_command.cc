@@ -174,16 +174,8 @@ namespace diptych::coupling
 
   bool may_resume_continuum(const Scene &scene)
   {
-    const std::string         &directory = scene.output.directory;
-    const std::optional<Scene> earlier   = echoed_scene(directory + "/scene.prm");
-    const std::string difference = earlier ? first_difference(continuum_identity(scene), continuum_identity(*earlier)) : "";
-    if (earlier && difference.empty())
-      return true;
-    for (const std::string &folder : {directory, directory + "/coarse"})
-      if (const std::string file = folder + "/continuum_checkpoint.h5"; std::filesystem::exists(file))
-        throw SceneError("--resume: " + file + " belongs to another scene: " + difference +
-                         "; resume with the same scene or start without --resume");
-    return false;
+    const std::optional<Scene> earlier = echoed_scene(scene.output.directory + "/scene.prm");
+    return earlier && continuum_identity(scene) == continuum_identity(*earlier);
   }
 
   int continuum_panel(const CommandLine &line, const Scene &scene, const ContinuumTask &task)

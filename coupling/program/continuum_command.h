@@ -11,7 +11,7 @@
 namespace diptych::coupling
 {
   // Whether --resume may go on from the continuum's part of the result folder: false where there is none, or one that finished
-  // with other keys. To be asked before the folder is opened. Throws SceneError where an interrupted one belongs to other keys.
+  // with other keys. To be asked before the folder is opened, which refuses an interrupted one of other keys.
   bool may_resume_continuum(const Scene &scene);
 
   struct ContinuumTask

@@ -26,6 +26,7 @@ namespace diptych::coupling
     {
       const std::string folder = member_folder(scene.output.directory, seed), path = folder + "/comparison.json";
       check_files(folder, "comparison"), warn(doubt_about_files(folder));
+      demand_member(scene, seed);
       const json record = read_record_file(path);
       try
         {
@@ -107,9 +108,11 @@ namespace diptych::coupling
   {
     const std::string &directory = scene.output.directory;
     write_ensemble_curves(directory, scene, record.ensemble.seeds); // first: it meets a damaged history before it writes
+    forget_files(directory, "ensemble");                            // killed from here on, it leaves none that look changed
     write_ensemble_json(directory, scene, record);
     write_ensemble_csv(directory, record.ensemble);
     record_phases(directory, scene, line.text, {timer.stop()}, record.seeds);
+    record_files(directory, "ensemble");
     for (const PanelVerdict &verdict : record.ensemble.verdicts)
       say(line, text_of(verdict));
   }

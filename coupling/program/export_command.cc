@@ -13,6 +13,18 @@
 
 namespace diptych::coupling
 {
+  namespace
+  {
+    // As it was named, without a slash behind; "." has a name in the folder above.
+    std::string folder_beside(const std::string &folder)
+    {
+      namespace fs         = std::filesystem;
+      const fs::path named = fs::path(folder + "/").lexically_normal().parent_path();
+      return named.empty() || named.filename() == "." || named.filename() == ".." ? fs::canonical(folder).string()
+                                                                                  : named.string();
+    }
+  } // namespace
+
   int export_sample(const CommandLine &line)
   {
     namespace fs = std::filesystem;
@@ -31,8 +43,7 @@ namespace diptych::coupling
       throw SceneError("--stage " + std::to_string(line.stage) + ": " + file + " holds " + std::to_string(snapshots.size()) +
                        " snapshots, 0 to " + std::to_string(snapshots.size() - 1));
     const ExportedFiles files  = exported_sample(line.format, scene, snapshots[std::size_t(line.stage)], line.stage);
-    const std::string   folder = line.output.empty() ? fs::path(line.target + "/").parent_path().string() + "_for_" + line.format
-                                                     : line.output;
+    const std::string   folder = line.output.empty() ? folder_beside(line.target) + "_for_" + line.format : line.output;
     if (std::error_code none; fs::equivalent(folder, line.target, none))
       throw SceneError("--output " + folder + ": is the result folder itself; name a new folder");
     for (const auto &[name, text] : files)

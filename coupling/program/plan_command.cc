@@ -18,8 +18,10 @@
 #include "coupling/plans/plan_question.h"
 #include "coupling/plans/plan_text.h"
 #include "coupling/program/study_runs.h"
+#include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
 #include "coupling/studies/study_folder.h"
+#include "coupling/studies/study_part.h"
 #include "coupling/version.h"
 
 namespace diptych::coupling
@@ -281,11 +283,18 @@ namespace diptych::coupling
 
   int make_plan(const CommandLine &line)
   {
+    for (const std::string &text : line.overrides)
+      refuse_folder(entry_of_override(text));
     const PlanQuestion question = read_question({line.target, line.overrides, line.accuracy, line.wanted});
     const Scene        scene    = read_changed_scene(question.scene, question.changes, question.needs_comparison);
     if (!question.continuum.empty())
       require_continuum(scene);
     const std::string directory = line.output.empty() ? "results/" + scene.name + "_plan" : line.output;
+    InputFiles        inputs    = input_files(scene);
+    inputs.emplace_back("the scene", question.scene);
+    for (const std::string &file : line.set_files)
+      inputs.emplace_back("--set-file", file);
+    refuse_inputs_inside(directory, folder_of_a_plan, inputs);
     return writing(directory, [&] {
       open_runs_folder(directory, folder_of_a_plan, question.scene, line.resume);
       try

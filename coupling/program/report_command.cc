@@ -100,7 +100,11 @@ namespace diptych::coupling
     if (drawing == Drawing::page && !fs::exists(line.target + "/comparison.json"))
       throw SceneError(line.target + ": holds no comparison.json, nor is it the folder of an ensemble, a study or a calibration");
     if (drawing == Drawing::page)
-      check_files(line.target), check_files(line.target, "comparison"), warn(doubt_about_files(line.target));
+      check_files(line.target), check_files(line.target, "comparison");
+    if (drawing == Drawing::ensemble)
+      check_files(line.target, "ensemble");
+    if (drawing == Drawing::page || drawing == Drawing::ensemble)
+      warn(doubt_about_files(line.target));
     return writing(line.target, [&] {
       draw_page(line, drawing, line.target);
       return int(done);

@@ -92,16 +92,20 @@ namespace diptych::coupling
 
   int run_study(const CommandLine &line)
   {
-    const StudyPoints         asked = asked_by(line);
+    const StudyPoints asked  = asked_by(line);
+    InputFiles        inputs = inputs_of(asked);
+    for (const std::string &file : line.set_files)
+      inputs.emplace_back("--set-file", file);
+    refuse_inputs_inside(asked.directory, folder_of_a_study, inputs);
     std::optional<FolderLock> lock;
-    on_first_process([&] {
-      lock.emplace(asked.directory);
-      open_runs_folder(asked.directory, folder_of_a_study, asked.study.file, line.resume);
-      return 0;
-    });
-    const auto outcomes = do_runs(line, asked);
-    return on_first_process([&] {
-      return keeping(asked.directory, [&] {
+    return keeping(asked.directory, [&] {
+      on_first_process([&] {
+        lock.emplace(asked.directory);
+        open_runs_folder(asked.directory, folder_of_a_study, asked.study.file, line.resume);
+        return 0;
+      });
+      const auto outcomes = do_runs(line, asked);
+      return on_first_process([&] {
         const StudyResults results = results_of(asked);
         const StudyRecord  record  = evaluate(asked.study, asked.points, results);
         write_tables(asked, results, record);

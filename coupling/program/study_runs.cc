@@ -6,6 +6,7 @@
 
 #include "coupling/processes/processes.h"
 #include "coupling/program/worker_command.h"
+#include "coupling/scene/identity.h"
 #include "coupling/studies/study_folder.h"
 #include "discrete/choices.h"
 
@@ -68,6 +69,15 @@ namespace diptych::coupling
       return task;
     }
   } // namespace
+
+  InputFiles inputs_of(const StudyPoints &asked)
+  {
+    InputFiles inputs{{"the study", asked.study.file}, {"the scene", asked.study.scene}};
+    for (const StudyRun *run : runs_of(asked.points))
+      for (const auto &input : input_files(*run->scene))
+        inputs.push_back(input);
+    return inputs;
+  }
 
   std::vector<TaskOutcome> do_runs(const CommandLine &line, const StudyPoints &asked)
   {

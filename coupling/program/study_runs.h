@@ -8,6 +8,7 @@
 #include "coupling/processes/task_queue.h"
 #include "coupling/program/command_line.h"
 #include "coupling/studies/study_evaluation.h"
+#include "coupling/studies/study_folder.h"
 #include "coupling/studies/study_points.h"
 
 namespace diptych::coupling
@@ -19,6 +20,9 @@ namespace diptych::coupling
     std::vector<ScenePoint> points;
     std::string             directory;
   };
+
+  // What its runs read.
+  InputFiles inputs_of(const StudyPoints &asked);
 
   // Does the runs that are not finished in the folder, which is open. Collective; the outcomes are the first process's.
   std::vector<TaskOutcome> do_runs(const CommandLine &line, const StudyPoints &asked);

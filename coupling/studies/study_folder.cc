@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/studies/study_folder.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -10,6 +11,7 @@
 #include "coupling/folders/provenance.h"
 #include "coupling/folders/result_folder.h"
 #include "coupling/scene/scene_file.h"
+#include "coupling/studies/run_name.h"
 #include "coupling/version.h"
 #include "discrete/files/text_file.h"
 
@@ -61,12 +63,52 @@ namespace diptych::coupling
     return fs::exists(directory + "/" + folder_of_a_study.input);
   }
 
+  namespace
+  {
+    constexpr std::size_t digits_of_a_name = 16;
+
+    // NAME, NAME.prm, NAME.log, NAME.json: the folder is one, the others are files.
+    bool is_of_a_run(const fs::path &path)
+    {
+      const std::string file = path.filename().string(), name = file.substr(0, file.find('.'));
+      const std::string whole  = file.substr(0, file.rfind(".part"));
+      const std::string ending = whole.substr(std::min(name.size(), whole.size()));
+      std::error_code   none;
+      return name.size() == digits_of_a_name && name.find_first_not_of("0123456789abcdef") == std::string::npos &&
+             (ending.empty() ? fs::is_directory(path, none)
+                             : (ending == ".prm" || ending == ".log" || ending == ".json") && fs::is_regular_file(path, none));
+    }
+
+    void demand_own_runs(const std::string &directory)
+    {
+      const std::string runs = directory + "/runs";
+      demand_own(runs, [&](const std::string &name) { return is_of_a_run(runs + "/" + name); });
+      std::error_code none;
+      for (const fs::directory_entry &entry : fs::directory_iterator(runs, none))
+        if (entry.is_directory(none))
+          demand_own_run(entry.path().string());
+      demand_own(directory + "/meshes", [](const std::string &name) {
+        return name.rfind("path_", 0) == 0 && fs::path(name.substr(0, name.rfind(".part"))).extension() == ".msh";
+      });
+    }
+  } // namespace
+
+  void refuse_inputs_inside(const std::string &directory, const RunsFolder &kind, const InputFiles &inputs)
+  {
+    for (const auto &[what, file] : inputs)
+      if (const std::string name = name_inside(file, directory);
+          name == "runs" || std::find(kind.tables.begin(), kind.tables.end(), name) != kind.tables.end())
+        throw SceneError("--output " + directory + ": " + what + " '" + file + "' is among what this " + kind.noun +
+                         " replaces there; name another folder");
+  }
+
   void open_runs_folder(const std::string &directory, const RunsFolder &kind, const std::string &file, const bool resume)
   {
     make_folder(directory);
     if (!fs::exists(directory + "/" + kind.input) && !is_empty_folder(directory))
       throw SceneError("--output " + directory + ": holds other files and no " + kind.noun +
                        " of diptych; name a new or an empty folder");
+    demand_own_runs(directory);
     // Killed before its end, this one must not leave the tables of an earlier one.
     remove_results(directory, kind.tables);
     if (!resume)
@@ -82,10 +124,25 @@ namespace diptych::coupling
     discrete::write_text(path_of(directory, run, ".json"), end.dump() + "\n");
   }
 
+  namespace
+  {
+    // Somebody may have run another scene in its folder, or put another run's there.
+    bool is_of_its_scene(const std::string &directory, const StudyRun &run, const json &end)
+    {
+      const std::string file = run_folder(directory, run) + "/scene.prm";
+      if (std::error_code none; !fs::exists(file, none)) // refused before it wrote
+        return !end.is_object() || end.value("exit_code", json()) != 0;
+      const std::optional<Scene> found = echoed_scene(file);
+      return found && run_name(*found, run.command) == run.name;
+    }
+  } // namespace
+
   std::optional<RunEnd> found_end(const std::string &directory, const StudyRun &run)
   {
     const json end = json::parse(discrete::read_text(path_of(directory, run, ".json")), nullptr, /* exceptions */ false);
     RunEnd     result;
+    if (!is_of_its_scene(directory, run, end))
+      return std::nullopt;
     try
       {
         check_files(run_folder(directory, run)), check_files(run_folder(directory, run), "comparison");
@@ -110,8 +167,8 @@ namespace diptych::coupling
     const bool        was_begun = earlier.is_object() && !earlier.contains("exit_code") &&
                            earlier.value("begun", json()) == git_revision;
     if (!was_begun)
-      fs::remove_all(run_folder(directory, run));
-    fs::remove(run_log(directory, run));
+      remove_results(directory + "/runs", {run.name});
+    remove_results(directory + "/runs", {run.name + ".log"});
     discrete::write_text(run_scene(directory, run), echo(*run.scene));
     discrete::write_text(end_file, json{{"begun", git_revision}}.dump() + "\n");
     return fs::exists(run_folder(directory, run));

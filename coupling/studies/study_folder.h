@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "coupling/scene/scene_error.h"
@@ -35,9 +36,16 @@ namespace diptych::coupling
   bool is_calibration_folder(const std::string &directory);
   bool is_study_folder(const std::string &directory);
 
+  // Files and folders that are read, by what they are: "the sample" -> "mine.h5".
+  using InputFiles = std::vector<std::pair<std::string, std::string>>;
+
+  // Throws SceneError where one of them lies among what opening the folder, or a run in it, removes. The copy of the file that
+  // asked for it may be what asks again.
+  void refuse_inputs_inside(const std::string &directory, const RunsFolder &kind, const InputFiles &inputs);
+
   // Makes the folder and copies the file that asked for it there. Without `resume` all runs are taken away; with it they stay.
-  // Throws SceneError, before anything is changed, where the folder holds foreign content, std::runtime_error where it cannot be
-  // made.
+  // Throws SceneError, before anything is changed, where the folder holds foreign content, or somebody's files stand among the
+  // runs, std::runtime_error where it cannot be made or emptied.
   void open_runs_folder(const std::string &directory, const RunsFolder &kind, const std::string &file, bool resume);
 
   // How a run ended.
@@ -51,7 +59,7 @@ namespace diptych::coupling
   void write_end(const std::string &directory, const StudyRun &run, int exit_code, int at_once);
 
   // Nothing where the run has not ended, was ended by a signal or by the system (no room, no memory), or belongs to another
-  // revision of the program: then it is to be run.
+  // revision of the program or another scene, or where its files are not known to be as it left them: then it is to be run.
   [[nodiscard]] std::optional<RunEnd> found_end(const std::string &directory, const StudyRun &run);
 
   // Makes a run ready: its scene is written, an old log is taken away. Its folder stays only where this revision of the program

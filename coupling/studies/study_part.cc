@@ -3,6 +3,7 @@
 #include "coupling/studies/study_part.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "coupling/ensembles/seed_list.h"
@@ -84,6 +85,13 @@ namespace diptych::coupling
     if (!value[key].is_string())
       refuse(key, " = " + value[key].dump() + " must be a text");
     return value[key];
+  }
+
+  int Part::whole(const std::string &key, const int low, const int high) const
+  {
+    if (at(key).value.is_number() && at(key).value.get<double>() != std::floor(at(key).value.get<double>()))
+      refuse(key, " = " + at(key).value.dump() + " is not allowed: a whole number is");
+    return int(number(key, low, high));
   }
 
   double Part::number(const std::string &key, const double low, const double high) const

@@ -45,6 +45,7 @@ namespace diptych::coupling
     std::vector<Part> list(const std::string &key) const; // empty where it is not there
     std::string       word(const std::string &key, const std::string &otherwise = "") const;
     double            number(const std::string &key, double low, double high) const; // which must be there
+    int               whole(const std::string &key, int low, int high) const;        // likewise
     bool              flag(const std::string &key) const;                            // false where it is not there
 
     template <class E> E choice(const std::string &key, const E otherwise) const

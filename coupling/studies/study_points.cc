@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/studies/study_points.h"
 
-#include <cstdint>
 #include <iterator>
 
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
+#include "coupling/studies/run_name.h"
 #include "coupling/studies/study_columns.h"
 
 namespace diptych::coupling
@@ -14,29 +14,6 @@ namespace diptych::coupling
   namespace
   {
     constexpr std::size_t most_runs = 100000;
-
-    Identity identity_of(const Scene &scene, const StudyCommand command)
-    {
-      switch (command)
-        {
-        case StudyCommand::discrete:
-          return sample_identity(scene);
-          case StudyCommand::run: {
-            Identity identity       = member_identity(scene);
-            identity["sample/seed"] = std::to_string(scene.sample.seed);
-            return identity;
-          }
-        default:
-          return continuum_identity(scene);
-        }
-    }
-
-    std::string hexadecimal(const std::uint64_t number)
-    {
-      char digits[17];
-      std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(number));
-      return digits;
-    }
 
     bool names_the_seed(const Settings &settings)
     {
@@ -61,12 +38,13 @@ namespace diptych::coupling
     StudyRun run_of(const Study &study, const Settings &settings)
     {
       StudyRun run;
+      run.command = study.command;
       try
         {
           Scene scene         = read_changed_scene(study.scene, settings, study.command == StudyCommand::run);
           scene.output.report = false;
-          run.name = hexadecimal(digest_of(discrete::name_of(study.command) + "\n" + text_of(identity_of(scene, study.command))));
-          run.scene = std::move(scene);
+          run.name            = run_name(scene, study.command);
+          run.scene           = std::move(scene);
         }
       catch (const SceneError &error)
         {

@@ -18,6 +18,7 @@ namespace diptych::coupling
     std::optional<Scene> scene;   // none where the settings contradict each other
     std::string          refusal; // why
     std::string          name;    // of its folder: a digest of what is run; the same for the same scene and command
+    StudyCommand         command = StudyCommand::run;
   };
 
   struct ScenePoint

@@ -131,6 +131,7 @@ def run_of(*words):
 
 
 SEEDS = ["--seeds", "1-2", "--jobs", "1"]
+PLAN = ["plan", QUICK, *TINY, "--accuracy", "0.5", "--for", "discrete.strength", "--jobs", "1"]
 MAKE = {
     "grains": make_grains,
     "nodes": run_of("continuum", QUICK, *NODES),
@@ -148,6 +149,7 @@ MAKE = {
     "study": make_study,
     "calibration": make_calibration,
     "imported": imported,
+    "plan": run_of(*PLAN),
 }
 
 

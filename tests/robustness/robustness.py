@@ -17,6 +17,7 @@ import traceback
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "program"))
 
+import again_kind  # noqa: E402 (the path above)
 import cases  # noqa: E402 (the path above)
 import file_kinds  # noqa: E402
 import folder_kinds  # noqa: E402
@@ -25,11 +26,12 @@ import interruption_kinds  # noqa: E402
 import machine_kinds  # noqa: E402
 import pair_kind  # noqa: E402
 
-KINDS = {**input_kinds.KINDS, **pair_kind.KINDS, **file_kinds.KINDS, **folder_kinds.KINDS, **machine_kinds.KINDS, **interruption_kinds.KINDS}
+KINDS = {**input_kinds.KINDS, **pair_kind.KINDS, **file_kinds.KINDS, **folder_kinds.KINDS, **again_kind.KINDS, **machine_kinds.KINDS,
+         **interruption_kinds.KINDS}
 ALL = {**KINDS, **interruption_kinds.EACH}
 # How often a kind comes in a hundred and thirty: what is quick, often.
 WEIGHTS = {"scenes": 26, "keys": 38, "pairs": 6, "words": 22, "csv": 6, "snapshots": 6, "problems": 6, "imports": 5, "meshes": 3,
-           "folders": 3, "checkpoints": 2, "flips": 3, "disk": 3, "surroundings": 2, "kills": 1, "two": 1}
+           "folders": 3, "checkpoints": 2, "flips": 3, "again": 3, "disk": 3, "surroundings": 2, "kills": 1, "two": 1}
 
 
 def schedule(n_cases, seed, kinds):

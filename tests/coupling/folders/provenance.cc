@@ -106,7 +106,7 @@ namespace
     EXPECT_NE(told.find("discrete.csv, comparison.h5;"), std::string::npos) << told;
     record_facts(folder, DiscreteFacts());
     EXPECT_NE(doubt_about_files(folder).find("of comparison.h5;"), std::string::npos) << doubt_about_files(folder);
-    record_comparison_files(folder);
+    record_files(folder, "comparison");
     EXPECT_EQ(doubt_about_files(folder), "");
   }
 } // namespace

@@ -1,0 +1,201 @@
+#!/usr/bin/env python3
+# diptych: what begins again over results: its own input, somebody's files and runs of another scene are not lost, nor taken for its own
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: begun_again_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
+
+import copy
+import json
+import os
+import shutil
+
+import faults_test
+from faults_test import BOTH, FEW
+from running import QUICK, SOURCE, content, diptych, history, listing, main, setting, write
+
+STUDY = {
+    "scene": os.path.join(SOURCE, "benchmarks", "dense_biaxial", "scene.prm"), "command": "discrete", "seeds": "1-2",
+    "set": {"sample/grains": 100, "loading/axial_strain": 0.005, "loading/stage_strain": 0.005},
+    "reference": {"discrete/step": 0.1, "discrete/tolerance": 1e-4}, "axes": [{"key": "discrete/step", "values": [0.4]}],
+    "quantities": [{"column": "volumetric_strain", "at": 0.005}]}
+CALIBRATION = {
+    "targets": [{"name": "fitted", "scene": QUICK, "seeds": "1-2",
+                 "set": {"sample/grains": 100, "loading/axial_strain": 0.01, "loading/stage_strain": 0.005,
+                         "loading/inertial_number": 1e-3, "comparison/window_edges": "0, 0.01"}}],
+    "quantities": ["stress_ratio"], "bins": [0.002, 0.005, 0.01], "starts": 1, "load_step": 0.005, "check_samples": 0,
+    "parameters": [{"key": "friction_angle_peak", "start": 20, "low": 14, "high": 40}]}
+SEEDS = ["run", QUICK, *BOTH, "--jobs", "1", "--quiet"]
+
+
+def changed(original, **entries):
+    return {**copy.deepcopy(original), **entries}
+
+
+class Begun(faults_test.Folder):
+    @classmethod
+    def made(cls, name):
+        """Results that no test changes, made when they are first wanted."""
+        folder = os.path.join(cls.keep.name, name)
+        if not os.path.isdir(folder):
+            if name in ("study", "fit"):
+                command, document = {"study": ("study", STUDY), "fit": ("calibrate", CALIBRATION)}[name]
+                words = [command, write(os.path.join(cls.keep.name, "asked.json"), json.dumps(document)), "--jobs", "1", "--quiet"]
+            else:
+                words = {"plan": ["plan", QUICK, *FEW, "--accuracy", "0.5", "--for", "discrete.strength", "--jobs", "1", "--quiet"],
+                         "ensemble": [*SEEDS, "--seeds", "1-2"]}[name]
+            cls.done(*words, "--output", folder)
+        return folder
+
+    @staticmethod
+    def done(*words):
+        result = diptych(*words)
+        if result.returncode != 0:
+            raise RuntimeError(result.stderr)
+
+    def take(self, name):
+        """Results in the test's own folder; their runs, those of grains first."""
+        shutil.rmtree(self.folder, ignore_errors=True)
+        shutil.copytree(self.made(name), self.folder)
+        runs = os.path.join(self.folder, "runs")
+        folders = [os.path.join(runs, one) for one in sorted(os.listdir(runs)) if os.path.isdir(os.path.join(runs, one))] if os.path.isdir(runs) else []
+        return sorted(folders, key=lambda one: not os.path.exists(os.path.join(one, "discrete.h5")))
+
+    def file(self, name, document):
+        return write(os.path.join(self.work, name), json.dumps(document))
+
+    def again(self, command, document, *words):
+        return [command, self.file("asked.json", document), "--output", self.folder, "--jobs", "1", "--quiet", *words]
+
+
+class Inputs(Begun):
+    def test_what_is_read_is_not_among_what_is_replaced(self):
+        runs = self.take("study")
+        sample = os.path.join(runs[0], "discrete.h5")
+        of_a_run = changed(STUDY, set={**STUDY["set"], "sample/file": sample})
+        del of_a_run["seeds"]
+        for resume in ([], ["--resume"]):
+            self.expect(2, self.again("study", of_a_run, *resume), "sample/file", sample)
+            self.take("plan")
+            planned = os.path.join(self.folder, "planned.prm")
+            self.expect(2, ["plan", planned, "--accuracy", "0.3", "--for", "discrete.strength", "--jobs", "1", "--output", self.folder, *resume], planned)
+            runs = self.take("fit")
+            own = changed(CALIBRATION, targets=[{"name": "fitted", "results": runs[:2]}])
+            self.expect(2, self.again("calibrate", own, *resume), runs[0])
+            self.take("study")
+        inside = write(os.path.join(self.folder, "runs", "mine.json"), json.dumps(STUDY))
+        self.expect(2, ["study", inside, "--output", self.folder], inside)
+
+    def test_a_study_is_begun_again_by_its_own_copy(self):
+        self.take("study")
+        self.expect(0, ["study", os.path.join(self.folder, "study_input.json"), "--output", self.folder, "--jobs", "1", "--quiet", "--resume"])
+
+    def test_what_is_known_to_be_missing_is_told_before_the_old_results_go(self):
+        self.take("fit")
+        one = copy.deepcopy(CALIBRATION["targets"])
+        one[0]["seeds"] = "1"
+        self.expect(2, self.again("calibrate", changed(CALIBRATION, targets=one)), "stress_level must be given")
+        for key in ("starts", "check_samples", "seed"):
+            self.expect(2, self.again("calibrate", changed(CALIBRATION, **{key: 1.5})), f"{key} = 1.5", "whole number")
+
+    def test_a_plan_goes_where_its_option_says(self):
+        self.expect(2, ["plan", QUICK, *FEW, "--accuracy", "0.5", "--set", "output/directory=elsewhere"], "output/directory")
+
+    def test_data_that_were_changed_are_not_fitted(self):
+        runs = self.take("fit")
+        table = os.path.join(runs[0], "discrete.csv")
+        rows = content(table).split(b"\n")
+        rows[20] = rows[20].replace(b"0.", b"0.9", 1)
+        with open(table, "wb") as file:
+            file.write(b"\n".join(rows))
+        fit = changed(CALIBRATION, targets=[{"name": "fitted", "results": runs[:2]}])
+        self.expect(2, ["calibrate", self.file("asked.json", fit), "--output", os.path.join(self.work, "fit")], table, "not what the run left")
+
+
+class Foreign(Begun):
+    def expect_kept(self, name, words, *places):
+        for place in places:
+            with self.subTest(place=place):
+                runs = self.take(name)
+                path = os.path.join(self.folder, place.replace("RUN", os.path.basename(runs[0]) if runs else ""))
+                if os.path.isfile(path):
+                    os.remove(path)
+                os.makedirs(os.path.dirname(path), exist_ok=True)
+                os.mkdir(path) if place.endswith((".json", ".log")) else write(path, "n\n")
+                self.expect(2, words, path)
+
+    def test_somebodys_files_are_not_removed(self):
+        self.expect_kept("study", self.again("study", STUDY), "runs/mine", "runs/mine.json", "runs/RUN/notes.txt", "runs/RUN/discrete/notes.txt",
+                         "runs/RUN.json", "runs/RUN.log")
+        self.expect_kept("study", self.again("study", STUDY, "--resume"), "runs/RUN/notes.txt")
+        self.expect_kept("fit", self.again("calibrate", CALIBRATION), "meshes/my.geo", "runs/RUN/continuum/notes.txt")
+        for resume in ([], ["--resume"]):
+            self.expect_kept("ensemble", [*SEEDS, "--seeds", "1-2", "--output", self.folder, *resume], "seed_1.log", "seed_2/continuum/notes.txt")
+
+    def test_a_member_that_cannot_be_made_leaves_the_statistics_of_the_others(self):
+        self.take("ensemble")
+        write(os.path.join(self.folder, "notes"), "n\n")
+        os.mkdir(os.path.join(self.folder, "seed_9"))
+        write(os.path.join(self.folder, "seed_9", "notes"), "n\n")
+        self.expect(2, [*SEEDS, "--seeds", "9", "--output", self.folder], os.path.join(self.folder, "seed_9"))
+
+
+class OtherScenes(Begun):
+    def test_a_run_of_another_scene_is_not_taken_for_a_studys(self):
+        def another(runs):
+            self.done("discrete", runs[0] + ".prm", "--set", "discrete/friction=0.05", "--quiet", "--output", runs[0])
+
+        def exchanged(runs):
+            for one, other in ((0, "kept"), (1, runs[0]), ("kept", runs[1])):
+                os.rename(runs[one] if one != "kept" else runs[0] + ".away", other if other != "kept" else runs[0] + ".away")
+
+        for name, words, change, result in (("study", ("study", STUDY), another, "study.json"), ("study", ("study", STUDY), exchanged, "study.json"),
+                                            ("fit", ("calibrate", CALIBRATION), exchanged, "calibrated.prm")):
+            with self.subTest(name=name, change=change.__name__):
+                change(self.take(name))
+                self.expect(0, self.again(*words, "--resume"))
+                self.assertEqual(content(os.path.join(self.folder, result)), content(os.path.join(self.made(name), result)))
+
+    def test_means_are_of_members_of_one_scene(self):
+        self.take("ensemble")
+        self.done("run", QUICK, *BOTH, *setting(discrete_friction=0.9), "--quiet", "--output", os.path.join(self.folder, "seed_1"))
+        member = os.path.join(self.folder, "seed_1", "scene.prm")
+        self.expect(2, ["compare", self.folder], member, "discrete/friction")
+        self.expect(2, [*SEEDS, "--seeds", "1-2", "--output", self.folder, "--resume"], member, "discrete/friction")
+        self.expect(0, [*SEEDS, "--seeds", "1-2", "--output", self.folder])
+        self.assertEqual(content(os.path.join(self.folder, "ensemble.csv")), content(os.path.join(self.made("ensemble"), "ensemble.csv")))
+
+    def test_statistics_that_were_changed_are_not_drawn(self):
+        self.take("ensemble")
+        self.expect(0, ["report", self.folder, "--quiet"])
+        path = os.path.join(self.folder, "ensemble.json")
+        write(path, content(path).decode().replace('"mean": 0', '"mean": 7', 1))
+        self.expect(2, ["report", self.folder, "--quiet"], path, "not what the run left")
+
+    def test_a_continuum_of_other_keys_does_not_outlive_its_echo(self):
+        other = setting(continuum_friction_angle_peak=30)
+        truth = os.path.join(self.work, "truth")
+        self.done("run", QUICK, *BOTH, *other, "--quiet", "--output", truth)
+        for resume in ([], ["--resume"]):
+            with self.subTest(resume=resume):
+                shutil.rmtree(self.folder, ignore_errors=True)
+                shutil.copytree(self.whole, self.folder)
+                self.expect(0, ["discrete", QUICK, *BOTH, *other, *resume, "--quiet", "--output", self.folder])
+                self.assertEqual([name for name in listing(self.folder) if name.startswith(("continuum", "comparison", "fields"))], [])
+                self.expect(0, ["run", QUICK, *BOTH, *other, "--resume", "--quiet", "--output", self.folder])
+                self.assertEqual(list(history(self.folder, "continuum.csv")["stress_ratio"]), list(history(truth, "continuum.csv")["stress_ratio"]))
+
+    def test_a_comparison_of_other_keys_does_not_outlive_its_echo(self):
+        for change, is_kept in (([], True), (setting(comparison_max_bands=1), False), (setting(continuum_checkpoint_minutes=7), True)):
+            with self.subTest(change=change):
+                shutil.rmtree(self.folder, ignore_errors=True)
+                shutil.copytree(self.whole, self.folder)
+                self.expect(0, ["continuum", QUICK, *BOTH, *change, "--resume", "--quiet", "--output", self.folder])
+                self.assertEqual(os.path.exists(os.path.join(self.folder, "comparison.json")), is_kept)
+
+    def test_a_point_of_another_sample_leaves_no_comparison(self):
+        shutil.copytree(self.whole, self.folder)
+        self.expect(0, ["material-point", QUICK, "--quiet", "--output", self.folder])
+        self.assertEqual(listing(self.folder), ["material_point.csv", "provenance.json", "scene.prm"])
+
+
+if __name__ == "__main__":
+    main()
