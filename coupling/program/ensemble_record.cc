@@ -107,8 +107,9 @@ namespace diptych::coupling
   void write_record(const CommandLine &line, const Scene &scene, const EnsembleRecord &record, const PhaseTimer &timer)
   {
     const std::string &directory = scene.output.directory;
-    write_ensemble_curves(directory, scene, record.ensemble.seeds); // first: it meets a damaged history before it writes
-    forget_files(directory, "ensemble");                            // killed from here on, it leaves none that look changed
+    check_member_histories(directory, record.ensemble.seeds);
+    forget_files(directory, "ensemble"); // killed from here on, it leaves none that look changed
+    write_ensemble_curves(directory, scene, record.ensemble.seeds);
     write_ensemble_json(directory, scene, record);
     write_ensemble_csv(directory, record.ensemble);
     record_phases(directory, scene, line.text, {timer.stop()}, record.seeds);

@@ -79,7 +79,12 @@ namespace diptych::coupling
                              : (ending == ".prm" || ending == ".log" || ending == ".json") && fs::is_regular_file(path, none));
     }
 
-    void demand_own_runs(const std::string &directory)
+    bool is_table(const RunsFolder &kind, const std::string &name)
+    {
+      return std::find(kind.tables.begin(), kind.tables.end(), name) != kind.tables.end();
+    }
+
+    void demand_own_runs(const std::string &directory, const RunsFolder &kind)
     {
       const std::string runs = directory + "/runs";
       demand_own(runs, [&](const std::string &name) { return is_of_a_run(runs + "/" + name); });
@@ -87,17 +92,17 @@ namespace diptych::coupling
       for (const fs::directory_entry &entry : fs::directory_iterator(runs, none))
         if (entry.is_directory(none))
           demand_own_run(entry.path().string());
-      demand_own(directory + "/meshes", [](const std::string &name) {
-        return name.rfind("path_", 0) == 0 && fs::path(name.substr(0, name.rfind(".part"))).extension() == ".msh";
-      });
+      if (is_table(kind, "meshes"))
+        demand_own(directory + "/meshes", [](const std::string &name) {
+          return name.rfind("path_", 0) == 0 && fs::path(name.substr(0, name.rfind(".part"))).extension() == ".msh";
+        });
     }
   } // namespace
 
   void refuse_inputs_inside(const std::string &directory, const RunsFolder &kind, const InputFiles &inputs)
   {
     for (const auto &[what, file] : inputs)
-      if (const std::string name = name_inside(file, directory);
-          name == "runs" || std::find(kind.tables.begin(), kind.tables.end(), name) != kind.tables.end())
+      if (const std::string name = name_inside(file, directory); name == "runs" || is_table(kind, name))
         throw SceneError("--output " + directory + ": " + what + " '" + file + "' is among what this " + kind.noun +
                          " replaces there; name another folder");
   }
@@ -108,7 +113,7 @@ namespace diptych::coupling
     if (!fs::exists(directory + "/" + kind.input) && !is_empty_folder(directory))
       throw SceneError("--output " + directory + ": holds other files and no " + kind.noun +
                        " of diptych; name a new or an empty folder");
-    demand_own_runs(directory);
+    demand_own_runs(directory, kind);
     // Killed before its end, this one must not leave the tables of an earlier one.
     remove_results(directory, kind.tables);
     if (!resume)

@@ -1,6 +1,7 @@
 # diptych: result folders and comparisons as arrays
 # SPDX-License-Identifier: LGPL-2.1-or-later
 import json
+import shutil
 
 import numpy as np
 import pandas
@@ -63,3 +64,22 @@ def test_a_folder_without_results_is_named(tmp_path, folder):
     (damaged / "discrete.csv").write_bytes((folder / "discrete.csv").read_bytes())
     with pytest.raises(ValueError, match="discrete.h5"):
         diptych.load(damaged)
+
+
+def test_what_the_run_did_not_leave_is_named(tmp_path, folder):
+    mine = tmp_path / "mine"
+    shutil.copytree(folder, mine)
+    table = mine / "discrete.csv"
+    table.write_text(table.read_text().replace("0.", "1.", 1))
+    with pytest.raises(ValueError, match="discrete.csv: is not what the run left"):
+        diptych.load(mine)
+    (mine / "provenance.json").unlink()
+    with pytest.warns(UserWarning, match="holds no sums over the bytes of discrete.csv"):
+        diptych.load(mine)
+
+
+def test_results_of_the_program_are_not_written_over(small, folder):
+    before = (folder / "discrete.h5").read_bytes()
+    with pytest.raises(FileExistsError, match="scene.prm"):
+        diptych.DiscretePanel(small).write(folder)
+    assert (folder / "discrete.h5").read_bytes() == before

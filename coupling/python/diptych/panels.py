@@ -98,9 +98,12 @@ class _Panel:
 
     def write(self, folder: str | os.PathLike[str]) -> None:
         """Snapshots and history as the program writes them (.h5, .xdmf, .csv). Raises FileNotFoundError where there is no such
-        folder."""
+        folder, FileExistsError where it is one of the program's: what stands there is known by its scene and its sums."""
         if not os.path.isdir(folder):
             raise FileNotFoundError(f"{os.fspath(folder)}: no such folder")
+        for name in ("scene.prm", "ensemble.prm", "study_input.json", "calibration_input.json"):
+            if os.path.exists(os.path.join(folder, name)):
+                raise FileExistsError(f"{os.fspath(folder)}: holds {name}, a result of diptych; name another folder")
         self._write(self._results(), os.fspath(folder))
 
     def _results(self) -> Any:

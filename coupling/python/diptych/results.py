@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from dataclasses import dataclass
 from typing import Any
 
@@ -65,7 +66,8 @@ def _panel(folder: str, name: str) -> PanelResults | None:
 def load(folder: str | os.PathLike[str]) -> Results:
     """A result folder of `diptych run`, `discrete` or `continuum`: scene, snapshots and histories of what is there.
 
-    Raises FileNotFoundError where no panel left anything, ValueError naming file and array where one is damaged.
+    Raises FileNotFoundError where no panel left anything, ValueError naming file and array where one is damaged or the file is not
+    what the run left, by the sums of provenance.json. Warns where that holds none.
     """
     folder = os.fspath(folder)
     prm = os.path.join(folder, "scene.prm")
@@ -73,6 +75,10 @@ def load(folder: str | os.PathLike[str]) -> Results:
                       _panel(folder, "continuum"), _panel(os.path.join(folder, "coarse"), "continuum"))
     if results.discrete is None and results.continuum is None:
         raise FileNotFoundError(f"{folder}: no discrete.h5 and no continuum.h5")
+    _diptych.check_files(folder)
+    doubt = _diptych.doubt_about_files(folder) if results.scene is not None else ""  # what write() left has no record
+    if doubt:
+        warnings.warn(doubt, stacklevel=2)
     return results
 
 
