@@ -66,15 +66,17 @@ namespace diptych::coupling
         }
     }
 
-    // Killed before this one runs again, what is left of it must not be resumed: its echo goes last, and only where it is
-    // another's.
+    // Killed before this one runs again, what is left of it must not be resumed as another's.
     void forget_member(const std::string &folder, const Scene &scene)
     {
       const std::optional<Scene> earlier = echoed_scene(folder + "/scene.prm");
       remove_results(folder, comparison_files);
       remove_results(folder, {"provenance.json", "checkpoint.h5", "continuum_checkpoint.h5", "coarse"});
       if (!earlier || member_identity(*earlier) != member_identity(scene))
-        remove_panels(folder), remove_results(folder, {"scene.prm"});
+        {
+          remove_panels(folder);
+          discrete::write_text(folder + "/scene.prm", echo(scene));
+        }
     }
   } // namespace
 
@@ -112,8 +114,14 @@ namespace diptych::coupling
     // Killed before its end, this run must not leave the statistics of an earlier one.
     forget_files(directory, "ensemble");
     remove_results(directory, {"ensemble.json", "ensemble.csv", "ensemble.h5", "report.html"});
-    for (const auto &[folder, lock] : members)
-      forget_member(folder, scene);
+    for (const int seed : seeds)
+      if (const std::string folder = member_folder(directory, seed); members.count(folder) > 0)
+        {
+          Scene member            = scene;
+          member.sample.seed      = seed;
+          member.output.directory = folder;
+          forget_member(folder, member);
+        }
     if (!resume)
       for (const int seed : seeds)
         remove_results(directory, {fs::path(member_log(directory, seed)).filename().string()});

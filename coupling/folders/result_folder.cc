@@ -43,21 +43,34 @@ namespace diptych::coupling
   void remove_panels(const std::string &directory)
   {
     remove_results(directory, panel_files);
+    std::vector<std::string> problems;
+    std::error_code          none;
+    for (const fs::directory_entry &entry : fs::directory_iterator(directory, none))
+      if (const std::string name = entry.path().filename().string();
+          name.rfind("problem_", 0) == 0 && entry.is_regular_file(none))
+        problems.push_back(name);
+    remove_results(directory, problems);
   }
 
   std::string name_inside(const std::string &file, const std::string &directory)
   {
-    const fs::path inside = fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(directory));
-    return inside.empty() || *inside.begin() == ".." ? "" : inside.begin()->string();
+    const auto as_named = [](const std::string &path) { return fs::absolute(path).lexically_normal(); };
+    for (const fs::path &inside : {fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(directory)),
+                                   as_named(file).lexically_relative(as_named(directory + "/."))})
+      if (!inside.empty() && *inside.begin() != "..")
+        return inside.begin()->string();
+    return "";
   }
 
   void demand_own(const std::string &folder, const std::function<bool(const std::string &)> &is_own)
   {
-    std::error_code none;
-    for (const fs::directory_entry &entry : fs::directory_iterator(folder, none))
+    std::error_code error;
+    for (const fs::directory_entry &entry : fs::directory_iterator(folder, error))
       if (std::string name = entry.path().filename().string(); !is_own(name) && name.rfind(".nfs", 0) != 0)
         throw SceneError("output/directory: " + entry.path().string() +
                          " is no file of a run, and would be removed with the folder that it is in; move it elsewhere");
+    if (error && error != std::errc::no_such_file_or_directory && error != std::errc::not_a_directory)
+      throw std::runtime_error(folder + ": cannot be looked into: " + error.message() + "; nothing was written");
   }
 
   namespace
@@ -87,6 +100,9 @@ namespace diptych::coupling
     for (const char *name : {"/discrete", "/continuum", "/coarse/continuum"})
       demand_own(directory + name, is_stage);
     demand_own(directory + "/coarse", is_result);
+    for (const char *name : {"/step_1", "/step_2", "/step_4"})
+      if (fs::is_directory(directory + name))
+        demand_own_run(directory + name);
   }
 
   void demand_own_run(const std::string &directory)

@@ -136,7 +136,7 @@ namespace diptych::coupling
         {
           inputs.emplace_back("targets: '" + target.name + "': the scene", target.scene);
           for (const std::string &folder : target.results)
-            inputs.emplace_back("targets: '" + target.name + "': results", folder), warn(doubt_about_files(folder));
+            inputs.emplace_back("targets: '" + target.name + "': results", folder);
           for (const auto &input : input_files(read_changed_scene(target.scene, target.settings, true)))
             inputs.push_back(input);
         }
@@ -270,6 +270,9 @@ namespace diptych::coupling
     check_start(calibration, coordinates); // before anything is changed
     check_noise(calibration);
     refuse_inputs_inside(directory, folder_of_a_calibration, inputs_of(calibration));
+    for (const CalibrationTarget &target : calibration.targets)
+      for (const std::string &folder : line.tells_warnings ? target.results : std::vector<std::string>())
+        warn(doubt_about_files(folder));
     std::optional<FolderLock> lock;
     return keeping(directory, [&] {
       on_first_process([&] {

@@ -21,6 +21,7 @@
 #include "coupling/program/report_command.h"
 #include "coupling/program/run_room.h"
 #include "coupling/program/worker_command.h"
+#include "coupling/scene/identity.h"
 #include "coupling/scene/scene_error.h"
 
 namespace diptych::coupling
@@ -126,6 +127,25 @@ namespace diptych::coupling
       return failed.empty() && record.interrupted.empty() ? done : not_converged;
     }
 
+    // What the members read must not lie among what they replace.
+    void refuse_inputs_of_members(const CommandLine &line, Scene scene, const std::vector<int> &seeds)
+    {
+      const std::string &directory = scene.output.directory;
+      for (const int seed : seeds)
+        {
+          scene.sample.seed = seed;
+          auto inputs       = input_files(scene);
+          inputs.emplace_back("the scene", line.target);
+          for (const std::string &file : line.set_files)
+            inputs.emplace_back("--set-file", file);
+          for (const auto &[what, file] : inputs)
+            for (const int member : seeds)
+              if (name_inside(file, directory) == "seed_" + std::to_string(member))
+                throw SceneError("--output " + directory + ": " + what + " '" + file + "' lies in the folder of seed " +
+                                 std::to_string(member) + ", whose results are replaced; name another folder");
+        }
+    }
+
     // What all samples have in common is found wrong with the first, before the folder is opened.
     void check_first_sample(const CommandLine &line, Scene scene, const int seed)
     {
@@ -177,6 +197,7 @@ namespace diptych::coupling
   {
     const std::vector<int> seeds = read_seeds(line.seeds);
     const Scene            scene = ensemble_scene(line);
+    refuse_inputs_of_members(line, scene, seeds);
     announce_room(line, scene, {true, true, int(seeds.size())});
     std::optional<FolderLock> lock;
     on_first_process([&] {

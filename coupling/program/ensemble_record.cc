@@ -25,7 +25,7 @@ namespace diptych::coupling
     Member read_member(const Scene &scene, const int seed)
     {
       const std::string folder = member_folder(scene.output.directory, seed), path = folder + "/comparison.json";
-      check_files(folder, "comparison"), warn(doubt_about_files(folder));
+      check_files(folder), check_files(folder, "comparison"), warn(doubt_about_files(folder));
       demand_member(scene, seed);
       const json record = read_record_file(path);
       try
@@ -120,9 +120,10 @@ namespace diptych::coupling
 
   int compare_ensemble_again(const CommandLine &line)
   {
-    const Scene                scene = scene_of_ensemble(line);
-    const PhaseTimer           timer("statistics");
-    const std::string          path    = line.target + "/ensemble.json";
+    const Scene       scene = scene_of_ensemble(line);
+    const PhaseTimer  timer("statistics");
+    const std::string path = line.target + "/ensemble.json";
+    check_files(line.target, "ensemble");
     const json                 earlier = read_record_file(path);
     std::vector<MemberOutcome> outcomes;
     const auto                 seeds = from_record(path, [&] {

@@ -22,6 +22,7 @@ namespace diptych::coupling
     using nlohmann::json;
     namespace fs = std::filesystem;
 
+    constexpr int exit_code_of_a_refusal     = 2;
     constexpr int last_exit_code_of_a_result = 3; // beyond it the system failed, or a signal came
 
     std::string path_of(const std::string &directory, const StudyRun &run, const std::string &ending)
@@ -131,14 +132,15 @@ namespace diptych::coupling
 
   namespace
   {
-    // Somebody may have run another scene in its folder, or put another run's there.
+    // Somebody may have run another scene in its folder, or put another run's there. Both echoes name the same files, which may
+    // lie elsewhere by now.
     bool is_of_its_scene(const std::string &directory, const StudyRun &run, const json &end)
     {
       const std::string file = run_folder(directory, run) + "/scene.prm";
       if (std::error_code none; !fs::exists(file, none)) // refused before it wrote
-        return !end.is_object() || end.value("exit_code", json()) != 0;
-      const std::optional<Scene> found = echoed_scene(file);
-      return found && run_name(*found, run.command) == run.name;
+        return !end.is_object() || end.value("exit_code", json()) == exit_code_of_a_refusal;
+      const std::optional<Scene> found = echoed_scene(file), asked = echoed_scene(run_scene(directory, run));
+      return found && asked && run_name(*found, run.command) == run_name(*asked, run.command);
     }
   } // namespace
 

@@ -84,6 +84,20 @@ class Inputs(Begun):
         inside = write(os.path.join(self.folder, "runs", "mine.json"), json.dumps(STUDY))
         self.expect(2, ["study", inside, "--output", self.folder], inside)
 
+    def test_an_ensemble_does_not_replace_what_its_members_read(self):
+        self.take("ensemble")
+        echo = os.path.join(self.folder, "seed_1", "scene.prm")
+        table = write(os.path.join(self.folder, "seed_2", "radii.csv"), "radius,passing\n0.3,0\n0.5,0.6\n0.7,1\n")
+        for words in (["run", echo, *setting(discrete_friction=0.3)], ["run", QUICK, *BOTH, *setting(sample_radius_distribution="table", sample_radius_table=table)]):
+            self.expect(2, [*words, "--seeds", "1-2", "--jobs", "1", "--quiet", "--output", self.folder], "whose results are replaced")
+
+    def test_a_linked_folder_of_runs_is_the_folders(self):
+        self.take("study")
+        os.rename(os.path.join(self.folder, "runs"), os.path.join(self.work, "elsewhere"))
+        os.symlink(os.path.join(self.work, "elsewhere"), os.path.join(self.folder, "runs"))
+        inside = write(os.path.join(self.folder, "runs", "0123456789abcdef.json"), json.dumps(STUDY))
+        self.expect(2, ["study", inside, "--output", self.folder], "is among what this study replaces")
+
     def test_a_study_is_begun_again_by_its_own_copy(self):
         self.take("study")
         self.expect(0, ["study", os.path.join(self.folder, "study_input.json"), "--output", self.folder, "--jobs", "1", "--quiet", "--resume"])
@@ -130,6 +144,20 @@ class Foreign(Begun):
         for resume in ([], ["--resume"]):
             self.expect_kept("ensemble", [*SEEDS, "--seeds", "1-2", "--output", self.folder, *resume], "seed_1.log", "seed_2/continuum/notes.txt")
 
+    def test_a_study_of_the_step_keeps_somebodys_file(self):
+        for place in ("step_1", "step_1/discrete"):
+            os.makedirs(os.path.join(self.folder, place), exist_ok=True)
+        shutil.copytree(self.whole, self.folder, dirs_exist_ok=True)
+        note = write(os.path.join(self.folder, "step_1", "notes.txt"), "n\n")
+        self.expect(2, ["discrete", QUICK, *FEW, *setting(sample_seed=3), "--quiet", "--output", self.folder], note)
+
+    def test_another_ensemble_in_the_folder_is_not_hindered_by_what_the_first_left(self):
+        self.take("ensemble")
+        for name in ("problem_0001.h5", "notes.txt"):
+            write(os.path.join(self.folder, "seed_1", name), "n\n")
+        self.expect(0, ["run", QUICK, *BOTH, *setting(discrete_friction=0.3), "--seeds", "1-2", "--jobs", "1", "--quiet", "--output", self.folder])
+        self.assertEqual([name for name in ("problem_0001.h5", "notes.txt") if os.path.exists(os.path.join(self.folder, "seed_1", name))], ["notes.txt"])
+
     def test_a_member_that_cannot_be_made_leaves_the_statistics_of_the_others(self):
         self.take("ensemble")
         write(os.path.join(self.folder, "notes"), "n\n")
@@ -154,6 +182,20 @@ class OtherScenes(Begun):
                 self.expect(0, self.again(*words, "--resume"))
                 self.assertEqual(content(os.path.join(self.folder, result)), content(os.path.join(self.made(name), result)))
 
+    def test_a_study_that_was_moved_is_not_run_again(self):
+        """Its runs name a table by where it lay."""
+        table = write(os.path.join(self.work, "radii.csv"), "radius,passing\n0.3,0\n0.5,0.6\n0.7,1\n")
+        study = changed(STUDY, set={**STUDY["set"], "sample/radius_distribution": "table", "sample/radius_table": table})
+        self.expect(0, self.again("study", study))
+        moved = os.path.join(self.work, "moved")
+        os.mkdir(moved)
+        os.rename(table, os.path.join(moved, "radii.csv"))
+        study["set"]["sample/radius_table"] = os.path.join(moved, "radii.csv")
+        self.expect(0, self.again("study", study, "--resume"))
+        ends = os.path.join(self.folder, "runs")
+        self.assertTrue(all(os.stat(os.path.join(ends, name)).st_mtime_ns < os.stat(os.path.join(self.work, "asked.json")).st_mtime_ns
+                            for name in os.listdir(ends) if name.endswith(".json")))
+
     def test_means_are_of_members_of_one_scene(self):
         self.take("ensemble")
         self.done("run", QUICK, *BOTH, *setting(discrete_friction=0.9), "--quiet", "--output", os.path.join(self.folder, "seed_1"))
@@ -168,7 +210,12 @@ class OtherScenes(Begun):
         self.expect(0, ["report", self.folder, "--quiet"])
         path = os.path.join(self.folder, "ensemble.json")
         write(path, content(path).decode().replace('"mean": 0', '"mean": 7', 1))
-        self.expect(2, ["report", self.folder, "--quiet"], path, "not what the run left")
+        for command in ("report", "compare"):
+            self.expect(2, [command, self.folder, "--quiet"], path, "not what the run left")
+        self.take("ensemble")
+        table = os.path.join(self.folder, "seed_1", "continuum.csv")
+        write(table, content(table).decode().replace("0.", "1.", 1))
+        self.expect(2, ["compare", self.folder, "--quiet"], table, "not what the run left")
 
     def test_a_continuum_of_other_keys_does_not_outlive_its_echo(self):
         other = setting(continuum_friction_angle_peak=30)
