@@ -10,6 +10,7 @@
 #include "coupling/folders/folder_lock.h"
 #include "coupling/folders/provenance.h"
 #include "coupling/folders/result_folder.h"
+#include "coupling/folders/written_echo.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
 #include "discrete/files/text_file.h"
@@ -72,11 +73,20 @@ namespace diptych::coupling
       const std::optional<Scene> earlier = echoed_scene(folder + "/scene.prm");
       remove_results(folder, comparison_files);
       remove_results(folder, {"provenance.json", "checkpoint.h5", "continuum_checkpoint.h5", "coarse"});
-      if (!earlier || member_identity(*earlier) != member_identity(scene))
+      if (!earlier || member_identity(*earlier) != member_identity(scene) || !changed_input(scene, folder + "/scene.prm").empty())
         {
           remove_panels(folder);
-          discrete::write_text(folder + "/scene.prm", echo(scene));
+          write_echo(folder + "/scene.prm", scene);
         }
+    }
+  } // namespace
+
+  namespace
+  {
+    std::string changed_member_input(Scene scene, const int seed)
+    {
+      scene.sample.seed = seed;
+      return changed_input(scene, member_folder(scene.output.directory, seed) + "/scene.prm");
     }
   } // namespace
 
@@ -135,6 +145,8 @@ namespace diptych::coupling
     if (!earlier)
       throw SceneError(file + ": was written by another version, or is no scene of a run");
     std::string difference = first_difference(member_identity(scene), member_identity(*earlier));
+    if (difference.empty())
+      difference = changed_member_input(scene, seed);
     if (earlier->sample.seed != seed)
       difference = "sample/seed = " + std::to_string(earlier->sample.seed);
     if (!difference.empty())
@@ -145,7 +157,7 @@ namespace diptych::coupling
   {
     const std::string          folder  = member_folder(scene.output.directory, seed);
     const std::optional<Scene> earlier = echoed_scene(folder + "/scene.prm");
-    if (!earlier || member_identity(*earlier) != member_identity(scene))
+    if (!earlier || member_identity(*earlier) != member_identity(scene) || !changed_member_input(scene, seed).empty())
       return false;
     if (scene.output.report && !fs::exists(folder + "/report.html"))
       return false;

@@ -138,23 +138,25 @@ namespace diptych::coupling
     {
       return std::filesystem::path(table_of(directory, part)).replace_extension(".h5").string();
     }
+  } // namespace
 
-    // Empty where there is no such file.
-    std::string sum_over(const std::string &file)
-    {
-      std::error_code none;
-      if (!std::filesystem::is_regular_file(file, none))
-        return {};
-      std::ifstream     in(file, std::ios::binary);
-      std::vector<char> piece(1 << 20);
-      std::uint64_t     sum = empty_digest;
-      while (in.read(piece.data(), std::streamsize(piece.size())), in.gcount() > 0)
-        sum = digest_on(sum, {piece.data(), std::size_t(in.gcount())});
-      char text[17];
-      std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(sum));
-      return text;
-    }
+  std::string sum_over(const std::string &file)
+  {
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(file, none))
+      return {};
+    std::ifstream     in(file, std::ios::binary);
+    std::vector<char> piece(1 << 20);
+    std::uint64_t     sum = empty_digest;
+    while (in.read(piece.data(), std::streamsize(piece.size())), in.gcount() > 0)
+      sum = digest_on(sum, {piece.data(), std::size_t(in.gcount())});
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(sum));
+    return text;
+  }
 
+  namespace
+  {
     void put_sums(const std::string &directory, const std::string &part, json &record)
     {
       NumbersToJson  sums{record[part + "_files"] = json::object(), 1};

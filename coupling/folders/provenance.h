@@ -43,6 +43,9 @@ namespace diptych::coupling
   void record_facts(const std::string &directory, const DiscreteFacts &facts);
   void record_facts(const std::string &directory, const std::string &part, const ContinuumFacts &facts);
 
+  // Over the bytes of a file (FNV-1a of 64 bits, hexadecimal); empty where there is none.
+  std::string sum_over(const std::string &file);
+
   // The sums of a part's files as they now are: comparison.json and .h5 of the part "comparison", those of "ensemble".
   void record_files(const std::string &directory, const std::string &part);
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "coupling/folders/provenance.h"
+#include "coupling/folders/written_echo.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
@@ -128,9 +129,16 @@ namespace diptych::coupling
       const std::optional<Scene> earlier = echoed_scene(echo_file);
       if (!earlier)
         return {"it was written by another version", "", ""};
-      return {first_difference(sample_identity(scene), sample_identity(*earlier)),
-              first_difference(continuum_identity(scene), continuum_identity(*earlier)),
-              first_difference(member_identity(scene), member_identity(*earlier))};
+      EarlierScene difference{first_difference(sample_identity(scene), sample_identity(*earlier)),
+                              first_difference(continuum_identity(scene), continuum_identity(*earlier)),
+                              first_difference(member_identity(scene), member_identity(*earlier))};
+      // Both name the same files, which are compared as they now are.
+      for (const char *section : {"sample/", "loading/", "discrete/"})
+        if (difference.sample.empty())
+          difference.sample = changed_input(scene, echo_file, section);
+      if (difference.continuum.empty())
+        difference.continuum = changed_input(scene, echo_file, "continuum/");
+      return difference;
     }
 
     void demand_resumable(const std::string &directory, const EarlierScene &difference)
@@ -185,7 +193,7 @@ namespace diptych::coupling
     if (check)
       check();
     remove_results_of_another_scene(directory, difference);
-    discrete::write_text(echo_file, echo(scene));
+    write_echo(echo_file, scene);
   }
 
   std::string kept_in(const std::string &directory)

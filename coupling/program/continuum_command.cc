@@ -10,6 +10,7 @@
 
 #include "coupling/folders/provenance.h"
 #include "coupling/folders/result_folder.h"
+#include "coupling/folders/written_echo.h"
 #include "coupling/panels/continuum_loading.h"
 #include "coupling/processes/processes.h"
 #include "coupling/program/interrupted_continuum.h"
@@ -174,8 +175,9 @@ namespace diptych::coupling
 
   bool may_resume_continuum(const Scene &scene)
   {
-    const std::optional<Scene> earlier = echoed_scene(scene.output.directory + "/scene.prm");
-    return earlier && continuum_identity(scene) == continuum_identity(*earlier);
+    const std::string          file    = scene.output.directory + "/scene.prm";
+    const std::optional<Scene> earlier = echoed_scene(file);
+    return earlier && continuum_identity(scene) == continuum_identity(*earlier) && changed_input(scene, file).empty();
   }
 
   int continuum_panel(const CommandLine &line, const Scene &scene, const ContinuumTask &task)

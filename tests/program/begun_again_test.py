@@ -196,6 +196,22 @@ class OtherScenes(Begun):
         self.assertTrue(all(os.stat(os.path.join(ends, name)).st_mtime_ns < os.stat(os.path.join(self.work, "asked.json")).st_mtime_ns
                             for name in os.listdir(ends) if name.endswith(".json")))
 
+    def test_an_input_that_was_changed_since_is_another_scene(self):
+        """Its name is the same, and what the echo names is read as it now is."""
+        table = write(os.path.join(self.work, "radii.csv"), "radius,passing\n0.3,0\n0.5,0.6\n0.7,1\n")
+        words = ["run", QUICK, *BOTH, *setting(sample_radius_distribution="table", sample_radius_table=table), "--quiet", "--output", self.folder]
+        seeds, ensemble = ["--seeds", "1-2", "--jobs", "1"], os.path.join(self.work, "ensemble")
+        self.expect(0, words)
+        self.expect(0, [*words[:-1], ensemble, *seeds])
+        self.expect(0, [*words, "--resume"])
+        write(table, "radius,passing\n0.3,0\n0.4,0.6\n0.7,1\n")
+        self.expect(2, [*words, "--resume"], "sample/radius_table", table, "is not what it was")
+        self.expect(2, [*words[:-1], ensemble, *seeds, "--resume"], "sample/radius_table", table, "is not what it was")
+        self.expect(0, ["discrete", *words[1:]])
+        self.assertFalse(os.path.exists(os.path.join(self.folder, "continuum.h5")))
+        self.expect(0, [*words, "--resume"])
+        self.expect(0, [*words[:-1], ensemble, *seeds])
+
     def test_means_are_of_members_of_one_scene(self):
         self.take("ensemble")
         self.done("run", QUICK, *BOTH, *setting(discrete_friction=0.9), "--quiet", "--output", os.path.join(self.folder, "seed_1"))

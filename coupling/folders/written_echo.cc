@@ -1,0 +1,53 @@
+// diptych: the echo of a scene beside its results, with what was in the files that the scene names
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/folders/written_echo.h"
+
+#include <map>
+#include <sstream>
+
+#include "coupling/folders/provenance.h"
+#include "coupling/scene/identity.h"
+#include "coupling/scene/scene_file.h"
+#include "discrete/files/text_file.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    const std::string beginning = "# ", middle = " held ";
+
+    std::map<std::string, std::string> told_inputs(const std::string &echo_file)
+    {
+      std::map<std::string, std::string> told;
+      if (!is_echo(echo_file))
+        return told;
+      std::istringstream in(discrete::read_text(echo_file));
+      for (std::string line; std::getline(in, line);)
+        if (const std::size_t at = line.find(middle); line.rfind(beginning, 0) == 0 && at != std::string::npos)
+          told[line.substr(beginning.size(), at - beginning.size())] = line.substr(at + middle.size());
+      return told;
+    }
+  } // namespace
+
+  void write_echo(const std::string &file, const Scene &scene)
+  {
+    const std::map<std::string, std::string> earlier = told_inputs(file);
+    std::string                              text    = echo(scene);
+    for (const auto &[key, path] : input_files(scene))
+      if (const std::string sum = sum_over(path); !sum.empty())
+        text += beginning + key + middle + sum + '\n';
+      else if (const auto found = earlier.find(key); found != earlier.end())
+        text += beginning + key + middle + found->second + '\n';
+    discrete::write_text(file, text);
+  }
+
+  std::string changed_input(const Scene &scene, const std::string &echo_file, const std::string &key)
+  {
+    const std::map<std::string, std::string> told = told_inputs(echo_file);
+    for (const auto &[name, path] : input_files(scene))
+      if (const auto found = told.find(name); found != told.end() && name.rfind(key, 0) == 0)
+        if (const std::string sum = sum_over(path); !sum.empty() && sum != found->second)
+          return name + ": '" + path + "' is not what it was";
+    return "";
+  }
+} // namespace diptych::coupling
