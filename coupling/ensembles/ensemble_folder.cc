@@ -79,10 +79,7 @@ namespace diptych::coupling
           write_echo(folder + "/scene.prm", scene);
         }
     }
-  } // namespace
 
-  namespace
-  {
     std::string changed_member_input(Scene scene, const int seed)
     {
       scene.sample.seed = seed;

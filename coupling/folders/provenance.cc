@@ -3,7 +3,6 @@
 #include "coupling/folders/provenance.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -150,9 +149,7 @@ namespace diptych::coupling
     std::uint64_t     sum = empty_digest;
     while (in.read(piece.data(), std::streamsize(piece.size())), in.gcount() > 0)
       sum = digest_on(sum, {piece.data(), std::size_t(in.gcount())});
-    char text[17];
-    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(sum));
-    return text;
+    return hexadecimal(sum);
   }
 
   namespace
@@ -182,6 +179,11 @@ namespace diptych::coupling
           list_numbers(facts, reader);
         }
       return facts;
+    }
+
+    FileSums sums_of(const std::string &directory, const json &record, const std::string &part)
+    {
+      return from_record(path_of(directory), [&] { return get_facts<FileSums>(record, (part + "_files").c_str()); });
     }
 
     RunFacts run_facts_of(const json &record)
@@ -238,8 +240,7 @@ namespace diptych::coupling
                                      (found.empty() ? "removed since" : "changed since, or another run's"));
     };
     const auto check_part = [&](const std::string &one) {
-      const FileSums sums = from_record(path_of(directory),
-                                        [&] { return get_facts<FileSums>(record, (one + "_files").c_str()); });
+      const FileSums sums = sums_of(directory, record, one);
       check(table_of(directory, one), sums.table);
       check(snapshots_of(directory, one), sums.snapshots);
     };
@@ -257,13 +258,13 @@ namespace diptych::coupling
       if (std::error_code none; recorded.empty() && std::filesystem::is_regular_file(file, none))
         unknown += (unknown.empty() ? "" : ", ") + std::filesystem::relative(file, directory, none).string();
     };
-    for (const char *part : {panel_parts[0], panel_parts[1], panel_parts[2], tables_of_panels[0], tables_of_panels[1]})
-      {
-        const FileSums sums = from_record(path_of(directory),
-                                          [&] { return get_facts<FileSums>(record, (std::string(part) + "_files").c_str()); });
-        expect(table_of(directory, part), sums.table);
-        expect(snapshots_of(directory, part), sums.snapshots);
-      }
+    const auto expect_part = [&](const std::string &one) {
+      const FileSums sums = sums_of(directory, record, one);
+      expect(table_of(directory, one), sums.table);
+      expect(snapshots_of(directory, one), sums.snapshots);
+    };
+    std::for_each(std::begin(panel_parts), std::end(panel_parts), expect_part);
+    std::for_each(std::begin(tables_of_panels), std::end(tables_of_panels), expect_part);
     return unknown.empty() ? ""
                            : path_of(directory) + ": holds no sums over the bytes of " + unknown +
                                "; whether they are as the run left them cannot be told";

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/scene/identity.h"
 
+#include <cstdio>
 #include <filesystem>
 #include <iterator>
 #include <set>
@@ -130,6 +131,13 @@ namespace diptych::coupling
   std::uint64_t digest_of(const std::string_view bytes)
   {
     return digest_on(empty_digest, bytes);
+  }
+
+  std::string hexadecimal(const std::uint64_t digest)
+  {
+    char digits[17];
+    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(digest));
+    return digits;
   }
 
   Identity sample_identity(const Scene &scene)

@@ -31,6 +31,8 @@ namespace diptych::coupling
   constexpr std::uint64_t empty_digest = 14695981039346656037ull;
   std::uint64_t           digest_on(std::uint64_t digest, std::string_view bytes);
 
+  std::string hexadecimal(std::uint64_t digest); // 16 digits
+
   // One line a value, for files.
   std::string text_of(const Identity &identity);
 

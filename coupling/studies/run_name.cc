@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/studies/run_name.h"
 
-#include <cstdio>
-
 #include "coupling/scene/identity.h"
 #include "discrete/choices.h"
 
@@ -27,13 +25,6 @@ namespace diptych::coupling
         }
     }
   } // namespace
-
-  std::string hexadecimal(const std::uint64_t number)
-  {
-    char digits[17];
-    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(number));
-    return digits;
-  }
 
   std::string run_name(const Scene &scene, const StudyCommand command)
   {

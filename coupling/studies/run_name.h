@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "coupling/scene/scene.h"
@@ -10,8 +9,6 @@
 
 namespace diptych::coupling
 {
-  std::string hexadecimal(std::uint64_t number); // 16 digits
-
   // A digest of what is run: the same for the same scene and command, for what changes no result of it (output, time between
   // checkpoints, the continuum's keys for grains alone), and wherever the files that the scene names lie.
   std::string run_name(const Scene &scene, StudyCommand command);
