@@ -158,6 +158,8 @@ namespace diptych::coupling
       return false;
     if (scene.output.report && !fs::exists(folder + "/report.html"))
       return false;
+    if (!doubt_about_files(folder).empty()) // killed just before its end, or its record was removed
+      return false;
     const json comparison = json::parse(discrete::read_text(folder + "/comparison.json"), nullptr, /* exceptions */ false);
     try
       {

@@ -27,7 +27,7 @@ namespace diptych::coupling
   // seed.
   void demand_member(const Scene &scene, int seed);
 
-  // Whether a member of this scene ran to its end: both panels, a comparison whose mapping keeps the total, and the report where
-  // one is asked for.
+  // Whether a member of this scene ran to its end: both panels, a comparison whose mapping keeps the total, sums over what they
+  // left, and the report where one is asked for.
   [[nodiscard]] bool is_finished_member(const Scene &scene, int seed);
 } // namespace diptych::coupling

@@ -4,16 +4,22 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
+#include <cstdio>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <iostream>
 #include <stdexcept>
+#include <thread>
 
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "coupling/processes/child_process.h"
+#include "coupling/processes/stop_signal.h"
 #include "discrete/files/text_file.h"
 
 namespace diptych::coupling
@@ -21,6 +27,9 @@ namespace diptych::coupling
   namespace
   {
     namespace fs = std::filesystem;
+
+    // A worker whose parent is gone has a minute to end (worker_command.cc).
+    constexpr std::chrono::seconds patience(90);
 
     std::string own_name()
     {
@@ -30,6 +39,33 @@ namespace diptych::coupling
       char              moment[32] = "";
       std::strftime(moment, sizeof moment, "%Y-%m-%d %H:%M:%S UTC", std::gmtime(&now));
       return "process " + std::to_string(getpid()) + " on " + host + " since " + moment;
+    }
+
+    // "process 12 on here since ...", as the file tells.
+    std::string owner_of(const std::string &file)
+    {
+      std::string owner = discrete::read_text(file);
+      owner.erase(std::remove(owner.begin(), owner.end(), '\n'), owner.end());
+      return owner.empty() ? "another run" : owner;
+    }
+
+    // A process of this machine that has ended, as far as it can be told: its number may be another's by now.
+    bool is_gone(const std::string &owner)
+    {
+      int  process   = 0;
+      char host[256] = "", own[256] = "";
+      gethostname(own, sizeof own - 1);
+      if (std::sscanf(owner.c_str(), "process %d on %255s", &process, host) != 2 || std::strcmp(host, own) != 0)
+        return false;
+      const std::string status = discrete::read_text("/proc/" + std::to_string(process) + "/stat");
+      const std::size_t name   = status.rfind(')'); // "12 (diptych) Z ...": ended, and nobody has asked how
+      return status.empty() || (name != std::string::npos && status.compare(name, 3, ") Z") == 0);
+    }
+
+    std::runtime_error being_written_to(const std::string &directory, const std::string &owner)
+    {
+      return std::runtime_error("the folder '" + directory + "' is being written to by " + owner +
+                                "; wait for it or name another folder; nothing was written");
     }
 
     // What is not there of a path, the innermost first. A link that leads nowhere is there.
@@ -87,8 +123,7 @@ namespace diptych::coupling
     try
       {
         make_folder(directory);
-        while (!lock())
-          {}
+        take();
       }
     catch (const std::exception &)
       {
@@ -100,8 +135,28 @@ namespace diptych::coupling
       {} // the name is for people; the lock holds without it, on a full disk, too
   }
 
-  // False where the one that held it has removed the file meanwhile.
-  bool FolderLock::lock()
+  void FolderLock::take()
+  {
+    const auto until   = std::chrono::steady_clock::now() + patience;
+    bool       is_told = false;
+    Attempt    attempt = lock();
+    for (; attempt != Attempt::locked; attempt = lock())
+      {
+        if (attempt == Attempt::again)
+          continue;
+        if (std::chrono::steady_clock::now() > until)
+          throw being_written_to(directory, owner_of(file) + ", which is gone, by programs that it started");
+        if (!is_told)
+          std::cerr << "waiting for the programs of " << owner_of(file) << ", which is gone, to end in " << directory
+                    << std::endl;
+        is_told = true;
+        leave_if_stopped("waiting for the programs of " + owner_of(file));
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      }
+    hold_in_programs(descriptor);
+  }
+
+  FolderLock::Attempt FolderLock::lock()
   {
     descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (descriptor < 0)
@@ -109,21 +164,33 @@ namespace diptych::coupling
     struct stat opened = {}, named = {};
     int         error = flock(descriptor, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
     if (error == 0 && fstat(descriptor, &opened) == 0 && stat(file.c_str(), &named) == 0 && opened.st_ino == named.st_ino)
-      return true;
+      return Attempt::locked;
     close(descriptor);
     descriptor = -1;
     if (error == 0)
-      return false;
+      return Attempt::again;
     if (error != EWOULDBLOCK)
       fail(directory, error);
-    std::string owner = discrete::read_text(file);
-    owner.erase(std::remove(owner.begin(), owner.end(), '\n'), owner.end());
-    throw std::runtime_error("the folder '" + directory + "' is being written to by " + (owner.empty() ? "another run" : owner) +
-                             "; wait for it or name another folder; nothing was written");
+    if (is_gone(owner_of(file)))
+      return Attempt::bereaved;
+    throw being_written_to(directory, owner_of(file));
+  }
+
+  void demand_not_written_to(const std::string &directory)
+  {
+    const std::string file   = (fs::path(directory) / folder_lock_name).string();
+    const int         opened = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (opened < 0)
+      return;
+    const bool is_held = flock(opened, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    close(opened);
+    if (is_held)
+      throw being_written_to(directory, owner_of(file));
   }
 
   FolderLock::~FolderLock()
   {
+    no_longer_hold_in_programs(descriptor);
     unlink(file.c_str());
     close(descriptor);
     remove_made();

@@ -8,20 +8,29 @@
 namespace diptych::coupling
 {
   // Held as long as it lives: the folder is this process's to write to. The file `folder_lock_name` in it names process and
-  // machine; what holds is the system's lock on that file (flock), which ends with the process, however that ends: what a killed
-  // one leaves is stale, and taken over. A folder that is not there is made, and removed again if nothing has come into it.
+  // machine; what holds is the system's lock on that file (flock), which ends with the process and the programs that it has
+  // started, however they end: what a killed one leaves is stale, and taken over once its programs, which are asked to stop with
+  // it, have ended. A folder that is not there is made, and removed again if nothing has come into it.
   class FolderLock
   {
   public:
-    // Throws std::runtime_error naming the folder and who writes to it, or what the system says.
+    // Waits for programs of a process that is gone, longer than they have to end. Throws std::runtime_error naming the folder and
+    // who writes to it, or what the system says, StoppedOnRequest where it is asked to stop while it waits.
     explicit FolderLock(const std::string &directory);
     ~FolderLock();
     FolderLock(const FolderLock &)            = delete;
     FolderLock &operator=(const FolderLock &) = delete;
 
   private:
-    bool lock();
-    void remove_made() const;
+    enum class Attempt
+    {
+      locked,
+      again,   // the one that held it has removed the file meanwhile
+      bereaved // programs of a process that is gone hold it
+    };
+    Attempt lock();
+    void    take();
+    void    remove_made() const;
 
     std::string              directory, file;
     std::vector<std::string> made; // folders, the innermost first
@@ -29,6 +38,9 @@ namespace diptych::coupling
   };
 
   extern const char *const folder_lock_name;
+
+  // Throws std::runtime_error where somebody writes to the folder; nothing is changed.
+  void demand_not_written_to(const std::string &directory);
 
   // Nothing but a lock is in it, and what a killed run had begun to write (.part): its first file has no other name yet.
   bool is_empty_folder(const std::string &directory);

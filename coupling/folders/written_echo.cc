@@ -27,18 +27,29 @@ namespace diptych::coupling
           told[line.substr(beginning.size(), at - beginning.size())] = line.substr(at + middle.size());
       return told;
     }
+
+    void write_echo(const std::string &file, const Scene &scene, const std::map<std::string, std::string> &told)
+    {
+      std::string text = echo(scene);
+      for (const auto &[key, path] : input_files(scene))
+        if (const auto found = told.find(key); found != told.end())
+          text += beginning + key + middle + found->second + '\n';
+      discrete::write_text(file, text);
+    }
   } // namespace
 
   void write_echo(const std::string &file, const Scene &scene)
   {
-    const std::map<std::string, std::string> earlier = told_inputs(file);
-    std::string                              text    = echo(scene);
+    std::map<std::string, std::string> told = told_inputs(file);
     for (const auto &[key, path] : input_files(scene))
       if (const std::string sum = sum_over(path); !sum.empty())
-        text += beginning + key + middle + sum + '\n';
-      else if (const auto found = earlier.find(key); found != earlier.end())
-        text += beginning + key + middle + found->second + '\n';
-    discrete::write_text(file, text);
+        told[key] = sum;
+    write_echo(file, scene, told);
+  }
+
+  void change_echo(const std::string &file, const Scene &scene)
+  {
+    write_echo(file, scene, told_inputs(file));
   }
 
   std::string changed_input(const Scene &scene, const std::string &echo_file, const std::string &key)

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <set>
 #include <stdexcept>
 #include <thread>
 
@@ -49,8 +50,32 @@ namespace diptych::coupling
       int in = -1, out = -1, errors = -1;
     };
 
-    // After fork: only calls that are safe there.
-    [[noreturn]] void become(char *const *words, char *const *environment, const Streams &streams, const pid_t parent)
+    std::set<int> &held()
+    {
+      static std::set<int> descriptors;
+      return descriptors;
+    }
+
+    // After fork: only calls that are safe there. The descriptors ascend.
+    void close_all_but(const int *const kept, const std::size_t n)
+    {
+      unsigned int next = 3; // behind the standard ones
+      for (std::size_t k = 0; k < n; ++k)
+        if (const auto one = static_cast<unsigned int>(kept[k]); one >= next)
+          {
+            if (one > next)
+              close_range(next, one - 1, 0);
+            fcntl(kept[k], F_SETFD, 0); // open over exec, too
+            next = one + 1;
+          }
+      close_range(next, ~0U, 0); // sockets of an MPI job among them
+    }
+
+    [[noreturn]] void become(char *const            *words,
+                             char *const            *environment,
+                             const Streams          &streams,
+                             const std::vector<int> &kept,
+                             const pid_t             parent)
     {
       const int input = streams.in >= 0 ? streams.in : open("/dev/null", O_RDONLY);
       setpgid(0, 0);
@@ -62,7 +87,7 @@ namespace diptych::coupling
         dup2(streams.out, STDOUT_FILENO);
       if (streams.errors >= 0)
         dup2(streams.errors, STDERR_FILENO);
-      close_range(3, ~0U, 0); // sockets of an MPI job among them
+      close_all_but(kept.data(), kept.size());
       unblock_stop_signals();
       execve(words[0], words, environment);
       _exit(127);
@@ -75,9 +100,10 @@ namespace diptych::coupling
         if (!belongs_to_mpi_job(*variable))
           variables.emplace_back(*variable);
       const std::vector<char *> argument_pointers = pointers(arguments), variable_pointers = pointers(variables);
+      const std::vector<int>    kept(held().begin(), held().end());
       const pid_t               parent = getpid(), child = fork();
       if (child == 0)
-        become(argument_pointers.data(), variable_pointers.data(), streams, parent);
+        become(argument_pointers.data(), variable_pointers.data(), streams, kept, parent);
       if (child < 0)
         throw std::runtime_error("cannot start " + words[0] + ": " + std::strerror(errno));
       return child;
@@ -88,6 +114,16 @@ namespace diptych::coupling
       return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
     }
   } // namespace
+
+  void hold_in_programs(const int descriptor)
+  {
+    held().insert(descriptor);
+  }
+
+  void no_longer_hold_in_programs(const int descriptor)
+  {
+    held().erase(descriptor);
+  }
 
   Answerer start_answerer(const std::vector<std::string> &words)
   {

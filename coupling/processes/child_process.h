@@ -11,7 +11,10 @@ namespace diptych::coupling
 {
   // Programs are started with words[0] (a path) and the other words, each in its own process group, so that Ctrl-C reaches this
   // process alone; without the environment of an MPI job, which would make it one of its ranks; and they get SIGTERM when this
-  // process ends. Throws std::runtime_error where no process can be made.
+  // process ends. Of its files they hold open what is named here alone, as long as they live. Throws std::runtime_error where no
+  // process can be made.
+  void hold_in_programs(int descriptor);
+  void no_longer_hold_in_programs(int descriptor);
 
   // A program that reads lines and answers them: its standard input and output are the other end of `socket`.
   struct Answerer

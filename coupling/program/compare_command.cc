@@ -9,6 +9,7 @@
 #include "coupling/ensembles/ensemble_folder.h"
 #include "coupling/folders/provenance.h"
 #include "coupling/folders/result_folder.h"
+#include "coupling/folders/written_echo.h"
 #include "coupling/processes/progress.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/program/ensemble_record.h"
@@ -46,6 +47,8 @@ namespace diptych::coupling
       Results          results = load_results(directory);
       Comparison       c       = compared(scene, results, progress);
       forget_files(directory, "comparison");
+      if (!line.overrides.empty() && line.command == Command::compare) // what stands there is of these keys from now on
+        change_echo(directory + "/scene.prm", scene);
       write_comparison_h5(directory, scene, c, results);
       write_fields_vtu(directory, c);
       record_phases(directory, scene, line.text, {timer.stop()});

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/program/study_runs.h"
 
+#include <algorithm>
+#include <iostream>
 #include <set>
 
 #include "coupling/processes/processes.h"
@@ -55,6 +57,12 @@ namespace diptych::coupling
       return pending;
     }
 
+    // What it was to go on from is damaged, as its log told.
+    bool is_refused_checkpoint(const Pending &run, const TaskOutcome &outcome)
+    {
+      return run.resumes && !outcome.interrupted && outcome.exit_code == wrong_input;
+    }
+
     Task task_of(const CommandLine &line, const StudyPoints &asked, const StudyRun &run, const bool resumes)
     {
       const StudyCommand command = asked.study.command;
@@ -67,6 +75,45 @@ namespace diptych::coupling
       if (resumes && command != StudyCommand::material_point)
         task.words.emplace_back("--resume");
       return task;
+    }
+
+    std::vector<TaskOutcome> work_off(const CommandLine                   &line,
+                                      const StudyPoints                   &asked,
+                                      const std::vector<const StudyRun *> &runs,
+                                      const std::vector<Pending>          &pending)
+    {
+      TaskQueue queue = workers_for(line, "runs");
+      for (const Pending &one : pending)
+        queue.tasks.push_back(task_of(line, asked, *runs[one.run], one.resumes));
+      queue.n_finished_before = int(runs.size() - pending.size());
+      const int at_once       = queue.jobs * int(n_processes());
+      queue.on_ended          = [&](const TaskOutcome &outcome) {
+        const Pending &one = pending[outcome.task];
+        if (!outcome.interrupted && !is_refused_checkpoint(one, outcome))
+          write_end(asked.directory, *runs[one.run], outcome.exit_code, at_once);
+      };
+      return run_tasks(queue);
+    }
+
+    // Runs that were to go on from something damaged, ready to begin.
+    std::vector<Pending> begun_anew(const StudyPoints                   &asked,
+                                    const std::vector<const StudyRun *> &runs,
+                                    const std::vector<Pending>          &pending,
+                                    const std::vector<TaskOutcome>      &outcomes)
+    {
+      std::vector<double> numbers; // as processes tell each other
+      on_first_process([&] {
+        for (const TaskOutcome &outcome : outcomes)
+          if (const Pending &one = pending[outcome.task]; is_refused_checkpoint(one, outcome))
+            numbers.push_back(double(one.run)), prepare_run_anew(asked.directory, *runs[one.run]);
+        if (!numbers.empty())
+          std::cerr << numbers.size() << " runs begin anew: what they were to go on from is damaged" << std::endl;
+        return 0;
+      });
+      std::vector<Pending> anew;
+      for (const double run : from_first_process(numbers))
+        anew.push_back({std::size_t(run), false});
+      return anew;
     }
   } // namespace
 
@@ -81,18 +128,18 @@ namespace diptych::coupling
 
   std::vector<TaskOutcome> do_runs(const CommandLine &line, const StudyPoints &asked)
   {
-    const std::vector<const StudyRun *> runs    = runs_of(asked.points);
-    const std::vector<Pending>          pending = pending_runs(line, asked, runs);
-    TaskQueue                           queue   = workers_for(line, "runs");
-    for (const Pending &one : pending)
-      queue.tasks.push_back(task_of(line, asked, *runs[one.run], one.resumes));
-    queue.n_finished_before = int(runs.size() - pending.size());
-    const int at_once       = queue.jobs * int(n_processes());
-    queue.on_ended          = [&](const TaskOutcome &outcome) {
-      if (!outcome.interrupted)
-        write_end(asked.directory, *runs[pending[outcome.task].run], outcome.exit_code, at_once);
-    };
-    return run_tasks(queue);
+    const std::vector<const StudyRun *> runs     = runs_of(asked.points);
+    const std::vector<Pending>          pending  = pending_runs(line, asked, runs);
+    std::vector<TaskOutcome>            outcomes = work_off(line, asked, runs, pending);
+    const std::vector<Pending>          refused  = begun_anew(asked, runs, pending, outcomes);
+    if (refused.empty())
+      return outcomes;
+    outcomes.erase(std::remove_if(outcomes.begin(), outcomes.end(),
+                                  [&](const TaskOutcome &one) { return is_refused_checkpoint(pending[one.task], one); }),
+                   outcomes.end());
+    const std::vector<TaskOutcome> again = work_off(line, asked, runs, refused);
+    outcomes.insert(outcomes.end(), again.begin(), again.end());
+    return outcomes;
   }
 
   StudyResults results_of(const StudyPoints &asked)

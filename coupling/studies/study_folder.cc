@@ -92,7 +92,7 @@ namespace diptych::coupling
       std::error_code none;
       for (const fs::directory_entry &entry : fs::directory_iterator(runs, none))
         if (entry.is_directory(none))
-          demand_own_run(entry.path().string());
+          demand_own_run(entry.path().string()), demand_not_written_to(entry.path().string());
       if (is_table(kind, "meshes"))
         demand_own(directory + "/meshes", [](const std::string &name) {
           return name.rfind("path_", 0) == 0 && fs::path(name.substr(0, name.rfind(".part"))).extension() == ".msh";
@@ -179,5 +179,11 @@ namespace diptych::coupling
     discrete::write_text(run_scene(directory, run), echo(*run.scene));
     discrete::write_text(end_file, json{{"begun", git_revision}}.dump() + "\n");
     return fs::exists(run_folder(directory, run));
+  }
+
+  void prepare_run_anew(const std::string &directory, const StudyRun &run)
+  {
+    remove_results(directory + "/runs", {run.name + ".json"}); // as if it had never begun
+    (void)prepare_run(directory, run);
   }
 } // namespace diptych::coupling

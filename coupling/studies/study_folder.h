@@ -26,7 +26,7 @@ namespace diptych::coupling
   };
   inline const RunsFolder folder_of_a_study = {"study",
                                                "study_input.json",
-                                               {"study.json", "study.csv", "study_cost.json", "report.html"}};
+                                               {"study.json", "study.csv", "study.h5", "study_cost.json", "report.html"}};
 
   inline const RunsFolder folder_of_a_calibration = {
     "calibration",
@@ -45,7 +45,7 @@ namespace diptych::coupling
 
   // Makes the folder and copies the file that asked for it there. Without `resume` all runs are taken away; with it they stay.
   // Throws SceneError, before anything is changed, where the folder holds foreign content, or somebody's files stand among the
-  // runs, std::runtime_error where it cannot be made or emptied.
+  // runs, std::runtime_error where somebody writes to a run's folder, or this one cannot be made or emptied.
   void open_runs_folder(const std::string &directory, const RunsFolder &kind, const std::string &file, bool resume);
 
   // How a run ended.
@@ -65,4 +65,7 @@ namespace diptych::coupling
   // Makes a run ready: its scene is written, an old log is taken away. Its folder stays only where this revision of the program
   // was interrupted in it; returns whether there is one to go on from.
   [[nodiscard]] bool prepare_run(const std::string &directory, const StudyRun &run);
+
+  // The same from the beginning, whatever stands there.
+  void prepare_run_anew(const std::string &directory, const StudyRun &run);
 } // namespace diptych::coupling

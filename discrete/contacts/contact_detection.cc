@@ -29,6 +29,8 @@ namespace diptych::discrete
       return {pair.i, pair.j, gap, normal, a.position - (a.radius + 0.5 * gap) * normal, pair.image};
     }
 
+    constexpr int grains_between_questions = 4096; // whether to go on
+
     // Something can move one of the two against the other; what is part of a platen meets grains that are not fixed, and no more.
     bool may_act(const State &state, const int i, const int j)
     {
@@ -77,7 +79,7 @@ namespace diptych::discrete
     return true;
   }
 
-  void NeighbourList::build(const State &state, const std::vector<double> &margin)
+  void NeighbourList::build(const State &state, const std::vector<double> &margin, const std::function<bool()> &go_on)
   {
     const Grains &g              = state.grains;
     const int     n              = int(g.size());
@@ -100,6 +102,11 @@ namespace diptych::discrete
     const std::vector<SizedGrid> grids = sort_by_size(state);
     for (int i = 0; i < n; ++i)
       {
+        if (go_on && i % grains_between_questions == 0 && !go_on())
+          {
+            pairs_.clear(), position_.clear(); // covers nothing
+            return;
+          }
         // A pair is found from its member with the larger reach, whose search circle therefore needs to know only its own.
         const auto meet = [&](const int j) {
           if (reach_[j] > reach_[i] || (reach_[j] == reach_[i] && j <= i))
@@ -119,14 +126,16 @@ namespace diptych::discrete
     std::sort(pairs_.begin(), pairs_.end(), [](const Pair &a, const Pair &b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
   }
 
-  std::vector<Contact> NeighbourList::find_contacts(const State &state, const std::vector<double> &margin)
+  std::vector<Contact> NeighbourList::find_contacts(const State                 &state,
+                                                    const std::vector<double>   &margin,
+                                                    const std::function<bool()> &go_on)
   {
     const Grains        &g = state.grains;
     std::vector<Contact> contacts;
     if (g.size() == 0)
       return contacts;
     if (!covers(state, margin))
-      build(state, margin);
+      build(state, margin, go_on);
     contacts.reserve(pairs_.size());
     const int         n = int(g.size());
     std::vector<Disc> disc(n);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <functional>
+
 #include "discrete/bodies/state.h"
 
 namespace diptych::discrete
@@ -27,8 +29,10 @@ namespace diptych::discrete
     // nothing moves left out, and of a grain that is part of a platen and anything but a free grain. `margin` [length] has one
     // entry per grain. The list behind it is made anew, at a cost of O(n) cells, when for some grain margin + motion since then
     // exceed what the list foresaw. Throws std::invalid_argument where a periodic cell is narrower than four times the reach of a
-    // grain.
-    std::vector<Contact> find_contacts(const State &state, const std::vector<double> &margin);
+    // grain. `go_on` is asked while the list is made; where it says no, nothing is found and no list is kept.
+    std::vector<Contact> find_contacts(const State                 &state,
+                                       const std::vector<double>   &margin,
+                                       const std::function<bool()> &go_on = {});
 
   private:
     struct Pair
@@ -36,7 +40,7 @@ namespace diptych::discrete
       int i, j;
     };
     bool covers(const State &state, const std::vector<double> &margin) const;
-    void build(const State &state, const std::vector<double> &margin);
+    void build(const State &state, const std::vector<double> &margin, const std::function<bool()> &go_on);
 
     std::vector<Pair>            pairs_; // ascending
     std::vector<Eigen::Vector2d> position_, wall_point_;

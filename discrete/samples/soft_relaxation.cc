@@ -56,10 +56,11 @@ namespace diptych::discrete
     RelaxationReport          report;
     for (; report.iterations < max_iterations; ++report.iterations)
       {
-        report.stopped = go_on && !go_on();
+        const std::vector<Contact> contacts = neighbours.find_contacts(state, no_margin, go_on);
+        report.stopped                      = go_on && !go_on();
         if (report.stopped)
           break;
-        report.largest_overlap = contact_forces(neighbours.find_contacts(state, no_margin), force);
+        report.largest_overlap = contact_forces(contacts, force);
         if (report.largest_overlap < largest_overlap)
           break;
         const double power = dot(force, velocity);

@@ -254,6 +254,24 @@ class OtherScenes(Begun):
                 self.expect(0, ["continuum", QUICK, *BOTH, *change, "--resume", "--quiet", "--output", self.folder])
                 self.assertEqual(os.path.exists(os.path.join(self.folder, "comparison.json")), is_kept)
 
+    def test_a_comparison_of_other_keys_is_what_its_echo_says(self):
+        """And no member of an ensemble of the keys that it had."""
+        self.take("ensemble")
+        member = os.path.join(self.folder, "seed_1")
+        table = os.path.join(self.work, "radii.csv")
+        self.expect(0, ["compare", member, *setting(comparison_max_bands=1), "--quiet"])
+        self.assertIn(b"set max_bands = 1\n", content(os.path.join(member, "scene.prm")))
+        again = [*SEEDS, "--seeds", "1-2", "--output", self.folder]
+        self.expect(2, [*again, "--resume"], member, "comparison/max_bands")
+        self.expect(0, again)
+        self.assertEqual(content(os.path.join(self.folder, "ensemble.csv")), content(os.path.join(self.made("ensemble"), "ensemble.csv")))
+        write(table, "radius,passing\n0.3,0\n0.5,0.6\n0.7,1\n")
+        run = ["run", QUICK, *BOTH, *setting(sample_radius_distribution="table", sample_radius_table=table), "--quiet", "--output", os.path.join(self.work, "one")]
+        self.expect(0, run)
+        write(table, "radius,passing\n0.3,0\n0.4,0.6\n0.7,1\n")  # the grains are still those of the old table
+        self.expect(0, ["compare", run[-1], *setting(comparison_max_bands=1), "--quiet"])
+        self.expect(2, [*run, *setting(comparison_max_bands=1), "--resume"], "sample/radius_table", "is not what it was")
+
     def test_a_point_of_another_sample_leaves_no_comparison(self):
         shutil.copytree(self.whole, self.folder)
         self.expect(0, ["material-point", QUICK, "--quiet", "--output", self.folder])

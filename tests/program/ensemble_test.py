@@ -166,6 +166,9 @@ class Statistics(Folder):
                 self.assertIn(files, told.stderr)
         whole = diptych("report", self.path("seed_1"), "--quiet")
         self.assertEqual((whole.returncode, whole.stderr), (0, ""))
+        os.remove(os.path.join(member, "provenance.json"))
+        self.assertIn("2 of 3 seeds are finished", self.run_seeds("1-3", "--resume").stdout)
+        self.assertEqual(content(self.path("ensemble.json")), content(os.path.join(self.three, "ensemble.json")))
 
     def test_more_seeds_are_added_by_resuming(self):
         shutil.copytree(self.three, self.folder)

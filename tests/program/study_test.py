@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# diptych: studies: points, errors and classes; workers, processes, interruption, growth; what is refused; the page
+# diptych: studies: points, errors and classes; workers, processes, growth; what is refused; the page
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: study_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
 
@@ -65,6 +65,21 @@ class Folder(unittest.TestCase):
     def times(self):
         """When each run's table was written."""
         return {name: os.stat(self.path(name)).st_mtime_ns for name in listing(self.folder) if name.endswith("discrete.csv")}
+
+    def worker_at_work(self, process):
+        """Process number of a study's worker, once a run of it has a sample."""
+        while process.poll() is None:
+            for number in filter(str.isdigit, os.listdir("/proc")):
+                try:
+                    words = content(f"/proc/{number}/cmdline").split(b"\0")
+                    parent = content(f"/proc/{number}/stat").rsplit(b")", 1)[1].split()[1]
+                except OSError:
+                    continue
+                begun = [name for name in listing(self.folder) if name.endswith("stage_0000.h5")]
+                if b"--worker" in words and int(parent) == process.pid and begun:
+                    return int(number)
+            time.sleep(0.002)
+        return self.fail("it ended before its worker was found")
 
 
 class Points(Folder):
@@ -201,21 +216,6 @@ class Failures(Folder):
         self.run_study(study, "--resume")  # how a point failed is a result
         self.assertEqual(self.times(), before)
 
-    def worker_at_work(self, process):
-        """Process number of a study's worker, once a run of it has a sample."""
-        while process.poll() is None:
-            for number in filter(str.isdigit, os.listdir("/proc")):
-                try:
-                    words = content(f"/proc/{number}/cmdline").split(b"\0")
-                    parent = content(f"/proc/{number}/stat").rsplit(b")", 1)[1].split()[1]
-                except OSError:
-                    continue
-                begun = [name for name in listing(self.folder) if name.endswith("stage_0000.h5")]
-                if b"--worker" in words and int(parent) == process.pid and begun:
-                    return int(number)
-            time.sleep(0.002)
-        return self.fail("it ended before its worker was found")
-
     def expect_few_lost_and_run_again(self, process, most, words):
         _, errors = process.communicate()
         self.assertEqual(process.returncode, 3, errors)
@@ -265,69 +265,6 @@ class Failures(Folder):
         self.assertIn("no JSON", diptych("study", write(os.path.join(self.work, "broken.json"), "{")).stderr)
         self.assertIn("--resume", diptych("study", self.study_file(STUDY), "--study", "step").stderr)
         self.assertFalse(os.path.exists(self.folder))
-
-
-class Interruption(Folder):
-    @classmethod
-    def setUpClass(cls):
-        cls.keep = tempfile.TemporaryDirectory()
-        cls.alone = os.path.join(cls.keep.name, "alone")
-        file = write(os.path.join(cls.keep.name, "steps.json"), json.dumps(LONG, indent=1))
-        result = diptych("study", file, "--output", cls.alone, "--quiet")
-        assert result.returncode == 0, result.stderr
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.keep.cleanup()
-
-    def stop(self, signal_number):
-        """Sends a signal when the first run has its prepared sample."""
-        process = start("study", self.study_file(LONG), "--output", self.folder, "--jobs", "2")
-        while process.poll() is None and not any(name.endswith("discrete.h5") for name in listing(self.work)):
-            time.sleep(0.002)
-        self.assertIsNone(process.poll(), "it ended before the signal")
-        process.send_signal(signal_number)
-        _, errors = process.communicate()
-        return process.returncode, errors
-
-    def expect_the_rest(self):
-        self.run_study(LONG, "--resume")
-        self.assertEqual(content(self.path("study.json")), content(os.path.join(self.alone, "study.json")))
-        self.assertEqual(bits(self.path("study.h5")), bits(os.path.join(self.alone, "study.h5")))
-        self.assertEqual([name for name in listing(self.folder) if "checkpoint" in name], [])
-
-    def test_ctrl_c_keeps_what_is_done(self):
-        code, errors = self.stop(signal.SIGINT)
-        self.assertEqual(code, 3, errors)
-        for text in ("stopped on request", "runs are left", "--resume", self.folder):
-            self.assertIn(text, errors)
-        self.assertTrue(any(name.endswith("checkpoint.h5") for name in listing(self.folder)))
-        self.assertIn("not run", {p["class"] for p in read(self.folder, "study.json")["points"]})
-        self.expect_the_rest()
-
-    def test_a_run_whose_table_was_changed_since_is_run_again(self):
-        shutil.copytree(self.alone, self.folder)
-        table = next(os.path.join(self.folder, name) for name in listing(self.folder) if name.endswith("discrete.csv"))
-        rows = content(table).splitlines(keepends=True)
-        column = rows[0].split(b",").index(b"stress_ratio")
-        fields = rows[len(rows) // 2].split(b",")
-        fields[column] = b"0.99"
-        write(table, b"".join([*rows[:len(rows) // 2], b",".join(fields), *rows[len(rows) // 2 + 1:]]).decode())
-        record = next(self.path(name) for name in listing(self.folder)
-                      if name.endswith("provenance.json") and "runs" in name and os.path.dirname(self.path(name)) != os.path.dirname(table))
-        os.remove(record)  # nothing tells then whether that run's files are as it left them
-        self.expect_the_rest()
-        self.assertTrue(os.path.exists(record))
-        self.assertNotIn(b",0.99,", content(table))
-
-    def test_a_kill(self):
-        code, _ = self.stop(signal.SIGKILL)
-        self.assertEqual(code, -signal.SIGKILL)
-        self.assertNotIn("study.json", listing(self.folder))
-        patience = time.monotonic() + 60  # workers notice, and write their checkpoints
-        while time.monotonic() < patience and not any(name.endswith("checkpoint.h5") for name in listing(self.folder)):
-            time.sleep(0.01)
-        self.expect_the_rest()
 
 
 class Commands(Folder):

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/folders/folder_lock.h"
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include "coupling/processes/child_process.h"
 
 namespace
 {
@@ -92,6 +95,29 @@ namespace
     std::string      held;
     std::getline(in, held);
     EXPECT_NE(held.find(std::to_string(getpid())), std::string::npos) << held;
+  }
+
+  // A worker of a killed study writes its checkpoint, however long its step is.
+  TEST_F(Lock, ProgramsThatAKilledProcessHadStartedAreWaitedFor)
+  {
+    const fs::path end    = top / "ended";
+    const pid_t    killed = fork();
+    if (killed == 0)
+      {
+        const FolderLock  lock(out);
+        const std::string program = "trap '' TERM; echo; sleep 1; touch '" + end.string() + "'; exec sleep 0.2";
+        const int         socket  = diptych::coupling::start_answerer({"/bin/sh", "-c", program}).socket;
+        char              line    = 0;
+        _exit(read(socket, &line, 1) == 1 ? kill(getpid(), SIGKILL) : 1);
+      }
+    siginfo_t how; // nobody has asked it yet how it ended: it is not gone from the system's list
+    ASSERT_EQ(waitid(P_PID, id_t(killed), &how, WEXITED | WNOWAIT), 0);
+    testing::internal::CaptureStderr();
+    const FolderLock  lock(out);
+    const std::string told = testing::internal::GetCapturedStderr();
+    EXPECT_TRUE(fs::exists(end)) << "the program still wrote";
+    EXPECT_NE(told.find("waiting for the programs of process " + std::to_string(killed)), std::string::npos) << told;
+    waitpid(killed, nullptr, 0);
   }
 
   TEST_F(Lock, FoldersThatWereMadeForNothingAreRemoved)

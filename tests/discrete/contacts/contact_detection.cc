@@ -97,6 +97,19 @@ namespace
     EXPECT_LE(n, lattice + 2); // the huge one touches the first column between two grains
   }
 
+  // A list of millions of grains takes seconds; who asks for an end of the run must not wait for it.
+  TEST(ContactDetection, AListThatIsNotWantedAnyMoreIsLeft)
+  {
+    const State               state = random_grains(20000, 140, 3);
+    const std::vector<double> margin(20000, 0.05);
+    NeighbourList             neighbours;
+    int                       asked = 0;
+    EXPECT_TRUE(neighbours.find_contacts(state, margin, [&] { return ++asked < 3; }).empty());
+    EXPECT_EQ(asked, 3);
+    EXPECT_EQ(neighbours.find_contacts(state, margin).size(), find_contacts(state, margin).size()) << "half a list was kept";
+    EXPECT_EQ(asked, 3);
+  }
+
   TEST(ContactDetection, AGrainThatFlewFarAwayDoesNotExhaustMemory)
   {
     State state              = random_grains(100, 10, 3);

@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+# diptych: studies that are stopped, killed, changed and gone on with end as one that is left alone
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: study_interruption_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
+
+import fcntl
+import json
+import os
+import shutil
+import signal
+import tempfile
+import time
+
+import study_test
+from running import bits, content, diptych, listing, main, start, write
+from study_test import LONG, read
+
+
+class Interruption(study_test.Folder):
+    @classmethod
+    def setUpClass(cls):
+        cls.keep = tempfile.TemporaryDirectory()
+        cls.alone = os.path.join(cls.keep.name, "alone")
+        file = write(os.path.join(cls.keep.name, "steps.json"), json.dumps(LONG, indent=1))
+        result = diptych("study", file, "--output", cls.alone, "--quiet")
+        assert result.returncode == 0, result.stderr
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.keep.cleanup()
+
+    def stop(self, signal_number):
+        """Sends a signal when the first run has its prepared sample."""
+        process = start("study", self.study_file(LONG), "--output", self.folder, "--jobs", "2")
+        while process.poll() is None and not any(name.endswith("discrete.h5") for name in listing(self.work)):
+            time.sleep(0.002)
+        self.assertIsNone(process.poll(), "it ended before the signal")
+        process.send_signal(signal_number)
+        _, errors = process.communicate()
+        return process.returncode, errors
+
+    def expect_the_rest(self):
+        self.run_study(LONG, "--resume")
+        self.assertEqual(content(self.path("study.json")), content(os.path.join(self.alone, "study.json")))
+        self.assertEqual(bits(self.path("study.h5")), bits(os.path.join(self.alone, "study.h5")))
+        self.assertEqual([name for name in listing(self.folder) if "checkpoint" in name], [])
+
+    def test_ctrl_c_keeps_what_is_done(self):
+        code, errors = self.stop(signal.SIGINT)
+        self.assertEqual(code, 3, errors)
+        for text in ("stopped on request", "runs are left", "--resume", self.folder):
+            self.assertIn(text, errors)
+        self.assertTrue(any(name.endswith("checkpoint.h5") for name in listing(self.folder)))
+        self.assertIn("not run", {p["class"] for p in read(self.folder, "study.json")["points"]})
+        self.expect_the_rest()
+
+    def test_a_run_whose_table_was_changed_since_is_run_again(self):
+        shutil.copytree(self.alone, self.folder)
+        table = next(os.path.join(self.folder, name) for name in listing(self.folder) if name.endswith("discrete.csv"))
+        rows = content(table).splitlines(keepends=True)
+        column = rows[0].split(b",").index(b"stress_ratio")
+        fields = rows[len(rows) // 2].split(b",")
+        fields[column] = b"0.99"
+        write(table, b"".join([*rows[:len(rows) // 2], b",".join(fields), *rows[len(rows) // 2 + 1:]]).decode())
+        record = next(self.path(name) for name in listing(self.folder)
+                      if name.endswith("provenance.json") and "runs" in name and os.path.dirname(self.path(name)) != os.path.dirname(table))
+        os.remove(record)  # nothing tells then whether that run's files are as it left them
+        self.expect_the_rest()
+        self.assertTrue(os.path.exists(record))
+        self.assertNotIn(b",0.99,", content(table))
+
+    def test_a_kill(self):
+        code, _ = self.stop(signal.SIGKILL)
+        self.assertEqual(code, -signal.SIGKILL)
+        self.assertNotIn("study.json", listing(self.folder))
+        patience = time.monotonic() + 60  # workers notice, and write their checkpoints
+        while time.monotonic() < patience and not any(name.endswith("checkpoint.h5") for name in listing(self.folder)):
+            time.sleep(0.01)
+        self.expect_the_rest()
+
+
+    def test_a_run_that_somebody_writes_to_is_not_taken_away(self):
+        shutil.copytree(self.alone, self.folder)
+        run = os.path.dirname(next(name for name in listing(self.folder) if name.endswith("discrete.csv")))
+        with open(self.path(run, ".diptych.lock"), "w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            lock.write("process 1 on another"), lock.flush()
+            before = listing(self.folder)
+            for words in ([], ["--resume"]):
+                told = self.run_study(LONG, *words, code=4).stderr
+                for text in (self.path(run), "process 1 on another", "nothing was written"):
+                    self.assertIn(text, told)
+                self.assertEqual(listing(self.folder), before)
+
+    def test_a_run_whose_checkpoint_is_damaged_begins_anew(self):
+        self.stop(signal.SIGINT)
+        for name in listing(self.folder):
+            if name.endswith("checkpoint.h5"):
+                write(self.path(name), "no checkpoint")
+        self.assertIn("begin anew", self.run_study(LONG, "--resume").stderr)
+        self.expect_the_rest()
+
+
+if __name__ == "__main__":
+    main()
