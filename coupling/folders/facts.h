@@ -122,7 +122,8 @@ namespace diptych::coupling
   void list_numbers(Sums &s, Visitor &v)
   {
     v({"table", "-",
-       "sum over the bytes of the .csv file (of a comparison or an ensemble: of the .json) as the run left it (FNV-1a, 64 bits)",
+       "sum over the bytes of the .csv file (of a comparison or an ensemble: of the .json; of the echo: of scene.prm) as the run "
+       "left it (FNV-1a, 64 bits)",
        Kind::setting},
       s.table);
     v({"snapshots", "-", "the same of the .h5 file", Kind::setting}, s.snapshots);
@@ -133,7 +134,7 @@ namespace diptych::coupling
   {
     DiscreteFacts          discrete;
     ContinuumFacts         continuum, continuum_coarse;
-    FileSums               discrete_files, continuum_files, continuum_coarse_files, comparison_files, ensemble_files;
+    FileSums               discrete_files, continuum_files, continuum_coarse_files, comparison_files, ensemble_files, echo_files;
     std::vector<PhaseCost> phases;
   };
 } // namespace diptych::coupling

@@ -73,5 +73,6 @@ namespace diptych::coupling
     v.group("continuum_coarse_files", "the same of the run on coarser elements", d.facts.continuum_coarse_files);
     v.group("comparison_files", "by which the comparison's files are known again", d.facts.comparison_files);
     v.group("ensemble_files", "by which the ensemble's files are known again", d.facts.ensemble_files);
+    v.group("echo_files", "by which scene.prm is known again", d.facts.echo_files);
   }
 } // namespace diptych::coupling

@@ -14,6 +14,7 @@
 #include "coupling/numbers/number_json.h"
 #include "coupling/numbers/record_file.h"
 #include "coupling/scene/identity.h"
+#include "coupling/scene/scene_file.h"
 #include "discrete/files/text_file.h"
 
 namespace diptych::coupling
@@ -128,9 +129,10 @@ namespace diptych::coupling
 
     std::string table_of(const std::string &directory, const std::string &part)
     {
-      return directory + (part == "continuum_coarse" ? "/coarse/continuum.csv"
-                          : is_panel(part)           ? "/" + part + ".csv"
-                                                     : "/" + part + ".json");
+      return directory + (part == "echo"               ? "/scene.prm"
+                          : part == "continuum_coarse" ? "/coarse/continuum.csv"
+                          : is_panel(part)             ? "/" + part + ".csv"
+                                                       : "/" + part + ".json");
     }
 
     std::string snapshots_of(const std::string &directory, const std::string &part)
@@ -196,6 +198,7 @@ namespace diptych::coupling
                      get_facts<FileSums>(record, "continuum_coarse_files"),
                      get_facts<FileSums>(record, "comparison_files"),
                      get_facts<FileSums>(record, "ensemble_files"),
+                     get_facts<FileSums>(record, "echo_files"),
                      {}};
       for (const json &row : record.value("phases", json::array()).get<std::vector<json>>())
         {
@@ -248,6 +251,7 @@ namespace diptych::coupling
       return check_part(part);
     for (const char *one : panel_parts)
       check_part(one);
+    check_part("echo");
   }
 
   std::string doubt_about_files(const std::string &directory)
@@ -303,6 +307,8 @@ namespace diptych::coupling
         else
           stored.push_back(row);
       }
+    if (is_echo(table_of(directory, "echo"))) // that of an import is the user's to change
+      put_sums(directory, "echo", record);
     write_record(directory, record);
   }
 

@@ -46,7 +46,8 @@ namespace diptych::coupling
   // Over the bytes of a file (FNV-1a of 64 bits, hexadecimal); empty where there is none.
   std::string sum_over(const std::string &file);
 
-  // The sums of a part's files as they now are: comparison.json and .h5 of the part "comparison", those of "ensemble".
+  // The sums of a part's files as they now are: comparison.json and .h5 of the part "comparison", those of "ensemble". That of
+  // scene.prm, the part "echo", is recorded with every phase.
   void record_files(const std::string &directory, const std::string &part);
 
   // Takes the facts of a part of an earlier run away, before a new one makes them untrue; or the sums of its files alone, which
@@ -55,7 +56,7 @@ namespace diptych::coupling
   void forget_files(const std::string &directory, const std::string &part);
 
   // Throws std::invalid_argument naming the file where one of those whose sums are recorded is missing, or is not what the run
-  // left: a number was changed, a row is gone, it is another run's. `part` empty: of both panels.
+  // left: a number was changed, a row is gone, it is another run's. `part` empty: of both panels and their echo.
   void check_files(const std::string &directory, const std::string &part = "");
 
   // A sentence where tables, snapshots or a comparison stand there of which no sum is recorded, as where provenance.json was

@@ -141,6 +141,19 @@ namespace diptych::coupling
       return difference;
     }
 
+    // What stands there is of the scene that its echo told, which nobody knows any more.
+    void demand_own_echo(const std::string &directory)
+    {
+      try
+        {
+          check_files(directory, "echo");
+        }
+      catch (const std::invalid_argument &error)
+        {
+          throw SceneError(std::string(error.what()) + "; name another --output, or put back what stood there");
+        }
+    }
+
     void demand_resumable(const std::string &directory, const EarlierScene &difference)
     {
       if (!difference.sample.empty())
@@ -185,7 +198,7 @@ namespace diptych::coupling
                        "' holds other files and no result of diptych; name a new or an empty folder");
     EarlierScene difference;
     if (is_result_folder)
-      demand_own_folders(directory), difference = earlier_scene(scene, echo_file);
+      demand_own_echo(directory), demand_own_folders(directory), difference = earlier_scene(scene, echo_file);
     if (resume)
       demand_resumable(directory, difference);
     if (difference.sample.empty())

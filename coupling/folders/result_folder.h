@@ -32,9 +32,10 @@ namespace diptych::coupling
 
   // Makes the folder and writes the echo, once the whole scene has been found good. Results of another sample are removed, of
   // another continuum that panel's, of another comparison what was compared: the echo tells of what stands there.
-  // Throws SceneError where the folder holds foreign content, a file that the scene reads and this run would replace, or (resume)
-  // belongs to another scene, std::runtime_error where it cannot be made. The caller holds its lock. `check`, if given, is called
-  // once the folder is found to be this scene's and before anything in it is changed: it may throw.
+  // Throws SceneError where the folder holds foreign content, an echo that was changed since, a file that the scene reads and
+  // this run would replace, or (resume) belongs to another scene, std::runtime_error where it cannot be made. The caller holds
+  // its lock. `check`, if given, is called once the folder is found to be this scene's and before anything in it is changed: it
+  // may throw.
   void open_result_folder(const Scene &scene, bool resume, const std::function<void()> &check = {});
 
   // "kept in results/mine: scene.prm, discrete.csv, discrete.h5, checkpoint.h5"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/folders/written_echo.h"
 
+#include <filesystem>
 #include <map>
 #include <sstream>
 
@@ -34,6 +35,7 @@ namespace diptych::coupling
       for (const auto &[key, path] : input_files(scene))
         if (const auto found = told.find(key); found != told.end())
           text += beginning + key + middle + found->second + '\n';
+      forget_files(std::filesystem::path(file).parent_path().string(), "echo");
       discrete::write_text(file, text);
     }
   } // namespace

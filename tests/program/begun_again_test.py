@@ -272,6 +272,30 @@ class OtherScenes(Begun):
         self.expect(0, ["compare", run[-1], *setting(comparison_max_bands=1), "--quiet"])
         self.expect(2, [*run, *setting(comparison_max_bands=1), "--resume"], "sample/radius_table", "is not what it was")
 
+    def test_an_echo_that_was_changed_is_not_believed(self):
+        """It alone tells what the results are of: with another friction in it the old grains would be those of that friction."""
+        def change(echo):
+            text = content(echo).decode()
+            self.assertEqual(text.count("set friction = "), 1)
+            write(echo, text.replace("set friction = ", "set friction = 0.9 # "))
+
+        shutil.copytree(self.whole, self.folder)
+        echo = os.path.join(self.folder, "scene.prm")
+        change(echo)
+        for words in (["compare", self.folder], ["report", self.folder], ["run", echo, "--resume"], ["continuum", echo], ["discrete", echo, "--resume"],
+                      ["discrete", QUICK, *BOTH], ["material-point", echo]):
+            told = [] if words[1] == self.folder else ["--output", self.folder]
+            self.expect(2, [*words, *told, "--quiet"], echo, "not what the run left")
+        self.expect(0, ["run", echo, "--quiet", "--output", os.path.join(self.work, "other")])
+        self.take("ensemble")
+        change(os.path.join(self.folder, "seed_1", "scene.prm"))
+        self.expect(2, ["compare", self.folder], os.path.join(self.folder, "seed_1", "scene.prm"))
+        self.expect(2, [*SEEDS, "--seeds", "1-2", "--resume", "--output", self.folder], os.path.join(self.folder, "seed_1", "scene.prm"))
+        for run in self.take("study")[:1]:
+            write(run + "/scene.prm", content(run + "/scene.prm").decode() + "# mine\n")
+        self.expect(0, self.again("study", STUDY, "--resume"))
+        self.assertNotIn(b"# mine", content(run + "/scene.prm"))
+
     def test_a_point_of_another_sample_leaves_no_comparison(self):
         shutil.copytree(self.whole, self.folder)
         self.expect(0, ["material-point", QUICK, "--quiet", "--output", self.folder])
