@@ -71,7 +71,7 @@ namespace diptych::coupling
     {
       try
         {
-          check_files(folder, "discrete");
+          check_files(folder, "discrete"), check_files(folder, "echo");
         }
       catch (const std::invalid_argument &error)
         {

@@ -10,6 +10,7 @@
 #include <ctime>
 #include <filesystem>
 #include <iostream>
+#include <set>
 #include <stdexcept>
 #include <thread>
 
@@ -21,6 +22,7 @@
 #include "coupling/processes/child_process.h"
 #include "coupling/processes/stop_signal.h"
 #include "discrete/files/text_file.h"
+#include "discrete/files/write_guard.h"
 
 namespace diptych::coupling
 {
@@ -92,6 +94,15 @@ namespace diptych::coupling
 
   const char *const folder_lock_name = ".diptych.lock";
 
+  namespace
+  {
+    std::set<const FolderLock *> &held()
+    {
+      static std::set<const FolderLock *> locks;
+      return locks;
+    }
+  } // namespace
+
   bool is_empty_folder(const std::string &directory)
   {
     const fs::directory_iterator entries(directory);
@@ -123,13 +134,18 @@ namespace diptych::coupling
     try
       {
         make_folder(directory);
+        folder = open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        if (folder < 0)
+          fail(directory, errno);
         take();
       }
     catch (const std::exception &)
       {
-        remove_made();
+        unlock();
         throw;
       }
+    held().insert(this);
+    discrete::set_write_guard(demand_here);
     const std::string name = own_name() + "\n";
     if (ftruncate(descriptor, 0) != 0 || write(descriptor, name.data(), name.size()) < 0)
       {} // the name is for people; the lock holds without it, on a full disk, too
@@ -158,12 +174,11 @@ namespace diptych::coupling
 
   FolderLock::Attempt FolderLock::lock()
   {
-    descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    descriptor = openat(folder, folder_lock_name, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (descriptor < 0)
       fail(directory, errno);
-    struct stat opened = {}, named = {};
-    int         error = flock(descriptor, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
-    if (error == 0 && fstat(descriptor, &opened) == 0 && stat(file.c_str(), &named) == 0 && opened.st_ino == named.st_ino)
+    const int error = flock(descriptor, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
+    if (error == 0 && has_its_name())
       return Attempt::locked;
     close(descriptor);
     descriptor = -1;
@@ -190,10 +205,42 @@ namespace diptych::coupling
 
   FolderLock::~FolderLock()
   {
+    held().erase(this);
     no_longer_hold_in_programs(descriptor);
-    unlink(file.c_str());
-    close(descriptor);
-    remove_made();
+    if (has_its_name())
+      unlinkat(folder, folder_lock_name, 0); // wherever the folder is by now
+    unlock();
+  }
+
+  void FolderLock::unlock()
+  {
+    if (folder < 0 || is_here())
+      remove_made();
+    for (const int opened : {descriptor, folder})
+      if (opened >= 0)
+        close(opened);
+  }
+
+  bool FolderLock::has_its_name() const
+  {
+    struct stat opened = {}, named = {};
+    return fstat(descriptor, &opened) == 0 && fstatat(folder, folder_lock_name, &named, 0) == 0 && opened.st_ino == named.st_ino;
+  }
+
+  bool FolderLock::is_here() const
+  {
+    struct stat locked = {}, named = {};
+    return fstat(folder, &locked) == 0 && stat(directory.c_str(), &named) == 0 && locked.st_ino == named.st_ino &&
+           locked.st_dev == named.st_dev;
+  }
+
+  void FolderLock::demand_here(const std::string &file)
+  {
+    for (const FolderLock *lock : held())
+      if (file.rfind(lock->directory + "/", 0) == 0 && !lock->is_here())
+        throw FolderGone("the folder '" + lock->directory + "' is no longer the one that this run locked: it was renamed, " +
+                         "removed or replaced; what was written until then is kept where it is now, and " + file +
+                         " was not written");
   }
 
   void FolderLock::remove_made() const

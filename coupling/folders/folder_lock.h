@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,13 @@ namespace diptych::coupling
   // Held as long as it lives: the folder is this process's to write to. The file `folder_lock_name` in it names process and
   // machine; what holds is the system's lock on that file (flock), which ends with the process and the programs that it has
   // started, however they end: what a killed one leaves is stale, and taken over once its programs, which are asked to stop with
-  // it, have ended. A folder that is not there is made, and removed again if nothing has come into it.
+  // it, have ended. A folder that is not there is made, and removed again if nothing has come into it. Files are written by their
+  // paths: where such a path comes to lead into another folder than the one that was locked, none is written (FolderGone).
+  struct FolderGone : std::runtime_error
+  {
+    using std::runtime_error::runtime_error;
+  };
+
   class FolderLock
   {
   public:
@@ -31,10 +38,15 @@ namespace diptych::coupling
     Attempt lock();
     void    take();
     void    remove_made() const;
+    void    unlock();
+    bool    has_its_name() const; // the file that is locked stands in the folder
+    bool    is_here() const;      // the path still leads to the folder
+
+    static void demand_here(const std::string &file); // of the folder of any lock that is held
 
     std::string              directory, file;
-    std::vector<std::string> made; // folders, the innermost first
-    int                      descriptor = -1;
+    std::vector<std::string> made;                         // folders, the innermost first
+    int                      folder = -1, descriptor = -1; // opened
   };
 
   extern const char *const folder_lock_name;

@@ -3,8 +3,12 @@
 #include "coupling/folders/result_folder.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <stdexcept>
+
+#include <unistd.h>
 
 #include "coupling/folders/provenance.h"
 #include "coupling/folders/written_echo.h"
@@ -72,6 +76,8 @@ namespace diptych::coupling
                          " is no file of a run, and would be removed with the folder that it is in; move it elsewhere");
     if (error && error != std::errc::no_such_file_or_directory && error != std::errc::not_a_directory)
       throw std::runtime_error(folder + ": cannot be looked into: " + error.message() + "; nothing was written");
+    if (!error && access(folder.c_str(), W_OK | X_OK) != 0)
+      throw std::runtime_error(folder + ": what is in it cannot be removed: " + std::strerror(errno) + "; nothing was written");
   }
 
   namespace
@@ -237,6 +243,10 @@ namespace diptych::coupling
     catch (const StoppedOnRequest &stopped)
       {
         throw StoppedOnRequest(std::string(stopped.what()) + "; " + kept_in(directory));
+      }
+    catch (const FolderGone &)
+      {
+        throw; // what is in its place is not this run's
       }
     catch (const std::exception &error)
       {

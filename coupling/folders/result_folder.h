@@ -23,7 +23,8 @@ namespace diptych::coupling
   // The first part of the path of a file below a folder, by whatever links either is named; empty where it lies elsewhere.
   std::string name_inside(const std::string &file, const std::string &directory);
 
-  // Folders go whole when a run replaces them: throws SceneError naming what somebody else put there, which would go with them.
+  // Folders go whole when a run replaces them: throws SceneError naming what somebody else put there, which would go with them,
+  // std::runtime_error where nothing can be removed from them.
   // A folder that is not there holds nothing. Of demand_own_folders() those in a result folder; of demand_own_run() the whole of
   // it.
   void demand_own(const std::string &folder, const std::function<bool(const std::string &)> &is_own);

@@ -8,6 +8,7 @@
 
 #include "coupling/folders/provenance.h"
 #include "coupling/scene/identity.h"
+#include "coupling/scene/scene_error.h"
 #include "coupling/scene/scene_file.h"
 #include "discrete/files/text_file.h"
 
@@ -52,6 +53,15 @@ namespace diptych::coupling
   void change_echo(const std::string &file, const Scene &scene)
   {
     write_echo(file, scene, told_inputs(file));
+  }
+
+  void refuse_folder_of_an_echo(const std::string &file, const Scene &scene)
+  {
+    namespace fs = std::filesystem;
+    std::error_code none;
+    if (is_echo(file) && !fs::equivalent(fs::absolute(file).parent_path(), scene.output.directory, none))
+      throw SceneError(file + ": output/directory = '" + scene.output.directory +
+                       "' is where the run wrote to that this scene is the echo of; --output says where this one does");
   }
 
   std::string changed_input(const Scene &scene, const std::string &echo_file, const std::string &key)

@@ -16,6 +16,10 @@ namespace diptych::coupling
   // Of a scene that differs in what the comparison does alone: of what was in the files the earlier echo's word stays.
   void change_echo(const std::string &file, const Scene &scene);
 
+  // An echo names the folder that its run wrote to: a run of a copy of it, or of that folder, would replace what stands there.
+  // Throws SceneError where `file` is an echo, read as `scene`, and lies in another folder than it names.
+  void refuse_folder_of_an_echo(const std::string &file, const Scene &scene);
+
   // "sample/radius_table: 'mine.csv' is not what it was": the first of the files that the scene reads whose bytes are others than
   // the echo tells, by the beginning of its key. Empty where none is; a file that is gone, or of which nothing is told, may be.
   std::string changed_input(const Scene &scene, const std::string &echo_file, const std::string &key = "");

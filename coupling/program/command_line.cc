@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/program/command_line.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -11,6 +12,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include "coupling/folders/written_echo.h"
 #include "coupling/program/built_with.h"
 #include "coupling/program/completion.h"
 #include "coupling/program/option_values.h"
@@ -365,6 +367,9 @@ namespace diptych::coupling
     Scene scene = read_scene(line.target, line.overrides, line.command == Command::run);
     if (!line.output.empty())
       scene.output.directory = line.output;
+    else if (std::none_of(line.overrides.begin(), line.overrides.end(),
+                          [](const std::string &text) { return text.rfind("output/directory=", 0) == 0; }))
+      refuse_folder_of_an_echo(line.target, scene);
     scene.discrete.threads = line.threads;
     for (const std::string &warning : line.tells_warnings ? scene.warnings : std::vector<std::string>())
       warn(warning);

@@ -47,6 +47,7 @@ namespace diptych::coupling
       Results          results = load_results(directory);
       Comparison       c       = compared(scene, results, progress);
       forget_files(directory, "comparison");
+      remove_results(directory, comparison_files);                     // a page of another comparison, also where none is drawn
       if (!line.overrides.empty() && line.command == Command::compare) // what stands there is of these keys from now on
         change_echo(directory + "/scene.prm", scene);
       write_comparison_h5(directory, scene, c, results);

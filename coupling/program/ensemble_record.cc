@@ -108,7 +108,8 @@ namespace diptych::coupling
   {
     const std::string &directory = scene.output.directory;
     check_member_histories(directory, record.ensemble.seeds);
-    forget_files(directory, "ensemble"); // killed from here on, it leaves none that look changed
+    forget_files(directory, "ensemble");        // killed from here on, it leaves none that look changed
+    remove_results(directory, {"report.html"}); // of other statistics, also where none is drawn
     write_ensemble_curves(directory, scene, record.ensemble.seeds);
     write_ensemble_json(directory, scene, record);
     write_ensemble_csv(directory, record.ensemble);

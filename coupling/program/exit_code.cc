@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/program/exit_code.h"
 
+#include <filesystem>
 #include <stdexcept>
+#include <system_error>
 
 #include "coupling/processes/stop_signal.h"
 #include "discrete/files/out_of_memory.h"
@@ -17,8 +19,22 @@ namespace diptych::coupling
     return "diptych: " + what + (is_before && !is_told ? "; nothing was written" : "");
   }
 
+  namespace
+  {
+    // Names that no file can have: no machine would take them.
+    bool is_impossible_name(const std::exception &error)
+    {
+      const auto *of_path = dynamic_cast<const std::filesystem::filesystem_error *>(&error);
+      return of_path != nullptr &&
+             (of_path->code() == std::errc::filename_too_long || of_path->code() == std::errc::not_a_directory ||
+              of_path->code() == std::errc::too_many_symbolic_link_levels);
+    }
+  } // namespace
+
   int code_of(const std::exception &error)
   {
+    if (is_impossible_name(error))
+      return wrong_input;
     if (discrete::is_out_of_memory(error))
       return system_failure;
     if (dynamic_cast<const StoppedOnRequest *>(&error) != nullptr)

@@ -38,7 +38,7 @@ namespace diptych::coupling
       scene = fs::exists(line.target + "/import.json") && !is_echo(prm) ? read_scene(prm, {}, false) // what an import proposes
                                                                         : read_computed_scene(prm, {}, false);
     const std::vector<discrete::Snapshot> snapshots = discrete::read_snapshots(file);
-    check_files(line.target, "discrete"), warn(doubt_about_files(line.target));
+    check_files(line.target, "discrete"), check_files(line.target, "echo"), warn(doubt_about_files(line.target));
     if (std::size_t(line.stage) >= snapshots.size())
       throw SceneError("--stage " + std::to_string(line.stage) + ": " + file + " holds " + std::to_string(snapshots.size()) +
                        " snapshots, 0 to " + std::to_string(snapshots.size() - 1));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <filesystem>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -21,9 +22,12 @@ namespace diptych::discrete
            dynamic_cast<const std::length_error *>(&error) != nullptr || dynamic_cast<const OutOfMemory *>(&error) != nullptr;
   }
 
-  // What the error says; of memory in words, which the standard library has none for.
+  // What the error says; of memory in words, which the standard library has none for, of a path by its name and what the system
+  // says.
   inline std::string text_of(const std::exception &error)
   {
+    if (const auto *of_path = dynamic_cast<const std::filesystem::filesystem_error *>(&error); of_path != nullptr)
+      return of_path->path1().string() + ": " + of_path->code().message();
     const bool is_told = dynamic_cast<const OutOfMemory *>(&error) != nullptr || !is_out_of_memory(error);
     return is_told ? error.what() : "not enough memory, or this process may not have more (ulimit -v)";
   }

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "discrete/files/write_guard.h"
+
 namespace diptych::discrete
 {
   namespace fs = std::filesystem;
@@ -46,6 +48,7 @@ namespace diptych::discrete
   StagedFile::StagedFile(std::string path_without_ending)
       : path(std::move(path_without_ending))
   {
+    ask_write_guard(file());
     fs::remove(file());
     remove_parts(0);
   }

@@ -37,6 +37,8 @@ namespace diptych::discrete
       NscdGroup group;
       group.free_velocity = file.numbers("/nscd/v_free");
       group.radius        = file.numbers("/nscd/radius");
+      if (file.has("/nscd/H/x"))
+        (void)file.numbers("/nscd/H/x"); // it follows from the rest, but goes on into the solution
       if (group.free_velocity.size() % 3 != 0 || group.radius.size() > group.free_velocity.size() / 3)
         file.refuse("/nscd/v_free", text("has ", group.free_velocity.size(), " entries for ", group.radius.size(), " discs"));
       group.inverse_mass = file.numbers("/nscd/Minv_diag", group.free_velocity.size());

@@ -4,6 +4,7 @@
 """Usage: begun_again_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
 
 import copy
+import ctypes
 import json
 import os
 import shutil
@@ -166,6 +167,47 @@ class Foreign(Begun):
         self.expect(2, [*SEEDS, "--seeds", "9", "--output", self.folder], os.path.join(self.folder, "seed_9"))
 
 
+def bound_by_permissions():
+    """For preexec_fn: the system's administrator, too, may not write where nobody may (CAP_DAC_OVERRIDE is given up)."""
+    drop_of_the_bounding_set, override_of_permissions = 24, 1
+    if os.getuid() == 0 and ctypes.CDLL(None, use_errno=True).prctl(drop_of_the_bounding_set, override_of_permissions, 0, 0, 0) != 0:
+        raise OSError(ctypes.get_errno(), "prctl")
+
+
+class Permissions(Begun):
+    """What cannot be removed is told while everything stands."""
+
+    def locked(self, *names):
+        path = os.path.join(self.folder, *names)
+        os.chmod(path, 0o555)
+        self.addCleanup(os.chmod, path, 0o755)
+        return path
+
+    def refused(self, words, *texts):
+        before = {name: content(os.path.join(self.folder, name)) for name in listing(self.folder)}
+        self.expect(4, [*words, "--quiet"], *texts, "nothing was written", preexec_fn=bound_by_permissions)
+        self.assertEqual({name: content(os.path.join(self.folder, name)) for name in listing(self.folder)}, before)
+
+    def test_of_a_result(self):
+        shutil.copytree(self.whole, self.folder)
+        for name in ("continuum", "discrete"):
+            os.makedirs(os.path.join(self.folder, name), exist_ok=True)
+            write(os.path.join(self.folder, name, "stage_0000.vtu"), "")
+            path = self.locked(name)
+            for words in (["run", *setting(sample_seed=4)], ["run"], ["discrete"], ["continuum", "--resume"]):
+                with self.subTest(name=name, words=words):
+                    self.refused([words[0], QUICK, *BOTH, *words[1:], "--output", self.folder], path)
+            os.chmod(path, 0o755)
+
+    def test_of_studies(self):
+        runs = self.take("study")
+        for names, words in ((["runs"], ["--resume"]), (["runs"], []), (["runs", os.path.basename(runs[0])], [])):
+            with self.subTest(names=names, words=words):
+                path = self.locked(*names)
+                self.refused(self.again("study", STUDY, *words), path)
+                os.chmod(path, 0o755)
+
+
 class OtherScenes(Begun):
     def test_a_run_of_another_scene_is_not_taken_for_a_studys(self):
         def another(runs):
@@ -272,6 +314,31 @@ class OtherScenes(Begun):
         self.expect(0, ["compare", run[-1], *setting(comparison_max_bands=1), "--quiet"])
         self.expect(2, [*run, *setting(comparison_max_bands=1), "--resume"], "sample/radius_table", "is not what it was")
 
+    def test_a_copy_of_an_echo_does_not_go_where_its_run_went(self):
+        shutil.copytree(self.whole, self.folder)
+        copied = os.path.join(self.work, "copied")
+        shutil.copytree(self.folder, copied)
+        mine = os.path.join(self.work, "mine.prm")
+        echo = content(os.path.join(self.folder, "scene.prm")).decode()
+        write(mine, echo.replace(f"directory = {self.whole}", f"directory = {self.folder}"))
+        for scene in (mine, os.path.join(copied, "scene.prm")):
+            for command in ("discrete", "run", "continuum", "material-point"):
+                self.expect(2, [command, scene, "--quiet"], scene, "output/directory", "--output")
+        self.expect(0, ["discrete", mine, "--quiet", "--output", os.path.join(self.work, "other")])
+        self.expect(0, ["discrete", os.path.join(self.work, "other", "scene.prm"), "--quiet"])  # in its own folder
+
+    def test_no_page_of_another_comparison_stays(self):
+        shutil.copytree(self.whole, self.folder)
+        page = os.path.join(self.folder, "report.html")
+        self.expect(0, ["report", self.folder, "--quiet"])
+        self.assertTrue(os.path.exists(page))
+        self.expect(0, ["compare", self.folder, *setting(comparison_max_bands=1), "--quiet"])
+        self.assertFalse(os.path.exists(page))
+        self.take("ensemble")
+        self.expect(0, ["report", self.folder, "--quiet"])
+        self.expect(0, ["compare", self.folder, *setting(comparison_margin_angle=1), "--quiet"])
+        self.assertFalse(os.path.exists(page))
+
     def test_an_echo_that_was_changed_is_not_believed(self):
         """It alone tells what the results are of: with another friction in it the old grains would be those of that friction."""
         def change(echo):
@@ -286,6 +353,9 @@ class OtherScenes(Begun):
                       ["discrete", QUICK, *BOTH], ["material-point", echo]):
             told = [] if words[1] == self.folder else ["--output", self.folder]
             self.expect(2, [*words, *told, "--quiet"], echo, "not what the run left")
+        self.expect(2, ["export", self.folder, "--format", "lammps", "--output", os.path.join(self.work, "given")], echo, "not what the run left")
+        fit = changed(CALIBRATION, targets=[{"name": "fitted", "results": [self.folder]}])
+        self.expect(2, ["calibrate", self.file("fit.json", fit), "--output", os.path.join(self.work, "fit"), "--quiet"], echo, "not what the run left")
         self.expect(0, ["run", echo, "--quiet", "--output", os.path.join(self.work, "other")])
         self.take("ensemble")
         change(os.path.join(self.folder, "seed_1", "scene.prm"))

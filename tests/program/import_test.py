@@ -168,6 +168,10 @@ class Refused(Case):
         for words, key in ((("--density", "1e13"), "sample/density"), (("--pressure", "1e30"), "loading/pressure")):
             self.refused("import", "csv", *CSV, *words, "--output", self.path("out"), says=key)
 
+    def test_names_that_no_file_can_have(self):
+        for name in ("a" * 100000, os.path.join(CSV[0], "below")):
+            self.refused("import", "csv", name, "--output", self.path("out"), says=name)
+
     def test_a_scene_of_an_import_is_checked(self):
         self.done("import", "lammps", *LAMMPS, "--output", self.path("mine"), "--quiet")
         scene = self.path("mine", "scene.prm")

@@ -231,7 +231,7 @@ def test_what_does_not_converge_says_so(small):
     assert panel.status == "not_converged" and panel.report.message
 
 
-def test_the_continuum_asks_for_what_it_needs(small):
+def test_the_continuum_asks_for_what_it_needs(small, tmp_path):
     with pytest.raises(diptych.SceneError, match="snapshot") as thrown:
         diptych.ContinuumPanel(small)
     assert thrown.value.key == "continuum/mesh"
@@ -240,6 +240,10 @@ def test_the_continuum_asks_for_what_it_needs(small):
         diptych.ContinuumPanel(fixed, None)
     with pytest.raises(FileNotFoundError, match="nowhere"):
         diptych.DiscretePanel(small).write("nowhere")
+    (tmp_path / "discrete.csv").write_text("mine")
+    with pytest.raises(FileExistsError, match="discrete.csv"):
+        diptych.DiscretePanel(small).write(tmp_path)
+    assert (tmp_path / "discrete.csv").read_text() == "mine"
     with pytest.raises(ValueError, match="stages 1 ... 2"):
         diptych.DiscretePanel(small).advance(3)
 

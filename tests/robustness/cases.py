@@ -46,8 +46,9 @@ def limit(memory=MEMORY, **limits):
 
 
 def heard():
-    """For preexec_fn: a signal that is to end the program does, also where the tests were begun with nohup, which is inherited."""
-    signal.signal(signal.SIGHUP, signal.SIG_DFL)
+    """For preexec_fn: a signal that is to end the program does, also where the tests were begun with nohup or in the background, which is inherited."""
+    for one in (signal.SIGHUP, signal.SIGINT):
+        signal.signal(one, signal.SIG_DFL)
 
 
 class Listener(threading.Thread):

@@ -22,6 +22,7 @@ class _Panel:
     """What both panels have in common."""
 
     _columns: Callable[[], dict[str, tuple[str, str]]]
+    _table: str  # of its files
 
     def __init__(self, scene: _diptych.Scene, make: Callable[[], Any], on_step: OnStep) -> None:
         self._scene, self._make, self._panel, self._prepared = scene, make, make(), False
@@ -98,12 +99,16 @@ class _Panel:
 
     def write(self, folder: str | os.PathLike[str]) -> None:
         """Snapshots and history as the program writes them (.h5, .xdmf, .csv). Raises FileNotFoundError where there is no such
-        folder, FileExistsError where it is one of the program's: what stands there is known by its scene and its sums."""
+        folder, FileExistsError where it is one of the program's: what stands there is known by its scene and its sums; and where
+        a table of that name stands there alone, which is somebody's."""
         if not os.path.isdir(folder):
             raise FileNotFoundError(f"{os.fspath(folder)}: no such folder")
         for name in ("scene.prm", "ensemble.prm", "study_input.json", "calibration_input.json"):
             if os.path.exists(os.path.join(folder, name)):
                 raise FileExistsError(f"{os.fspath(folder)}: holds {name}, a result of diptych; name another folder")
+        name = self._table
+        if os.path.exists(os.path.join(folder, name + ".csv")) and not os.path.exists(os.path.join(folder, name + ".h5")):
+            raise FileExistsError(f"{os.fspath(folder)}: holds {name}.csv without the snapshots of a panel; name another folder")
         self._write(self._results(), os.fspath(folder))
 
     def _results(self) -> Any:
@@ -140,6 +145,7 @@ class DiscretePanel(_Panel):
     """
 
     _columns = staticmethod(_diptych.discrete_columns)
+    _table = "discrete"
 
     def __init__(self, scene: scenes.SceneLike, on_step: OnStep = None, grains: Mapping[str, Any] | None = None) -> None:
         read = scenes.read(scene)
@@ -163,6 +169,7 @@ class ContinuumPanel(_Panel):
     """
 
     _columns = staticmethod(_diptych.continuum_columns)
+    _table = "continuum"
 
     def __init__(self, scene: scenes.SceneLike, grains: Any = None, on_step: OnStep = None) -> None:
         read = scenes.read(scene)

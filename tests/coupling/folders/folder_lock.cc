@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "coupling/processes/child_process.h"
+#include "discrete/files/text_file.h"
 
 namespace
 {
@@ -118,6 +119,29 @@ namespace
     EXPECT_TRUE(fs::exists(end)) << "the program still wrote";
     EXPECT_NE(told.find("waiting for the programs of process " + std::to_string(killed)), std::string::npos) << told;
     waitpid(killed, nullptr, 0);
+  }
+
+  // Two runs whose folders somebody exchanged would write their rows into each other's tables.
+  TEST_F(Lock, NothingIsWrittenIntoAFolderThatTookThePlaceOfTheOne)
+  {
+    const fs::path elsewhere = top / "elsewhere";
+    {
+      const FolderLock lock(out);
+      diptych::discrete::write_text(out / "rows.csv", "a\n");
+      fs::rename(out, elsewhere);
+      EXPECT_THROW(diptych::discrete::write_text(out / "rows.csv", "b\n"), diptych::coupling::FolderGone);
+      fs::create_directories(out);
+      std::ofstream(out / "rows.csv") << "another's\n";
+      std::ofstream(file()) << "another's";
+      EXPECT_THROW(diptych::discrete::write_text(out / "rows.csv", "b\n"), diptych::coupling::FolderGone);
+      EXPECT_THROW(diptych::discrete::append_text(out / "rows.csv", "b\n"), diptych::coupling::FolderGone);
+      EXPECT_THROW(diptych::discrete::keep_lines(out / "rows.csv", 0), diptych::coupling::FolderGone);
+      diptych::discrete::write_text(top / "mine.txt", "no folder of a run\n");
+    }
+    EXPECT_EQ(diptych::discrete::read_text(out / "rows.csv"), "another's\n");
+    EXPECT_TRUE(fs::exists(file()));
+    EXPECT_EQ(diptych::discrete::read_text(elsewhere / "rows.csv"), "a\n");
+    EXPECT_FALSE(fs::exists(elsewhere / diptych::coupling::folder_lock_name));
   }
 
   TEST_F(Lock, FoldersThatWereMadeForNothingAreRemoved)

@@ -119,7 +119,7 @@ namespace
   // The local form is solved, but the other goes into the file of the solution.
   TEST(Fclib, NumbersOfTheGlobalFormAreLookedAtBesideTheLocalOne)
   {
-    for (const std::string name : {"/fclib_global/M/x", "/fclib_global/vectors/f"})
+    for (const std::string name : {"/fclib_global/M/x", "/fclib_global/vectors/f", "/nscd/H/x"})
       {
         const TemporaryFile file;
         std::filesystem::copy_file(stored("small.h5"), file.path, std::filesystem::copy_options::overwrite_existing);
