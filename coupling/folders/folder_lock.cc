@@ -123,7 +123,8 @@ namespace diptych::coupling
     if (error)
       throw std::runtime_error("the folder '" + directory + "' cannot be made: " + error.message());
     if (access(directory.c_str(), W_OK) != 0)
-      throw std::runtime_error("the folder '" + directory + "' cannot be written to: " + std::strerror(errno));
+      throw std::runtime_error("the folder '" + directory + "' cannot be written to: " + std::strerror(errno) +
+                               "; nothing was written");
   }
 
   FolderLock::FolderLock(const std::string &directory)

@@ -157,8 +157,12 @@ namespace diptych::coupling
       if (outcome.exit_code == 0 || outcome.interrupted)
         return;
       progress.clear_line();
-      const Task &task = queue.tasks[outcome.task];
-      std::cerr << task.name << " failed with exit code " << outcome.exit_code << ": " << last_words(task.log)
+      const Task       &task  = queue.tasks[outcome.task];
+      const std::string words = last_words(task.log);
+      std::cerr << task.name << " failed with exit code " << outcome.exit_code << ": "
+                << (!words.empty()            ? words
+                    : outcome.exit_code > 128 ? "ended by a signal, without a word"
+                                              : "without a word")
                 << " (its output: " << task.log << ')' << std::endl;
     }
 

@@ -4,14 +4,13 @@
 """Usage: begun_again_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
 
 import copy
-import ctypes
 import json
 import os
 import shutil
 
 import faults_test
 from faults_test import BOTH, FEW
-from running import QUICK, SOURCE, content, diptych, history, listing, main, setting, write
+from running import QUICK, SOURCE, bound_by_permissions, content, diptych, history, listing, main, setting, write
 
 STUDY = {
     "scene": os.path.join(SOURCE, "benchmarks", "dense_biaxial", "scene.prm"), "command": "discrete", "seeds": "1-2",
@@ -165,13 +164,6 @@ class Foreign(Begun):
         os.mkdir(os.path.join(self.folder, "seed_9"))
         write(os.path.join(self.folder, "seed_9", "notes"), "n\n")
         self.expect(2, [*SEEDS, "--seeds", "9", "--output", self.folder], os.path.join(self.folder, "seed_9"))
-
-
-def bound_by_permissions():
-    """For preexec_fn: the system's administrator, too, may not write where nobody may (CAP_DAC_OVERRIDE is given up)."""
-    drop_of_the_bounding_set, override_of_permissions = 24, 1
-    if os.getuid() == 0 and ctypes.CDLL(None, use_errno=True).prctl(drop_of_the_bounding_set, override_of_permissions, 0, 0, 0) != 0:
-        raise OSError(ctypes.get_errno(), "prctl")
 
 
 class Permissions(Begun):

@@ -3,6 +3,7 @@
 """For tests called as NAME_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
 
 import csv
+import ctypes
 import json
 import os
 import subprocess
@@ -69,6 +70,13 @@ def history(folder, name="discrete.csv"):
 def facts(folder):
     with open(os.path.join(folder, "provenance.json")) as file:
         return json.load(file)["discrete"]
+
+
+def bound_by_permissions():
+    """For preexec_fn: the system's administrator, too, may not write where nobody may (CAP_DAC_OVERRIDE is given up)."""
+    drop_of_the_bounding_set, override_of_permissions = 24, 1
+    if os.getuid() == 0 and ctypes.CDLL(None, use_errno=True).prctl(drop_of_the_bounding_set, override_of_permissions, 0, 0, 0) != 0:
+        raise OSError(ctypes.get_errno(), "prctl")
 
 
 def bits(path):

@@ -6,8 +6,9 @@ import shutil
 
 import bases
 from bases import BOTH, NODES, SEEDS, TINY
+from cases import limit
 from file_kinds import expect_same_as_whole, read
-from running import QUICK, setting
+from running import QUICK, bound_by_permissions, setting
 
 LINES = {  # of a base: what is begun over it, but for --output
     "grains": [["discrete", QUICK, *TINY], ["discrete", QUICK, *TINY, *setting(sample_seed=3)], ["material-point", QUICK, *TINY]],
@@ -22,7 +23,7 @@ CHANGES = (setting(continuum_friction_angle_peak=30), setting(comparison_max_ban
 
 
 def again(case):
-    case.dice.choice((beside_somebodys, beside_somebodys, beside_its_input, over_another_scene))(case)
+    case.dice.choice((beside_somebodys, beside_somebodys, beside_its_input, over_another_scene, over_a_changed_echo, where_nothing_can_be_removed))(case)
 
 
 def taken(case):
@@ -84,6 +85,53 @@ def over_another_scene(case):
         if os.path.exists(os.path.join(folder, name)):
             os.remove(os.path.join(folder, name))
     expect_same_as_whole(case, f"changed_{change}", lambda other: bases.done(case.work, *words, "--output", other, "--quiet"), folder)
+
+
+def over_a_changed_echo(case):
+    """A value in scene.prm, a comment, or another run's: whatever reads the results or adds to them refuses it."""
+    base = case.dice.choice(["grains", "nodes", "both"])
+    case.copy(base, ".")
+    folder, echo = case.path("out"), case.path("out", "scene.prm")
+    lines = read(echo).splitlines(keepends=True)
+    values = [k for k, line in enumerate(lines) if line.lstrip().startswith(b"set ")]
+    how = case.dice.choice(["value", "value", "comment", "another's"])
+    if how == "value":
+        k = case.dice.choice(values)
+        lines[k] = lines[k].split(b"=")[0] + b"= " + case.dice.choice([b"0.123", b"7", b"true", b"none", b"nan"]) + b"\n"
+    elif how == "comment":
+        lines.insert(case.dice.randrange(1, len(lines)), b"# mine\n")
+    else:
+        lines = [read(os.path.join(case.base(case.dice.choice([b for b in ("grains", "nodes", "both") if b != base])), "out", "scene.prm"))]
+    if b"".join(lines) == read(echo):
+        return
+    case.write("out/scene.prm", b"".join(lines))
+    case.done.append(f"scene.prm: {how}")
+    line = case.dice.choice([["compare"], ["report"], ["export"], *LINES[base]])
+    words = [line[0], folder, *(["--format", "csv"] if line[0] == "export" else [])] if len(line) == 1 else \
+        [*line, *(["--resume"] if case.dice.random() < 0.5 and line[0] != "material-point" else []), "--output", folder]
+    case.run(*words, *(["--quiet"] if line[0] != "export" else []), output=folder, codes=(2,), names=(folder, "out/scene.prm"), patience=30)
+
+
+def where_nothing_can_be_removed(case):
+    """A folder among the results that nobody may write to: ended as ever, or refused while everything stands."""
+    base, folder = taken(case)
+    for name in ("discrete", "continuum"):
+        if base in ("grains", "nodes", "both") and case.dice.random() < 0.5:
+            os.makedirs(os.path.join(folder, name), exist_ok=True)
+            case.write(f"out/{name}/stage_0000.vtu", "")
+    places = sorted([folder, *(os.path.join(root, name) for root, names, _ in os.walk(folder) for name in names)])
+    place = case.dice.choice(places)
+    os.chmod(place, 0o555)
+
+    def bound():
+        limit()
+        bound_by_permissions()
+    resume = ["--resume"] if case.dice.random() < 0.4 and base != "grains" else []
+    outcome = case.run(*case.dice.choice(LINES[base]), *resume, "--output", folder, "--quiet", output=folder, names=(place, folder), patience=30, preexec=bound)
+    os.chmod(place, 0o755)
+    if outcome.code == 4 and outcome.after != outcome.before:
+        case.violate(f"{os.path.relpath(place, case.work)} cannot be written to, and others are changed: " +
+                     ", ".join(sorted(set(outcome.before) ^ set(outcome.after)) or ["their bytes"])[:300])
 
 
 KINDS = {"again": again}
