@@ -57,10 +57,12 @@ namespace diptych::coupling
 
   void refuse_folder_of_an_echo(const std::string &file, const Scene &scene)
   {
-    namespace fs = std::filesystem;
-    std::error_code none;
-    if (is_echo(file) && !fs::equivalent(fs::absolute(file).parent_path(), scene.output.directory, none))
-      throw SceneError(file + ": output/directory = '" + scene.output.directory +
+    namespace fs                 = std::filesystem;
+    const std::string &directory = scene.output.directory;
+    std::error_code    none;
+    if (is_echo(file) && fs::exists(directory, none) && directory != "results/" + scene.name &&
+        !fs::equivalent(fs::absolute(file).parent_path(), directory, none))
+      throw SceneError(file + ": output/directory = '" + directory +
                        "' is where the run wrote to that this scene is the echo of; --output says where this one does");
   }
 

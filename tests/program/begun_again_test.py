@@ -316,6 +316,10 @@ class OtherScenes(Begun):
         for scene in (mine, os.path.join(copied, "scene.prm")):
             for command in ("discrete", "run", "continuum", "material-point"):
                 self.expect(2, [command, scene, "--quiet"], scene, "output/directory", "--output")
+        write(os.path.join(self.work, "planned.prm"), content(mine).decode().replace(f"directory = {self.folder}", "directory ="))
+        self.expect(0, ["discrete", "planned.prm", "--quiet"])
+        self.expect(0, ["discrete", "planned.prm", "--quiet"])
+        self.assertTrue(os.path.exists(os.path.join(self.work, "results", "planned", "discrete.h5")))
         self.expect(0, ["discrete", mine, "--quiet", "--output", os.path.join(self.work, "other")])
         self.expect(0, ["discrete", os.path.join(self.work, "other", "scene.prm"), "--quiet"])  # in its own folder
 

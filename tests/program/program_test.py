@@ -7,6 +7,7 @@ import base64
 import csv
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -179,9 +180,12 @@ class QuickScene(unittest.TestCase):
             self.assertEqual((int.from_bytes(stored[:8], "little"), len(stored)), (72 * cells, 8 + 72 * cells))
 
     def test_comparing_again_gives_the_same_numbers(self):
-        again = diptych("compare", self.folder, "--quiet", "--set", "output/report=false")
+        copied = os.path.join(self.keep.name, "copied")
+        shutil.copytree(self.folder, copied)
+        again = diptych("compare", copied, "--quiet", "--set", "output/report=false")
         self.assertEqual(again.returncode, 0, again.stderr)
-        with open(os.path.join(self.folder, "comparison.json")) as file:
+        self.assertFalse(os.path.exists(os.path.join(copied, "report.html")), "the page of the comparison before")
+        with open(os.path.join(copied, "comparison.json")) as file:
             repeated = json.load(file)
         self.assertEqual(repeated["stages"], self.comparison["stages"])
         self.assertEqual(repeated["windows"], self.comparison["windows"])
