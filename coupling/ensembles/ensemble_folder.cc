@@ -147,7 +147,11 @@ namespace diptych::coupling
     if (earlier->sample.seed != seed)
       difference = "sample/seed = " + std::to_string(earlier->sample.seed);
     if (!difference.empty())
-      throw SceneError(file + ": is not of this ensemble: " + difference + "; without --resume its member is run again");
+      throw SceneError(file + ": is not of this ensemble: " + difference + "; " +
+                       (difference.rfind("comparison/", 0) == 0
+                          ? "diptych compare " + member_folder(scene.output.directory, seed) + " --set with the value here, or "
+                          : "") +
+                       "without --resume the seeds are run again");
   }
 
   bool is_finished_member(const Scene &scene, const int seed)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <stdexcept>
 #include <thread>
 
@@ -14,7 +15,6 @@
 #include "coupling/numbers/number_json.h"
 #include "coupling/numbers/record_file.h"
 #include "coupling/scene/identity.h"
-#include "coupling/scene/scene_file.h"
 #include "discrete/files/text_file.h"
 
 namespace diptych::coupling
@@ -209,6 +209,26 @@ namespace diptych::coupling
     }
   } // namespace
 
+  namespace
+  {
+    std::string echo_of(const std::string &directory)
+    {
+      return (std::filesystem::path(directory) / "scene.prm").lexically_normal().string();
+    }
+
+    // Sums over what this process wrote to scene.prm, by its path: who changes it while the run goes on is found out, too.
+    std::map<std::string, std::string> &echoes()
+    {
+      static std::map<std::string, std::string> sums;
+      return sums;
+    }
+  } // namespace
+
+  void remember_echo(const std::string &directory, const std::string &text)
+  {
+    echoes()[echo_of(directory)] = hexadecimal(digest_of(text));
+  }
+
   void forget_fact(const std::string &directory, const std::string &part)
   {
     json record = read_record(directory);
@@ -307,8 +327,12 @@ namespace diptych::coupling
         else
           stored.push_back(row);
       }
-    if (is_echo(table_of(directory, "echo"))) // that of an import is the user's to change
-      put_sums(directory, "echo", record);
+    if (const auto echo = echoes().find(echo_of(directory)); echo != echoes().end())
+      {
+        NumbersToJson  sums{record["echo_files"] = json::object(), 1};
+        const FileSums file{echo->second, ""};
+        list_numbers(file, sums);
+      }
     write_record(directory, record);
   }
 

@@ -47,8 +47,10 @@ namespace diptych::coupling
   std::string sum_over(const std::string &file);
 
   // The sums of a part's files as they now are: comparison.json and .h5 of the part "comparison", those of "ensemble". That of
-  // scene.prm, the part "echo", is recorded with every phase.
+  // scene.prm, the part "echo", is of the text that this process wrote there, and recorded with every phase.
   void record_files(const std::string &directory, const std::string &part);
+
+  void remember_echo(const std::string &directory, const std::string &text);
 
   // Takes the facts of a part of an earlier run away, before a new one makes them untrue; or the sums of its files alone, which
   // an interrupted run that goes on is about to change.

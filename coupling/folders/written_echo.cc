@@ -36,8 +36,10 @@ namespace diptych::coupling
       for (const auto &[key, path] : input_files(scene))
         if (const auto found = told.find(key); found != told.end())
           text += beginning + key + middle + found->second + '\n';
-      forget_files(std::filesystem::path(file).parent_path().string(), "echo");
+      const std::string directory = std::filesystem::path(file).parent_path().string();
+      forget_files(directory, "echo");
       discrete::write_text(file, text);
+      remember_echo(directory, text);
     }
   } // namespace
 
@@ -55,15 +57,15 @@ namespace diptych::coupling
     write_echo(file, scene, told_inputs(file));
   }
 
-  void refuse_folder_of_an_echo(const std::string &file, const Scene &scene)
+  void refuse_folder_of_an_echo(const std::string &file, const Scene &scene, const bool resume)
   {
     namespace fs                 = std::filesystem;
     const std::string &directory = scene.output.directory;
     std::error_code    none;
-    if (is_echo(file) && fs::exists(directory, none) && directory != "results/" + scene.name &&
+    if (is_echo(file) && (resume || fs::exists(directory, none)) && directory != "results/" + scene.name &&
         !fs::equivalent(fs::absolute(file).parent_path(), directory, none))
       throw SceneError(file + ": output/directory = '" + directory +
-                       "' is where the run wrote to that this scene is the echo of; --output says where this one does");
+                       "' is not where this echo of a run lies, which it names; --output says where this run is to go");
   }
 
   std::string changed_input(const Scene &scene, const std::string &echo_file, const std::string &key)

@@ -17,9 +17,9 @@ namespace diptych::coupling
   void change_echo(const std::string &file, const Scene &scene);
 
   // An echo names the folder that its run wrote to: a run of a copy of it, or of that folder, would replace what stands there.
-  // Throws SceneError where `file` is an echo, read as `scene`, and lies in another folder than it names, which is there and is
-  // not where scenes of its name go anyway.
-  void refuse_folder_of_an_echo(const std::string &file, const Scene &scene);
+  // Throws SceneError where `file` is an echo, read as `scene`, and lies in another folder than it names, which is there
+  // (or would be resumed) and is not where scenes of its name go anyway.
+  void refuse_folder_of_an_echo(const std::string &file, const Scene &scene, bool resume);
 
   // "sample/radius_table: 'mine.csv' is not what it was": the first of the files that the scene reads whose bytes are others than
   // the echo tells, by the beginning of its key. Empty where none is; a file that is gone, or of which nothing is told, may be.

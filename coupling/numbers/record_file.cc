@@ -3,7 +3,11 @@
 #include "coupling/numbers/record_file.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
+
+#include <unistd.h>
 
 #include "discrete/files/text_file.h"
 
@@ -19,6 +23,8 @@ namespace diptych::coupling
         throw std::invalid_argument("nests more than " + std::to_string(most_levels) + " levels");
       return true;
     };
+    if (access(path.c_str(), R_OK) != 0 && errno != ENOENT)
+      throw std::runtime_error(path + ": cannot be read: " + std::strerror(errno));
     try
       {
         json record = json::parse(discrete::read_text(path), not_endless);

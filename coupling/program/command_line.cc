@@ -369,7 +369,7 @@ namespace diptych::coupling
       scene.output.directory = line.output;
     else if (std::none_of(line.overrides.begin(), line.overrides.end(),
                           [](const std::string &text) { return text.rfind("output/directory=", 0) == 0; }))
-      refuse_folder_of_an_echo(line.target, scene);
+      refuse_folder_of_an_echo(line.target, scene, line.resume);
     scene.discrete.threads = line.threads;
     for (const std::string &warning : line.tells_warnings ? scene.warnings : std::vector<std::string>())
       warn(warning);

@@ -123,6 +123,7 @@ namespace diptych::coupling
     phase << "continuum, elements of " << part.element_size << " d";
     hooks.stop_requested = stop_requested;
     hooks.before_step    = [this] {
+      flush_now_and_then();
       const double passed = std::chrono::duration<double>(Clock::now() - saved).count();
       if (any_process(is_first_process() && passed >= 60 * scene.continuum.checkpoint_minutes))
         save();
@@ -174,13 +175,19 @@ namespace diptych::coupling
     add_snapshot();
   }
 
+  // On the first process alone: what cannot be written must be told where the others hear of it.
   void RecordedContinuum::add_row(const continuum::HistoryRow &row)
   {
     table->add(discrete::csv_line(row));
-    if (Clock::now() - flushed < std::chrono::seconds(1))
-      return;
-    flush_rows();
-    flushed = Clock::now();
+  }
+
+  void RecordedContinuum::flush_now_and_then()
+  {
+    on_first_process([&] {
+      if (Clock::now() - flushed >= std::chrono::seconds(1))
+        flush_rows(), flushed = Clock::now();
+      return 0;
+    });
   }
 
   void RecordedContinuum::flush_rows()

@@ -47,6 +47,7 @@ namespace diptych::coupling
     void                              add_row(const continuum::HistoryRow &row);
     void                              add_snapshot();
     void                              flush_rows();
+    void                              flush_now_and_then();
     void                              save();
 
     const CommandLine                   &line;

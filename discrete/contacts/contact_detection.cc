@@ -102,7 +102,7 @@ namespace diptych::discrete
     const std::vector<SizedGrid> grids = sort_by_size(state);
     for (int i = 0; i < n; ++i)
       {
-        if (go_on && i % grains_between_questions == 0 && !go_on())
+        if (go_on && (i + 1) % grains_between_questions == 0 && !go_on())
           {
             pairs_.clear(), position_.clear(); // covers nothing
             return;

@@ -54,10 +54,15 @@ namespace diptych::discrete
 
     const std::vector<double> no_margin(g.size(), 0.);
     RelaxationReport          report;
+    const auto                goes_on = [&] {
+      report.stopped = report.stopped || (go_on && !go_on());
+      return !report.stopped;
+    };
     for (; report.iterations < max_iterations; ++report.iterations)
       {
-        const std::vector<Contact> contacts = neighbours.find_contacts(state, no_margin, go_on);
-        report.stopped                      = go_on && !go_on();
+        if (!goes_on())
+          break;
+        const std::vector<Contact> contacts = neighbours.find_contacts(state, no_margin, goes_on);
         if (report.stopped)
           break;
         report.largest_overlap = contact_forces(contacts, force);

@@ -7,10 +7,11 @@ import copy
 import json
 import os
 import shutil
+import time
 
 import faults_test
 from faults_test import BOTH, FEW
-from running import QUICK, SOURCE, bound_by_permissions, content, diptych, history, listing, main, setting, write
+from running import QUICK, SOURCE, bound_by_permissions, content, diptych, history, listing, main, setting, start, write
 
 STUDY = {
     "scene": os.path.join(SOURCE, "benchmarks", "dense_biaxial", "scene.prm"), "command": "discrete", "seeds": "1-2",
@@ -296,7 +297,7 @@ class OtherScenes(Begun):
         self.expect(0, ["compare", member, *setting(comparison_max_bands=1), "--quiet"])
         self.assertIn(b"set max_bands = 1\n", content(os.path.join(member, "scene.prm")))
         again = [*SEEDS, "--seeds", "1-2", "--output", self.folder]
-        self.expect(2, [*again, "--resume"], member, "comparison/max_bands")
+        self.expect(2, [*again, "--resume"], member, "comparison/max_bands", f"diptych compare {member} --set")
         self.expect(0, again)
         self.assertEqual(content(os.path.join(self.folder, "ensemble.csv")), content(os.path.join(self.made("ensemble"), "ensemble.csv")))
         write(table, "radius,passing\n0.3,0\n0.5,0.6\n0.7,1\n")
@@ -357,6 +358,14 @@ class OtherScenes(Begun):
         change(os.path.join(self.folder, "seed_1", "scene.prm"))
         self.expect(2, ["compare", self.folder], os.path.join(self.folder, "seed_1", "scene.prm"))
         self.expect(2, [*SEEDS, "--seeds", "1-2", "--resume", "--output", self.folder], os.path.join(self.folder, "seed_1", "scene.prm"))
+        process = start("discrete", QUICK, *BOTH, *setting(sample_grains=400), "--quiet", "--output", self.folder + "_ran", cwd=self.work)
+        echo = self.folder + "_ran/scene.prm"
+        while process.poll() is None and not os.path.exists(os.path.join(os.path.dirname(echo), "discrete.csv")):
+            time.sleep(0.002)
+        self.assertIsNone(process.poll(), "it ended before its echo was changed")
+        change(echo)
+        process.communicate()
+        self.expect(2, ["export", os.path.dirname(echo), "--format", "csv", "--output", os.path.join(self.work, "given")], echo, "not what the run left")
         for run in self.take("study")[:1]:
             write(run + "/scene.prm", content(run + "/scene.prm").decode() + "# mine\n")
         self.expect(0, self.again("study", STUDY, "--resume"))
