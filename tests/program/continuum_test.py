@@ -351,8 +351,9 @@ class Processes(Folder):
 
     def test_what_the_first_cannot_write_ends_all(self):
         """Rows are written by the first process alone, while the others are on their way into the next step."""
-        steps = setting(continuum_initial_step=1e-4, continuum_max_step=1e-4)
-        process = subprocess.Popen(["mpirun", "-np", "2", "--oversubscribe", PROGRAM, "continuum", QUICK, *RECTANGLE, *steps, "--output", self.folder, "--quiet"], env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        words = ["continuum", QUICK, *RECTANGLE, *setting(continuum_initial_step=1e-4, continuum_max_step=1e-4), "--output", self.folder, "--quiet"]
+        process = subprocess.Popen(["mpirun", "-np", "2", "--oversubscribe", PROGRAM, *words], env=ENVIRONMENT, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
         while process.poll() is None and not os.path.exists(os.path.join(self.folder, "continuum.csv")):
             time.sleep(0.01)
         os.rename(self.folder, self.folder + "_moved")
