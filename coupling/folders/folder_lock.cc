@@ -30,7 +30,7 @@ namespace diptych::coupling
   {
     namespace fs = std::filesystem;
 
-    // A worker whose parent is gone has a minute to end (worker_command.cc).
+    // Longer than what is left behind by its parent has to end (panels_main.cc).
     constexpr std::chrono::seconds patience(90);
 
     std::string own_name()

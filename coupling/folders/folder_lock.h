@@ -8,16 +8,17 @@
 
 namespace diptych::coupling
 {
-  // Held as long as it lives: the folder is this process's to write to. The file `folder_lock_name` in it names process and
-  // machine; what holds is the system's lock on that file (flock), which ends with the process and the programs that it has
-  // started, however they end: what a killed one leaves is stale, and taken over once its programs, which are asked to stop with
-  // it, have ended. A folder that is not there is made, and removed again if nothing has come into it. Files are written by their
-  // paths: where such a path comes to lead into another folder than the one that was locked, none is written (FolderGone).
+  // A folder that a run has locked was renamed, removed or replaced: names it, and the file that was not written.
   struct FolderGone : std::runtime_error
   {
     using std::runtime_error::runtime_error;
   };
 
+  // Held as long as it lives: the folder is this process's to write to. The file `folder_lock_name` in it names process and
+  // machine; what holds is the system's lock on that file (flock), which ends with the process and the programs that it has
+  // started, however they end: what a killed one leaves is stale, and taken over once its programs, which are asked to stop with
+  // it, have ended. A folder that is not there is made, and removed again if nothing has come into it. Files are written by their
+  // paths: where such a path comes to lead into another folder than the one that was locked, none is written (FolderGone).
   class FolderLock
   {
   public:

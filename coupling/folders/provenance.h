@@ -46,10 +46,11 @@ namespace diptych::coupling
   // Over the bytes of a file (FNV-1a of 64 bits, hexadecimal); empty where there is none.
   std::string sum_over(const std::string &file);
 
-  // The sums of a part's files as they now are: comparison.json and .h5 of the part "comparison", those of "ensemble". That of
-  // scene.prm, the part "echo", is of the text that this process wrote there, and recorded with every phase.
+  // The sums of a part's files as they now are: comparison.json and .h5 of the part "comparison", those of "ensemble".
   void record_files(const std::string &directory, const std::string &part);
 
+  // The text that this process has just written to scene.prm: its sum, the part "echo", is recorded with every phase from now on,
+  // whatever stands there by then.
   void remember_echo(const std::string &directory, const std::string &text);
 
   // Takes the facts of a part of an earlier run away, before a new one makes them untrue; or the sums of its files alone, which
