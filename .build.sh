@@ -9,6 +9,9 @@ packages=(
 # OpenMPI refuses to start as root, which a container usually is.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 
+# A second checkout of the same sources finds what the first one has compiled.
+export CCACHE_BASEDIR=$PWD
+
 # install_missing: only what is missing; does not touch apt where nothing is.
 install_missing() {
   local missing=() package

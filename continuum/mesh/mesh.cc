@@ -4,20 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <stdexcept>
 
 #include <gmsh.h>
 
-#include "continuum/mesh/file_copy.h"
-#include "continuum/mesh/geo_script.h"
 #include "continuum/mesh/gmsh_model.h"
 #include "continuum/mesh/mesh_child.h"
-#include "continuum/mesh/msh_text.h"
 
 namespace diptych::continuum
 {
@@ -184,21 +179,6 @@ namespace diptych::continuum
         "no algorithm of gmsh meshes this outline with sound quadrilaterals only; smooth the outline or change element_size");
     }
 
-    // What gmsh may be given of a user's file.
-    std::string checked_text(const std::string &file, const std::string &ending)
-    {
-      constexpr std::uintmax_t most_bytes = std::uintmax_t(1) << 30;
-      if (!std::filesystem::is_regular_file(file))
-        throw std::invalid_argument(file + ": there is no such mesh file");
-      if (std::filesystem::file_size(file) > most_bytes)
-        throw std::invalid_argument(file + ": a mesh file may have at most 1 GiB");
-      std::ifstream in(file, std::ios::binary);
-      std::string   text{std::istreambuf_iterator<char>(in), {}};
-      if (!in.is_open() || in.bad())
-        throw std::invalid_argument(file + ": cannot be read");
-      return ending == ".geo" ? checked_geo_script(file, text) : checked_msh_text(file, text);
-    }
-
     QuadMesh mesh_through_gmsh(const std::string &file, const std::string &ending)
     {
       return guarded<std::invalid_argument>(file, [&] {
@@ -230,22 +210,19 @@ namespace diptych::continuum
 
   QuadMesh read_mesh(const std::string &file, const std::function<bool()> &stop_requested)
   {
-    constexpr unsigned int most_cpu_seconds = 120; // a script may run for ever
+    constexpr unsigned int most_cpu_seconds = 120; // a .geo script may have an endless loop
     const std::string      ending           = std::filesystem::path(file).extension().string();
     if (ending != ".msh" && ending != ".geo")
       throw std::invalid_argument(file + ": a mesh must be a .msh or .geo file");
-    const FileCopy copy(ending, checked_text(file, ending));
+    if (!std::filesystem::is_regular_file(file))
+      throw std::invalid_argument(file + ": there is no such mesh file");
     try
       {
-        return made_in_child([&] { return mesh_through_gmsh(copy.file, ending); }, stop_requested, most_cpu_seconds);
+        return made_in_child([&] { return mesh_through_gmsh(file, ending); }, stop_requested, most_cpu_seconds);
       }
     catch (const GmshEnded &end)
       {
         throw std::invalid_argument(file + ": " + end.what());
-      }
-    catch (const std::invalid_argument &error)
-      {
-        throw std::invalid_argument(with_name_of(file, copy, error.what()));
       }
   }
 } // namespace diptych::continuum

@@ -1,4 +1,4 @@
-// diptych: all-quadrilateral meshes: of a sample's outline, of a rectangle, or the user's own
+// diptych: quadrilateral meshes of a sample's outline, of a rectangle or from a file
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace diptych::continuum
 {
-  // Every mesh that is returned here is sound in the sense of check().
+  // Every mesh returned here has passed check().
 
   // Mesh the polygon left side - upper platen - right side - lower platen with quadrilaterals whose edges are about
   // `element_size` [length] long. The sides are resampled at the element size along the given polylines; the platens are
@@ -33,11 +33,10 @@ namespace diptych::continuum
   // Throws std::invalid_argument naming the member and what is allowed.
   QuadMesh rectangle_mesh(const Rectangle &rectangle);
 
-  // The user's own mesh (.msh in ASCII, MSH 2.2 or 4.1; or a .geo, which gmsh meshes first). Its physical lines count by NAME
-  // whatever their numbers; a line without a name counts by its number. Every boundary edge must lie on exactly one of them.
-  // The text is checked before gmsh sees it (msh_text.h); a .geo is a program: what would do more than make shapes is refused
-  // (geo_script.h), and it has two minutes of CPU time. gmsh gets a copy of the text in a folder of its own (file_copy.h).
-  // Throws std::invalid_argument naming the file and what is wrong, MeshingStopped (mesh_child.h).
+  // The user's mesh: a .msh file, or a .geo script, which gmsh meshes first. gmsh opens the file in a child process with two
+  // minutes of CPU time. A .geo script is a program and may do what the user may do. Physical lines are recognised by name,
+  // those without a name by number; every boundary edge must lie on exactly one of them.
+  // Throws std::invalid_argument naming the file and the fault, and MeshingStopped.
   QuadMesh read_mesh(const std::string &file, const std::function<bool()> &stop_requested = {});
 
   // MSH 2.2 as deal.II's GridIn and gmsh read it, with the ids and names of BoundaryId and all digits; under a temporary name

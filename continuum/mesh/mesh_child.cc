@@ -1,4 +1,4 @@
-// diptych: gmsh in a process of its own, so that nothing that it does ends the run
+// diptych: gmsh in a child process, so that a crash or an exit in gmsh does not end the run
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/mesh/mesh_child.h"
 
@@ -16,14 +16,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "continuum/mesh/no_programs.h"
-
 namespace diptych::continuum
 {
   namespace
   {
     using Clock                               = std::chrono::steady_clock;
-    constexpr int wall_seconds_per_cpu_second = 3; // on a machine that has others to serve
+    constexpr int wall_seconds_per_cpu_second = 3; // the machine may be busy
 
     enum Answer : char
     {
@@ -54,7 +52,9 @@ namespace diptych::continuum
         {
           const QuadMesh mesh = make();
           std::string    bytes(1, has_mesh);
-          put(bytes, mesh.vertices), put(bytes, mesh.cells), put(bytes, mesh.boundary);
+          put(bytes, mesh.vertices);
+          put(bytes, mesh.cells);
+          put(bytes, mesh.boundary);
           return bytes;
         }
       catch (const std::invalid_argument &error)
@@ -67,28 +67,25 @@ namespace diptych::continuum
         }
     }
 
-    // Of the copy: its end closes the pipe, whatever it comes from.
+    // Runs in the child process. Its end closes the pipe, for whatever reason it ends.
     [[noreturn]] void answer_and_end(const std::function<QuadMesh()> &make, const int pipe, const unsigned int most_cpu_seconds)
     {
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       for (const int signal : {SIGINT, SIGTERM, SIGXCPU, SIGSEGV, SIGABRT})
         std::signal(signal, SIG_DFL);
-      setpgid(0, 0); // Ctrl-C is for the parent, which ends this one
+      setpgid(0, 0); // Ctrl-C goes to the parent only, which then ends the child
       const rlimit cpu = {most_cpu_seconds, most_cpu_seconds};
       if (most_cpu_seconds > 0)
         setrlimit(RLIMIT_CPU, &cpu);
       const rlimit nothing = {0, 0};
       setrlimit(RLIMIT_CORE, &nothing);
-      std::signal(SIGXFSZ, SIG_IGN);
-      setenv("HOME", "/dev/null", 1); // what gmsh is made with keeps settings there, even where there is no such folder
+      setenv("HOME", "/dev/null", 1); // a library of gmsh would write settings there
       if (const int empty = open("/dev/null", O_RDONLY); empty >= 0)
-        dup2(empty, STDIN_FILENO); // nobody answers a script's questions
+        dup2(empty, STDIN_FILENO); // a script that asks a question gets no answer
       if (const int nowhere = open("/dev/null", O_WRONLY); nowhere >= 0)
-        dup2(nowhere, STDOUT_FILENO), dup2(nowhere, STDERR_FILENO); // a script's own words
-      if (most_cpu_seconds > 0)
         {
-          setrlimit(RLIMIT_FSIZE, &nothing); // a user's script writes no file, whatever it says
-          forbid_programs();
+          dup2(nowhere, STDOUT_FILENO);
+          dup2(nowhere, STDERR_FILENO);
         }
       const std::string bytes = answer_of(make);
       for (std::size_t done = 0; done < bytes.size();)
@@ -115,7 +112,9 @@ namespace diptych::continuum
         throw std::runtime_error(bytes.substr(1));
       QuadMesh    mesh;
       std::size_t at = 1;
-      take(bytes, at, mesh.vertices), take(bytes, at, mesh.cells), take(bytes, at, mesh.boundary);
+      take(bytes, at, mesh.vertices);
+      take(bytes, at, mesh.cells);
+      take(bytes, at, mesh.boundary);
       return mesh;
     }
   } // namespace
@@ -143,7 +142,7 @@ namespace diptych::continuum
     for (bool open = true; open;)
       {
         stopped = stopped || (stop_requested && stop_requested());
-        if (stopped || (most_cpu_seconds > 0 && Clock::now() > last_moment)) // a script that waits uses no CPU time
+        if (stopped || (most_cpu_seconds > 0 && Clock::now() > last_moment)) // a script that sleeps uses no CPU time
           kill(child, SIGKILL);
         pollfd wait = {ends[0], POLLIN, 0};
         if (poll(&wait, 1, patience_ms) <= 0)

@@ -1,4 +1,4 @@
-// diptych: gmsh in a process of its own, so that nothing that it does ends the run
+// diptych: gmsh in a child process, so that a crash or an exit in gmsh does not end the run
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -15,11 +15,11 @@ namespace diptych::continuum
     using std::runtime_error::runtime_error;
   };
 
-  // The mesh that `make` returns. It is called in a copy of this process (fork) that ends with it; what it throws is thrown here:
-  // std::invalid_argument as such, everything else as std::runtime_error. Throws GmshEnded where the copy ends otherwise (a
-  // crash, an exit within gmsh, more than `most_cpu_seconds` or three times as many on the clock), MeshingStopped once
-  // `stop_requested` says so. `most_cpu_seconds` is 0 for work of our own, which has no limit; with a limit it is a user's, which
-  // moreover writes no file and starts no program (no_programs.h). What reads the standard input finds its end.
+  // Calls `make` in a child process (fork) and returns its mesh. Exceptions of `make` are thrown again here:
+  // std::invalid_argument as such, all others as std::runtime_error. `most_cpu_seconds` limits the CPU time of the child; 0 sets
+  // no limit. The child's standard input is empty and its output is dropped. Throws GmshEnded if the child crashed, exited or
+  // exceeded its limit (three times as many seconds of wall time count, too), and MeshingStopped after `stop_requested` has
+  // returned true.
   QuadMesh made_in_child(const std::function<QuadMesh()> &make,
                          const std::function<bool()>     &stop_requested,
                          unsigned int                     most_cpu_seconds = 0);

