@@ -45,7 +45,7 @@ namespace diptych::coupling
     void demand_samples_of_one_scene(const Part &part, const CalibrationTarget &target)
     {
       const auto sample_of = [&](const std::size_t k) {
-        Scene       scene    = *echoed_scene(target.results[k] + "/scene.prm");
+        Scene       scene    = *resolved_scene(target.results[k] + "/scene.prm");
         const bool  imported = scene.discrete.method.method == discrete::Method::imported;
         std::string mark     = imported ? scene.discrete.method.file : std::to_string(scene.sample.seed);
         if (imported)
@@ -71,7 +71,7 @@ namespace diptych::coupling
     {
       try
         {
-          check_files(folder, "discrete"), check_files(folder, "echo");
+          check_files(folder, "discrete");
         }
       catch (const std::invalid_argument &error)
         {
@@ -87,7 +87,7 @@ namespace diptych::coupling
       for (const Part &one : part.list("results"))
         {
           const std::string          folder = resolved(value_text(one.json()), folder_of(file));
-          const std::optional<Scene> scene  = echoed_scene(folder + "/scene.prm");
+          const std::optional<Scene> scene  = resolved_scene(folder + "/scene.prm");
           if (!scene || !std::filesystem::exists(folder + "/discrete.csv") || !std::filesystem::exists(folder + "/discrete.h5"))
             one.refuse("results: '" + folder + "' is no result folder with scene.prm, discrete.csv and discrete.h5");
           demand_as_left(one, folder);

@@ -1,16 +1,14 @@
-// diptych: the folder of an ensemble: what is in it, what of it may stay
+// diptych: the folder of an ensemble
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/ensembles/ensemble_folder.h"
 
 #include <filesystem>
-#include <map>
 
 #include <nlohmann/json.hpp>
 
 #include "coupling/folders/folder_lock.h"
 #include "coupling/folders/provenance.h"
 #include "coupling/folders/result_folder.h"
-#include "coupling/folders/written_echo.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
 #include "discrete/files/text_file.h"
@@ -24,66 +22,23 @@ namespace diptych::coupling
 
     constexpr double largest_error_of_the_total = 1e-12; // beyond it `diptych run` ends with exit code 1
 
-    // Names the first key with two values.
+    // Throws SceneError naming the first key that differs.
     void demand_same_scene(const Scene &scene)
     {
       const std::string          file       = scene.output.directory + "/ensemble.prm";
-      const std::optional<Scene> earlier    = echoed_scene(file);
+      const std::optional<Scene> earlier    = resolved_scene(file);
       const std::string          difference = earlier ? first_difference(member_identity(scene), member_identity(*earlier))
-                                                      : "it was written by another version";
+                                                      : "another version of the program wrote it";
       if (!difference.empty())
-        throw SceneError("--resume: the scene is not that of " + file + ": " + difference +
-                         "; resume with the same scene or start without --resume");
+        throw SceneError("--resume: the scene differs from " + file + ": " + difference +
+                         ". Give the same scene, or --overwrite.");
     }
 
-    // Folders of members that stand there, held: throws, with nothing changed, where another run writes to one of them. Only
-    // those that hold a result of diptych: `diptych run` refuses any other, too.
-    std::map<std::string, FolderLock> held_members(const std::string &directory, const std::vector<int> &seeds)
+    Scene member_scene(Scene scene, const int seed)
     {
-      std::map<std::string, FolderLock> held;
-      for (const int seed : seeds)
-        if (const std::string folder = member_folder(directory, seed); is_echo(folder + "/scene.prm"))
-          held.try_emplace(folder, folder);
-      return held;
-    }
-
-    // What the run of a member would refuse, or take away with its folder, is refused while the statistics still stand.
-    void demand_own_members(const std::string &directory, const std::vector<int> &seeds)
-    {
-      for (const int seed : seeds)
-        {
-          const std::string folder = member_folder(directory, seed), log = member_log(directory, seed);
-          std::error_code   none;
-          if (fs::exists(log, none) && !fs::is_regular_file(log, none))
-            throw SceneError("output/directory: " + log + " is no file, and stands where seed " + std::to_string(seed) +
-                             " tells how it went; move it elsewhere");
-          if (!fs::exists(folder, none))
-            continue;
-          if (!fs::is_directory(folder, none) || (!is_echo(folder + "/scene.prm") && !is_empty_folder(folder)))
-            throw SceneError("output/directory: " + folder +
-                             " holds other files and no result of diptych, and stands where seed " + std::to_string(seed) +
-                             " has its own; move it elsewhere");
-          demand_own_folders(folder);
-        }
-    }
-
-    // Killed before this one runs again, what is left of it must not be resumed as another's.
-    void forget_member(const std::string &folder, const Scene &scene)
-    {
-      const std::optional<Scene> earlier = echoed_scene(folder + "/scene.prm");
-      remove_results(folder, comparison_files);
-      remove_results(folder, {"provenance.json", "checkpoint.h5", "continuum_checkpoint.h5", "coarse"});
-      if (!earlier || member_identity(*earlier) != member_identity(scene) || !changed_input(scene, folder + "/scene.prm").empty())
-        {
-          remove_panels(folder);
-          write_echo(folder + "/scene.prm", scene);
-        }
-    }
-
-    std::string changed_member_input(Scene scene, const int seed)
-    {
-      scene.sample.seed = seed;
-      return changed_input(scene, member_folder(scene.output.directory, seed) + "/scene.prm");
+      scene.sample.seed      = seed;
+      scene.output.directory = member_folder(scene.output.directory, seed);
+      return scene;
     }
   } // namespace
 
@@ -99,70 +54,41 @@ namespace diptych::coupling
 
   bool is_ensemble_folder(const std::string &directory)
   {
-    return is_echo(directory + "/ensemble.prm");
+    return is_resolved_scene(directory + "/ensemble.prm");
   }
 
-  void open_ensemble_folder(const Scene &scene, const std::vector<int> &seeds, const bool resume)
+  void open_ensemble_folder(const Scene &scene, FolderLock &lock, const std::vector<int> &seeds, const Opening &opening)
   {
     const std::string &directory = scene.output.directory;
-    make_folder(directory);
-    const bool is_ensemble = is_ensemble_folder(directory);
-    if (!is_ensemble && !is_empty_folder(directory))
-      throw SceneError("output/directory = '" + directory +
-                       "' holds other files and no ensemble of diptych; name a new or an empty folder");
-    if (resume && is_ensemble)
-      demand_same_scene(scene);
-    (void)recorded_scene(directory); // throws where this run could not add to what stands there
-    demand_own_members(directory, seeds);
-    for (const int seed : resume ? seeds : std::vector<int>())
-      if (is_echo(member_folder(directory, seed) + "/scene.prm"))
-        demand_member(scene, seed);
-    const auto members = resume ? std::map<std::string, FolderLock>() : held_members(directory, seeds);
-    // Killed before its end, this run must not leave the statistics of an earlier one.
-    forget_files(directory, "ensemble");
-    remove_results(directory, {"ensemble.json", "ensemble.csv", "ensemble.h5", "report.html"});
-    for (const int seed : seeds)
-      if (const std::string folder = member_folder(directory, seed); members.count(folder) > 0)
-        {
-          Scene member            = scene;
-          member.sample.seed      = seed;
-          member.output.directory = folder;
-          forget_member(folder, member);
-        }
-    if (!resume)
-      for (const int seed : seeds)
-        remove_results(directory, {fs::path(member_log(directory, seed)).filename().string()});
-    discrete::write_text(directory + "/ensemble.prm", echo(scene));
+    const bool         is_empty  = is_empty_folder(directory);
+    require_usable(directory, opening);
+    if (!is_empty && opening.overwrite)
+      set_aside(lock, input_files(scene));
+    else if (!is_empty)
+      {
+        demand_same_scene(scene);
+        for (const int seed : seeds)
+          if (fs::exists(member_folder(directory, seed) + "/scene.prm"))
+            demand_member(scene, seed);
+      }
+    discrete::write_text(directory + "/ensemble.prm", resolved_text(scene));
   }
 
   void demand_member(const Scene &scene, const int seed)
   {
-    const std::string          file    = member_folder(scene.output.directory, seed) + "/scene.prm";
-    const std::optional<Scene> earlier = echoed_scene(file);
-    if (!earlier)
-      throw SceneError(file + ": was written by another version, or is no scene of a run");
-    std::string difference = first_difference(member_identity(scene), member_identity(*earlier));
-    if (difference.empty())
-      difference = changed_member_input(scene, seed);
-    if (earlier->sample.seed != seed)
-      difference = "sample/seed = " + std::to_string(earlier->sample.seed);
+    const Scene        member     = member_scene(scene, seed);
+    const SceneChanges changes    = changes_since(member, member.output.directory);
+    const std::string &difference = changes.sample.empty() ? changes.comparison : changes.sample;
     if (!difference.empty())
-      throw SceneError(file + ": is not of this ensemble: " + difference + "; " +
-                       (difference.rfind("comparison/", 0) == 0
-                          ? "diptych compare " + member_folder(scene.output.directory, seed) + " --set with the value here, or "
-                          : "") +
-                       "without --resume the seeds are run again");
+      throw SceneError("the results in '" + member.output.directory + "' are not of this ensemble: " + difference +
+                       ". Move them elsewhere, or run the ensemble with --overwrite.");
   }
 
   bool is_finished_member(const Scene &scene, const int seed)
   {
-    const std::string          folder  = member_folder(scene.output.directory, seed);
-    const std::optional<Scene> earlier = echoed_scene(folder + "/scene.prm");
-    if (!earlier || member_identity(*earlier) != member_identity(scene) || !changed_member_input(scene, seed).empty())
-      return false;
-    if (scene.output.report && !fs::exists(folder + "/report.html"))
-      return false;
-    if (!doubt_about_files(folder).empty()) // killed just before its end, or its record was removed
+    const Scene       member = member_scene(scene, seed);
+    const std::string folder = member.output.directory;
+    if (!holds_finished_run(member))
       return false;
     const json comparison = json::parse(discrete::read_text(folder + "/comparison.json"), nullptr, /* exceptions */ false);
     try

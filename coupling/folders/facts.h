@@ -112,7 +112,7 @@ namespace diptych::coupling
     v({"peak_memory_mb", "MB", "peak memory of the process so far", Kind::clock}, p.peak_memory_mb);
   }
 
-  // Over all bytes of the two files of a part when it ended (FNV-1a of 64 bits, hexadecimal). Empty: not known.
+  // Checksums of the two files of a part when it ended (FNV-1a, 64 bits, hexadecimal). Empty: not known.
   struct FileSums
   {
     std::string table, snapshots;
@@ -121,20 +121,33 @@ namespace diptych::coupling
   template <class Sums, class Visitor, std::enable_if_t<std::is_same_v<std::remove_const_t<Sums>, FileSums>, int> = 0>
   void list_numbers(Sums &s, Visitor &v)
   {
-    v({"table", "-",
-       "sum over the bytes of the .csv file (of a comparison or an ensemble: of the .json; of the echo: of scene.prm) as the run "
-       "left it (FNV-1a, 64 bits)",
+    v({"table", "-", "checksum of the .csv file (comparison, ensemble: of the .json file) as the run wrote it (FNV-1a, 64 bits)",
        Kind::setting},
       s.table);
-    v({"snapshots", "-", "the same of the .h5 file", Kind::setting}, s.snapshots);
+    v({"snapshots", "-", "checksum of the .h5 file as the run wrote it", Kind::setting}, s.snapshots);
   }
 
-  // What provenance.json holds of a run.
+  // Hashes of a scene's values and of the contents of its files (FNV-1a, 64 bits, hexadecimal). Empty: not known.
+  struct SceneHashes
+  {
+    std::string sample, continuum, comparison;
+  };
+
+  template <class Hashes, class Visitor, std::enable_if_t<std::is_same_v<std::remove_const_t<Hashes>, SceneHashes>, int> = 0>
+  void list_numbers(Hashes &h, Visitor &v)
+  {
+    v({"sample", "-", "hash of sample, loading and discrete", Kind::setting}, h.sample);
+    v({"continuum", "-", "hash of these and of continuum", Kind::setting}, h.continuum);
+    v({"comparison", "-", "hash of these and of comparison, without seed and margins", Kind::setting}, h.comparison);
+  }
+
+  // The contents of provenance.json.
   struct RunFacts
   {
     DiscreteFacts          discrete;
     ContinuumFacts         continuum, continuum_coarse;
-    FileSums               discrete_files, continuum_files, continuum_coarse_files, comparison_files, ensemble_files, echo_files;
+    FileSums               discrete_files, continuum_files, continuum_coarse_files, comparison_files, ensemble_files;
+    SceneHashes            hashes;
     std::vector<PhaseCost> phases;
   };
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: the one list of provenance.json: which program ran, when, where and on what, and what it said of itself
+// diptych: the list of provenance.json's entries
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -47,7 +47,7 @@ namespace diptych::coupling
     v({"program", "-", "diptych", Kind::setting}, std::string("diptych"));
     v({"version", "-", "of the program", Kind::setting}, std::string(version));
     v({"git_revision", "-", "of its source; unknown where it was built without git", Kind::setting}, std::string(git_revision));
-    v.group("libraries", "that the program was built with", Libraries());
+    v.group("libraries", "libraries that the program was built with", Libraries());
     v({"command", "-", "command line", Kind::setting}, o.command);
     v({"scene", "-", "name of the scene", Kind::setting}, o.scene);
     v({"seeds", "-", "of the samples", Kind::setting}, o.seeds);
@@ -64,15 +64,15 @@ namespace diptych::coupling
   template <class Visitor> void list_numbers(const ProvenanceDocument &d, Visitor &v)
   {
     list_numbers(d.origin, v);
-    v.list("phases", "of the run, with what they cost", d.facts.phases);
-    v.group("discrete", "what the discrete panel said of itself", d.facts.discrete);
-    v.group("continuum", "what the continuum said of itself", d.facts.continuum);
+    v.list("phases", "phases of the run and their cost", d.facts.phases);
+    v.group("discrete", "facts of the discrete panel", d.facts.discrete);
+    v.group("continuum", "facts of the continuum panel", d.facts.continuum);
     v.group("continuum_coarse", "the same of the run on coarser elements", d.facts.continuum_coarse);
-    v.group("discrete_files", "by which the discrete panel's files are known again", d.facts.discrete_files);
-    v.group("continuum_files", "by which the continuum's files are known again", d.facts.continuum_files);
+    v.group("discrete_files", "checksums of the discrete panel's files", d.facts.discrete_files);
+    v.group("continuum_files", "checksums of the continuum's files", d.facts.continuum_files);
     v.group("continuum_coarse_files", "the same of the run on coarser elements", d.facts.continuum_coarse_files);
-    v.group("comparison_files", "by which the comparison's files are known again", d.facts.comparison_files);
-    v.group("ensemble_files", "by which the ensemble's files are known again", d.facts.ensemble_files);
-    v.group("echo_files", "by which scene.prm is known again", d.facts.echo_files);
+    v.group("comparison_files", "checksums of the comparison's files", d.facts.comparison_files);
+    v.group("ensemble_files", "checksums of the ensemble's files", d.facts.ensemble_files);
+    v.group("hashes", "of the scene and of the files that it reads", d.facts.hashes);
   }
 } // namespace diptych::coupling

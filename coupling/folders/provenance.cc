@@ -1,11 +1,10 @@
-// diptych: where a result comes from and what it cost
+// diptych: provenance.json: the origin of a result and its cost
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/folders/provenance.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <stdexcept>
 #include <thread>
 
@@ -119,8 +118,7 @@ namespace diptych::coupling
       discrete::write_text(path_of(directory), record.dump(2) + "\n");
     }
 
-    constexpr const char *panel_parts[]      = {"discrete", "continuum", "continuum_coarse"};
-    constexpr const char *tables_of_panels[] = {"comparison", "ensemble"}; // what is made of their results
+    constexpr const char *panel_parts[] = {"discrete", "continuum", "continuum_coarse"};
 
     bool is_panel(const std::string &part)
     {
@@ -129,10 +127,9 @@ namespace diptych::coupling
 
     std::string table_of(const std::string &directory, const std::string &part)
     {
-      return directory + (part == "echo"               ? "/scene.prm"
-                          : part == "continuum_coarse" ? "/coarse/continuum.csv"
-                          : is_panel(part)             ? "/" + part + ".csv"
-                                                       : "/" + part + ".json");
+      return directory + (part == "continuum_coarse" ? "/coarse/continuum.csv"
+                          : is_panel(part)           ? "/" + part + ".csv"
+                                                     : "/" + part + ".json");
     }
 
     std::string snapshots_of(const std::string &directory, const std::string &part)
@@ -172,6 +169,19 @@ namespace diptych::coupling
       write_record(directory, record);
     }
 
+    // In the place of an earlier phase of the same name.
+    void put_phase(json &record, const json &row)
+    {
+      json      &stored = record["phases"];
+      const auto old    = std::find_if(stored.begin(), stored.end(), [&](const json &one) {
+        return one.is_object() && one.value("name", json()) == row.at("name");
+      });
+      if (old != stored.end())
+        *old = row;
+      else
+        stored.push_back(row);
+    }
+
     template <class Facts> Facts get_facts(const json &record, const char *part)
     {
       Facts facts;
@@ -198,7 +208,7 @@ namespace diptych::coupling
                      get_facts<FileSums>(record, "continuum_coarse_files"),
                      get_facts<FileSums>(record, "comparison_files"),
                      get_facts<FileSums>(record, "ensemble_files"),
-                     get_facts<FileSums>(record, "echo_files"),
+                     get_facts<SceneHashes>(record, "hashes"),
                      {}};
       for (const json &row : record.value("phases", json::array()).get<std::vector<json>>())
         {
@@ -208,26 +218,6 @@ namespace diptych::coupling
       return facts;
     }
   } // namespace
-
-  namespace
-  {
-    std::string echo_of(const std::string &directory)
-    {
-      return (std::filesystem::path(directory) / "scene.prm").lexically_normal().string();
-    }
-
-    // Sums over what this process wrote to scene.prm, by its path: who changes it while the run goes on is found out, too.
-    std::map<std::string, std::string> &echoes()
-    {
-      static std::map<std::string, std::string> sums;
-      return sums;
-    }
-  } // namespace
-
-  void remember_echo(const std::string &directory, const std::string &text)
-  {
-    echoes()[echo_of(directory)] = hexadecimal(digest_of(text));
-  }
 
   void forget_fact(const std::string &directory, const std::string &part)
   {
@@ -258,9 +248,8 @@ namespace diptych::coupling
         return;
       const std::string found = sum_over(file);
       if (found != recorded)
-        throw std::invalid_argument(file + (found.empty() ? ": is missing" : ": is not what the run left") +
-                                     ", by the sum over its bytes in provenance.json: " +
-                                     (found.empty() ? "removed since" : "changed since, or another run's"));
+        throw std::invalid_argument(file + (found.empty() ? " is missing" : " was changed after the run had written it") +
+                                     " (checksum in provenance.json)");
     };
     const auto check_part = [&](const std::string &one) {
       const FileSums sums = sums_of(directory, record, one);
@@ -271,27 +260,6 @@ namespace diptych::coupling
       return check_part(part);
     for (const char *one : panel_parts)
       check_part(one);
-    check_part("echo");
-  }
-
-  std::string doubt_about_files(const std::string &directory)
-  {
-    const json  record = read_record(directory);
-    std::string unknown;
-    const auto  expect = [&](const std::string &file, const std::string &recorded) {
-      if (std::error_code none; recorded.empty() && std::filesystem::is_regular_file(file, none))
-        unknown += (unknown.empty() ? "" : ", ") + std::filesystem::relative(file, directory, none).string();
-    };
-    const auto expect_part = [&](const std::string &one) {
-      const FileSums sums = sums_of(directory, record, one);
-      expect(table_of(directory, one), sums.table);
-      expect(snapshots_of(directory, one), sums.snapshots);
-    };
-    std::for_each(std::begin(panel_parts), std::end(panel_parts), expect_part);
-    std::for_each(std::begin(tables_of_panels), std::end(tables_of_panels), expect_part);
-    return unknown.empty() ? ""
-                           : path_of(directory) + ": holds no sums over the bytes of " + unknown +
-                               "; whether they are as the run left them cannot be told";
   }
 
   void record_phases(const std::string            &directory,
@@ -311,27 +279,14 @@ namespace diptych::coupling
     json          record = read_record(directory);
     NumbersToJson into{record, 1};
     list_numbers(Origin{command, scene.name, seeds, now_utc(), cpu_name(), std::thread::hardware_concurrency()}, into);
-    json &stored = record["phases"];
-    if (stored.is_null())
-      stored = json::array();
+    if (record["phases"].is_null())
+      record["phases"] = json::array();
     for (const PhaseCost &phase : phases)
       {
         json          row = json::object();
         NumbersToJson writer{row, 1};
         list_numbers(phase, writer);
-        const auto old = std::find_if(stored.begin(), stored.end(), [&](const json &one) {
-          return one.is_object() && one.value("name", json()) == phase.name;
-        });
-        if (old != stored.end())
-          *old = row;
-        else
-          stored.push_back(row);
-      }
-    if (const auto echo = echoes().find(echo_of(directory)); echo != echoes().end())
-      {
-        NumbersToJson  sums{record["echo_files"] = json::object(), 1};
-        const FileSums file{echo->second, ""};
-        list_numbers(file, sums);
+        put_phase(record, row);
       }
     write_record(directory, record);
   }
@@ -344,6 +299,30 @@ namespace diptych::coupling
   void record_facts(const std::string &directory, const std::string &part, const ContinuumFacts &facts)
   {
     put_facts(directory, part, facts);
+  }
+
+  void record_scene(const std::string &directory, const Scene &scene, const std::string &command, const SceneHashes &hashes)
+  {
+    record_phases(directory, scene, command, {});
+    json          record = read_record(directory);
+    NumbersToJson writer{record["hashes"] = json::object(), 1};
+    list_numbers(hashes, writer);
+    write_record(directory, record);
+  }
+
+  void take_continuum_facts(const std::string &directory, const std::string &from)
+  {
+    json       record = read_record(directory);
+    const json other  = read_record(from);
+    for (const char *entry : {"continuum", "continuum_files", "continuum_coarse", "continuum_coarse_files", "hashes"})
+      if (other.contains(entry))
+        record[entry] = other[entry];
+      else
+        record.erase(entry);
+    record.erase("comparison_files");
+    for (const json &phase : other.at("phases"))
+      put_phase(record, phase);
+    write_record(directory, record);
   }
 
   RunFacts read_run_facts(const std::string &directory)

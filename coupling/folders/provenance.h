@@ -1,4 +1,4 @@
-// diptych: where a result comes from and what it cost
+// diptych: provenance.json: the origin of a result and its cost
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -23,12 +23,11 @@ namespace diptych::coupling
     double                                cpu;
   };
 
-  // CPU seconds of the process, all threads; children (the report) only with `children`.
+  // CPU seconds of all threads of the process; `children` adds those of its child processes (the report).
   double cpu_seconds(bool children = false);
 
-  // provenance.json of the result folder, merged: phases of the same name are replaced, other members kept, so that each
-  // command adds its own. Throws std::runtime_error where it cannot be written, std::invalid_argument where what stands there is
-  // broken. `seeds`: of the samples; that of the scene where none are given.
+  // Adds phases to provenance.json; a phase of the same name is replaced, other entries stay. `seeds` of the samples, by default
+  // the scene's. Throws std::runtime_error where the file cannot be written, std::invalid_argument where it is damaged.
   void record_phases(const std::string            &directory,
                      const Scene                  &scene,
                      const std::string            &command,
@@ -39,36 +38,31 @@ namespace diptych::coupling
                      const std::vector<PhaseCost> &phases,
                      const std::vector<int>       &seeds);
 
-  // The facts of one part, "discrete", "continuum" or "continuum_coarse", and the sums of its files as they now are.
+  // The facts of one part, "discrete", "continuum" or "continuum_coarse", and the checksums of its files.
   void record_facts(const std::string &directory, const DiscreteFacts &facts);
   void record_facts(const std::string &directory, const std::string &part, const ContinuumFacts &facts);
 
-  // Over the bytes of a file (FNV-1a of 64 bits, hexadecimal); empty where there is none.
+  // Checksum of a file's bytes (FNV-1a, 64 bits, hexadecimal); empty where there is no file.
   std::string sum_over(const std::string &file);
 
-  // The sums of a part's files as they now are: comparison.json and .h5 of the part "comparison", those of "ensemble".
+  // The checksums of a part's files: "comparison" has comparison.json and .h5, "ensemble" likewise.
   void record_files(const std::string &directory, const std::string &part);
 
-  // The text that this process has just written to scene.prm: its sum, the part "echo", is recorded with every phase from now on,
-  // whatever stands there by then.
-  void remember_echo(const std::string &directory, const std::string &text);
+  // The scene that the folder's results are of, and the hashes by which it is recognised.
+  void record_scene(const std::string &directory, const Scene &scene, const std::string &command, const SceneHashes &hashes);
 
-  // Takes the facts of a part of an earlier run away, before a new one makes them untrue; or the sums of its files alone, which
-  // an interrupted run that goes on is about to change.
+  // Facts, checksums, hashes and phases of the continuum in the folder `from` take the place of those recorded in `directory`.
+  void take_continuum_facts(const std::string &directory, const std::string &from);
+
+  // Removes the facts and checksums of a part, or its checksums only, before the part is computed again.
   void forget_fact(const std::string &directory, const std::string &part);
   void forget_files(const std::string &directory, const std::string &part);
 
-  // Throws std::invalid_argument naming the file where one of those whose sums are recorded is missing, or is not what the run
-  // left: a number was changed, a row is gone, it is another run's. `part` empty: of both panels and their echo.
+  // Throws std::invalid_argument naming a file that is missing or has changed since its checksum was recorded. `part` empty: both
+  // panels.
   void check_files(const std::string &directory, const std::string &part = "");
 
-  // A sentence where tables, snapshots or a comparison stand there of which no sum is recorded, as where provenance.json was
-  // removed or is of an earlier version: nothing tells then whether they are as the run left them. Empty where all have theirs.
-  // Throws as check_files() of a broken record.
-  std::string doubt_about_files(const std::string &directory);
-
-  // What is not there has the values of facts that nobody recorded. Throws std::invalid_argument naming the file where one stands
-  // there that is no record of a run.
+  // Facts that are not recorded keep their defaults. Throws std::invalid_argument where provenance.json is not a run's record.
   RunFacts    read_run_facts(const std::string &directory);
   std::string recorded_scene(const std::string &directory); // its name; empty where there is none
 } // namespace diptych::coupling

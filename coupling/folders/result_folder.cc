@@ -3,17 +3,11 @@
 #include "coupling/folders/result_folder.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 
-#include <unistd.h>
-
 #include "coupling/folders/provenance.h"
-#include "coupling/folders/written_echo.h"
 #include "coupling/processes/stop_signal.h"
-#include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
 #include "discrete/files/out_of_memory.h"
 #include "discrete/files/text_file.h"
@@ -24,15 +18,187 @@ namespace diptych::coupling
   {
     namespace fs = std::filesystem;
 
-    const std::vector<std::string> panel_files = {
-      "discrete.h5",    "discrete.xdmf",           "discrete.csv",       "discrete",        "continuum.h5", "continuum.xdmf",
-      "continuum.csv",  "continuum.pvd",           "continuum",          "provenance.json", "coarse",       "checkpoint.h5",
-      "study_step.csv", "study_step.json",         "study_step.png",     "step_1",          "step_2",       "step_4",
-      "sample.msh",     "continuum_checkpoint.h5", "material_point.csv", "import.json"};
+    const std::vector<std::string> comparison_files = {"comparison.json", "comparison.csv", "comparison.h5",
+                                                       "fields.vtu",      "grid.vtu",       "report.html"};
+
+    // Absolute, without a slash at its end.
+    fs::path plain_path(const std::string &directory)
+    {
+      const fs::path path = fs::absolute(directory).lexically_normal();
+      return path.has_filename() ? path : path.parent_path();
+    }
+
+    bool lies_in(const std::string &file, const fs::path &directory)
+    {
+      const fs::path inside = fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(directory));
+      return !inside.empty() && *inside.begin() != "..";
+    }
+
+    SceneHashes hashes_of(const Scene &scene)
+    {
+      const auto hash = [](const Identity &identity) { return hexadecimal(digest_of(text_of(identity))); };
+      return {hash(sample_identity(scene)), hash(continuum_identity(scene)), hash(member_identity(scene))};
+    }
+
+    // The first key whose value differs between the scene and scene.prm; where none does, one of the scene's files has changed.
+    std::string reason(const Scene &scene, const std::string &directory, Identity (*identity)(const Scene &))
+    {
+      const std::optional<Scene> earlier = resolved_scene(directory + "/scene.prm");
+      if (!earlier)
+        return "scene.prm is missing, or another version of the program wrote it";
+      const std::string difference = first_difference(identity(scene), identity(*earlier));
+      return difference.empty() ? "an input file has changed since" : difference;
+    }
+
+    bool has_continuum(const std::string &directory)
+    {
+      return fs::exists(directory + "/continuum.h5");
+    }
   } // namespace
 
-  const std::vector<std::string> comparison_files = {"comparison.json", "comparison.csv", "comparison.h5",
-                                                     "fields.vtu",      "grid.vtu",       "report.html"};
+  SceneChanges changes_since(const Scene &scene, const std::string &directory)
+  {
+    const SceneHashes now = hashes_of(scene), before = read_run_facts(directory).hashes;
+    SceneChanges      changes;
+    if (now.sample != before.sample)
+      changes.sample = reason(scene, directory, sample_identity);
+    if (now.continuum != before.continuum)
+      changes.continuum = reason(scene, directory, continuum_identity);
+    if (now.comparison != before.comparison)
+      changes.comparison = reason(scene, directory, member_identity);
+    return changes;
+  }
+
+  bool is_result_folder(const std::string &directory)
+  {
+    for (const char *name :
+         {"provenance.json", "ensemble.prm", "study_input.json", "calibration_input.json", "plan_input", "import.json"})
+      if (fs::is_regular_file(fs::path(directory) / name))
+        return true;
+    return false;
+  }
+
+  void require_usable(const std::string &directory, const Opening &opening)
+  {
+    if (!fs::exists(directory) || is_empty_folder(directory))
+      return;
+    if (!is_result_folder(directory))
+      throw SceneError("the folder '" + directory + "' holds other files and no results. Name a new or an empty folder.");
+    if (!opening.resume && !opening.overwrite)
+      throw SceneError("the folder '" + directory + "' holds results. Add --resume to go on from them, --overwrite to rename " +
+                       "them to " + plain_path(directory).filename().string() + ".1, or --output with another folder.");
+  }
+
+  void set_aside(FolderLock &lock, const InputFiles &inputs)
+  {
+    const fs::path path = plain_path(lock.folder()), aside = path.string() + ".1";
+    for (const auto &[what, file] : inputs)
+      if (lies_in(file, path) || lies_in(file, aside))
+        throw SceneError("--overwrite: " + what + " '" + file + "' lies in the folder that would be renamed. Name another " +
+                         "folder with --output.");
+    if (fs::equivalent(path, fs::current_path()))
+      throw SceneError("--overwrite: '" + lock.folder() + "' is the working directory. Start from another one.");
+    if (fs::exists(aside) && !is_result_folder(aside.string()))
+      throw SceneError("--overwrite: '" + aside.string() + "' exists and holds no results. Move it elsewhere.");
+    fs::remove_all(aside);
+    lock.set_aside(aside.string());
+  }
+
+  void write_scene(const std::string &directory, const Scene &scene, const std::string &command)
+  {
+    record_scene(directory, scene, command, hashes_of(scene));
+    discrete::write_text(directory + "/scene.prm", resolved_text(scene));
+  }
+
+  void write_compared_scene(const std::string &directory, const Scene &scene, const std::string &command)
+  {
+    SceneHashes hashes = read_run_facts(directory).hashes;
+    hashes.comparison  = hashes_of(scene).comparison;
+    record_scene(directory, scene, command, hashes);
+    discrete::write_text(directory + "/scene.prm", resolved_text(scene));
+  }
+
+  SceneChanges open_result_folder(const Scene                                     &scene,
+                                  FolderLock                                      &lock,
+                                  const Opening                                   &opening,
+                                  const std::function<void(const SceneChanges &)> &check)
+  {
+    const std::string &directory = scene.output.directory;
+    const bool         is_empty  = is_empty_folder(directory);
+    Opening            usable    = opening;
+    usable.resume                = opening.resume || opening.adds;
+    require_usable(directory, usable);
+    SceneChanges changes;
+    if (!is_empty && !opening.overwrite)
+      {
+        take_next_continuum(directory);
+        changes = changes_since(scene, directory);
+        if (!changes.sample.empty())
+          throw SceneError("the results in '" + directory + "' are of another sample: " + changes.sample +
+                           ". Run the same scene, or add --overwrite, or --output with another folder.");
+      }
+    if (check)
+      check(changes);
+    if (!is_empty && opening.overwrite)
+      set_aside(lock, input_files(scene));
+    // The scene of a finished continuum or comparison stays beside it until a new one takes its place.
+    if (is_empty || opening.overwrite || (!changes.continuum.empty() && !has_continuum(directory)))
+      write_scene(directory, scene, opening.command);
+    return changes;
+  }
+
+  bool holds_finished_run(const Scene &scene)
+  {
+    const std::string &directory = scene.output.directory;
+    if (!fs::exists(directory + "/provenance.json"))
+      return false;
+    const RunFacts     facts   = read_run_facts(directory);
+    const SceneChanges changes = changes_since(scene, directory);
+    if (!changes.sample.empty() || !changes.continuum.empty() || !changes.comparison.empty() || !facts.discrete.finished ||
+        !facts.continuum.finished || facts.comparison_files.table.empty() ||
+        (scene.output.report && !fs::exists(directory + "/report.html")))
+      return false;
+    check_files(directory);
+    check_files(directory, "comparison");
+    return true;
+  }
+
+  std::string next_folder(const std::string &directory)
+  {
+    return directory + "/next";
+  }
+
+  bool open_next_continuum(const Scene &scene, const std::string &command)
+  {
+    const std::string next = next_folder(scene.output.directory);
+    if (fs::exists(next + "/provenance.json") && changes_since(scene, next).continuum.empty())
+      return true;
+    remove_results(scene.output.directory, {"next"});
+    make_folder(next);
+    write_scene(next, scene, command);
+    return false;
+  }
+
+  bool take_next_continuum(const std::string &directory)
+  {
+    const std::string next = next_folder(directory);
+    if (!fs::exists(next + "/provenance.json") || !read_run_facts(next).continuum.finished ||
+        fs::exists(next + "/continuum_checkpoint.h5") || fs::exists(next + "/coarse/continuum_checkpoint.h5"))
+      return false;
+    remove_results(directory, comparison_files);
+    for (const char *name :
+         {"continuum.csv", "continuum.h5", "continuum.xdmf", "continuum.pvd", "continuum", "coarse", "sample.msh", "scene.prm"})
+      if (fs::exists(next + "/" + name))
+        {
+          remove_results(directory, {name});
+          fs::rename(next + "/" + name, directory + "/" + name);
+        }
+    if (read_run_facts(next).continuum_coarse.cells == 0)
+      remove_results(directory, {"coarse"});
+    take_continuum_facts(directory, next);
+    remove_results(directory, {"next"});
+    return true;
+  }
 
   void remove_results(const std::string &directory, const std::vector<std::string> &names)
   {
@@ -41,196 +207,21 @@ namespace diptych::coupling
         std::error_code error;
         fs::remove_all(directory + "/" + name, error);
         if (error)
-          throw std::runtime_error(directory + "/" + name + ": cannot be removed: " + error.message());
+          throw std::runtime_error(directory + "/" + name + " cannot be removed: " + error.message());
       }
-  }
-
-  void remove_panels(const std::string &directory)
-  {
-    remove_results(directory, panel_files);
-    std::vector<std::string> problems;
-    std::error_code          none;
-    for (const fs::directory_entry &entry : fs::directory_iterator(directory, none))
-      if (const std::string name = entry.path().filename().string();
-          name.rfind("problem_", 0) == 0 && entry.is_regular_file(none))
-        problems.push_back(name);
-    remove_results(directory, problems);
-  }
-
-  std::string name_inside(const std::string &file, const std::string &directory)
-  {
-    const auto as_named = [](const std::string &path) { return fs::absolute(path).lexically_normal(); };
-    for (const fs::path &inside : {fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(directory)),
-                                   as_named(file).lexically_relative(as_named(directory + "/."))})
-      if (!inside.empty() && *inside.begin() != "..")
-        return inside.begin()->string();
-    return "";
-  }
-
-  void demand_own(const std::string &folder, const std::function<bool(const std::string &)> &is_own)
-  {
-    std::error_code error;
-    for (const fs::directory_entry &entry : fs::directory_iterator(folder, error))
-      if (std::string name = entry.path().filename().string(); !is_own(name) && name.rfind(".nfs", 0) != 0)
-        throw SceneError("output/directory: " + entry.path().string() +
-                         " is no file of a run, and would be removed with the folder that it is in; move it elsewhere");
-    if (error && error != std::errc::no_such_file_or_directory && error != std::errc::not_a_directory)
-      throw std::runtime_error(folder + ": cannot be looked into: " + error.message() + "; nothing was written");
-    if (!error && access(folder.c_str(), W_OK | X_OK) != 0)
-      throw std::runtime_error(folder + ": what is in it cannot be removed: " + std::strerror(errno) + "; nothing was written");
-  }
-
-  namespace
-  {
-    bool is_among(const std::string &name, const std::vector<std::string> &names)
-    {
-      return std::find(names.begin(), names.end(), name) != names.end();
-    }
-
-    bool is_result(const std::string &name)
-    {
-      return is_among(name.substr(0, name.rfind(".part")), panel_files);
-    }
-
-    // Whether a run into the folder removes or writes the file: by its own name, whatever leads there.
-    bool is_replaced(const std::string &file, const std::string &directory)
-    {
-      const std::string name = name_inside(file, directory);
-      return is_among(name, panel_files) || is_among(name, comparison_files) || name == "scene.prm" ||
-             name.rfind("problem_", 0) == 0;
-    }
-  } // namespace
-
-  void demand_own_folders(const std::string &directory)
-  {
-    const auto is_stage = [](const std::string &name) { return name.rfind("stage_", 0) == 0; };
-    for (const char *name : {"/discrete", "/continuum", "/coarse/continuum"})
-      demand_own(directory + name, is_stage);
-    demand_own(directory + "/coarse", is_result);
-    for (const char *name : {"/step_1", "/step_2", "/step_4"})
-      if (fs::is_directory(directory + name))
-        demand_own_run(directory + name);
-  }
-
-  void demand_own_run(const std::string &directory)
-  {
-    demand_own(directory, [](const std::string &name) {
-      const std::string whole = name.substr(0, name.rfind(".part"));
-      return is_result(name) || is_among(whole, comparison_files) || whole == "scene.prm" || name == folder_lock_name ||
-             whole.rfind("problem_", 0) == 0;
-    });
-    demand_own_folders(directory);
-  }
-
-  namespace
-  {
-    // What an earlier run of the folder was of, as far as this one's is something else.
-    struct EarlierScene
-    {
-      std::string sample, continuum, comparison; // the first difference; empty: none
-    };
-
-    EarlierScene earlier_scene(const Scene &scene, const std::string &echo_file)
-    {
-      const std::optional<Scene> earlier = echoed_scene(echo_file);
-      if (!earlier)
-        return {"it was written by another version", "", ""};
-      EarlierScene difference{first_difference(sample_identity(scene), sample_identity(*earlier)),
-                              first_difference(continuum_identity(scene), continuum_identity(*earlier)),
-                              first_difference(member_identity(scene), member_identity(*earlier))};
-      // Both name the same files, which are compared as they now are.
-      for (const char *section : {"sample/", "loading/", "discrete/"})
-        if (difference.sample.empty())
-          difference.sample = changed_input(scene, echo_file, section);
-      if (difference.continuum.empty())
-        difference.continuum = changed_input(scene, echo_file, "continuum/");
-      return difference;
-    }
-
-    // What stands there is of the scene that its echo told, which nobody knows any more.
-    void demand_own_echo(const std::string &directory)
-    {
-      try
-        {
-          check_files(directory, "echo");
-        }
-      catch (const std::invalid_argument &error)
-        {
-          throw SceneError(std::string(error.what()) + "; name another --output, or put back what stood there");
-        }
-    }
-
-    void demand_resumable(const std::string &directory, const EarlierScene &difference)
-    {
-      if (!difference.sample.empty())
-        throw SceneError("--resume: the scene is not that of " + directory + "/scene.prm, which was interrupted: " +
-                         difference.sample + "; resume with the same scene or start without --resume");
-      for (const std::string &folder : {directory, directory + "/coarse"})
-        if (const std::string file = folder + "/continuum_checkpoint.h5"; !difference.continuum.empty() && fs::exists(file))
-          throw SceneError("--resume: " + file + " belongs to another scene: " + difference.continuum +
-                           "; resume with the same scene or start without --resume");
-    }
-
-    // The echo of another scene would say of what is left that it was computed with that.
-    void remove_results_of_another_scene(const std::string &directory, const EarlierScene &difference)
-    {
-      if (!difference.sample.empty())
-        remove_panels(directory);
-      else if (!difference.continuum.empty())
-        {
-          for (const char *part : {"continuum", "continuum_coarse"})
-            forget_fact(directory, part);
-          remove_results(directory, {"continuum.h5", "continuum.xdmf", "continuum.csv", "continuum.pvd", "continuum", "coarse",
-                                     "sample.msh", "continuum_checkpoint.h5", "material_point.csv"});
-        }
-      if (!difference.sample.empty() || !difference.continuum.empty() || !difference.comparison.empty())
-        remove_results(directory, comparison_files), forget_files(directory, "comparison");
-    }
-  } // namespace
-
-  void open_result_folder(const Scene &scene, const bool resume, const std::function<void()> &check)
-  {
-    const std::string &directory = scene.output.directory;
-    for (const auto &[key, file] : input_files(scene))
-      if (is_replaced(file, directory))
-        throw SceneError("output/directory = '" + directory + "': " + key + " = '" + file +
-                         "' is one of the files that this run replaces there; name another folder");
-    make_folder(directory);
-    // A run replaces files and folders by name: only where an earlier one of its own stands may it do so.
-    const std::string echo_file        = directory + "/scene.prm";
-    const bool        is_result_folder = is_echo(echo_file);
-    if (!is_result_folder && !is_empty_folder(directory))
-      throw SceneError("output/directory = '" + directory +
-                       "' holds other files and no result of diptych; name a new or an empty folder");
-    EarlierScene difference;
-    if (is_result_folder)
-      demand_own_echo(directory), demand_own_folders(directory), difference = earlier_scene(scene, echo_file);
-    if (resume)
-      demand_resumable(directory, difference);
-    if (difference.sample.empty())
-      (void)recorded_scene(directory); // throws where this run could not add to what stands there
-    if (check)
-      check();
-    remove_results_of_another_scene(directory, difference);
-    write_echo(echo_file, scene);
   }
 
   std::string kept_in(const std::string &directory)
   {
-    std::vector<std::string> names = {"scene.prm"};
-    names.insert(names.end(), panel_files.begin(), panel_files.end());
-    names.insert(names.end(), comparison_files.begin(), comparison_files.end());
-    for (const char *name : {"ensemble.json", "ensemble.csv", "ensemble.h5", "study.json", "study.csv", "study.h5",
-                             "calibration.json", "calibration.csv", "calibrated.prm", "plan.json", "planned.prm", "runs"})
-      names.emplace_back(name);
-    std::string     list;
-    std::error_code unreadable;
-    for (const std::string &name : names)
-      if (fs::exists(directory + "/" + name, unreadable))
-        list += (list.empty() ? "" : ", ") + name;
+    std::vector<std::string> names;
+    std::error_code          unreadable;
     for (const fs::directory_entry &entry : fs::directory_iterator(directory, unreadable))
-      if (entry.is_directory(unreadable) && entry.path().filename().string().rfind("seed_", 0) == 0)
-        list += (list.empty() ? "" : ", ") + entry.path().filename().string();
+      if (const std::string name = entry.path().filename().string(); name.front() != '.' && entry.path().extension() != ".part")
+        names.push_back(name);
+    std::sort(names.begin(), names.end());
+    std::string list;
+    for (const std::string &name : names)
+      list += (list.empty() ? "" : ", ") + name;
     return list.empty() ? "nothing was kept" : "kept in " + directory + ": " + list;
   }
 
@@ -244,22 +235,17 @@ namespace diptych::coupling
       {
         throw StoppedOnRequest(std::string(stopped.what()) + "; " + kept_in(directory));
       }
-    catch (const FolderGone &)
-      {
-        throw; // what is in its place is not this run's
-      }
     catch (const std::exception &error)
       {
         if (!discrete::is_out_of_memory(error) && dynamic_cast<const std::logic_error *>(&error) != nullptr)
           throw;
-        const std::string what = discrete::text_of(error);
-        throw std::runtime_error(what + (what.find("nothing was written") == std::string::npos ? "; " + kept_in(directory) : ""));
+        throw std::runtime_error(discrete::text_of(error) + "; " + kept_in(directory));
       }
   }
 
-  int writing(const std::string &directory, const std::function<int()> &work)
+  int writing(const std::string &directory, const std::function<int(FolderLock &)> &work)
   {
-    const FolderLock lock(directory);
-    return keeping(directory, work);
+    FolderLock lock(directory);
+    return keeping(directory, [&] { return work(lock); });
   }
 } // namespace diptych::coupling

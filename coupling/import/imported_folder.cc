@@ -60,15 +60,6 @@ namespace diptych::coupling
     }
   } // namespace
 
-  bool holds_import(const std::string &directory)
-  {
-    const std::string file = directory + "/import.json";
-    if (!std::filesystem::exists(file) || is_echo(directory + "/scene.prm"))
-      return false;
-    check_record_of_import(file);
-    return true;
-  }
-
   DiscreteResults load_imported(const Scene &scene)
   {
     const std::string file = imported_file(scene);

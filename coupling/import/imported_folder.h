@@ -18,10 +18,6 @@ namespace diptych::coupling
   // than the scene, by more than a thousandth; less is taken for the scene\'s.
   DiscreteResults load_imported(const Scene &scene);
 
-  // Whether `diptych import` made the folder, and no run has its results there, which would lose their sample by another import.
-  // Throws std::invalid_argument where import.json is no record of an import.
-  bool holds_import(const std::string &directory);
-
   // Motion of the walls over the progress (the tables' time), linear between frames.
   struct ImportedWalls
   {

@@ -20,6 +20,6 @@ namespace diptych::coupling
       settings.insert(settings.end(), panel.settings.begin(), panel.settings.end());
     Scene scene            = read_changed_scene(question.scene, settings, false);
     scene.output.directory = "";
-    discrete::write_text(directory + "/planned.prm", echo(scene));
+    discrete::write_text(directory + "/planned.prm", resolved_text(scene));
   }
 } // namespace diptych::coupling

@@ -90,7 +90,7 @@ namespace diptych::coupling
     Panels panels_of(const std::string &file, const Scene &scene)
     {
       const bool shares_sample = scene.continuum.mesh.kind == continuum::MeshOption::Kind::outline;
-      if (is_echo(file))
+      if (is_resolved_scene(file))
         return {shares_sample, true};
       Panels panels;
       for (const std::string &section : sections_set_in(file))

@@ -269,15 +269,11 @@ namespace diptych::coupling
     const Coordinates coordinates = coordinates_of(calibration);
     check_start(calibration, coordinates); // before anything is changed
     check_noise(calibration);
-    refuse_inputs_inside(directory, folder_of_a_calibration, inputs_of(calibration));
-    for (const CalibrationTarget &target : calibration.targets)
-      for (const std::string &folder : line.tells_warnings ? target.results : std::vector<std::string>())
-        warn(doubt_about_files(folder));
     std::optional<FolderLock> lock;
     return keeping(directory, [&] {
       on_first_process([&] {
         lock.emplace(directory);
-        open_runs_folder(directory, folder_of_a_calibration, calibration.file, line.resume);
+        open_runs_folder(*lock, folder_of_a_calibration, calibration.file, opening_of(line), inputs_of(calibration));
         return 0;
       });
       return carry_out(line, calibration, coordinates, directory);

@@ -12,7 +12,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
-#include "coupling/folders/written_echo.h"
 #include "coupling/program/built_with.h"
 #include "coupling/program/completion.h"
 #include "coupling/program/option_values.h"
@@ -81,7 +80,8 @@ namespace diptych::coupling
           ->allow_extra_args(false)->type_name("FILE");
       }
       void add_threads(CLI::App *to) { to->add_option("--threads", line.threads, "of the contact solver; the same bits for every number")->check(CLI::Range(1, 1024)); }
-      void add_resume(CLI::App *to, const std::string &of) { to->add_flag("--resume", line.resume, "go on from the checkpoint of an interrupted run, " + of); }
+      void add_resume(CLI::App *to, const std::string &what) { to->add_flag("--resume", line.resume, "go on from the results in the folder: " + what); }
+      void add_overwrite(CLI::App *to) { to->add_flag("--overwrite", line.overwrite, "rename results in the folder to DIR.1 and begin again"); }
       void add_quiet(CLI::App *to) { to->add_flag("--quiet", line.quiet, "no progress"); }
       // clang-format on
 
@@ -104,7 +104,8 @@ namespace diptych::coupling
       void add_run()
       {
         CLI::App *run = add(Command::run, "both panels, homogenisation, comparison, report");
-        add_scene(run), add_output(run), add_set(run), add_threads(run), add_resume(run, "grains or continuum");
+        add_scene(run), add_output(run), add_set(run), add_threads(run),
+          add_resume(run, "an interrupted run, or other keys of the continuum or the comparison"), add_overwrite(run);
         auto *seeds = run->add_option(
           "--seeds", line.seeds,
           "the scene on every sample of a list like 1-8 or 1,3,5-7, each in DIR/seed_K, then means, "
@@ -123,7 +124,8 @@ namespace diptych::coupling
         study->add_option("STUDY", line.target, "study file, .json")->required();
         add_output(study, "folder of the study (default: results/<study name>_study)");
         add_set(study), add_threads(study), add_jobs(study, "");
-        study->add_flag("--resume", line.resume, "keep the runs that are finished in the folder, and run the others");
+        add_resume(study, "finished runs are kept, the others run");
+        add_overwrite(study);
         add_quiet(study);
       }
 
@@ -135,7 +137,8 @@ namespace diptych::coupling
         calibrate->add_option("CALIBRATION", line.target, "calibration file, .json")->required();
         add_output(calibrate, "folder of the calibration (default: results/<its name>_calibration)");
         add_threads(calibrate), add_jobs(calibrate, "");
-        calibrate->add_flag("--resume", line.resume, "keep the runs that are finished in the folder");
+        add_resume(calibrate, "finished runs are kept, the others run");
+        add_overwrite(calibrate);
         add_quiet(calibrate);
       }
 
@@ -155,14 +158,16 @@ namespace diptych::coupling
                        "width_10_90, angle, or a number of comparison.json; discrete. or continuum. before it: of one panel")
           ->type_name("NAMES");
         plan->add_flag("--run", line.runs_the_plan, "run the planned samples, too");
-        plan->add_flag("--resume", line.resume, "keep the runs that are finished in the folder");
+        add_resume(plan, "finished runs are kept, the others run");
+        add_overwrite(plan);
         add_quiet(plan);
       }
 
       void add_panels()
       {
         CLI::App *grains = add(Command::discrete, "the grains alone");
-        add_scene(grains), add_output(grains), add_set(grains), add_threads(grains), add_resume(grains, "of the grains");
+        add_scene(grains), add_output(grains), add_set(grains), add_threads(grains), add_resume(grains, "an interrupted run"),
+          add_overwrite(grains);
         grains
           ->add_option_function<std::string>(
             "--study", [this](const std::string &) { line.study_of_step = true; },
@@ -172,12 +177,13 @@ namespace diptych::coupling
 
         CLI::App *continuum = add(Command::continuum, "the continuum alone (continuum/mesh = outline prepares the grains); also "
                                                       "under mpirun");
-        add_scene(continuum), add_output(continuum), add_set(continuum), add_resume(continuum, "of the continuum");
+        add_scene(continuum), add_output(continuum), add_set(continuum), add_resume(continuum, "an interrupted run"),
+          add_overwrite(continuum);
         add_quiet(continuum);
 
         CLI::App *point = add(Command::material_point,
                               "the continuum's law on one point along the biaxial path: material_point.csv");
-        add_scene(point), add_output(point), add_set(point), add_quiet(point);
+        add_scene(point), add_output(point), add_set(point), add_overwrite(point), add_quiet(point);
       }
 
       void add_solve()
@@ -231,6 +237,7 @@ namespace diptych::coupling
         number("--mean-diameter", line.foreign.mean_diameter, "(default: mean of the grains)");
         in->add_flag("--walls-touch", line.foreign.walls_touch,
                      "walls that no file places stand where the grains reach farthest");
+        add_overwrite(in);
         add_quiet(in);
 
         CLI::App *out = add(Command::export_sample, "the prepared sample of a result folder as a start for another code");
@@ -329,7 +336,7 @@ namespace diptych::coupling
     for (const std::string &word : words)
       if (discrete::first_non_utf8(word) != std::string::npos || word.find('\n') != std::string::npos)
         {
-          std::cerr << "diptych: a word of the command line is no single line of UTF-8: '" << word << "'" << std::endl;
+          std::cerr << "diptych: an argument contains a line break or is not valid UTF-8: '" << word << "'" << std::endl;
           parsed.exit_code = wrong_input;
           return parsed;
         }
@@ -362,14 +369,16 @@ namespace diptych::coupling
     return parsed;
   }
 
+  Opening opening_of(const CommandLine &line, const bool adds)
+  {
+    return {line.resume, line.overwrite, adds, line.text};
+  }
+
   Scene scene_of(const CommandLine &line)
   {
     Scene scene = read_scene(line.target, line.overrides, line.command == Command::run);
     if (!line.output.empty())
       scene.output.directory = line.output;
-    else if (std::none_of(line.overrides.begin(), line.overrides.end(),
-                          [](const std::string &text) { return text.rfind("output/directory=", 0) == 0; }))
-      refuse_folder_of_an_echo(line.target, scene, line.resume);
     scene.discrete.threads = line.threads;
     for (const std::string &warning : line.tells_warnings ? scene.warnings : std::vector<std::string>())
       warn(warning);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/folders/result_folder.h"
 #include "coupling/import/foreign_sample.h"
 #include "coupling/program/exit_code.h"
 #include "coupling/scene/scene.h"
@@ -32,7 +33,7 @@ namespace diptych::coupling
     completion
   };
 
-  // A member is of use to the commands that have its option.
+  // Members are set only by commands that accept the option.
   struct CommandLine
   {
     Command                              command = Command::explain;
@@ -42,6 +43,7 @@ namespace diptych::coupling
     std::vector<std::string>             set_files;             // --set-file
     int                                  threads       = 1;     // --threads
     bool                                 resume        = false; // --resume
+    bool                                 overwrite     = false; // --overwrite
     bool                                 study_of_step = false; // --study step
     std::string                          seeds;                 // --seeds: "1-8", "1,3,5-7"
     int                                  jobs = 0;              // --jobs of run --seeds, study and plan; 0: as many as fit
@@ -70,6 +72,9 @@ namespace diptych::coupling
   ParsedLine parse_command_line(const std::vector<std::string> &words);
 
   std::string name_of(Command command);
+
+  // What the command line says about results in the folder.
+  Opening opening_of(const CommandLine &line, bool adds = false);
 
   // The scene of a command line, with its output folder. Its warnings go to standard error.
   Scene scene_of(const CommandLine &line);

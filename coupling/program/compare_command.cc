@@ -9,7 +9,6 @@
 #include "coupling/ensembles/ensemble_folder.h"
 #include "coupling/folders/provenance.h"
 #include "coupling/folders/result_folder.h"
-#include "coupling/folders/written_echo.h"
 #include "coupling/processes/progress.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/program/ensemble_record.h"
@@ -38,18 +37,16 @@ namespace diptych::coupling
         }
     }
 
-    int comparison_of(const CommandLine &line, const Scene &scene)
+    int comparison_of(const CommandLine &line, const Scene &scene, const Results &results)
     {
       const std::string &directory = scene.output.directory;
       Progress           progress(line.quiet);
       progress.update("comparing", 0);
       const PhaseTimer timer("comparison");
-      Results          results = load_results(directory);
-      Comparison       c       = compared(scene, results, progress);
+      Comparison       c = compared(scene, results, progress);
       forget_files(directory, "comparison");
-      remove_results(directory, comparison_files);                     // a page of another comparison, also where none is drawn
-      if (!line.overrides.empty() && line.command == Command::compare) // what stands there is of these keys from now on
-        change_echo(directory + "/scene.prm", scene);
+      remove_results(directory, {"report.html"}); // shows the earlier comparison, and may not be drawn again
+      write_compared_scene(directory, scene, line.text);
       write_comparison_h5(directory, scene, c, results);
       write_fields_vtu(directory, c);
       record_phases(directory, scene, line.text, {timer.stop()});
@@ -97,9 +94,9 @@ namespace diptych::coupling
                        "`diptych continuum`");
   }
 
-  int compare_and_report(const CommandLine &line, const Scene &scene)
+  int compare_and_report(const CommandLine &line, const Scene &scene, const Results &results)
   {
-    if (const int code = comparison_of(line, scene); code != done || !scene.output.report)
+    if (const int code = comparison_of(line, scene, results); code != done || !scene.output.report)
       return code;
     const PhaseTimer timer("report");
     draw_page(line, Drawing::page, scene.output.directory);
@@ -110,13 +107,11 @@ namespace diptych::coupling
   int compare_again(const CommandLine &line)
   {
     if (is_ensemble_folder(line.target))
-      return writing(line.target, [&] { return compare_ensemble_again(line); });
+      return writing(line.target, [&](FolderLock &) { return compare_ensemble_again(line); });
     if (std::filesystem::exists(line.target + "/import.json") && !std::filesystem::exists(line.target + "/continuum.csv"))
       throw SceneError(line.target + ": holds an imported sample and no continuum yet; diptych run " + line.target +
                        "/scene.prm computes it beside the grains and compares");
     const Scene scene = scene_of_folder(line);
-    const int   code  = writing(line.target, [&] { return compare_and_report(line, scene); });
-    warn(doubt_about_files(line.target)); // the comparison's own are there now
-    return code;
+    return writing(line.target, [&](FolderLock &) { return compare_and_report(line, scene, load_results(line.target)); });
   }
 } // namespace diptych::coupling

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "coupling/program/command_line.h"
+#include "coupling/results/results.h"
 #include "coupling/scene/scene_error.h"
 
 namespace diptych::coupling
@@ -10,8 +11,9 @@ namespace diptych::coupling
   // Throws SceneError where the panels of a scene cannot be compared, before anything is written.
   void check_comparable(const Scene &scene);
 
-  // Both panels' results of scene.output.directory: compares, writes, draws where the scene asks for it. Returns an ExitCode.
-  int compare_and_report(const CommandLine &line, const Scene &scene);
+  // Compares both panels' results, writes the comparison to scene.output.directory and draws the report if the scene asks for it.
+  // Returns an ExitCode.
+  int compare_and_report(const CommandLine &line, const Scene &scene, const Results &results);
 
   int compare_again(const CommandLine &line); // compare DIR: of a result folder or of an ensemble
 } // namespace diptych::coupling

@@ -10,7 +10,6 @@
 
 #include "coupling/folders/provenance.h"
 #include "coupling/folders/result_folder.h"
-#include "coupling/folders/written_echo.h"
 #include "coupling/panels/continuum_loading.h"
 #include "coupling/processes/processes.h"
 #include "coupling/program/interrupted_continuum.h"
@@ -63,19 +62,11 @@ namespace diptych::coupling
       return f;
     }
 
-    // Nothing of an earlier run may be left to be taken for this one's.
-    void clear(const Scene &scene, const ContinuumPart &part)
-    {
-      forget_fact(scene.output.directory, part.name);
-      remove_results(part.directory, {"continuum.h5", "continuum.xdmf", "continuum.csv", "continuum.pvd", "continuum",
-                                      "continuum_checkpoint.h5"});
-    }
-
     int take_grains(const CommandLine &line, const Scene &scene, const ContinuumTask &task, Grains &grains)
     {
       const bool with_grains = scene.continuum.mesh.kind == continuum::MeshOption::Kind::outline;
-      if (with_grains && task.grains_from_file)
-        grains.snapshot = discrete::read_snapshots(scene.output.directory + "/discrete.h5").front();
+      if (with_grains && !task.grains_file.empty())
+        grains.snapshot = discrete::read_snapshots(task.grains_file).front();
       else if (with_grains && task.prepared)
         grains.snapshot = task.prepared;
       else if (with_grains)
@@ -140,21 +131,22 @@ namespace diptych::coupling
       std::cerr << std::endl;
     }
 
-    // The part from the beginning or from its checkpoint, with its cost and facts.
+    // The part from the beginning or from its checkpoint, with its cost and facts. Its results go where the task wants them.
     continuum::Status run_and_record(const CommandLine   &line,
                                      const Scene         &scene,
                                      const ContinuumPart &part,
                                      const Grains        &grains,
-                                     const bool           wants_resume)
+                                     const ContinuumTask &task)
     {
-      const bool              resume = on_first_process([&] {
+      const bool              wants_resume = task.resume;
+      const bool              resume       = on_first_process([&] {
         const bool found = wants_resume && std::filesystem::exists(part.checkpoint());
         if (wants_resume && !found)
           say(line, part.title + ": no checkpoint in " + part.directory + ": from the beginning");
         if (found)
           forget_files(scene.output.directory, part.name);
         else
-          clear(scene, part);
+          forget_fact(scene.output.directory, part.name);
         return int(found);
       });
       const PhaseTimer        timer(part.name);
@@ -166,19 +158,17 @@ namespace diptych::coupling
         record_phases(scene.output.directory, scene, line.text, {cost});
         record_facts(scene.output.directory, part.name, facts_of(report));
         say_result(line, scene, part, report);
+        if (task.results != nullptr && !resume)
+          {
+            recorded.results.facts                                       = facts_of(report);
+            (part.is_coarse ? task.results->coarse : task.results->fine) = std::move(recorded.results);
+          }
         return 0;
       });
       say_how_it_ended(line, scene, part, report);
       return report.status;
     }
   } // namespace
-
-  bool may_resume_continuum(const Scene &scene)
-  {
-    const std::string          file    = scene.output.directory + "/scene.prm";
-    const std::optional<Scene> earlier = echoed_scene(file);
-    return earlier && continuum_identity(scene) == continuum_identity(*earlier) && changed_input(scene, file).empty();
-  }
 
   int continuum_panel(const CommandLine &line, const Scene &scene, const ContinuumTask &task)
   {
@@ -193,25 +183,41 @@ namespace diptych::coupling
       return done;
 
     Grains grains;
-    if (const int code = on_first_process([&] {
-          remove_results(scene.output.directory, comparison_files);
-          if (!task.resume)
-            forget_fact(scene.output.directory, "continuum_coarse"), remove_results(scene.output.directory, {"coarse"});
-          return take_grains(line, scene, task, grains);
-        });
-        code != done)
+    if (const int code = on_first_process([&] { return take_grains(line, scene, task, grains); }); code != done)
       return code;
     grains.solid_fraction = from_first_process(grains.solid_fraction);
 
     int code = done;
     for (const ContinuumPart &part : to_run)
       {
-        const continuum::Status status = run_and_record(line, scene, part, grains, task.resume);
+        const continuum::Status status = run_and_record(line, scene, part, grains, task);
         if (status != continuum::Status::finished)
           code = not_converged;
         if (status == continuum::Status::stopped_by_user)
           break;
       }
+    return code;
+  }
+
+  int continuum_beside_grains(const CommandLine &line, const Scene &scene, const SceneChanges &changes, ContinuumTask task)
+  {
+    const std::string &directory = scene.output.directory;
+    if (task.grains_file.empty() && std::filesystem::exists(directory + "/discrete.h5"))
+      task.grains_file = directory + "/discrete.h5";
+    const bool replaces = on_first_process(
+      [&] { return int(!changes.continuum.empty() && std::filesystem::exists(directory + "/continuum.h5")); });
+    if (!replaces)
+      return continuum_panel(line, scene, task);
+    Scene next            = scene;
+    next.output.directory = next_folder(directory);
+    task.resume           = on_first_process([&] { return int(open_next_continuum(scene, line.text)); });
+    const int code        = continuum_panel(line, next, task);
+    if (code == done)
+      on_first_process([&] {
+        take_next_continuum(directory);
+        say(line, "the new continuum has replaced the earlier one in " + directory + ", of " + changes.continuum);
+        return 0;
+      });
     return code;
   }
 
@@ -223,18 +229,18 @@ namespace diptych::coupling
     std::optional<FolderLock> lock;
     return keeping(scene.output.directory, [&] {
       ContinuumTask task;
-      task.resume = on_first_process([&] {
+      SceneChanges  changes;
+      on_first_process([&] {
         lock.emplace(scene.output.directory);
-        const bool resume = line.resume && may_resume_continuum(scene);
-        open_result_folder(scene, line.resume, [&] {
-          if (resume)
+        changes = open_result_folder(scene, *lock, opening_of(line, true), [&](const SceneChanges &found) {
+          if (found.continuum.empty())
             check_earlier_continuum(scene);
           else if (scene.sample.target_solid_fraction > 0 && scene.continuum.mesh.kind == continuum::MeshOption::Kind::outline)
-            task.prepared = prepared_grains(scene, line.quiet); // which shows whether it is in reach
+            task.prepared = prepared_grains(scene, line.quiet); // shows whether the solid fraction can be reached
         });
-        return int(resume);
+        return 0;
       });
-      return continuum_panel(line, scene, task);
+      return continuum_beside_grains(line, scene, changes, task);
     });
   }
 } // namespace diptych::coupling

@@ -5,25 +5,33 @@
 #include <optional>
 
 #include "coupling/program/command_line.h"
+#include "coupling/results/results.h"
 #include "discrete/snapshot.h"
 #include "coupling/scene/scene_error.h"
 
 namespace diptych::coupling
 {
-  // Whether --resume may go on from the continuum's part of the result folder: false where there is none, or one that finished
-  // with other keys. To be asked before the folder is opened, which refuses an interrupted one of other keys.
-  bool may_resume_continuum(const Scene &scene);
+  // Of parts that ran from their beginning in this process.
+  struct ContinuumRun
+  {
+    std::optional<ContinuumResults> fine, coarse;
+  };
 
   struct ContinuumTask
   {
-    bool grains_from_file = false; // the sample is stage 0 of discrete.h5; else it is prepared where the mesh needs it
-    bool resume           = false; // from checkpoints; finished parts are not run again
-    std::optional<discrete::Snapshot> prepared; // the first process's sample, where it is already there
+    std::string                       grains_file;       // the sample is stage 0 of this file; empty: it is prepared
+    bool                              resume = true;     // from checkpoints; finished parts are not run again
+    std::optional<discrete::Snapshot> prepared;          // the first process's sample, if it is there already
+    ContinuumRun                     *results = nullptr; // filled on the first process, if given
   };
 
   // Runs the continuum panel into scene.output.directory, and once more on the coarse mesh into its folder coarse/ (not for a
   // mesh of the user's). Collective. Returns an ExitCode.
   int continuum_panel(const CommandLine &line, const Scene &scene, const ContinuumTask &task);
+
+  // The same beside the grains in scene.output.directory. Another continuum that stands there is replaced once the new one is
+  // complete. Collective. Returns an ExitCode.
+  int continuum_beside_grains(const CommandLine &line, const Scene &scene, const SceneChanges &changes, ContinuumTask task = {});
 
   int run_continuum(const CommandLine &line); // continuum SCENE; on all processes together
 } // namespace diptych::coupling

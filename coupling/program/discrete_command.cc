@@ -221,8 +221,12 @@ namespace diptych::coupling
       for (const int divisor : divisors)
         {
           const Scene part = divisor == 1 ? first_part : part_of_study(scene, divisor);
-          open_result_folder(part, line.resume, [&] { check_resumed(line, part); });
-          if (const int code = discrete_panel(line, part, std::move(first)); code != done)
+          const int   code = writing(part.output.directory, [&](FolderLock &lock) {
+            open_result_folder(part, lock, {line.resume, false, false, line.text},
+                                 [&](const SceneChanges &) { check_resumed(line, part); });
+            return discrete_panel(line, part, std::move(first));
+          });
+          if (code != done)
             return code;
           runs.push_back({*part.discrete.time.step,
                           history_table(discrete::read_rows<discrete::HistoryRow>(part.output.directory + "/discrete.csv"))});
@@ -247,7 +251,10 @@ namespace diptych::coupling
     return prepared;
   }
 
-  int discrete_panel(const CommandLine &line, const Scene &scene, std::unique_ptr<RecordedGrains> prepared)
+  int discrete_panel(const CommandLine              &line,
+                     const Scene                    &scene,
+                     std::unique_ptr<RecordedGrains> prepared,
+                     std::optional<DiscreteResults> *results)
   {
     if (scene.discrete.method.method == discrete::Method::imported)
       return take_imported(line, scene);
@@ -260,18 +267,19 @@ namespace diptych::coupling
       }
     if (line.resume && !checkpoint)
       say(line, "no checkpoint in " + directory + ": from the beginning");
-    remove_results(directory, comparison_files);
     if (checkpoint)
       forget_files(directory, "discrete");
     else
-      forget_earlier_run(scene);
+      forget_fact(directory, "discrete");
 
     const PhaseTimer timer("discrete");
     const bool       before   = checkpoint.has_value() || prepared != nullptr; // the timer began
     RecordedGrains  &recorded = prepared ? *prepared : *(prepared = std::make_unique<RecordedGrains>(line, scene, checkpoint));
     const discrete::Report &report = recorded.run();
     const std::string       csv    = directory + "/discrete.csv";
-    const Rows              rows   = std::filesystem::exists(csv) ? discrete::read_rows<discrete::HistoryRow>(csv) : Rows();
+    const Rows              rows   = !checkpoint                    ? recorded.results.rows
+                                     : std::filesystem::exists(csv) ? discrete::read_rows<discrete::HistoryRow>(csv)
+                                                                    : Rows();
     DiscreteFacts           facts  = facts_of(report, rows);
     facts.warnings                 = doubts(rows, report, scene);
     record(line, scene, report, facts, timer, before);
@@ -281,6 +289,11 @@ namespace diptych::coupling
       std::cerr << recorded.warnings << std::flush;
     else if (!recorded.warnings.empty())
       say(line, recorded.warnings.substr(0, recorded.warnings.size() - 1));
+    if (results != nullptr && !checkpoint)
+      {
+        recorded.results.facts = facts;
+        *results               = std::move(recorded.results);
+      }
     return say_how_it_ended(line, scene, report);
   }
 
@@ -296,10 +309,10 @@ namespace diptych::coupling
     else
       for (const int divisor : divisors)
         announce_room(line, part_of_study(scene, divisor), {true, false});
-    return writing(scene.output.directory, [&] {
+    return writing(scene.output.directory, [&](FolderLock &lock) {
       const Scene                     first = line.study_of_step ? part_of_study(scene, divisors[0]) : scene;
       std::unique_ptr<RecordedGrains> prepared;
-      open_result_folder(scene, line.resume, [&] {
+      open_result_folder(scene, lock, opening_of(line), [&](const SceneChanges &) {
         check_resumed(line, scene);
         prepared = prepared_early(line, first);
       });

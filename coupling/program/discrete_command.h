@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "coupling/program/command_line.h"
 #include "coupling/program/recorded_grains.h"
@@ -10,8 +11,12 @@
 namespace diptych::coupling
 {
   // Runs the discrete panel into scene.output.directory, or goes on from its checkpoint; a finished one is not run again where
-  // the line says --resume. `prepared`: what prepared_early() gave. Returns an ExitCode.
-  int discrete_panel(const CommandLine &line, const Scene &scene, std::unique_ptr<RecordedGrains> prepared = {});
+  // the line says --resume. `prepared`: what prepared_early() gave. Returns an ExitCode. `results`, if given, gets those of a run
+  // that began in this process.
+  int discrete_panel(const CommandLine              &line,
+                     const Scene                    &scene,
+                     std::unique_ptr<RecordedGrains> prepared,
+                     std::optional<DiscreteResults> *results = nullptr);
 
   // What is wrong with a sample shows only when it is prepared, and must show before the folder is opened. Nothing where --resume
   // finds grains, or for imported ones. Throws std::invalid_argument where a wanted solid fraction is out of reach or a file

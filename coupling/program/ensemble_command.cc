@@ -127,25 +127,6 @@ namespace diptych::coupling
       return failed.empty() && record.interrupted.empty() ? done : not_converged;
     }
 
-    // What the members read must not lie among what they replace.
-    void refuse_inputs_of_members(const CommandLine &line, Scene scene, const std::vector<int> &seeds)
-    {
-      const std::string &directory = scene.output.directory;
-      for (const int seed : seeds)
-        {
-          scene.sample.seed = seed;
-          auto inputs       = input_files(scene);
-          inputs.emplace_back("the scene", line.target);
-          for (const std::string &file : line.set_files)
-            inputs.emplace_back("--set-file", file);
-          for (const auto &[what, file] : inputs)
-            for (const int member : seeds)
-              if (name_inside(file, directory) == "seed_" + std::to_string(member))
-                throw SceneError("--output " + directory + ": " + what + " '" + file + "' lies in the folder of seed " +
-                                 std::to_string(member) + ", whose results are replaced; name another folder");
-        }
-    }
-
     // What all samples have in common is found wrong with the first, before the folder is opened.
     void check_first_sample(const CommandLine &line, Scene scene, const int seed)
     {
@@ -171,17 +152,21 @@ namespace diptych::coupling
     }
 
     // Makes the folder ready; the seeds that are not finished yet.
-    std::vector<int> prepared_seeds(const CommandLine &line, const Scene &scene, const std::vector<int> &seeds)
+    std::vector<int> prepared_seeds(const CommandLine         &line,
+                                    const Scene               &scene,
+                                    const std::vector<int>    &seeds,
+                                    std::optional<FolderLock> &lock)
     {
       std::vector<int> pending = seeds;
       on_first_process([&] {
+        require_usable(scene.output.directory, opening_of(line));
         if (line.resume && !is_ensemble_folder(scene.output.directory))
           say(line, "no ensemble in " + scene.output.directory + ": from the beginning");
         if (!line.resume && scene.discrete.method.method != discrete::Method::imported)
           check_first_sample(line, scene, seeds.front());
         const std::vector<int> finished = line.resume ? finished_seeds(scene, seeds) : std::vector<int>();
         const auto is_finished          = [&](const int seed) { return std::count(finished.begin(), finished.end(), seed) > 0; };
-        open_ensemble_folder(scene, seeds, line.resume);
+        open_ensemble_folder(scene, *lock, seeds, opening_of(line));
         pending.erase(std::remove_if(pending.begin(), pending.end(), is_finished), pending.end());
         if (pending.size() < seeds.size())
           say(line, std::to_string(seeds.size() - pending.size()) + " of " + std::to_string(seeds.size()) +
@@ -197,7 +182,6 @@ namespace diptych::coupling
   {
     const std::vector<int> seeds = read_seeds(line.seeds);
     const Scene            scene = ensemble_scene(line);
-    refuse_inputs_of_members(line, scene, seeds);
     announce_room(line, scene, {true, true, int(seeds.size())});
     std::optional<FolderLock> lock;
     on_first_process([&] {
@@ -205,7 +189,7 @@ namespace diptych::coupling
       return 0;
     });
     const PhaseTimer       timer("ensemble");
-    const std::vector<int> pending = prepared_seeds(line, scene, seeds);
+    const std::vector<int> pending = prepared_seeds(line, scene, seeds, lock);
     TaskQueue              queue   = queue_of(line, scene, pending);
     queue.n_finished_before        = int(seeds.size() - pending.size());
     const auto outcomes            = outcomes_of(run_tasks(queue), pending);

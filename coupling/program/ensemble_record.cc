@@ -25,7 +25,8 @@ namespace diptych::coupling
     Member read_member(const Scene &scene, const int seed)
     {
       const std::string folder = member_folder(scene.output.directory, seed), path = folder + "/comparison.json";
-      check_files(folder), check_files(folder, "comparison"), warn(doubt_about_files(folder));
+      check_files(folder);
+      check_files(folder, "comparison");
       demand_member(scene, seed);
       const json record = read_record_file(path);
       try

@@ -13,10 +13,7 @@ namespace diptych::coupling
 {
   std::string text_of_end(const std::exception &error)
   {
-    const std::string what      = discrete::text_of(error);
-    const bool        is_told   = what.find("kept") != std::string::npos || what.find("nothing was written") != std::string::npos;
-    const bool        is_before = discrete::is_out_of_memory(error) || dynamic_cast<const StoppedOnRequest *>(&error) != nullptr;
-    return "diptych: " + what + (is_before && !is_told ? "; nothing was written" : "");
+    return "diptych: " + discrete::text_of(error);
   }
 
   namespace

@@ -35,10 +35,11 @@ namespace diptych::coupling
       throw SceneError(line.target + ": has no discrete.h5; diptych discrete or run makes it");
     Scene scene;
     if (const std::string prm = line.target + "/scene.prm"; fs::exists(prm))
-      scene = fs::exists(line.target + "/import.json") && !is_echo(prm) ? read_scene(prm, {}, false) // what an import proposes
-                                                                        : read_computed_scene(prm, {}, false);
+      scene = fs::exists(line.target + "/import.json") && !is_resolved_scene(prm)
+                ? read_scene(prm, {}, false) // what an import proposes
+                : read_computed_scene(prm, {}, false);
     const std::vector<discrete::Snapshot> snapshots = discrete::read_snapshots(file);
-    check_files(line.target, "discrete"), check_files(line.target, "echo"), warn(doubt_about_files(line.target));
+    check_files(line.target, "discrete");
     if (std::size_t(line.stage) >= snapshots.size())
       throw SceneError("--stage " + std::to_string(line.stage) + ": " + file + " holds " + std::to_string(snapshots.size()) +
                        " snapshots, 0 to " + std::to_string(snapshots.size() - 1));
@@ -49,7 +50,7 @@ namespace diptych::coupling
     for (const auto &[name, text] : files)
       if (fs::exists(folder + "/" + name))
         throw SceneError("--output " + folder + ": " + name + " stands there; name a new folder");
-    return writing(folder, [&] {
+    return writing(folder, [&](FolderLock &) {
       for (const auto &[name, text] : files)
         {
           make_folder(fs::path(folder + "/" + name).parent_path().string());

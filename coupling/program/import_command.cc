@@ -40,21 +40,6 @@ namespace diptych::coupling
       return readers.at(format)(options);
     }
 
-    // A folder of its own, or one of an earlier import.
-    void check_folder(const std::string &directory, const std::vector<std::string> &files)
-    {
-      if (directory.empty())
-        throw SceneError("diptych import: --output DIR says where the sample goes");
-      if (fs::exists(directory) && !fs::is_directory(directory))
-        throw SceneError("--output " + directory + ": is a file, not a folder");
-      if (fs::exists(directory) && !is_empty_folder(directory) && !holds_import(directory))
-        throw SceneError("--output " + directory + ": holds other files and no import; name a new or an empty folder");
-      for (const std::string &file : files)
-        if (fs::weakly_canonical(fs::path(file).parent_path().empty() ? "." : fs::path(file).parent_path()) ==
-            fs::weakly_canonical(directory))
-          throw SceneError("--output " + directory + ": is the folder of " + file + ", which is to be read");
-    }
-
     // What is announced as a scene must be one: units, or what the command line says, may lead out of the ranges of its keys.
     void check_scene(const std::string &format, const std::string &text)
     {
@@ -111,8 +96,6 @@ namespace diptych::coupling
                         const std::string     &scene_text)
     {
       const std::string &directory = line.output;
-      make_folder(directory);
-      remove_results(directory, {"discrete.h5", "discrete.xdmf", "discrete.csv", "scene.prm", "provenance.json"});
       nlohmann::json     json;
       const ImportRecord record{line.foreign.files, arrival};
       NumbersToJson      into{json, 1};
@@ -132,7 +115,7 @@ namespace diptych::coupling
   int import_sample(const CommandLine &line)
   {
     const PhaseTimer timer("import");
-    check_folder(line.output, line.foreign.files);
+    require_usable(line.output, opening_of(line));
     for (const std::string &file : line.foreign.files)
       if (!fs::is_directory(file))
         discrete::require_regular_file(file);
@@ -142,7 +125,14 @@ namespace diptych::coupling
     const std::string     scene   = loaded ? imported_scene(arrival, results, line.foreign.pressure) : "";
     if (loaded)
       check_scene(line.target, scene);
-    return writing(line.output, [&] {
+    return writing(line.output, [&](FolderLock &lock) {
+      if (line.overwrite && !is_empty_folder(line.output))
+        {
+          InputFiles inputs;
+          for (const std::string &file : line.foreign.files)
+            inputs.emplace_back("the file", file);
+          set_aside(lock, inputs);
+        }
       write_imported(line, arrival, results, scene);
       Scene described;
       described.name             = fs::path(line.output).filename().string();

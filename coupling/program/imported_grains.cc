@@ -21,22 +21,12 @@ namespace diptych::coupling
     return name;
   }
 
-  void forget_earlier_run(const Scene &scene)
-  {
-    const std::string &directory = scene.output.directory;
-    forget_fact(directory, "discrete"); // killed, this one is not finished
-    remove_results(directory, {"discrete.h5", "discrete.xdmf", "discrete.csv", "discrete", "checkpoint.h5"});
-    for (std::size_t stage = 1; stage <= stages(scene.loading).size(); ++stage)
-      std::filesystem::remove(directory + problem_name(int(stage)));
-  }
-
   int take_imported(const CommandLine &line, const Scene &scene)
   {
     const std::string    &directory = scene.output.directory;
     const PhaseTimer      timer("discrete");
     const DiscreteResults imported = load_imported(scene);
-    remove_results(directory, comparison_files);
-    forget_earlier_run(scene);
+    forget_fact(directory, "discrete"); // until the files are complete
     discrete::TableFile table(directory + "/discrete.csv", discrete::csv_header<discrete::HistoryRow>());
     for (const discrete::HistoryRow &row : imported.rows)
       table.add(discrete::csv_line(row));

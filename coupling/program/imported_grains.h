@@ -11,9 +11,6 @@ namespace diptych::coupling
   // "/problem_0003.h5": a stored contact problem in a result folder.
   std::string problem_name(int stage);
 
-  // Takes away what an earlier run of the discrete panel left in the scene's folder.
-  void forget_earlier_run(const Scene &scene);
-
   // Frames of another code in the place of a run: copied, so that the folder is whole without the import's. Exit code.
   int take_imported(const CommandLine &line, const Scene &scene);
 } // namespace diptych::coupling

@@ -48,8 +48,8 @@ namespace diptych::coupling
       {
         throw SceneError(line.target + ": loading/pressure, loading/axial_strain or continuum/initial_step: " + error.what());
       }
-    return writing(scene.output.directory, [&] {
-      open_result_folder(scene, false);
+    return writing(scene.output.directory, [&](FolderLock &lock) {
+      open_result_folder(scene, lock, opening_of(line, true));
       const PhaseTimer                     timer("material_point");
       const continuum::MaterialPointReport report = continuum::drive_material_point(law, path);
       const std::string                    csv    = scene.output.directory + "/material_point.csv";

@@ -294,9 +294,8 @@ namespace diptych::coupling
     inputs.emplace_back("the scene", question.scene);
     for (const std::string &file : line.set_files)
       inputs.emplace_back("--set-file", file);
-    refuse_inputs_inside(directory, folder_of_a_plan, inputs);
-    return writing(directory, [&] {
-      open_runs_folder(directory, folder_of_a_plan, question.scene, line.resume);
+    return writing(directory, [&](FolderLock &lock) {
+      open_runs_folder(lock, folder_of_a_plan, question.scene, opening_of(line), inputs);
       try
         {
           return carry_out(line, question, scene, directory);

@@ -179,6 +179,7 @@ namespace diptych::coupling
   void RecordedContinuum::add_row(const continuum::HistoryRow &row)
   {
     table->add(discrete::csv_line(row));
+    results.rows.push_back(row);
   }
 
   void RecordedContinuum::flush_now_and_then()
@@ -198,10 +199,11 @@ namespace diptych::coupling
 
   void RecordedContinuum::add_snapshot()
   {
-    const continuum::Snapshot snapshot = panel->snapshot();
+    continuum::Snapshot snapshot = panel->snapshot();
     on_first_process([&] {
       flush_rows();
       snapshots->add(snapshot);
+      results.snapshots.push_back(std::move(snapshot));
       return 0;
     });
   }

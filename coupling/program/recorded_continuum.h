@@ -13,6 +13,7 @@
 #include "coupling/panels/continuum_mesh.h"
 #include "coupling/processes/progress.h"
 #include "coupling/program/command_line.h"
+#include "coupling/results/results.h"
 #include "coupling/scene/scene_error.h"
 #include "discrete/files/table_file.h"
 
@@ -35,6 +36,8 @@ namespace diptych::coupling
     RecordedContinuum &operator=(const RecordedContinuum &) = delete;
 
     const continuum::Report &run();
+
+    ContinuumResults results; // the first process's rows and snapshots, where the run begins in this process
 
   private:
     using Clock = std::chrono::steady_clock;

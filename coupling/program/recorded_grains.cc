@@ -127,6 +127,7 @@ namespace diptych::coupling
   void RecordedGrains::add_row(const discrete::HistoryRow &row)
   {
     table->add(discrete::csv_line(row));
+    results.rows.push_back(row);
     if (Clock::now() - flushed < std::chrono::seconds(1))
       return;
     table->flush();
@@ -135,7 +136,7 @@ namespace diptych::coupling
 
   void RecordedGrains::add_snapshot()
   {
-    const discrete::Snapshot snapshot = panel.snapshot();
+    const discrete::Snapshot &snapshot = results.snapshots.emplace_back(panel.snapshot());
     table->flush();
     snapshots->add(snapshot);
     if (const std::string text = accuracy_text(snapshot, scene.discrete.sampling.snapshot_accuracy); !text.empty())

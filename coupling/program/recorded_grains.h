@@ -8,6 +8,7 @@
 
 #include "coupling/processes/progress.h"
 #include "coupling/program/command_line.h"
+#include "coupling/results/results.h"
 #include "discrete/files/table_file.h"
 #include "discrete/panel/checkpoint.h"
 #include "discrete/panel/panel.h"
@@ -23,7 +24,8 @@ namespace diptych::coupling
     RecordedGrains(const RecordedGrains &)            = delete; // the panel's hooks call this one
     RecordedGrains &operator=(const RecordedGrains &) = delete;
 
-    std::string warnings; // of its snapshots, a line each
+    std::string     warnings; // of its snapshots, a line each
+    DiscreteResults results;  // rows and snapshots, where the run begins in this process
 
     void                    prepare();                                  // the sample, without any file
     discrete::Snapshot      sample() const { return panel.snapshot(); } // once it is prepared and not yet loaded

@@ -58,6 +58,11 @@ namespace diptych::coupling
     }
   } // namespace
 
+  std::string report_file(const std::string &directory)
+  {
+    return fs::absolute(directory + "/report.html").lexically_normal().string();
+  }
+
   void draw(const Drawing drawing, const std::string &directory)
   {
     const std::string script = drawing_script();
@@ -86,7 +91,7 @@ namespace diptych::coupling
     progress.update("drawing the report", 0);
     draw(drawing, directory);
     progress.finish();
-    say(line, "report: " + fs::absolute(directory + "/report.html").lexically_normal().string());
+    say(line, "report: " + report_file(directory));
   }
 
   int report_again(const CommandLine &line)
@@ -100,12 +105,13 @@ namespace diptych::coupling
     if (drawing == Drawing::page && !fs::exists(line.target + "/comparison.json"))
       throw SceneError(line.target + ": holds no comparison.json, nor is it the folder of an ensemble, a study or a calibration");
     if (drawing == Drawing::page)
-      check_files(line.target), check_files(line.target, "comparison");
+      {
+        check_files(line.target);
+        check_files(line.target, "comparison");
+      }
     if (drawing == Drawing::ensemble)
       check_files(line.target, "ensemble");
-    if (drawing == Drawing::page || drawing == Drawing::ensemble)
-      warn(doubt_about_files(line.target));
-    return writing(line.target, [&] {
+    return writing(line.target, [&](FolderLock &) {
       draw_page(line, drawing, line.target);
       return int(done);
     });

@@ -17,6 +17,8 @@ namespace diptych::coupling
     step_study   // study_step.png
   };
 
+  std::string report_file(const std::string &directory); // the absolute path of its page
+
   // Runs the package on a folder as a child of its own. Throws std::runtime_error where it fails.
   void draw(Drawing drawing, const std::string &directory);
 

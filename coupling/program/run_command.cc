@@ -6,11 +6,14 @@
 #include <stdexcept>
 
 #include "coupling/comparison/prepared_sample.h"
+#include "coupling/folders/provenance.h"
 #include "coupling/folders/result_folder.h"
 #include "coupling/panels/continuum_loading.h"
+#include "coupling/panels/continuum_mesh.h"
 #include "coupling/program/compare_command.h"
 #include "coupling/program/continuum_command.h"
 #include "coupling/program/discrete_command.h"
+#include "coupling/program/report_command.h"
 #include "coupling/program/interrupted_continuum.h"
 #include "coupling/program/interrupted_grains.h"
 #include "coupling/program/run_room.h"
@@ -32,6 +35,15 @@ namespace diptych::coupling
           return not_converged;
         }
     }
+
+    // Panels that ran in this process hand over what they computed; what was finished before is read.
+    Results results_of(const Scene &scene, std::optional<DiscreteResults> &grains, ContinuumRun &continuum)
+    {
+      if (!grains || !continuum.fine || continuum.coarse.has_value() != (continuum_parts(scene).size() > 1))
+        return load_results(scene.output.directory);
+      return {std::move(*grains), std::move(*continuum.fine), std::move(continuum.coarse).value_or(ContinuumResults()),
+              read_run_facts(scene.output.directory).phases};
+    }
   } // namespace
 
   int run_both(const CommandLine &line)
@@ -40,14 +52,20 @@ namespace diptych::coupling
     require_continuum(scene);
     check_comparable(scene);
     require_platen_travel(scene);
+    if (!line.resume && !line.overwrite && holds_finished_run(scene))
+      {
+        say(line, scene.output.directory + " holds the finished run of this scene; --overwrite runs it again");
+        if (scene.output.report)
+          say(line, "report: " + report_file(scene.output.directory));
+        return done;
+      }
     announce_room(line, scene, {true, true});
-    return writing(scene.output.directory, [&] {
-      const bool                      resume_continuum = line.resume && may_resume_continuum(scene);
+    return writing(scene.output.directory, [&](FolderLock &lock) {
       std::unique_ptr<RecordedGrains> prepared;
-      open_result_folder(scene, line.resume, [&] {
+      const SceneChanges              changes = open_result_folder(scene, lock, opening_of(line), [&](const SceneChanges &found) {
         if (line.resume)
           check_earlier_grains(scene);
-        if (resume_continuum)
+        if (line.resume && found.continuum.empty())
           check_earlier_continuum(scene);
         prepared = prepared_early(line, scene);
         if (!prepared || !prepared->is_ready())
@@ -56,11 +74,15 @@ namespace diptych::coupling
         require_elements_fit(scene, height_of(sample.outline));
         require_comparable_sample(scene, sample);
       });
-      if (const int code = discrete_panel(line, scene, std::move(prepared)); code != done)
+      std::optional<DiscreteResults>  grains;
+      if (const int code = discrete_panel(line, scene, std::move(prepared), &grains); code != done)
         return code;
       return after_the_grains(scene, [&] {
-        const int code = continuum_panel(line, scene, {true, resume_continuum, {}});
-        return code == done ? compare_and_report(line, scene) : code;
+        ContinuumRun  continuum;
+        ContinuumTask task;
+        task.results   = &continuum;
+        const int code = continuum_beside_grains(line, scene, changes, task);
+        return code == done ? compare_and_report(line, scene, results_of(scene, grains, continuum)) : code;
       });
     });
   }

@@ -96,12 +96,11 @@ namespace diptych::coupling
     InputFiles        inputs = inputs_of(asked);
     for (const std::string &file : line.set_files)
       inputs.emplace_back("--set-file", file);
-    refuse_inputs_inside(asked.directory, folder_of_a_study, inputs);
     std::optional<FolderLock> lock;
     return keeping(asked.directory, [&] {
       on_first_process([&] {
         lock.emplace(asked.directory);
-        open_runs_folder(asked.directory, folder_of_a_study, asked.study.file, line.resume);
+        open_runs_folder(*lock, folder_of_a_study, asked.study.file, opening_of(line), inputs);
         return 0;
       });
       const auto outcomes = do_runs(line, asked);

@@ -148,7 +148,6 @@ namespace diptych::python
     m.def("write_nodes", &write_nodes);
     m.def("compare", &compare);
     m.def("check_files", [](const std::string &folder) { coupling::check_files(folder); });
-    m.def("doubt_about_files", &coupling::doubt_about_files);
     m.def("continuum_columns", &column_meanings<continuum::HistoryRow>);
   }
 } // namespace diptych::python

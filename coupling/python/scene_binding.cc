@@ -88,7 +88,7 @@ namespace diptych::python
       .def_readonly("name", &coupling::Scene::name)
       .def_readonly("warnings", &coupling::Scene::warnings)
       .def("dict", scene_dict)
-      .def("text", [](const coupling::Scene &scene) { return coupling::echo(scene); })
+      .def("text", [](const coupling::Scene &scene) { return coupling::resolved_text(scene); })
       .def("stages", [](const coupling::Scene &scene) { return coupling::stages(scene.loading); });
     m.def("read_scene", read, py::arg("file"), py::arg("changes"), py::arg("compares"));
     m.def("described_keys", described);

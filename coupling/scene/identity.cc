@@ -15,6 +15,14 @@ namespace diptych::coupling
 {
   namespace
   {
+    // {seed} in the path of an imported sample.
+    std::string with_seed(std::string path, const int seed)
+    {
+      if (const std::size_t mark = path.find("{seed}"); mark != std::string::npos)
+        path.replace(mark, 6, std::to_string(seed));
+      return path;
+    }
+
     const std::set<std::string> without_effect = {"discrete/checkpoint_minutes", "discrete/store_problems",
                                                   "continuum/checkpoint_minutes"};
 
@@ -68,7 +76,8 @@ namespace diptych::coupling
     Identity of_sections(const Scene &scene, const std::set<std::string> &wanted)
     {
       Identity identity;
-      Scene    copy = scene;
+      Scene    copy             = scene;
+      copy.discrete.method.file = with_seed(scene.discrete.method.file, scene.sample.seed);
       for_each_section(copy, [&](const std::string &section, auto &options) {
         if (wanted.count(section) > 0)
           visit_parameters(options, Values{section, identity});
@@ -116,8 +125,7 @@ namespace diptych::coupling
       visit_parameters(options, NamedFiles{section, files});
     });
     for (auto &[key, file] : files)
-      if (const std::size_t mark = file.find("{seed}"); mark != std::string::npos)
-        file.replace(mark, 6, std::to_string(scene.sample.seed));
+      file = with_seed(file, scene.sample.seed);
     return files;
   }
 

@@ -258,7 +258,7 @@ namespace diptych::coupling
       last[entry.section + "/" + entry.key] = entry;
     std::vector<std::string> warnings;
     for (const auto &[key, because] : unused_keys(scene))
-      if (const auto set = last.find(key); set != last.end() && (!set->second.of_echo || values.at(key) != defaults.at(key)))
+      if (const auto set = last.find(key); set != last.end() && (!set->second.of_resolved || values.at(key) != defaults.at(key)))
         {
           warnings.push_back(set->second.place + ": " + key + " = '" + values.at(key) + "' is not used: " + because);
           last.erase(set); // one reason is enough

@@ -1,11 +1,11 @@
-// diptych: scenes read, echoed and explained
+// diptych: scenes are read, written in full and explained
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/scene/scene_file.h"
 
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <set>
 #include <sstream>
 
 #include "coupling/scene/keys.h"
@@ -59,7 +59,7 @@ namespace diptych::coupling
         throw SceneError(entry.place + ": " + entry.section + "/" + entry.key + " holds a line break or a zero byte");
       if (!entry.value.empty() && (std::strchr(" \t", entry.value.front()) || std::strchr(" \t", entry.value.back())))
         throw SceneError(entry.place + ": " + entry.section + "/" + entry.key + " = '" + entry.value +
-                         "' begins or ends with a blank, which the scene's echo cannot hold");
+                         "' begins or ends with a blank, which a scene file cannot hold");
     }
 
     void set(Scene &scene, const Entry &entry)
@@ -127,15 +127,26 @@ namespace diptych::coupling
 
   namespace
   {
+    // A resolved scene sets every key.
+    bool sets_every_key(const std::vector<Entry> &entries)
+    {
+      std::set<std::string> set;
+      for (const Entry &entry : entries)
+        set.insert(entry.section + "/" + entry.key);
+      const std::vector<KeyDescription> keys = describe("");
+      return std::all_of(keys.begin(), keys.end(),
+                         [&](const KeyDescription &key) { return set.count(key.section + "/" + key.name) > 0; });
+    }
+
     std::vector<Entry> entries_with(const std::string &file, const std::vector<Entry> &changes)
     {
       if (std::error_code none; std::filesystem::is_directory(file, none))
         throw SceneError(file + ": is a folder; a scene file, .prm or .json, is needed");
       std::istringstream in      = scene_input(file);
       std::vector<Entry> entries = entries_of(file, in);
-      if (is_echo(file))
+      if (sets_every_key(entries))
         for (Entry &entry : entries)
-          entry.of_echo = true;
+          entry.of_resolved = true;
       entries.insert(entries.end(), changes.begin(), changes.end());
       return entries;
     }
@@ -166,21 +177,6 @@ namespace diptych::coupling
     }
   } // namespace
 
-  namespace
-  {
-    // What was computed with a scene is told by its echo alone: what that lacks would be taken for its default.
-    void demand_echo(const std::string &file)
-    {
-      if (!is_echo(file))
-        throw SceneError(file + ": is no echo of a scene, which a run leaves with its results: its first line does not say '" +
-                         echo_title + "'");
-      const std::vector<std::string> set = sections_set_in(file);
-      for (const std::string &section : section_names())
-        if (std::find(set.begin(), set.end(), section) == set.end())
-          throw SceneError(file + ": is no whole echo of a scene: it sets nothing in section '" + section + "'");
-    }
-  } // namespace
-
   Scene read_scene(const std::string &file, const std::vector<std::string> &overrides, const bool compares)
   {
     return read_changed_scene(file, entries_of_overrides(overrides), compares);
@@ -199,7 +195,8 @@ namespace diptych::coupling
   Scene read_computed_scene(const std::string &file, const std::vector<std::string> &overrides, const bool compares)
   {
     const std::vector<Entry> entries = entries_with(file, entries_of_overrides(overrides));
-    demand_echo(file);
+    if (!sets_every_key(entries))
+      throw SceneError(file + " does not set every key. A run writes the scene that it used in this place; do not edit it.");
     return checked_scene(file, entries, [&](const Scene &scene) { check_comparison(scene, file, entries, compares); });
   }
 
@@ -212,25 +209,24 @@ namespace diptych::coupling
     return entries;
   }
 
-  bool is_echo(const std::string &file)
+  bool is_resolved_scene(const std::string &file)
   {
-    std::error_code none;
-    if (!std::filesystem::is_regular_file(file, none)) // a pipe would be waited for
-      return false;
-    std::ifstream in(file);
-    std::string   title;
-    return std::getline(in, title) && title.find(echo_title) != std::string::npos;
+    return resolved_scene(file).has_value();
   }
 
-  std::optional<Scene> echoed_scene(const std::string &file)
+  std::optional<Scene> resolved_scene(const std::string &file)
   {
-    if (!is_echo(file))
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(file, none))
       return std::nullopt;
     try
       {
-        std::istringstream in = scene_input(file);
-        Scene              scene;
-        for (const Entry &entry : entries_of_prm(file, in))
+        std::istringstream       in      = scene_input(file);
+        const std::vector<Entry> entries = entries_of(file, in);
+        if (!sets_every_key(entries))
+          return std::nullopt;
+        Scene scene;
+        for (const Entry &entry : entries)
           set(scene, entry);
         return scene;
       }
@@ -240,10 +236,10 @@ namespace diptych::coupling
       }
   }
 
-  std::string echo(const Scene &scene)
+  std::string resolved_text(const Scene &scene)
   {
     std::ostringstream out;
-    out << "# " << scene.name << ": " << echo_title << '\n';
+    out << "# " << scene.name << ": every parameter, as it was used\n";
     Scene copy = scene;
     for_each_section(copy, [&](const char *section, auto &options) {
       std::vector<KeyDescription> keys;

@@ -1,4 +1,4 @@
-// diptych: scenes read, echoed and explained
+// diptych: scenes are read, written in full and explained
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -17,9 +17,8 @@ namespace diptych::coupling
   // whether both panels will be compared, so that the windows must be stages.
   Scene read_scene(const std::string &file, const std::vector<std::string> &overrides, bool compares = true);
 
-  // The scene that a result folder was made with, by its scene.prm, with overrides of what a comparison reads: nothing else is
-  // checked again, and files that it names may be gone. `compares` as in read_scene(). Throws SceneError, too where the file is
-  // no whole echo.
+  // The resolved scene of a result folder with overrides. Only keys that a comparison reads are checked again, and files that it
+  // names may be gone. `compares` as in read_scene(). Throws SceneError, also where a key is missing.
   Scene read_computed_scene(const std::string &file, const std::vector<std::string> &overrides, bool compares = true);
 
   // As read_scene(), with changes that say where they were made and where their files are.
@@ -34,21 +33,18 @@ namespace diptych::coupling
   // Keys of a fragment as calibrate writes it (.prm), each checked. Throws SceneError naming file and line.
   std::vector<Entry> read_fragment(const std::string &file);
 
-  // Stands in the first line of every echo, and so tells a result folder's scene.prm from one written by hand.
-  inline constexpr char echo_title[] = "every parameter, as it was used";
-
-  // The whole scene with every default, in .prm format, each key with its meaning; files by their absolute paths.
-  std::string echo(const Scene &scene);
+  // The resolved scene: every key with its value and meaning, in .prm format; files by their absolute paths.
+  std::string resolved_text(const Scene &scene);
 
   // Names of the sections of which a scene file sets a key, each once. Throws SceneError where it is no scene file.
   std::vector<std::string> sections_set_in(const std::string &file);
 
-  // Whether a file is the echo of a scene, of any version.
-  bool is_echo(const std::string &file);
+  // Whether a file sets every key, as the resolved scene beside results does.
+  bool is_resolved_scene(const std::string &file);
 
-  // The scene of an echo in a result folder (scene.prm, ensemble.prm), as it was used; files that it names may be gone. Nothing
-  // where there is no echo, or one of a version with other keys.
-  std::optional<Scene> echoed_scene(const std::string &file);
+  // The resolved scene of a result folder (scene.prm, ensemble.prm); files that it names may be gone. Nothing where the file is
+  // missing or was written by a version with other keys.
+  std::optional<Scene> resolved_scene(const std::string &file);
 
   std::vector<std::string> section_names();
 

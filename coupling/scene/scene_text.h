@@ -15,7 +15,7 @@ namespace diptych::coupling
   struct Entry
   {
     std::string section, key, value, place, folder;
-    bool        of_echo = false; // of a file that holds every key, wanted or not
+    bool        of_resolved = false; // of a file that holds every key, wanted or not
   };
 
   // The text of a file with keys, as read_input checks it. Throws SceneError naming the file.

@@ -1,4 +1,4 @@
-// diptych: the folder of a study: what is in it, what of it may stay
+// diptych: the folder of a study and of its runs
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/studies/study_folder.h"
 
@@ -64,62 +64,20 @@ namespace diptych::coupling
     return fs::exists(directory + "/" + folder_of_a_study.input);
   }
 
-  namespace
+  void open_runs_folder(FolderLock        &lock,
+                        const RunsFolder  &kind,
+                        const std::string &file,
+                        const Opening     &opening,
+                        const InputFiles  &inputs)
   {
-    constexpr std::size_t digits_of_a_name = 16;
-
-    // NAME, NAME.prm, NAME.log, NAME.json: the folder is one, the others are files.
-    bool is_of_a_run(const fs::path &path)
-    {
-      const std::string file = path.filename().string(), name = file.substr(0, file.find('.'));
-      const std::string whole  = file.substr(0, file.rfind(".part"));
-      const std::string ending = whole.substr(std::min(name.size(), whole.size()));
-      std::error_code   none;
-      return name.size() == digits_of_a_name && name.find_first_not_of("0123456789abcdef") == std::string::npos &&
-             (ending.empty() ? fs::is_directory(path, none)
-                             : (ending == ".prm" || ending == ".log" || ending == ".json") && fs::is_regular_file(path, none));
-    }
-
-    bool is_table(const RunsFolder &kind, const std::string &name)
-    {
-      return std::find(kind.tables.begin(), kind.tables.end(), name) != kind.tables.end();
-    }
-
-    void demand_own_runs(const std::string &directory, const RunsFolder &kind)
-    {
-      const std::string runs = directory + "/runs";
-      demand_own(runs, [&](const std::string &name) { return is_of_a_run(runs + "/" + name); });
-      std::error_code none;
-      for (const fs::directory_entry &entry : fs::directory_iterator(runs, none))
-        if (entry.is_directory(none))
-          demand_own_run(entry.path().string()), demand_not_written_to(entry.path().string());
-      if (is_table(kind, "meshes"))
-        demand_own(directory + "/meshes", [](const std::string &name) {
-          return name.rfind("path_", 0) == 0 && fs::path(name.substr(0, name.rfind(".part"))).extension() == ".msh";
-        });
-    }
-  } // namespace
-
-  void refuse_inputs_inside(const std::string &directory, const RunsFolder &kind, const InputFiles &inputs)
-  {
-    for (const auto &[what, file] : inputs)
-      if (const std::string name = name_inside(file, directory); name == "runs" || is_table(kind, name))
-        throw SceneError("--output " + directory + ": " + what + " '" + file + "' is among what this " + kind.noun +
-                         " replaces there; name another folder");
-  }
-
-  void open_runs_folder(const std::string &directory, const RunsFolder &kind, const std::string &file, const bool resume)
-  {
-    make_folder(directory);
-    if (!fs::exists(directory + "/" + kind.input) && !is_empty_folder(directory))
-      throw SceneError("--output " + directory + ": holds other files and no " + kind.noun +
-                       " of diptych; name a new or an empty folder");
-    demand_own_runs(directory, kind);
-    // Killed before its end, this one must not leave the tables of an earlier one.
-    remove_results(directory, kind.tables);
-    if (!resume)
-      remove_results(directory, {"runs"});
-    discrete::write_text(directory + "/" + kind.input, discrete::read_text(file));
+    const std::string &directory = lock.folder();
+    require_usable(directory, opening);
+    const std::string text = discrete::read_text(file);
+    if (opening.overwrite && !is_empty_folder(directory))
+      set_aside(lock, inputs);
+    if (!is_empty_folder(directory) && !fs::exists(directory + "/" + kind.input))
+      throw SceneError("the folder '" + directory + "' holds other results and no " + kind.noun + ". Name another folder.");
+    discrete::write_text(directory + "/" + kind.input, text);
     make_folder(directory + "/runs");
   }
 
@@ -139,7 +97,7 @@ namespace diptych::coupling
       const std::string file = run_folder(directory, run) + "/scene.prm";
       if (std::error_code none; !fs::exists(file, none)) // refused before it wrote
         return !end.is_object() || end.value("exit_code", json()) == exit_code_of_a_refusal;
-      const std::optional<Scene> found = echoed_scene(file), asked = echoed_scene(run_scene(directory, run));
+      const std::optional<Scene> found = resolved_scene(file), asked = resolved_scene(run_scene(directory, run));
       return found && asked && run_name(*found, run.command) == run_name(*asked, run.command);
     }
   } // namespace
@@ -152,9 +110,8 @@ namespace diptych::coupling
       return std::nullopt;
     try
       {
-        check_files(run_folder(directory, run)), check_files(run_folder(directory, run), "comparison");
-        if (!doubt_about_files(run_folder(directory, run)).empty()) // its record was removed
-          return std::nullopt;
+        check_files(run_folder(directory, run));
+        check_files(run_folder(directory, run), "comparison");
         result = {end.at("exit_code"), end.at("revision"), end.at("load").is_number() ? double(end["load"]) : NAN,
                   end.value("at_once", 1)};
       }
@@ -176,7 +133,7 @@ namespace diptych::coupling
     if (!was_begun)
       remove_results(directory + "/runs", {run.name});
     remove_results(directory + "/runs", {run.name + ".log"});
-    discrete::write_text(run_scene(directory, run), echo(*run.scene));
+    discrete::write_text(run_scene(directory, run), resolved_text(*run.scene));
     discrete::write_text(end_file, json{{"begun", git_revision}}.dump() + "\n");
     return fs::exists(run_folder(directory, run));
   }

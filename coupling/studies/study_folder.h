@@ -1,4 +1,4 @@
-// diptych: the folder of a study: what is in it, what of it may stay
+// diptych: the folder of a study and of its runs
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "coupling/folders/result_folder.h"
 #include "coupling/scene/scene_error.h"
 #include "coupling/studies/study_points.h"
 
@@ -36,17 +37,13 @@ namespace diptych::coupling
   bool is_calibration_folder(const std::string &directory);
   bool is_study_folder(const std::string &directory);
 
-  // Files and folders that are read, by what they are: "the sample" -> "mine.h5".
-  using InputFiles = std::vector<std::pair<std::string, std::string>>;
-
-  // Throws SceneError where one of them lies among what opening the folder, or a run in it, removes. The copy of the file that
-  // asked for it may be what asks again.
-  void refuse_inputs_inside(const std::string &directory, const RunsFolder &kind, const InputFiles &inputs);
-
-  // Makes the folder and copies the file that asked for it there. Without `resume` all runs are taken away; with it they stay.
-  // Throws SceneError, before anything is changed, where the folder holds foreign content, or somebody's files stand among the
-  // runs, std::runtime_error where somebody writes to a run's folder, or this one cannot be made or emptied.
-  void open_runs_folder(const std::string &directory, const RunsFolder &kind, const std::string &file, bool resume);
+  // Prepares the folder and copies `file`, which asks for the runs, there. Runs that stand there stay, and finished ones are used
+  // again. Throws as require_usable() and set_aside() do.
+  void open_runs_folder(FolderLock        &lock,
+                        const RunsFolder  &kind,
+                        const std::string &file,
+                        const Opening     &opening,
+                        const InputFiles  &inputs);
 
   // How a run ended.
   struct RunEnd

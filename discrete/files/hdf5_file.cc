@@ -18,7 +18,6 @@
 
 #include "discrete/files/hdf5_library.h"
 #include "discrete/files/text_file.h"
-#include "discrete/files/write_guard.h"
 
 namespace diptych::discrete
 {
@@ -166,7 +165,6 @@ namespace diptych::discrete
         on_disk_(true)
   {
     silence();
-    ask_write_guard(path);
     const std::string part = temporary_for(path);
     const Id          access(checked_access(), H5Pclose);
     {
@@ -281,7 +279,6 @@ namespace diptych::discrete
       fail("finish the file", path_, "/");
     if (on_disk_)
       {
-        ask_write_guard(path_);
         const bool closed = H5Fclose(file_) >= 0;
         file_             = -1;
         if (!closed || std::rename((path_ + ".part").c_str(), path_.c_str()) != 0)

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "discrete/files/write_guard.h"
 
 namespace diptych::discrete
 {
@@ -48,7 +47,6 @@ namespace diptych::discrete
   StagedFile::StagedFile(std::string path_without_ending)
       : path(std::move(path_without_ending))
   {
-    ask_write_guard(file());
     fs::remove(file());
     remove_parts(0);
   }

@@ -14,7 +14,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "discrete/files/write_guard.h"
 
 namespace diptych::discrete
 {
@@ -137,7 +136,6 @@ namespace diptych::discrete
 
   void write_text(const std::string &path, const std::string &text)
   {
-    ask_write_guard(path);
     const std::string temporary = temporary_for(path);
     const int         file      = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (file < 0)
@@ -156,7 +154,6 @@ namespace diptych::discrete
 
   void append_text(const std::string &path, const std::string &lines)
   {
-    ask_write_guard(path);
     const int file = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
     if (file < 0)
       fail(path, errno);
@@ -171,7 +168,6 @@ namespace diptych::discrete
 
   void keep_lines(const std::string &path, const std::size_t n)
   {
-    ask_write_guard(path);
     require_regular_file(path);
     std::ifstream in(path, std::ios::binary);
     if (!in)

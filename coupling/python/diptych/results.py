@@ -76,9 +76,6 @@ def load(folder: str | os.PathLike[str]) -> Results:
     if results.discrete is None and results.continuum is None:
         raise FileNotFoundError(f"{folder}: no discrete.h5 and no continuum.h5")
     _diptych.check_files(folder)
-    doubt = _diptych.doubt_about_files(folder) if results.scene is not None else ""  # what write() left has no record
-    if doubt:
-        warnings.warn(doubt, stacklevel=2)
     return results
 
 

@@ -1,4 +1,4 @@
-// diptych: one writer of a folder, whoever asks and however he ends
+// diptych: one writer of a folder at a time
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/folders/folder_lock.h"
 
@@ -18,6 +18,8 @@ namespace
   namespace fs = std::filesystem;
   using diptych::coupling::FolderLock;
 
+  constexpr char lock_name[] = ".diptych.lock";
+
   struct Lock : testing::Test
   {
     fs::path top = fs::path(testing::TempDir()) / ("folder_lock" + std::to_string(getpid()));
@@ -25,9 +27,9 @@ namespace
 
     void     SetUp() override { fs::create_directories(top); }
     void     TearDown() override { fs::remove_all(top); }
-    fs::path file() const { return out / diptych::coupling::folder_lock_name; }
+    fs::path file() const { return out / lock_name; }
 
-    // What a process of its own is told that wants the folder: "" where it got it.
+    // The message that another process gets when it asks for the folder; empty if it got it.
     std::string asked_by_another() const
     {
       int ends[2];
@@ -56,13 +58,12 @@ namespace
     }
   };
 
-  TEST_F(Lock, ASecondWriterIsToldWhoTheFirstIs)
+  TEST_F(Lock, ASecondWriterIsRefusedNamingTheFirst)
   {
     const FolderLock  lock(out);
     const std::string told = asked_by_another();
     EXPECT_NE(told.find(out.string()), std::string::npos) << told;
     EXPECT_NE(told.find("process " + std::to_string(getpid())), std::string::npos) << told;
-    EXPECT_NE(told.find("nothing was written"), std::string::npos) << told;
   }
 
   TEST_F(Lock, IsGivenBack)
@@ -76,8 +77,8 @@ namespace
     EXPECT_TRUE(fs::exists(out / "result"));
   }
 
-  // Killed while it wrote its very first file, which has no other name yet.
-  TEST_F(Lock, WhatAKilledProcessHadBegunToWriteIsNobodysFile)
+  // Killed while it wrote its first file.
+  TEST_F(Lock, AnUnfinishedFileOfAKilledProcessLeavesTheFolderEmpty)
   {
     fs::create_directories(out);
     std::ofstream(file()) << "process 1 on nowhere since yesterday";
@@ -87,7 +88,7 @@ namespace
     EXPECT_FALSE(is_empty_folder(out));
   }
 
-  TEST_F(Lock, WhatAKilledProcessLeavesIsTakenOver)
+  TEST_F(Lock, TheLockOfAKilledProcessIsTakenOver)
   {
     fs::create_directories(out);
     std::ofstream(file()) << "process 1 on nowhere since yesterday";
@@ -98,8 +99,8 @@ namespace
     EXPECT_NE(held.find(std::to_string(getpid())), std::string::npos) << held;
   }
 
-  // A worker of a killed study writes its checkpoint, however long its step is.
-  TEST_F(Lock, ProgramsThatAKilledProcessHadStartedAreWaitedFor)
+  // A worker of a killed study still writes its checkpoint.
+  TEST_F(Lock, WorkersOfAKilledProcessAreWaitedFor)
   {
     const fs::path end    = top / "ended";
     const pid_t    killed = fork();
@@ -117,46 +118,35 @@ namespace
     const FolderLock  lock(out);
     const std::string told = testing::internal::GetCapturedStderr();
     EXPECT_TRUE(fs::exists(end)) << "the program still wrote";
-    EXPECT_NE(told.find("waiting for the programs of process " + std::to_string(killed)), std::string::npos) << told;
+    EXPECT_NE(told.find("workers of process " + std::to_string(killed)), std::string::npos) << told;
     waitpid(killed, nullptr, 0);
   }
 
-  // Two runs whose folders somebody exchanged would write their rows into each other's tables.
-  TEST_F(Lock, NothingIsWrittenIntoAFolderThatTookThePlaceOfTheOne)
+  TEST_F(Lock, SetAsideTheOldFilesAreInTheOtherFolderAndTheNewOneIsLocked)
   {
-    const fs::path elsewhere = top / "elsewhere";
-    {
-      const FolderLock lock(out);
-      diptych::discrete::write_text(out / "rows.csv", "a\n");
-      fs::rename(out, elsewhere);
-      EXPECT_THROW(diptych::discrete::write_text(out / "rows.csv", "b\n"), diptych::coupling::FolderGone);
-      fs::create_directories(out);
-      std::ofstream(out / "rows.csv") << "another's\n";
-      std::ofstream(file()) << "another's";
-      EXPECT_THROW(diptych::discrete::write_text(out / "rows.csv", "b\n"), diptych::coupling::FolderGone);
-      EXPECT_THROW(diptych::discrete::append_text(out / "rows.csv", "b\n"), diptych::coupling::FolderGone);
-      EXPECT_THROW(diptych::discrete::keep_lines(out / "rows.csv", 0), diptych::coupling::FolderGone);
-      diptych::discrete::write_text(top / "mine.txt", "no folder of a run\n");
-    }
-    EXPECT_EQ(diptych::discrete::read_text(out / "rows.csv"), "another's\n");
-    EXPECT_TRUE(fs::exists(file()));
-    EXPECT_EQ(diptych::discrete::read_text(elsewhere / "rows.csv"), "a\n");
-    EXPECT_FALSE(fs::exists(elsewhere / diptych::coupling::folder_lock_name));
+    const fs::path aside = top / "results" / "one.1";
+    FolderLock     lock(out);
+    std::ofstream(out / "rows.csv") << "a";
+    lock.set_aside(aside);
+    EXPECT_TRUE(fs::exists(aside / "rows.csv"));
+    EXPECT_FALSE(fs::exists(aside / lock_name));
+    EXPECT_TRUE(diptych::coupling::is_empty_folder(out));
+    EXPECT_NE(asked_by_another(), "");
   }
 
-  TEST_F(Lock, FoldersThatWereMadeForNothingAreRemoved)
+  TEST_F(Lock, AFolderThatStaysEmptyIsRemoved)
   {
     {
       const FolderLock lock(out);
       EXPECT_TRUE(fs::is_directory(out));
       EXPECT_TRUE(diptych::coupling::is_empty_folder(out));
     }
-    EXPECT_FALSE(fs::exists(top / "results"));
+    EXPECT_FALSE(fs::exists(out));
     EXPECT_TRUE(fs::exists(top));
   }
 
   // A disk that is not mounted just now leaves such a link.
-  TEST_F(Lock, ALinkThatLeadsNowhereStays)
+  TEST_F(Lock, ABrokenLinkStays)
   {
     std::filesystem::create_symlink("nowhere/folder", top / "results");
     EXPECT_THROW(FolderLock{out}, std::invalid_argument);

@@ -47,7 +47,7 @@ namespace
   {
     const SceneFolder folder;
     const Scene       scene = read_scene(folder.put("mine.prm", "subsection discrete\n  set friction = 0.5\nend\n"), {});
-    std::string       text  = echo(scene), reworded;
+    std::string       text  = resolved_text(scene), reworded;
     for (std::size_t at = 0, end; at < text.size(); at = end + 1)
       {
         end                    = text.find('\n', at);
@@ -56,7 +56,7 @@ namespace
         reworded += (help ? "  # other words [other unit]; other range" : line) + "\n";
       }
     ASSERT_NE(reworded, text);
-    const Scene again = *echoed_scene(folder.put("scene.prm", reworded));
+    const Scene again = *resolved_scene(folder.put("scene.prm", reworded));
     EXPECT_EQ(first_difference(sample_identity(scene), sample_identity(again)), "");
     EXPECT_EQ(first_difference(continuum_identity(scene), continuum_identity(again)), "");
     EXPECT_EQ(first_difference(member_identity(scene), member_identity(again)), "");
@@ -112,8 +112,8 @@ namespace
     expect_one(warnings("", {"sample/left_wall=-3"}), {"left_wall", "is empty"});
     expect_one(warnings("", {"discrete/method=penalty", "discrete/penetration_correction=none"}), {"penetration_correction"});
     // an echo holds every key, and only what was changed in it is somebody's wish
-    EXPECT_TRUE(warnings(echo(Scene())).empty());
-    expect_one(warnings(echo(Scene()), {"continuum/refinement_levels=3"}), {"--set", "refinement_levels"});
+    EXPECT_TRUE(warnings(resolved_text(Scene())).empty());
+    expect_one(warnings(resolved_text(Scene()), {"continuum/refinement_levels=3"}), {"--set", "refinement_levels"});
     EXPECT_TRUE(warnings("subsection continuum\n  set refinement = adaptive\n  set refinement_levels = 3\nend\n").empty());
   }
 

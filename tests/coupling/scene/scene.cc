@@ -183,7 +183,7 @@ namespace
                                   "b " + backslash + "# c", std::string("\xc3\xa4 mit Leerzeichen")})
       {
         const Scene     scene = read_scene(SceneFile("").path, {"output/directory=" + name});
-        const SceneFile again(echo(scene));
+        const SceneFile again(resolved_text(scene));
         EXPECT_EQ(read_scene(again.path, {}).output.directory, scene.output.directory) << name;
       }
     EXPECT_EQ(read_scene(SceneFile("subsection output\n  set directory = a\\#b # mine\nend\n").path, {}).output.directory, "a#b");
@@ -211,11 +211,11 @@ namespace
     const SceneFile file(
       "subsection sample\n  set grains = 777\nend\nsubsection continuum\n  set poisson_ratio = 0.123456789\nend\n");
     const Scene     scene = read_scene(file.path, {});
-    const SceneFile echoed(echo(scene), "_echo.prm");
+    const SceneFile echoed(resolved_text(scene), "_echo.prm");
     Scene           again = read_scene(echoed.path, {});
     EXPECT_EQ(again.sample.grains, 777);
     again.name = scene.name;
-    EXPECT_EQ(echo(again), echo(scene));
+    EXPECT_EQ(resolved_text(again), resolved_text(scene));
   }
 
   TEST(Scene, ExplainListsEveryKeyAndRefusesUnknownSections)

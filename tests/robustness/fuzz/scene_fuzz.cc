@@ -10,13 +10,13 @@ namespace
   // What was taken is the same scene again by its echo.
   void check_echo(const fuzz::Folder &folder, const coupling::Scene &scene)
   {
-    const std::string first  = coupling::echo(scene);
-    auto              second = coupling::echoed_scene(folder.put("echo.prm", first));
+    const std::string first  = coupling::resolved_text(scene);
+    auto              second = coupling::resolved_scene(folder.put("echo.prm", first));
     if (!second)
       fuzz::finding("the echo is no scene:\n" + first);
     second->name = scene.name; // stands in the file that was echoed
-    if (coupling::echo(*second) != first)
-      fuzz::finding("the echo of the echo differs:\n" + first + "\n" + coupling::echo(*second));
+    if (coupling::resolved_text(*second) != first)
+      fuzz::finding("the echo of the echo differs:\n" + first + "\n" + coupling::resolved_text(*second));
   }
 } // namespace
 
