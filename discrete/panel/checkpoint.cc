@@ -188,7 +188,7 @@ namespace diptych::discrete
                          std::all_of(p.state.impulses.begin(), p.state.impulses.end(), both) &&
                          std::all_of(p.window.sums.begin(), p.window.sums.end(), both);
       if (!whole)
-        throw std::invalid_argument(path + "  is not a checkpoint of this version: the lengths of its lists do not match");
+        throw std::invalid_argument(path + " is not a checkpoint of this version: the lengths of its lists do not match");
       if (!are_finite(g))
         throw std::invalid_argument(path +
                                     ": 'grains' contains a number that is not finite, or a radius or mass that is not positive");
@@ -262,6 +262,6 @@ namespace diptych::discrete
     }
   catch (const std::out_of_range &)
     {
-      throw std::invalid_argument(path + "  is not a checkpoint of this version: an array is too short");
+      throw std::invalid_argument(path + " is not a checkpoint of this version: an array is too short");
     }
 } // namespace diptych::discrete

@@ -52,7 +52,7 @@ namespace diptych::discrete
   std::string endless_text(const int stage, const double steps, const StepChoice &choice)
   {
     std::ostringstream text;
-    text << "stage " << stage << " would take " << steps << "  steps of length " << choice.step << "; a loading may take at most "
+    text << "stage " << stage << " would take " << steps << " steps of length " << choice.step << "; a loading may take at most "
          << most_steps;
     if (!choice.bound.empty())
       text << "; the bound of discrete/step = auto is: " << choice.bound;
@@ -64,12 +64,12 @@ namespace diptych::discrete
     std::ostringstream text;
     text << "step " << failed.step << " at " << failed.where;
     if (options.method.method == Method::penalty)
-      text << "  blew up: a grain moved by more than its radius in one step; give a penalty_step_fraction below "
+      text << " blew up: a grain moved by more than its radius in one step; give a penalty_step_fraction below "
            << options.penalty.step_fraction;
     else
-      text << " did not converge: residual " << failed.solve.residual << " after " << failed.solve.sweeps
-           << "  sweeps, tolerance " << failed.tolerance << "; its halves did not converge either, down to a step of "
-           << failed.length << "; a larger step, tolerance or max_sweeps may help";
+      text << " did not converge: residual " << failed.solve.residual << " after " << failed.solve.sweeps << " sweeps, tolerance "
+           << failed.tolerance << "; its halves did not converge either, down to a step of " << failed.length
+           << "; a larger step, tolerance or max_sweeps may help";
     return text.str();
   }
 } // namespace diptych::discrete

@@ -154,7 +154,7 @@ namespace diptych::discrete
         "discrete/method = penalty has no contact problems to store: discrete/store_problems must be false");
     if (const double steps = expected_steps(sample, loading, options); steps > most_steps)
       throw std::invalid_argument(
-        "the loading would take " + exact_text(std::ceil(steps)) + "  steps, but at most 1e+09 are allowed: " +
+        "the loading would take " + exact_text(std::ceil(steps)) + " steps, but at most 1e+09 are allowed: " +
         (penalty             ? "discrete/penalty_stiffness and penalty_step_fraction give the step"
          : options.time.step ? "discrete/step = " + exact_text(*options.time.step)
                              : "discrete/step = auto gives " + exact_text(expected_step(sample, loading, options)) +

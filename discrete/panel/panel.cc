@@ -80,8 +80,7 @@ namespace diptych::discrete
       setting.mean_diameter = setting_.mean_diameter;
       prepared_       = make_snapshot(now.state, prepared.last_step, {}, make_reference(now.state, setting_.mean_diameter, 0.),
                                       setting);
-      prepared_->walk = walk_of(loading_.mode),
-      prepared_->time = 0; // time of the loading, not of the preparation or of a stored sample
+      prepared_->walk = walk_of(loading_.mode), prepared_->time = 0; // the time of the preparation does not count
       start_loading(now.state, {loading_, options_.lateral, options_.drives, rate_});
       now.reference = make_reference(now.state, setting_.mean_diameter, loading_.mode == LoadingMode::time ? 0. : rate_);
       return true;
@@ -197,8 +196,7 @@ namespace diptych::discrete
         return *options_.time.step;
       const StepChoice choice = choose_step(now.state, setting_, flow());
       if (!std::isfinite(choice.step))
-        throw std::invalid_argument(
-          "discrete/step = auto needs motion or pressure, and this scene has neither; give discrete/step a value");
+        throw std::invalid_argument("discrete/step = auto needs motion or pressure, and there is neither: give a discrete/step");
       now.report.step_bound = choice.bound;
       return choice.step;
     }

@@ -1,4 +1,4 @@
-// diptych: distributions of grain radii, and the radii of a sample that follows one
+// diptych: distributions of grain radii, and radii that follow one
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/samples/radius_distribution.h"
 
@@ -22,7 +22,7 @@ namespace diptych::discrete
                                     " (the smallest radius) or more");
     }
 
-    // The first point that breaks the rules of a grading curve, or row -1.
+    // The first point that violates the rules of a grading curve; row -1 if there is none.
     struct Fault
     {
       int         row = -1;
@@ -36,7 +36,7 @@ namespace diptych::discrete
           if (!(radius[k] > 0 && std::isfinite(radius[k])))
             return {int(k), "radius", "more than 0"};
           if (k > 0 && radius[k] <= radius[k - 1])
-            return {int(k), "radius", "more than " + exact_text(radius[k - 1]) + ", the radius before it"};
+            return {int(k), "radius", "more than " + exact_text(radius[k - 1]) + ", the previous radius"};
         }
       return {};
     }
@@ -47,14 +47,14 @@ namespace diptych::discrete
         return {0, "passing", "0, at the smallest radius"};
       for (std::size_t k = 1; k < passing.size(); ++k)
         if (!(passing[k] >= passing[k - 1] && passing[k] <= whole))
-          return {int(k), "passing", exact_text(passing[k - 1]) + " (the passing before it) to " + exact_text(whole)};
+          return {int(k), "passing", exact_text(passing[k - 1]) + " (the previous passing) to " + exact_text(whole)};
       return {};
     }
 
     void check_table(const RadiusTable &table)
     {
       if (table.radius.size() < 2 || table.radius.size() != table.passing.size())
-        throw std::invalid_argument("a grading curve with " + std::to_string(table.radius.size()) + " radii and " +
+        throw std::invalid_argument("the grading curve has " + std::to_string(table.radius.size()) + " radii and " +
                                     std::to_string(table.passing.size()) + " values of passing; allowed: 2 or more of each");
       Fault fault = fault_of_radii(table.radius);
       if (fault.row < 0)
@@ -77,8 +77,8 @@ namespace diptych::discrete
       return radius;
     }
 
-    // Mass curve F piecewise linear, s = dF/dr: number of grains from a up to r within a piece is s (1/a - 1/r), in all
-    // dF / (a b); solved for r:  1/r = 1/a - number / s.
+    // The mass curve F is piecewise linear with the slope s = dF/dr. Within a piece from a to b the number of grains from a up to
+    // r is s (1/a - 1/r), in total dF / (a b). Solved for r this is 1/r = 1/a - number / s.
     std::vector<double> quantiles(const RadiusTable &d, const int n)
     {
       const auto in_piece = [&](const std::size_t k) {
@@ -90,7 +90,7 @@ namespace diptych::discrete
 
       std::vector<double> radius(n);
       std::size_t         piece = 0;
-      double              below = 0; // number of grains in the pieces before
+      double              below = 0; // number of grains in the previous pieces
       for (int k = 0; k < n; ++k)
         {
           const double wanted = total * (k + 0.5) / n;
@@ -150,10 +150,10 @@ namespace diptych::discrete
       }
     if (csv.rows.size() < 2)
       throw std::invalid_argument(path + ", line " + std::to_string(csv.line[0]) +
-                                  ": a grading curve of one point; allowed: 2 or more");
+                                  ": the grading curve has one point; allowed: 2 or more");
     const double whole = table.passing.back();
     if (whole != 1 && whole != 100)
-      refuse_cell(csv, csv.rows.size() - 1, "passing", "at the largest radius 1 (fractions) or 100 (per cent)");
+      refuse_cell(csv, csv.rows.size() - 1, "passing", "1 (fractions) or 100 (per cent) at the largest radius");
     for (const Fault &fault : {fault_of_radii(table.radius), fault_of_passing(table.passing, whole)})
       if (fault.row >= 0)
         refuse_cell(csv, std::size_t(fault.row), fault.column, fault.allowed);
