@@ -36,7 +36,7 @@ namespace diptych::discrete
           if (!(radius[k] > 0 && std::isfinite(radius[k])))
             return {int(k), "radius", "more than 0"};
           if (k > 0 && radius[k] <= radius[k - 1])
-            return {int(k), "radius", "more than " + exact_text(radius[k - 1]) + ", the previous radius"};
+            return {int(k), "radius", "more than " + exact_text(radius[k - 1]) + ", the radius before it"};
         }
       return {};
     }
@@ -47,14 +47,14 @@ namespace diptych::discrete
         return {0, "passing", "0, at the smallest radius"};
       for (std::size_t k = 1; k < passing.size(); ++k)
         if (!(passing[k] >= passing[k - 1] && passing[k] <= whole))
-          return {int(k), "passing", exact_text(passing[k - 1]) + " (the previous passing) to " + exact_text(whole)};
+          return {int(k), "passing", exact_text(passing[k - 1]) + " (the passing before it) to " + exact_text(whole)};
       return {};
     }
 
     void check_table(const RadiusTable &table)
     {
       if (table.radius.size() < 2 || table.radius.size() != table.passing.size())
-        throw std::invalid_argument("the grading curve has " + std::to_string(table.radius.size()) + " radii and " +
+        throw std::invalid_argument("a grading curve with " + std::to_string(table.radius.size()) + " radii and " +
                                     std::to_string(table.passing.size()) + " values of passing; allowed: 2 or more of each");
       Fault fault = fault_of_radii(table.radius);
       if (fault.row < 0)
@@ -150,10 +150,10 @@ namespace diptych::discrete
       }
     if (csv.rows.size() < 2)
       throw std::invalid_argument(path + ", line " + std::to_string(csv.line[0]) +
-                                  ": the grading curve has one point; allowed: 2 or more");
+                                  ": a grading curve of one point; allowed: 2 or more");
     const double whole = table.passing.back();
     if (whole != 1 && whole != 100)
-      refuse_cell(csv, csv.rows.size() - 1, "passing", "1 (fractions) or 100 (per cent) at the largest radius");
+      refuse_cell(csv, csv.rows.size() - 1, "passing", "at the largest radius 1 (fractions) or 100 (per cent)");
     for (const Fault &fault : {fault_of_radii(table.radius), fault_of_passing(table.passing, whole)})
       if (fault.row >= 0)
         refuse_cell(csv, std::size_t(fault.row), fault.column, fault.allowed);

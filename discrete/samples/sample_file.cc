@@ -355,7 +355,7 @@ namespace diptych::discrete
       {
         const double time = csv.at(row, "time");
         if (row > 0 && time <= table.time.back())
-          refuse_cell(csv, row, "time", "more than " + exact_text(table.time.back()) + ", the previous time");
+          refuse_cell(csv, row, "time", "more than " + exact_text(table.time.back()) + ", the time before it");
         table.time.push_back(time);
         table.value.push_back(csv.at(row, column));
       }

@@ -42,7 +42,7 @@ namespace diptych::discrete
   };
 
   // step = auto. Moreau (1997) takes the forces if grains are pressed together and the speeds if they fly. The step is the
-  // smallest of
+  // smallest of these bounds:
   //   forces   1 d sqrt(rho/s) with free end grains, 5 otherwise; s the larger of pressure and present mean stress
   //   motion   0.1 d / V, V the speed of the fastest wall or, if larger, three times the root mean square of the grains'
   //   drives   0.1 of the shortest interval of a wall's table; sqrt(0.1 d M/F) for a wall of mass M under a force F; the largest

@@ -109,7 +109,8 @@ namespace
     for (int i = 0; i < 100000; ++i)
       rows += "5,5,0.5,0\n";
     const std::string said = check(rows, {}, 1);
-    EXPECT_NE(said.find("line 2 and line 3: 100000 grains of about one size lie in one square of the side 1"), std::string::npos)
+    EXPECT_NE(said.find("line 2 and line 3: 100000 grains of similar size lie in one square with sides of length 1"),
+              std::string::npos)
       << said;
   }
 

@@ -173,8 +173,9 @@ namespace
     EXPECT_EQ(stored_complaint(stored), ", dataset 'stage_0001/contacts/impulse': 3 entries; allowed: 4");
     stored         = {};
     stored.body[3] = 7; // three grains and at most four walls: bodies 0 to 6
-    EXPECT_EQ(stored_complaint(stored),
-              ", dataset 'stage_0001/contacts/body': row 1 (counted from 0) = 0, 7; allowed: 0 to 2, and more than that to 6");
+    EXPECT_EQ(
+      stored_complaint(stored),
+      ", dataset 'stage_0001/contacts/body': row 1 (counted from 0) = 0, 7; allowed: 0 to 2, and a larger number up to 6");
     stored         = {};
     stored.lower_y = 6;
     EXPECT_EQ(stored_complaint(stored), ", attribute 'upper_y' of 'stage_0001' = 5 is out of range; allowed: 6 to 1e12");
