@@ -15,7 +15,7 @@ namespace
   }
 
   // Before the first step there are no rows, no impulses and no window; without a cell there is none afterwards.
-  TEST(Checkpoint, KeepsWhatIsEmptyEmpty)
+  TEST(Checkpoint, KeepsEmptyListsEmpty)
   {
     StoredCheckpoint before;
     before.panel.state = disc_on_floor({0, 0});
@@ -30,7 +30,7 @@ namespace
   }
 
   // A file that is one, checksums and all, and holds what no loading leaves.
-  TEST(Checkpoint, WhatNoLoadingLeavesIsRefused)
+  TEST(Checkpoint, StatesThatNoLoadingProducesAreRefused)
   {
     const auto refused = [](const std::string &word, const std::function<void(Checkpoint &)> &change) {
       const CheckpointFile file;
@@ -59,7 +59,7 @@ namespace
     refused("grains", [](Checkpoint &p) { p.state.grains.radius[4] = 0; });
   }
 
-  TEST(Checkpoint, AFileThatIsNoneIsNamed)
+  TEST(Checkpoint, AFileThatIsNotACheckpointIsNamed)
   {
     const CheckpointFile file;
     const auto           expect_named = [&] {

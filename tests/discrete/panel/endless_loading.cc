@@ -33,7 +33,7 @@ namespace
 
   // Steps = strain / (I h) with h in d sqrt(rho/P). The rule's step shrinks with I where its tolerance cannot, so steps go with
   // 1/I^2.
-  TEST(EndlessLoading, StepsWithoutEndAreRefusedWhoeverChoseTheStep)
+  TEST(EndlessLoading, TooManyStepsAreRefusedForGivenAndAutomaticSteps)
   {
     Loading loading         = far_as_one_percent();
     loading.inertial_number = 1e-9;
@@ -50,7 +50,7 @@ namespace
   }
 
   // What only the walls' tables ask for is found when the loading begins.
-  TEST(EndlessLoading, TablesOfWallsThatAskForStepsWithoutEndStopTheRun)
+  TEST(EndlessLoading, TooManyStepsDueToWallTablesStopTheRun)
   {
     const std::string path = (std::filesystem::temp_directory_path() / "diptych_steep_velocity.csv").string();
     std::ofstream(path) << "time,velocity\n0,0\n1e-12,-0.02\n3,-0.02\n";

@@ -76,7 +76,7 @@ namespace
           }
   }
 
-  TEST(Loading, DescentAndShearGoWhereTheyAreSent)
+  TEST(Loading, DescentAndShearReachTheirTarget)
   {
     Loading loading                  = one_percent();
     loading.horizontal_over_vertical = -0.5;
@@ -286,7 +286,7 @@ namespace
   }
 
   // P24: a share, and the smaller the platen's friction the larger.
-  TEST(History, PlatenSlidingGrowsWhereThePlatenIsSmooth)
+  TEST(History, PlatenSlidingGrowsIfThePlatenIsSmooth)
   {
     double share[2] = {0, 0};
     for (int k = 0; k < 2; ++k)
@@ -354,7 +354,7 @@ namespace
   // The same sample by explicit penalty steps: mean stress ratio over 0.5-1.5 % as by NSCD, to the scatter of 200 discs (0.05).
   // Above the critical step (about 1 here) it first heats silently, the ratio falling by a third at 1.2; at twice it the run
   // blows up, says so, and keeps what it had.
-  TEST(Penalty, ThroughThePanelAgreesWithNscdAndBlowsUpHonestly)
+  TEST(Penalty, ThroughThePanelAgreesWithNscdAndReportsItsBlowUp)
   {
     Loading loading       = one_percent();
     loading.stages        = {0.015};

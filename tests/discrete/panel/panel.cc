@@ -85,7 +85,7 @@ namespace
     hooks.stop_requested = [&] { return steps == 7; };
     Panel                 panel(small_sample(150), short_loading(), quick_options(), hooks);
     std::vector<Snapshot> snapshots;
-    const Report          report = walked(panel, 2, snapshots);
+    const Report          report = run_to_end(panel, 2, snapshots);
     EXPECT_EQ(report.status, Status::stopped_by_user);
     EXPECT_EQ(steps, 7);
     ASSERT_EQ(snapshots.size(), 2u) << "the prepared sample and the last accepted step";
@@ -128,7 +128,7 @@ namespace
     hooks.stop_requested = [&] { return steps == 7; };
     Panel                 panel(small_sample(150), short_loading(), quick_options(), hooks);
     std::vector<Snapshot> snapshots;
-    (void)walked(panel, 2, snapshots);
+    (void)run_to_end(panel, 2, snapshots);
     steps = 100; // the hook says stop no more
     ASSERT_EQ(panel.advance_to(2), Status::finished);
     EXPECT_EQ(panel.snapshot().position, whole.snapshots.back().position);
@@ -147,8 +147,8 @@ namespace
     sample.file = path;
     Panel                 from_file(sample, short_loading(), quick_options());
     std::vector<Snapshot> a, b;
-    EXPECT_EQ(walked(from_arrays, 2, a).status, Status::finished);
-    EXPECT_EQ(walked(from_file, 2, b).status, Status::finished);
+    EXPECT_EQ(run_to_end(from_arrays, 2, a).status, Status::finished);
+    EXPECT_EQ(run_to_end(from_file, 2, b).status, Status::finished);
     EXPECT_EQ(a.back().position, b.back().position);
     EXPECT_EQ(a.back().mean_internal_moment, b.back().mean_internal_moment);
     std::filesystem::remove(path);

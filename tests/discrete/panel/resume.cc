@@ -16,15 +16,15 @@ namespace
   Course loaded(const SampleOptions &sample, const Loading &loading, const Options &options, const Checkpoint *resume = nullptr)
   {
     Course course;
-    Panel *under_way = nullptr;
+    Panel *running = nullptr;
     Hooks  hooks;
     hooks.on_row      = [&](const HistoryRow &row) { course.rows.push_back(row); };
-    hooks.before_step = [&] { course.before.push_back(under_way->checkpoint()); };
+    hooks.before_step = [&] { course.before.push_back(running->checkpoint()); };
     Panel panel(sample, loading, options, hooks);
-    under_way = &panel;
+    running = &panel;
     if (resume)
       panel.resume(*resume);
-    course.report = walked(panel, int(loading.stages.size()), course.snapshots, resume != nullptr);
+    course.report = run_to_end(panel, int(loading.stages.size()), course.snapshots, resume != nullptr);
     return course;
   }
 
@@ -168,7 +168,7 @@ namespace
 
   // A spring pulls with kt x stretch whatever the step that follows. A stage of 0.7 steps is taken in one step 0.7 times as
   // long: the shear force on the platen goes on but for what one step adds, and is not scaled by 0.7.
-  TEST(Penalty, SpringsGoOnWhereTheStepChanges)
+  TEST(Penalty, SpringsPersistIfTheStepChanges)
   {
     Options options                 = quick_options();
     options.method.method           = Method::penalty;

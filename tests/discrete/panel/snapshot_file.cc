@@ -60,7 +60,7 @@ namespace
   }
 
   // Not every file tells what a pair dissipates: the entries are missing, not zero.
-  TEST(Output, AFileThatDoesNotTellTheDissipationLeavesItEmpty)
+  TEST(Output, AFileWithoutDissipationLeavesItEmpty)
   {
     const std::vector<Snapshot> written = short_run();
     const std::string           path    = temporary_path("earlier");
@@ -135,7 +135,7 @@ namespace
   }
 
   // Of a frame of another code there is no step, and much that it does not tell.
-  TEST(Output, WhatAnotherCodeDoesNotTellStaysUntold)
+  TEST(Output, ValuesMissingInAnotherCodeStayNan)
   {
     std::vector<Snapshot> snapshots = short_run();
     for (Snapshot &s : snapshots)
@@ -147,14 +147,14 @@ namespace
     expect_refused("upper_y", [](Snapshot &s) { s.step = s.upper_y = NAN; });
   }
 
-  TEST(Output, AnOutlineFarFromTheGrainsIsNone)
+  TEST(Output, AnOutlineFarFromTheGrainsIsRefused)
   {
     expect_refused("outline/right", [](Snapshot &s) { s.outline.right[0].x() = 1 << 30; });
     expect_refused("outline/left", [](Snapshot &s) { s.outline.left[0].y() = -1e6; });
   }
 
   // Whole files, checksums and all, of grains and contacts that cannot be.
-  TEST(Output, GrainsAndContactsThatCannotBeAreRefused)
+  TEST(Output, ImpossibleGrainsAndContactsAreRefused)
   {
     const auto refused = [](const std::string &word, const std::function<void(Snapshot &)> &change) {
       std::vector<Snapshot> written = short_run();

@@ -95,7 +95,7 @@ namespace
   }
 
   // Not used in solving, but handed on with the solution.
-  TEST(Fclib, GapsThatAreNoNumbersAreRefused)
+  TEST(Fclib, GapsThatAreNotNumbersAreRefused)
   {
     const TemporaryFile file;
     {
@@ -117,7 +117,7 @@ namespace
   }
 
   // The local form is solved, but the other goes into the file of the solution.
-  TEST(Fclib, NumbersOfTheGlobalFormAreLookedAtBesideTheLocalOne)
+  TEST(Fclib, NumbersOfTheGlobalFormAreAlsoChecked)
   {
     for (const std::string name : {"/fclib_global/M/x", "/fclib_global/vectors/f", "/nscd/H/x"})
       {
@@ -134,7 +134,7 @@ namespace
       }
   }
 
-  TEST(Fclib, FilesThatAreNoneAreRefused)
+  TEST(Fclib, OtherFilesAreRefused)
   {
     const TemporaryFile file;
     EXPECT_NE(refusal(file.path), "") << "missing";

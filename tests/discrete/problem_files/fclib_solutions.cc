@@ -91,7 +91,7 @@ namespace
   }
 
   // The stored solution is Siconos' at 1e-8 of its own scale. Several exact solutions may exist: it is judged, not compared.
-  TEST(Fclib, TheStoredSolutionIsOne)
+  TEST(Fclib, TheStoredSolutionSolvesTheProblem)
   {
     for (const std::string name : {"small.h5", "medium.h5"})
       {
@@ -185,7 +185,7 @@ namespace
   }
 
   // A grain with two different translational inertias is none: the file is still solved, in the local form, and says why.
-  TEST(Fclib, BodiesThatAreNoDiscsFallBackToTheLocalForm)
+  TEST(Fclib, BodiesThatAreNotDiscsFallBackToTheLocalForm)
   {
     const TemporaryFile file;
     {

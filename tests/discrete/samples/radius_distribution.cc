@@ -183,7 +183,7 @@ namespace
     EXPECT_EQ(radius_quantiles(UniformByMass{0.25, 0.25}, 3, RadiusScale::mean_diameter_one), std::vector<double>(3, 0.5));
   }
 
-  TEST(RadiusDistribution, WhatIsNoDistributionIsRefusedByNameValueAndRange)
+  TEST(RadiusDistribution, AnInvalidDistributionIsRefusedByNameValueAndRange)
   {
     EXPECT_EQ(complaint(UniformByNumber{0., 1.}), "smallest radius 0 is out of range; allowed: more than 0");
     EXPECT_EQ(complaint(UniformByMass{0.5, 0.25}),

@@ -6,7 +6,7 @@ namespace
 {
   // --- grains from CSV
 
-  TEST(GrainsFromCsv, ColumnsMayStandInAnyOrderAndAbsentOnesAreZero)
+  TEST(GrainsFromCsv, ColumnsMayHaveAnyOrderAndMissingOnesAreZero)
   {
     const GrainFile file = read("# two discs\nr,y,x,fixed\n0.5, 1, 2, 1\n\n0.25,4,-3,0\n");
     const Grains   &g    = file.grains;
@@ -103,7 +103,7 @@ namespace
   }
 
   // Held or not: their pairs would be as many as their number squared.
-  TEST(GrainCheck, ACrowdInOnePlaceIsRefusedBeforeItsPairsAreSought)
+  TEST(GrainCheck, ACrowdInOnePlaceIsRefusedBeforeItsPairsAreSearched)
   {
     std::string rows;
     for (int i = 0; i < 100000; ++i)

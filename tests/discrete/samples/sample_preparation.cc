@@ -111,7 +111,7 @@ namespace
 
   // Whenever it is asked, the next question is the last one, and nothing is taken for quiet: in the soft discs (asked 5th), in
   // the first steps' sweeps, and at any place of a preparation that was asked `whole` times.
-  TEST(SamplePreparation, EndsAtTheFirstQuestionThatSaysNo)
+  TEST(SamplePreparation, EndsWhenTheCallbackReturnsFalse)
   {
     int whole = 0;
     ASSERT_TRUE(prepare_sample(small_sample(100), {}, [&](int, int) { return ++whole > 0; }).report.quiet);

@@ -99,7 +99,7 @@ namespace
 
   // Force (3, 4) on grain 0 from grain 1, which lies below it: normal (0, 1), tangent (-1, 0); in a step of 1/8 the impulses
   // are 4/8 and -3/8.
-  TEST(GrainsFromSnapshots, WhatAPanelWroteIsUnderstood)
+  TEST(GrainsFromSnapshots, FilesOfAPanelAreRead)
   {
     Snapshot s;
     s.step     = 0.125;
@@ -139,7 +139,7 @@ namespace
                                         "(part of the lower or upper platen)");
   }
 
-  TEST(GrainsFromSnapshots, AStageThatIsNotThereIsNamed)
+  TEST(GrainsFromSnapshots, AMissingStageIsNamed)
   {
     EXPECT_EQ(stored_complaint({}, 2), ": holds no stage 2; allowed: 0 to 1, or -1 for the last");
     EXPECT_EQ(stored_complaint({}, -2), ": holds no stage -2; allowed: 0 to 1, or -1 for the last");

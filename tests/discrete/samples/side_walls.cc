@@ -59,7 +59,7 @@ namespace
       }
   }
 
-  TEST(SideWalls, StandWhereTheirKeysSay)
+  TEST(SideWalls, FollowTheirKeys)
   {
     SampleOptions options;
     options.left_wall = -1.5, options.right_wall = 7;
