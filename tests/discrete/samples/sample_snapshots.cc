@@ -1,4 +1,4 @@
-// diptych: grains from snapshot files and time tables are exactly those that were written, or refused with their place
+// diptych: grains from snapshots and time tables read back exactly, or are refused with their place
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "tests/discrete/samples/sample_file_examples.h"
 
@@ -6,7 +6,7 @@ namespace
 {
   // --- grains from a snapshot file
 
-  // Two stages; the second with three grains between platens at -1 and 5, four contacts in an order of the solver's own.
+  // Two stages. The second has three grains between platens at -1 and 5, and four contacts in an arbitrary order.
   struct StoredFile
   {
     std::vector<double> radius = {0.5, 1., 0.75}, mass = {1., 4., 2.25}, rotation = {0.1, 0.2, 0.3}, spin = {-1., 0., 1. / 3};
@@ -75,7 +75,7 @@ namespace
     EXPECT_EQ(file.place(2), h5 + ", grain 2 (counted from 0)");
   }
 
-  // The open contact (0, 1) is left out, the others come ascending in (i, j).
+  // The open contact (0, 1) is left out. The others ascend in (i, j).
   TEST(GrainsFromSnapshots, ImpulsesComeAsTheStateKeepsThem)
   {
     StoredFile stored;
@@ -97,8 +97,8 @@ namespace
     std::filesystem::remove(h5);
   }
 
-  // Force (3, 4) on grain 0 from grain 1, which lies below it: normal (0, 1), tangent (-1, 0); in a step of 1/8 the impulses
-  // are 4/8 and -3/8.
+  // Force (3, 4) on grain 0 from grain 1 below it: normal (0, 1), tangent (-1, 0). In a step of 1/8 the impulses are 4/8 and
+  // -3/8.
   TEST(GrainsFromSnapshots, FilesOfAPanelAreRead)
   {
     Snapshot s;
@@ -186,7 +186,7 @@ namespace
     Hdf5Writer file(h5);
     file.write("stage_0000/grains/radius", std::vector<double>{1.});
     file.finish();
-    const std::string what = complaint(h5, [&] { read_grains_hdf5(h5); }); // what stands after the path
+    const std::string what = complaint(h5, [&] { read_grains_hdf5(h5); }); // text after the path
     EXPECT_NE(what.find("stage_0000/grains/position"), std::string::npos) << what;
     std::filesystem::remove(h5);
   }
