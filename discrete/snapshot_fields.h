@@ -114,9 +114,9 @@ namespace diptych::discrete
 
   inline bool is_always_told(const std::string &name)
   {
-    for (const char *told :
+    for (const char *known :
          {"progress", "axial_strain", "mean_diameter", "window_time", "lower_y", "upper_y", "cell_width", "area"})
-      if (name == told)
+      if (name == known)
         return true;
     return false;
   }

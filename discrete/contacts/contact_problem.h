@@ -41,8 +41,8 @@ namespace diptych::discrete
 
   // Find impulses r and velocities v = v_free + M^-1 H r such that every contact obeys Signorini's condition and Coulomb's law
   // (discrete/README.md, Method). For discs and walls the coupling W_nt between the normal and tangential part of one contact
-  // vanishes. Each contact alone therefore has a closed solution (contact_law.h). Across the edge of a cell with free width W_nt
-  // is small but not zero.
+  // vanishes. Each contact by itself therefore has a closed solution (contact_law.h). Across the edge of a cell with free width
+  // W_nt is small but not zero.
   struct ContactProblem
   {
     std::vector<BodyVelocity> free_velocity; // grains first, then walls, then the cell if its width changes (x = d width/dt)

@@ -69,7 +69,7 @@ namespace diptych::discrete
 
   SolveReport solve(const ContactProblem &problem, const SolverOptions &options, std::vector<Impulse> &impulses)
   {
-    ThreadTeam alone(1);
-    return solve(problem, options, impulses, alone);
+    ThreadTeam one_thread(1);
+    return solve(problem, options, impulses, one_thread);
   }
 } // namespace diptych::discrete

@@ -140,7 +140,7 @@ namespace
     std::vector<Snapshot> snapshots = short_run();
     for (Snapshot &s : snapshots)
       s.step = s.residual = s.time = s.lower_platen_force.x() = NAN;
-    const std::string path = temporary_path("untold");
+    const std::string path = temporary_path("missing_values");
     write_snapshots(path, snapshots);
     EXPECT_TRUE(std::isnan(read_snapshots(path + ".h5")[1].step));
     std::filesystem::remove(path + ".h5"), std::filesystem::remove(path + ".xdmf");

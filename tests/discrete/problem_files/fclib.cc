@@ -113,8 +113,8 @@ namespace
           writer.copy(reader, "nscd/" + name);
       writer.finish();
     }
-    const std::string said = refusal(file.path);
-    EXPECT_NE(said.find("/nscd/gap"), std::string::npos) << said;
+    const std::string message = refusal(file.path);
+    EXPECT_NE(message.find("/nscd/gap"), std::string::npos) << message;
   }
 
   // The local form is solved, but the global form is copied to the file of the solution.

@@ -108,10 +108,10 @@ namespace
     std::string rows;
     for (int i = 0; i < 100000; ++i)
       rows += "5,5,0.5,0\n";
-    const std::string said = check(rows, {}, 1);
-    EXPECT_NE(said.find("line 2 and line 3: 100000 grains of similar size lie in one square with sides of length 1"),
+    const std::string message = check(rows, {}, 1);
+    EXPECT_NE(message.find("line 2 and line 3: 100000 grains of similar size lie in one square with sides of length 1"),
               std::string::npos)
-      << said;
+      << message;
   }
 
   TEST(GrainCheck, TouchingGrainsAndWallsAreNoOverlap)

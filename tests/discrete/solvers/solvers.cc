@@ -73,12 +73,12 @@ namespace
         options.tolerance        = 0;
         options.max_sweeps       = 200;
         options.sweeps_per_check = 20;
-        std::vector<Impulse> alone(problem.contacts.size()), asked = alone, stopped = alone;
-        (void)solve(problem, options, alone);
+        std::vector<Impulse> undisturbed(problem.contacts.size()), asked = undisturbed, stopped = undisturbed;
+        (void)solve(problem, options, undisturbed);
         options.stop_requested = [] { return false; };
         (void)solve(problem, options, asked);
-        for (std::size_t k = 0; k < alone.size(); ++k)
-          EXPECT_TRUE(alone[k].normal == asked[k].normal && alone[k].tangential == asked[k].tangential);
+        for (std::size_t k = 0; k < undisturbed.size(); ++k)
+          EXPECT_TRUE(undisturbed[k].normal == asked[k].normal && undisturbed[k].tangential == asked[k].tangential);
         int questions            = 0;
         options.stop_requested   = [&] { return ++questions == 3; };
         const SolveReport report = solve(problem, options, stopped);

@@ -76,18 +76,18 @@ namespace
   TEST(StalledContacts, HeldRowsAreNotSweptButCountInTheResidual)
   {
     const ContactProblem problem = towers();
-    ThreadTeam           alone(1);
+    ThreadTeam           one_thread(1);
     BatchedContacts      batches(problem, {0, 1, 2});
     batches.set_impulses(std::vector<Impulse>(6));
-    batches.sweep(1, 1, 10, alone);
+    batches.sweep(1, 1, 10, one_thread);
     for (const Impulse &r : batches.impulses())
       EXPECT_EQ(r.normal, 0);
-    EXPECT_EQ(batches.residual(alone), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(batches.residual(one_thread), std::numeric_limits<double>::infinity());
     batches.solve_held([&](std::vector<BodyVelocity> &v, Impulse *impulses) { sweep_alone(problem, {0, 1, 2}, v, impulses); });
-    EXPECT_LT(batches.residual(alone), 1e-6);
+    EXPECT_LT(batches.residual(one_thread), 1e-6);
     EXPECT_NEAR(batches.impulses()[0].normal, 3, 1e-6);
     batches.refresh_velocities();
-    EXPECT_LT(batches.residual(alone), 1e-6);
+    EXPECT_LT(batches.residual(one_thread), 1e-6);
   }
 
   // 100 discs are sheared at I = 1e-3 in steps of 0.02. On some of 1700 steps (3.4 % strain) the sweeps circle about a few

@@ -156,9 +156,9 @@ namespace
   Trial trial_of(const StoredStep &step, const std::vector<double> &truth, const SampleRequest &request)
   {
     Trial                trial;
-    ThreadTeam           alone(1);
+    ThreadTeam           one_thread(1);
     std::vector<Impulse> r = step.first;
-    trial.report           = solve_sampled(step.sampled(), SolverOptions{}, request, alone, r, trial.accuracy);
+    trial.report           = solve_sampled(step.sampled(), SolverOptions{}, request, one_thread, r, trial.accuracy);
     trial.true_error       = relative_difference(step.moments(r), truth);
     return trial;
   }
@@ -231,10 +231,10 @@ namespace
     const StoredStep     step = sheared_steps(1, 1).front();
     SolverOptions        solver;
     SampledAccuracy      accuracy;
-    ThreadTeam           alone(1);
+    ThreadTeam           one_thread(1);
     std::vector<Impulse> r(step.contacts.size());
     solver.max_sweeps        = 40;
-    const SolveReport report = solve_sampled(step.sampled(), solver, request_of(0.02, 40), alone, r, accuracy);
+    const SolveReport report = solve_sampled(step.sampled(), solver, request_of(0.02, 40), one_thread, r, accuracy);
     EXPECT_EQ(report.status, SolveStatus::max_sweeps_reached);
     EXPECT_GT(report.residual, solver.tolerance);
     EXPECT_FALSE(accuracy.reached);
@@ -255,9 +255,9 @@ namespace
     const StoredStep     step = next_step(state, setting);
     std::vector<Impulse> r(step.contacts.size());
     SampledAccuracy      accuracy;
-    ThreadTeam           alone(1);
+    ThreadTeam           one_thread(1);
     solver.sweeps_per_check  = 1;
-    const SolveReport report = solve_sampled(step.sampled(), solver, request_of(0.02, 100000), alone, r, accuracy);
+    const SolveReport report = solve_sampled(step.sampled(), solver, request_of(0.02, 100000), one_thread, r, accuracy);
     EXPECT_EQ(report.status, SolveStatus::converged);
     EXPECT_LE(report.residual, solver.tolerance);
   }

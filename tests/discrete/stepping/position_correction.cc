@@ -48,8 +48,8 @@ namespace
 
     void correct(const double enough = 1e-9)
     {
-      ThreadTeam alone(1);
-      correct_positions(state, {problem, contacts, impulses, v_new, setting.step}, enough, alone);
+      ThreadTeam one_thread(1);
+      correct_positions(state, {problem, contacts, impulses, v_new, setting.step}, enough, one_thread);
     }
   };
 
