@@ -1,4 +1,4 @@
-// diptych: what a scene may choose from, as enums
+// diptych: enums that a scene can set, with the names of their values
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -9,14 +9,14 @@
 
 namespace diptych::discrete
 {
-  // A key that names a file; readers of scenes look for it beside the scene's own file.
+  // A key that holds the name of a file. A relative path counts from the folder of the scene file.
   struct FileName
   {
     std::string &path;
   };
 
-  // An enum that a scene may set has a function choices(E) beside it: the one table of its names, in the order in which they are
-  // told. Readers and writers of scenes find it by argument-dependent lookup; nothing else compares texts.
+  // Each enum that a scene can set has a function choices(E) with the only table of its names, in the order of help texts.
+  // Readers and writers of scenes find that function by argument-dependent lookup.
   template <class E> std::string name_of(const E value)
   {
     for (const auto &[choice, name] : choices(value))
@@ -25,7 +25,7 @@ namespace diptych::discrete
     return "unknown";
   }
 
-  // The value of that name; none where the enum has no such name.
+  // Value with this name, or nothing if the enum has no such name.
   template <class E> std::optional<E> value_of(const std::string &name)
   {
     for (const auto &[choice, its_name] : choices(E()))

@@ -1,4 +1,4 @@
-// diptych: what a loading walks along
+// diptych: loading variable as text
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/walk.h"
 

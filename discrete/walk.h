@@ -1,4 +1,4 @@
-// diptych: what a loading walks along
+// diptych: loading variable, the quantity that a loading path is measured in
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace diptych::discrete
 {
-  // What a loading walks along: its stages are values of it. Shear strain: travel of the upper platen / initial height.
+  // Loading variable. Stages are values of it. Shear strain is the travel of the upper platen / initial height.
   enum class Walk
   {
     axial_strain,
@@ -22,6 +22,6 @@ namespace diptych::discrete
                       std::pair{Walk::time, "time"}};
   }
 
-  // "2.5 % axial strain", "1 % shear strain", "time 3": for messages.
+  // Text for messages: "2.5 % axial strain", "1 % shear strain", "time 3".
   std::string text_of(Walk walk, double progress);
 } // namespace diptych::discrete

@@ -1,4 +1,4 @@
-// diptych: what acts on the free lateral boundary of the grain sample
+// diptych: lateral condition of the grain sample, forces and motions of its walls
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/bodies/boundary.h"
 
@@ -59,7 +59,7 @@ namespace diptych::discrete
 
     for (std::vector<int> &members : band)
       {
-        // Equal abscissae would leave the order to the sort: the grain number decides.
+        // Ties of equal abscissae are broken by the grain number, because the order of std::partial_sort would not be unique.
         const auto left_of = [&](const int a, const int b) {
           return g.position[a].x() != g.position[b].x() ? g.position[a].x() < g.position[b].x() : a < b;
         };
@@ -77,7 +77,7 @@ namespace diptych::discrete
   double sample_height(const State &state)
   {
     if (state.walls.size() < 2)
-      throw std::invalid_argument("a sample without platens has no height");
+      throw std::invalid_argument("the height of the sample needs a lower and an upper platen");
     return state.walls[1].point.y() - state.walls[0].point.y();
   }
 
@@ -86,7 +86,7 @@ namespace diptych::discrete
     if (state.cell)
       return state.cell->width;
     if (state.walls.size() < 4)
-      throw std::invalid_argument("a sample without side walls and without a periodic cell has no width of its own");
+      throw std::invalid_argument("the width of the sample needs side walls or a periodic cell");
     return state.walls[3].point.x() - state.walls[2].point.x();
   }
 
@@ -123,11 +123,11 @@ namespace diptych::discrete
         const Wall &wall   = state.walls[w];
         const bool  x_free = is_free(wall.drive_x), y_free = is_free(wall.drive_y);
         if (x_free != y_free && std::abs(wall.normal.x() * wall.normal.y()) > 1e-12)
-          throw std::invalid_argument(
-            "wall " + std::to_string(w) +
-            ": one component of motion is free and the other is not, so its normal must lie along an axis");
+          throw std::invalid_argument("wall " + std::to_string(w) +
+                                      ": if only one component of motion is free, the normal must be horizontal or vertical");
         if ((x_free || y_free) && !(wall.mass > 0))
-          throw std::invalid_argument("wall " + std::to_string(w) + ": it is free under a force and needs a positive mass, not " +
+          throw std::invalid_argument("wall " + std::to_string(w) +
+                                      ": a wall that moves under a force needs a positive mass, not " +
                                       std::to_string(wall.mass));
         (void)applied_wall_force(state, w, state.time);
       }

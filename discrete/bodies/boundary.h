@@ -1,4 +1,4 @@
-// diptych: what acts on the lateral boundary of the grain sample, and what drives its walls
+// diptych: lateral condition of the grain sample, forces and motions of its walls
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -15,24 +15,25 @@ namespace diptych::discrete
     double band_height = 3; // w [mean diameters]
     int    end_grains  = 5; // at each end of a band
   };
-  // Two rigid smooth walls: walls[2] on the left stands still, walls[3] on the right is free or moves at a given speed.
+  // Two smooth rigid walls. walls[2] on the left does not move; walls[3] on the right is free or moves at a given speed.
   struct RigidSides
   {
-    std::optional<double> velocity = {}; // of the right wall, positive to the right; none: free under the pressure [length/time]
-    double                mass     = 0;  // of the right wall; 0: sqrt(number of grains) x mean grain mass
+    std::optional<double> velocity =
+      {};            // of the right wall, positive to the right; without a value it is free under the pressure [length/time]
+    double mass = 0; // of the right wall; 0: sqrt(number of grains) x mean grain mass
   };
-  // No sides: the sample repeats itself along x.
+  // The sample repeats itself along x.
   struct PeriodicSides
   {
     bool   free_width = false; // under the pressure
-    double velocity   = 0;     // of a width that is not free [length/time]
+    double velocity   = 0;     // rate of a width that is not free [length/time]
     double mass       = 0;     // inertia of the free width; 0: sqrt(number of grains) x mean grain mass
   };
   struct NoSides
   {};
   using LateralCondition = std::variant<EndGrains, RigidSides, PeriodicSides, NoSides>;
 
-  // The keys behind a LateralCondition.
+  // Keys of a LateralCondition.
   enum class Lateral
   {
     end_grains,
@@ -49,7 +50,7 @@ namespace diptych::discrete
 
   enum class SideMotion
   {
-    pressure, // free under it
+    pressure, // free under the pressure
     velocity  // prescribed
   };
 
@@ -70,45 +71,47 @@ namespace diptych::discrete
 
   template <class Visitor> void visit_parameters(LateralOptions &o, Visitor &&visitor)
   {
-    visitor("lateral", o.lateral, "-",
-            "at the sides: the end grains of horizontal bands carry the pressure (free sides), two rigid walls, the sample "
-            "repeats itself, or nothing");
+    visitor(
+      "lateral", o.lateral, "-",
+      "condition at the sides: the end grains of horizontal bands carry the pressure (free sides), two rigid walls, periodic "
+      "sides, or nothing");
     visitor("band_height", o.band_height, "mean diameters", {0.5, 100.},
-            "end_grains: height w of a band; 1 to 5 are equivalent, from 8 on five grains are a poor barrier");
+            "end_grains: height w of a band; 1 to 5 are equivalent, and from 8 on grains escape between five end grains");
     visitor("end_grains", o.end_grains, "-", {1, 100}, "grains at each end of a band that share the force w P");
     visitor("side_motion", o.side_motion, "-",
             "rigid_walls: the right wall is free under pressure x height, or moves at side_velocity; periodic: the width is "
             "free under the pressure, or changes at side_velocity (0: fixed)");
     visitor("side_velocity", o.side_velocity, "length/time", {-1e12, 1e12},
-            "of the right wall or of the width, positive outwards, after the preparation");
+            "velocity of the right wall, or rate of the width, after the preparation; positive outwards");
     visitor("wall_mass", o.wall_mass, "mass", {0., 1e15},
-            "of a wall, platen or cell width that moves under a force; 0: sqrt(number of grains) x mean grain mass");
+            "mass of a wall, platen or cell width that moves under a force; 0: sqrt(number of grains) x mean grain mass");
   }
 
   LateralCondition lateral_condition(const LateralOptions &options);
 
-  // The height between the platens walls[0] and walls[1] is divided into equal bands (band_height rounded so that they
-  // fit); in each, the `end_grains` outermost grains on the left carry, in proportion to their masses, horizontal forces
-  // that total (height of the band) x pressure, those on the right the opposite. A band with fewer than twice as many
-  // grains splits them between its sides; grains belong to the band of their centre, those beyond a platen's overhang
-  // included; fixed grains are not among them. Adds to `force` (one entry per grain) [pressure x length].
+  // Adds the containing action to `force` (one entry per grain) [pressure x length]. The height between the platens walls[0] and
+  // walls[1] is divided into equal bands, as near to band_height as fits. In each band the `end_grains` outermost grains on the
+  // left carry, in proportion to their masses, horizontal forces that total (height of the band) x pressure. Those on the right
+  // carry the opposite. If a band has fewer than twice as many grains, half of them belong to each side. A grain belongs to the
+  // band of its centre, also beyond the end of a platen. Fixed grains carry nothing.
   void add_lateral_forces(const State                  &state,
                           const EndGrains              &action,
                           double                        pressure,
                           double                        mean_diameter,
                           std::vector<Eigen::Vector2d> &force);
 
-  // Force on the free components of wall `index` at the present positions and `time` [pressure x length]; 0 elsewhere.
+  // Force on the free components of wall `index` at the present positions and at `time` [pressure x length]. Other components are
+  // 0.
   Eigen::Vector2d applied_wall_force(const State &state, std::size_t index, double time);
 
-  // Velocity at `time` where a component is prescribed, the present one elsewhere.
+  // Velocity of a wall: prescribed components at `time`, the others as they are.
   Eigen::Vector2d prescribed_wall_velocity(const Wall &wall, double time);
 
-  // Height between the platens; width between the sides, or of the cell. Throws std::invalid_argument where there is neither.
+  // Height between the platens; width between the side walls or of the cell. Throws std::invalid_argument without these bodies.
   double sample_height(const State &state);
   double sample_width(const State &state);
 
-  // Throws std::invalid_argument on a wall that turns the local problem of its contacts into a coupled one (state.h), on a
-  // pressure without the walls beside it, or masses that are not positive.
+  // Throws std::invalid_argument in three cases: a wall whose contacts would couple their normal and tangential parts (state.h),
+  // a pressure on a wall without neighbouring walls, or a mass that is not positive.
   void validate_walls(const State &state);
 } // namespace diptych::discrete

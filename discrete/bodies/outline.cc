@@ -11,7 +11,7 @@ namespace diptych::discrete
   namespace
   {
     // Outermost surface on lines y = bottom + k dy; sign = -1 for the left side, +1 for the right one. The first and the last
-    // line are platens: what lies within a hundredth of a diameter of a line (dy is a tenth) touches it.
+    // line are platens. A disc within a hundredth of a diameter of a line (dy is a tenth) counts as touching it.
     std::vector<double> raw_envelope(const Grains &g, const double bottom, const double dy, const int n, const int sign)
     {
       const double        touch = 0.1 * dy;
@@ -20,17 +20,17 @@ namespace diptych::discrete
         {
           const Eigen::Vector2d &x = g.position[i];
           const double           r = g.radius[i];
-          // Of a grain far away, no line; its number would be none.
+          // The clamps keep a grain far away from overflowing the conversion to int.
           const int first = int(std::clamp(std::ceil((x.y() - r - touch - bottom) / dy), 0., double(n)));
           const int last  = int(std::clamp(std::floor((x.y() + r + touch - bottom) / dy), -1., n - 1.));
           for (int k = first; k <= last; ++k)
-            if (sign * x.x() + r > edge[k]) // nearly all discs lie inside: no root for them
+            if (sign * x.x() + r > edge[k]) // skips the square root for the discs inside, which are nearly all
               {
                 const double a = bottom + k * dy - x.y();
                 edge[k]        = std::max(edge[k], sign * x.x() + std::sqrt(std::max(0., r * r - a * a)));
               }
         }
-      // A line that meets no disc takes the value below it (above it, at the bottom).
+      // A line that meets no disc takes the value of the line below, or of the line above at the bottom.
       for (int k = 1; k < n; ++k)
         if (std::isinf(edge[k]))
           edge[k] = edge[k - 1];
@@ -67,7 +67,7 @@ namespace diptych::discrete
     std::vector<Eigen::Vector2d> side(const State &state, const double mean_diameter, const int sign)
     {
       const double bottom = state.walls[0].point.y(), height = state.walls[1].point.y() - bottom;
-      // Where the platens are farther apart than ten times all diameters together, nothing joins them: coarser then.
+      // If the height exceeds ten times the sum of all diameters, no column of grains can span it: coarser lines suffice.
       const double              most = std::max(1e4, 100. * double(state.grains.size()));
       const int                 n    = std::max(2, int(std::lround(std::min(most, height / (0.1 * mean_diameter)))) + 1);
       const double              dy   = height / (n - 1);

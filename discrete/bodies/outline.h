@@ -7,10 +7,10 @@
 
 namespace diptych::discrete
 {
-  // Lateral envelopes between walls[0] and walls[1]: at each of a set of heights 0.1 d apart the outermost disc surface met
-  // by a horizontal line, smoothed by a Gauss kernel (standard deviation 1 d, ends extended evenly), then sampled about
-  // every 2 d. Between side walls the walls themselves; of a periodic sample a rectangle one period wide about the grains' mean
-  // abscissa. Both sides run from the lower platen to the upper one.
+  // Lateral envelopes between walls[0] and walls[1]. Horizontal lines 0.1 d apart give the outermost disc surfaces. These are
+  // smoothed by a Gauss kernel (standard deviation 1 d, end values extended) and then sampled about every 2 d. With side walls
+  // the outline is the walls. For a periodic sample it is a rectangle of one period about the mean abscissa of the grains. Both
+  // sides run from the lower platen to the upper one.
   Outline make_outline(const State &state, double mean_diameter);
 
   double outline_area(const Outline &outline);

@@ -12,8 +12,9 @@
 
 namespace diptych::discrete
 {
-  // Grains::fixed. One that is held keeps its velocity and spin whatever acts on it (rough bottoms, obstacles). One that is part
-  // of a platen moves with it and does not turn, and what acts on it acts on the platen, whose mass is its own: a rough platen.
+  // Values of Grains::fixed. A held grain keeps its velocity and spin under any force (rough bottoms, obstacles). A grain that is
+  // part of a platen moves with the platen and does not turn, and forces on it act on the platen. This makes a platen rough. The
+  // platen keeps its own mass.
   inline constexpr std::uint8_t held_grain = 1, lower_platen_grain = 2, upper_platen_grain = 3;
 
   // Rigid discs of unit thickness. One entry per grain in every vector.
@@ -25,17 +26,17 @@ namespace diptych::discrete
     std::vector<double>          spin;     // counter-clockwise [rad/time]
     std::vector<double>          radius;   // [length]
     std::vector<double>          mass;     // rho pi r^2, per unit thickness
-    std::vector<std::uint8_t>    fixed;    // how a grain is held: 0 free, else one of the numbers below
+    std::vector<std::uint8_t>    fixed;    // how a grain is held: 0 free, else one of the constants above
 
     std::size_t size() const { return radius.size(); }
 
     // I = m r^2 / 2 of a disc about its centre.
     double moment_of_inertia(const std::size_t i) const { return 0.5 * mass[i] * radius[i] * radius[i]; }
 
-    // The platen that a grain is part of, as number of its wall; -1: none.
+    // Number of the wall that a grain is part of; -1 for a grain that belongs to no platen.
     int platen(const std::size_t i) const { return fixed[i] >= lower_platen_grain ? fixed[i] - lower_platen_grain : -1; }
 
-    // 1/m; 0 for a fixed grain, which no force can move but through its platen.
+    // 1/m; 0 for a fixed grain, because forces cannot move it, or only through its platen.
     double inverse_mass(const std::size_t i) const { return fixed[i] ? 0. : 1 / mass[i]; }
   };
 
@@ -51,7 +52,7 @@ namespace diptych::discrete
     grains.fixed.push_back(0);
   }
 
-  // Values given at ascending times: linear between them, constant before the first and after the last.
+  // Values at ascending times: linear in between, constant before the first and after the last.
   struct TimeTable
   {
     std::vector<double> time, value;
@@ -59,7 +60,7 @@ namespace diptych::discrete
     double at(double t) const;
   };
 
-  // What drives one component of a wall's motion. Forces act on the wall along the positive axis, per unit thickness.
+  // Motion of one component of a wall. Forces act on the wall along the positive axis, per unit thickness.
   struct KeptVelocity
   {};
   struct PrescribedVelocity
@@ -70,8 +71,8 @@ namespace diptych::discrete
   {
     TimeTable force; // [pressure x length]
   };
-  // Force = pressure x length against the wall's normal reversed, i.e. towards the sample. length = 0: the present distance
-  // between the two walls beside it (between walls 0 and 1 for a side, 2 and 3 for a platen; the cell's width where periodic).
+  // Force = pressure x length along the wall's normal, i.e. towards the sample. length = 0: the present distance between the two
+  // neighbouring walls (walls 0 and 1 for a side, walls 2 and 3 for a platen, the width of a periodic cell).
   struct AppliedPressure
   {
     double pressure; // [pressure]
@@ -90,9 +91,9 @@ namespace diptych::discrete
     side
   };
 
-  // Straight rigid wall or platen: the half plane behind `point`; it does not turn. Each component of its motion is either
-  // prescribed or free under a force. Where just one is free, the normal must lie along an axis: only then has a contact no
-  // coupling between its normal and tangential parts.
+  // Straight rigid wall or platen: the half plane behind `point`, which does not turn. Each component of its motion is prescribed
+  // or free under a force. If only one component is free, the normal must lie along an axis. Otherwise the normal and tangential
+  // parts of a contact would be coupled.
   struct Wall
   {
     Eigen::Vector2d point;  // any point of its surface [length]
@@ -102,48 +103,48 @@ namespace diptych::discrete
     double          mass = 1; // of a free component
     WallKind        kind = WallKind::platen;
 
-    // 1/mass of each component, 0 where it is prescribed.
+    // 1/mass for each free component, 0 for a prescribed one.
     Eigen::Vector2d inverse_mass() const { return {is_free(drive_x) ? 1 / mass : 0., is_free(drive_y) ? 1 / mass : 0.}; }
   };
 
-  // Periodicity along x. Grains keep their own abscissae; a pair meets at the nearest image, whole numbers of widths apart.
+  // Periodicity along x. Grains keep their own abscissae. A pair meets at the nearest image, a whole number of widths away.
   struct PeriodicCell
   {
     double                width;         // [length]
     double                velocity = 0;  // d width / dt; constant unless the width is free
-    std::optional<double> pressure = {}; // free width under this pressure x height; none: prescribed
+    std::optional<double> pressure = {}; // a free width is under this pressure x height; without a value the width is prescribed
     double                mass     = 1;  // inertia of a free width
 
     bool   moves() const { return pressure || velocity != 0; }
     double inverse_mass() const { return pressure ? 1 / mass : 0.; }
   };
 
-  // Impulse of a pair, kept from one step to the next as first guess. Walls are bodies n_grains, n_grains + 1, ...
+  // Impulse of a pair, kept as first guess for the next step. Walls are bodies n_grains, n_grains + 1, ...
   struct PairImpulse
   {
     int    i, j; // i < j
     double normal, tangential;
-    double normal_change = 0, tangential_change = 0; // since the step before; 0 where the pair did not act then
+    double normal_change = 0, tangential_change = 0; // since the previous step; 0 if the pair did not act then
   };
 
   struct State
   {
     Grains                      grains;
-    std::vector<Wall>           walls; // lower and upper platen, then left and right side where there are any
+    std::vector<Wall>           walls; // lower and upper platen, then the left and right side if there are any
     std::optional<PeriodicCell> cell;
     std::vector<PairImpulse>    impulses; // of the last step, ascending in (i, j)
     double                      time = 0;
   };
 
-  // Whole cell widths by which body j's image nearest to grain i lies beside it: x_j + image x width. 0 without a cell.
+  // Number of cell widths to the image of j nearest to grain i: that image is at x_j + image x width. 0 without a cell.
   inline int nearest_image(const std::optional<PeriodicCell> &cell, const double xi, const double xj)
   {
     return cell ? int(std::lround((xi - xj) / cell->width)) : 0;
   }
 
-  // Grains that are part of a platen take its velocity.
+  // Gives the grains of a platen the velocity of the platen.
   void carry_platen_grains(State &state);
 
-  // Of the last step, as for steps `factor` times as long.
+  // Rescales the impulses of the last step for steps `factor` times as long.
   void scale_impulses(State &state, double factor);
 } // namespace diptych::discrete

@@ -1,4 +1,4 @@
-// diptych: grains of about one size sorted into cells
+// diptych: grains of similar size sorted into cells
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/contacts/cell_grid.h"
 
@@ -37,7 +37,7 @@ namespace diptych::discrete
   {
     if (!is_shared_)
       return std::size_t(row * columns_ + column);
-    // Multiplicative hashing of both (D. E. Knuth, The Art of Computer Programming 3, 6.4): neighbours part.
+    // Multiplicative hash of column and row (D. E. Knuth, The Art of Computer Programming 3, 6.4). It separates neighbours.
     std::uint64_t h = std::uint64_t(column) * 0x9e3779b97f4a7c15u;
     h               = (h ^ (h >> 32) ^ std::uint64_t(row)) * 0xd6e8feb86659fd93u;
     return std::size_t((h ^ (h >> 32)) % n_bins_);

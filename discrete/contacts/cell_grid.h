@@ -1,4 +1,4 @@
-// diptych: grains of about one size sorted into cells
+// diptych: grains of similar size sorted into cells
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -13,16 +13,15 @@
 
 namespace diptych::discrete
 {
-  // Some of the grains by the cell that their centre lies in. With a period the columns wrap around. Where grains lie so far
-  // apart that most cells would be empty, the cells share bins: time and memory go with the number of grains and with nothing
-  // else.
+  // Some of the grains, sorted by the cell of their centre. With a period the columns wrap around. If grains are so far apart
+  // that most cells would be empty, cells share bins. Time and memory therefore depend only on the number of grains.
   class CellGrid
   {
   public:
     // `members`: numbers of the grains, at least one. `cell_size` > 0 [length].
     CellGrid(const State &state, std::vector<int> members, double cell_size);
 
-    // Calls visit(grain) for all grains in cells within `reach` of x, each once.
+    // Calls visit(grain) once for every grain in the cells within `reach` of x.
     template <class Visit> void visit_around(const Eigen::Vector2d &x, const double reach, Visit &&visit) const
     {
       std::int64_t from = raw_column(x.x() - reach), to = raw_column(x.x() + reach);
@@ -42,11 +41,11 @@ namespace diptych::discrete
           visit_cell(period_ > 0 ? wrapped(a) : a, b, visit);
     }
 
-    // How full the cells are.
+    // Occupancy of the cells.
     struct Crowds
     {
       std::vector<int> fullest;     // members of the fullest cell, ascending
-      double           squares = 0; // sum over the cells of n^2: pairs that are near each other go with it
+      double           squares = 0; // sum of n^2 over the cells, a measure of the number of close pairs
     };
     Crowds crowds() const;
 
@@ -61,7 +60,7 @@ namespace diptych::discrete
       });
     }
 
-    // Not clamped and, with a period, not wrapped.
+    // Column without clamping and, with a period, without wrapping.
     std::int64_t raw_column(double x) const { return std::int64_t(bounded(std::floor((x - origin_.x()) / cell_size_.x()))); }
     std::int64_t column(const double x) const
     {
@@ -77,17 +76,17 @@ namespace diptych::discrete
     std::size_t   bin(std::int64_t column, std::int64_t row) const;
 
     std::vector<int>  members_;
-    std::vector<Cell> cell_; // of each member, where bins are shared
+    std::vector<Cell> cell_; // of each member, if bins are shared
     Eigen::Vector2d   origin_, cell_size_;
     std::int64_t      columns_ = 1, rows_ = 1;
-    double            period_    = 0; // 0: none
+    double            period_    = 0; // 0: not periodic
     bool              is_shared_ = false;
     std::size_t       n_bins_    = 1;
     CountedBins       bins_;
   };
 
-  // Grids by size, of the largest grains first: in each the largest radius is less than four times the smallest, and a cell is as
-  // wide as the largest diameter. Most samples have one.
+  // Grids by grain size, the largest grains first. Within a grid the largest radius is less than four times the smallest, and a
+  // cell is as wide as the largest diameter. Most samples need one grid.
   struct SizedGrid
   {
     double   largest_radius;

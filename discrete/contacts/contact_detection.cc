@@ -13,7 +13,7 @@ namespace diptych::discrete
 {
   namespace
   {
-    // What of a grain decides whether it is near another one, side by side in memory.
+    // Data of a grain that decide whether it is near another one, contiguous in memory.
     struct Disc
     {
       Eigen::Vector2d position;
@@ -29,9 +29,9 @@ namespace diptych::discrete
       return {pair.i, pair.j, gap, normal, a.position - (a.radius + 0.5 * gap) * normal, pair.image};
     }
 
-    constexpr int grains_between_questions = 4096; // whether to go on
+    constexpr int grains_between_questions = 4096; // calls of go_on
 
-    // Something can move one of the two against the other; what is part of a platen meets grains that are not fixed, and no more.
+    // True if one body can move relative to the other. A grain that is part of a platen meets only free grains.
     bool may_act(const State &state, const int i, const int j)
     {
       const Grains &g      = state.grains;
@@ -84,7 +84,7 @@ namespace diptych::discrete
     const Grains &g              = state.grains;
     const int     n              = int(g.size());
     const double  largest_radius = *std::max_element(g.radius.begin(), g.radius.end());
-    // The list lasts while a grain moves by a quarter of the largest radius, or of the mean diameter, beyond its margin.
+    // The list remains valid until a grain moves by a quarter of the largest radius, or of the mean diameter, beyond its margin.
     const double slack = 0.25 * std::min(largest_radius, 2 * std::accumulate(g.radius.begin(), g.radius.end(), 0.) / n);
     reach_             = margin;
     for (double &reach : reach_)
@@ -95,8 +95,9 @@ namespace diptych::discrete
       wall_point_.push_back(wall.point);
     width_ = state.cell ? state.cell->width : 0;
     if (state.cell && width_ < 4 * (largest_radius + *std::max_element(reach_.begin(), reach_.end())))
-      throw std::invalid_argument("the periodic cell is " + std::to_string(width_) + " wide: too narrow for grains of radius " +
-                                  std::to_string(largest_radius) + " at their present speed");
+      throw std::invalid_argument("the periodic cell is too narrow: its width is " + std::to_string(width_) +
+                                  ", too small for grains of radius " + std::to_string(largest_radius) +
+                                  " at their present speed");
 
     pairs_.clear();
     const std::vector<SizedGrid> grids = sort_by_size(state);
@@ -104,10 +105,10 @@ namespace diptych::discrete
       {
         if (go_on && (i + 1) % grains_between_questions == 0 && !go_on())
           {
-            pairs_.clear(), position_.clear(); // covers nothing
+            pairs_.clear(), position_.clear(); // an empty list covers no state
             return;
           }
-        // A pair is found from its member with the larger reach, whose search circle therefore needs to know only its own.
+        // A pair is found from the member with the larger reach, so a search circle needs only the reach of its own grain.
         const auto meet = [&](const int j) {
           if (reach_[j] > reach_[i] || (reach_[j] == reach_[i] && j <= i))
             return;

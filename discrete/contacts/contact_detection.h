@@ -12,24 +12,24 @@ namespace diptych::discrete
   struct Contact
   {
     int             i, j;
-    double          gap;       // negative where the bodies interpenetrate [length]
+    double          gap;       // negative if the bodies interpenetrate [length]
     Eigen::Vector2d normal;    // unit, from j to i
-    Eigen::Vector2d point;     // midway between the surfaces, beside i
-    int             image = 0; // j takes part as its image this many cell widths away
+    Eigen::Vector2d point;     // midway between the surfaces, next to i
+    int             image = 0; // j enters as its image this many cell widths away
   };
 
   // Gap, normal and point of one pair at the present positions, with the image of j nearest to i.
   Contact make_contact(const State &state, int i, int j);
 
-  // Pairs that can touch while no grain has moved far. A cache: contacts found with it or without it are the same.
+  // Pairs that can touch as long as no grain has moved far. This is only a cache: contacts are the same with or without it.
   class NeighbourList
   {
   public:
-    // All pairs whose gap is below the sum of their margins (walls have none), ascending in (i, j), pairs of two bodies that
-    // nothing moves left out, and of a grain that is part of a platen and anything but a free grain. `margin` [length] has one
-    // entry per grain. The list behind it is made anew, at a cost of O(n) cells, when for some grain margin + motion since then
-    // exceed what the list foresaw. Throws std::invalid_argument where a periodic cell is narrower than four times the reach of a
-    // grain. `go_on` is asked while the list is made; where it says no, nothing is found and no list is kept.
+    // Returns all pairs with a gap below the sum of their margins, ascending in (i, j). Walls have no margin. Pairs of two
+    // immovable bodies are left out, and so are pairs of a platen grain with anything but a free grain. `margin` [length] has one
+    // entry per grain. The list is rebuilt if margin + motion of some grain exceed the reach of the list. A rebuild visits O(n)
+    // cells. Throws std::invalid_argument if a periodic cell is narrower than four times the reach of a grain. `go_on` is called
+    // during a rebuild. If it returns false, the result is empty and no list is kept.
     std::vector<Contact> find_contacts(const State                 &state,
                                        const std::vector<double>   &margin,
                                        const std::function<bool()> &go_on = {});
@@ -48,6 +48,6 @@ namespace diptych::discrete
     double                       width_ = 0;
   };
 
-  // The same without a list to keep.
+  // The same without a stored list.
   std::vector<Contact> find_contacts(const State &state, const std::vector<double> &margin);
 } // namespace diptych::discrete

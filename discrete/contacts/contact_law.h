@@ -1,4 +1,4 @@
-// diptych: unilateral contact with dry friction, the solution of one contact for itself
+// diptych: unilateral contact with dry friction, solved for one contact
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -14,15 +14,15 @@ namespace diptych::discrete
   // W_nn / W_tt of two discs, or of a disc and a body that nothing moves: r^2/I = 2/m adds twice each inverse mass.
   inline constexpr double disc_wnn_over_wtt = 1. / 3;
 
-  // A normal and a tangential part. The law is written once, for one contact (Number: double) and for four side by side in vector
-  // registers: a comparison then chooses lane by lane.
+  // Normal and tangential part. The law is written once, for one contact (Number: double) and for four contacts in vector
+  // registers. In registers a comparison selects lane by lane.
   template <class Number> struct Parts
   {
     Number normal, tangential;
   };
   using RelativeVelocity = Parts<double>; // u = H^T v of one contact
 
-  // What the law needs to know of a contact.
+  // Data of one contact that the law needs.
   template <class Number> struct LawTerms
   {
     Number normal_term, tangential_term, friction, inverse_wnn, inverse_wtt;
@@ -43,7 +43,7 @@ namespace diptych::discrete
     return a < Number{} ? -a : a;
   }
 
-  // Signorini-Coulomb with the other contacts held (Moreau 1988; Jean 1999); omega = 1 is the exact solution:
+  // Signorini-Coulomb with all other contacts held (Moreau 1988; Jean 1999). omega = 1 is the exact solution:
   //   r_n' = max(0, r_n - omega (u_n + c_n)/W_nn),
   //   r_t' = r_t - omega (u_t + c_t)/W_tt clamped to +-mu r_n'.
   template <class Number>
@@ -58,7 +58,7 @@ namespace diptych::discrete
     return {normal, smaller(bound, larger(-bound, stick))};
   }
 
-  // A contact at its Coulomb bound takes `slipping`. The margin absorbs the rounding of mu r_n.
+  // A contact at its Coulomb bound takes omega `slipping`. The margin absorbs the rounding of mu r_n.
   inline constexpr double coulomb_margin = 0.9999;
 
   template <class Number>
@@ -67,7 +67,7 @@ namespace diptych::discrete
     return size_of(r.tangential) > coulomb_margin * friction * r.normal ? slipping : sticking;
   }
 
-  // u from the difference of the bodies' velocities and the speeds of their surfaces; x and y of an impulse from its parts.
+  // Relative velocity u from the velocity difference of the bodies and their surface speeds. Below it: x and y of an impulse.
   template <class Number>
   DIPTYCH_INLINE Parts<Number> relative_velocity(const Number nx,
                                                  const Number ny,
@@ -99,8 +99,8 @@ namespace diptych::discrete
     return {solution.normal, solution.tangential};
   }
 
-  // Asks for the row some contacts ahead of acting[at], as far as velocities need it: after the sweeps rows are far from the
-  // processor, and acting ones lie apart by no pattern that it would see by itself.
+  // Prefetches the row some contacts ahead of acting[at]. After the sweeps the rows are not in the cache, and the acting ones
+  // follow no pattern that the hardware prefetcher could detect.
   DIPTYCH_INLINE void fetch_ahead(const std::vector<ContactRow> &rows, const std::vector<int> &acting, const std::size_t at)
   {
     constexpr std::size_t ahead = 12;
@@ -123,7 +123,7 @@ namespace diptych::discrete
       v[c.cell].x -= c.image * v[c.cell].inverse_mass * px;
   }
 
-  // Gives one contact its local solution; impulse and velocities follow.
+  // Sets one contact to its local solution and updates impulse and velocities.
   inline void update(const ContactRow &c, const double omega, std::vector<BodyVelocity> &v, Impulse &r)
   {
     const Impulse next = local_solution(c, relative_velocity(c, v), r, omega);
@@ -136,8 +136,7 @@ namespace diptych::discrete
     return std::abs(r.tangential) > coulomb_margin * friction * r.normal;
   }
 
-  // Norm of r - P(r) relative to that of r, from their squares: 0 where nothing acts and nothing should, infinity where only the
-  // difference does not vanish.
+  // Norm of r - P(r) relative to that of r, from their squares. 0 if both vanish, infinity if only r vanishes.
   inline double relative_norm(const double difference_square, const double norm_square)
   {
     if (difference_square == 0)
@@ -145,7 +144,7 @@ namespace diptych::discrete
     return norm_square > 0 ? std::sqrt(difference_square / norm_square) : std::numeric_limits<double>::infinity();
   }
 
-  // |r - P(r)|^2 and |r|^2 of one contact for itself, summed.
+  // Sums of |r - P(r)|^2 and |r|^2, where P solves each contact for itself.
   struct NaturalMapSquares
   {
     double difference = 0, norm = 0;

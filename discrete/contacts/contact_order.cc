@@ -1,4 +1,4 @@
-// diptych: the order in which contacts are swept
+// diptych: order in which contacts are swept
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/contacts/contact_order.h"
 
@@ -9,14 +9,14 @@ namespace diptych::discrete
 {
   namespace
   {
-    // Layer in which each contact lies, counted from the lowest.
+    // Layer of each contact, counted from the lowest.
     std::vector<int> layers_of(const std::vector<Contact> &contacts, const double length)
     {
       std::vector<int> layers(contacts.size());
       double           low = std::numeric_limits<double>::infinity(), high = -low;
       for (const Contact &c : contacts)
         low = std::min(low, c.point.y()), high = std::max(high, c.point.y());
-      // Far flung grains must not ask for more layers than there are contacts to sort.
+      // Distant grains must not require more layers than there are contacts to sort.
       const double layer = std::max(0.1 * length, (high - low) / (4. * contacts.size() + 1.));
       for (std::size_t k = 0; k < contacts.size(); ++k)
         layers[k] = int((contacts[k].point.y() - low) / layer);

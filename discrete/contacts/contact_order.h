@@ -1,4 +1,4 @@
-// diptych: the order in which contacts are swept
+// diptych: order in which contacts are swept
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace diptych::discrete
 {
-  // Indices of the contacts sorted upward along y, the direction in which the platens load the sample, in layers a tenth of
-  // `length` thick; within a layer in the order given. The order is part of the definition of a result: it depends on nothing
-  // but the contacts. Cost O(n).
+  // Indices of the contacts sorted upward along y, the direction in which the platens load the sample. Layers are a tenth of
+  // `length` thick; within a layer the given order remains. The order is part of the definition of a result, so it depends only
+  // on the contacts. Cost O(n).
   std::vector<int> sweep_order(const std::vector<Contact> &contacts, double length);
 } // namespace diptych::discrete

@@ -6,15 +6,15 @@
 
 namespace diptych::discrete
 {
-  // Velocity of a body in the form the contact kinematics needs, with the inverse mass beside it (32 bytes).
+  // Velocity of a body in the form that contact kinematics needs, together with the inverse mass (32 bytes).
   struct alignas(32) BodyVelocity
   {
     double x, y;
     double surface;      // s = r omega: speed of the surface due to spin; 0 for walls
-    double inverse_mass; // of a grain or of the free cell; 0 for fixed grains and for walls, whose rows say jx, jy [1/mass]
+    double inverse_mass; // of a grain or the free cell; 0 for fixed grains and walls (jx, jy of the row) [1/mass]
   };
 
-  // Impulses on body i of a contact (on j: the opposite).
+  // Impulse on body i of a contact. Body j receives the opposite impulse.
   struct Impulse
   {
     double normal = 0, tangential = 0;
@@ -24,14 +24,14 @@ namespace diptych::discrete
   //   u_n = n.(v_i - v_j),  u_t = t.(v_i - v_j) - s_i - s_j.
   struct alignas(64) ContactRow
   {
-    // What velocities follow from: a cache line of its own, for it is read apart from the rest.
+    // The velocities depend on these members. They fill one cache line, because they are read separately from the rest.
     double nx, ny;
     int    i = 0, j = 0; // i is a grain
-    int    image = 0;    // j takes part as its image this many cell widths away, which moves with the width
-    int    cell  = -1;   // body whose x is d width/dt, where the image moves
+    int    image = 0;    // j enters as its image this many cell widths away, which moves with the width
+    int    cell  = -1;   // body whose x is d width/dt, if the image moves; -1 otherwise
     double ki, kj;       // r^2/I of each side, 2/m for a disc, 0 for a wall [1/mass]
-    double jx, jy;       // inverse mass of body j along x and y; equal but for walls with one free component [1/mass]
-    // The law.
+    double jx, jy;       // inverse mass of body j along x and y; they differ only for walls with one free component [1/mass]
+    // Terms of the contact law.
     double normal_term;     // c_n of  0 <= u_n' + c_n  _|_  r_n >= 0   [length/time]
     double tangential_term; // c_t = e_t u_t of the friction law        [length/time]
     double friction;        // mu
@@ -39,18 +39,18 @@ namespace diptych::discrete
     double inverse_wtt;     // 1 / (1/m_i + 1/m_j + k_i + k_j)          [mass]
   };
 
-  // Find impulses r and velocities v = v_free + M^-1 H r such that every contact obeys Signorini's condition and
-  // Coulomb's law (discrete/README.md: one step). The normal/tangential coupling W_nt of one contact vanishes for discs and walls
-  // (not across the edge of a cell with free width, where it is small), so that its own problem has a closed solution
-  // (contact_law.h).
+  // Find impulses r and velocities v = v_free + M^-1 H r such that every contact obeys Signorini's condition and Coulomb's law
+  // (discrete/README.md, Method). For discs and walls the coupling W_nt between the normal and tangential part of one contact
+  // vanishes. Each contact by itself therefore has a closed solution (contact_law.h). Across the edge of a cell with free width
+  // W_nt is small but not zero.
   struct ContactProblem
   {
     std::vector<BodyVelocity> free_velocity; // grains first, then walls, then the cell if its width changes (x = d width/dt)
     std::vector<ContactRow>   contacts;
-    std::vector<int>          order; // rows in the order of the sweeps; empty: as they stand
+    std::vector<int>          order; // rows in the order of the sweeps; empty: the stored order
   };
 
-  // True for grains that are not fixed and the cell of free width; false for walls, whose mobility stands in their rows.
+  // True for free grains and the cell of free width. False for walls, because their rows hold their mobility.
   inline bool moves(const ContactProblem &problem, const int body)
   {
     return problem.free_velocity[body].inverse_mass != 0;

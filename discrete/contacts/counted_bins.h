@@ -7,12 +7,12 @@
 
 namespace diptych::discrete
 {
-  // A counting sort: bins one after another, ascending items in each, so that the order is that of the items and of nothing else.
+  // A counting sort. Bins follow one another and items ascend in each bin, so the order depends only on the items.
   class CountedBins
   {
   public:
-    // Items 0 .. n_items - 1: bins_of(item, action) calls action(bin) for every bin of an item, the same ones each time it is
-    // asked.
+    // Sorts items 0 .. n_items - 1. bins_of(item, action) calls action(bin) for every bin of an item. It must give the same bins
+    // on each call.
     template <class BinsOf> void sort(const std::size_t n_bins, const std::size_t n_items, BinsOf &&bins_of)
     {
       begin.assign(n_bins + 1, 0);

@@ -10,7 +10,7 @@ namespace diptych::discrete
 {
   typedef double Four __attribute__((vector_size(32)));
 
-  // Transposes a 4x4 block; its own inverse. Turns four records of four numbers into columns.
+  // Transposes a 4x4 block, i.e. turns four records of four numbers into columns. Applied twice, it restores the block.
   DIPTYCH_INLINE void transpose(Four &a, Four &b, Four &c, Four &d)
   {
     const Four ab_low = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab_high = __builtin_shufflevector(a, b, 1, 5, 3, 7);

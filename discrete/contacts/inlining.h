@@ -1,9 +1,10 @@
-// diptych: how the innermost functions are compiled
+// diptych: compiler attributes of the innermost functions
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-// A function so marked is compiled for 128-, 256- and 512-bit machines and chosen when the program starts. Without contraction
-// and reassociation (see the build's flags) all give the same bits. The choice is made before a sanitizer is ready.
+// A function marked with this is compiled for 128-, 256- and 512-bit registers; the program chooses at start. Without contraction
+// and reassociation (compiler flags of the build) all versions give the same bits. The choice is made before a sanitizer is
+// ready, so sanitized builds do without it.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) &&                         \
   !defined(__SANITIZE_THREAD__)
 #define DIPTYCH_FOR_EACH_MACHINE __attribute__((target_clones("arch=skylake-avx512", "avx2", "default")))
@@ -11,5 +12,5 @@
 #define DIPTYCH_FOR_EACH_MACHINE
 #endif
 
-// What a function marked so calls must become part of it.
+// Functions that are called from a marked function must be inlined into it.
 #define DIPTYCH_INLINE inline __attribute__((always_inline))

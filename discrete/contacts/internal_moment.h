@@ -12,13 +12,13 @@
 namespace diptych::discrete
 {
   // M_i = -sym sum_c (x_c - x_i) (x) f_c - (1/2) omega_i^2 I_i 1, summed over the contacts of grain i (Moreau 1997, eq. 6).
-  // Positive in compression [pressure x length^2]. Forces applied at the centre have no moment about it. `spin_term` holds
-  // (1/2) omega^2 I of each grain (or its mean over a window).
+  // Positive in compression [pressure x length^2]. Forces that act at the centre contribute nothing. `spin_term` is (1/2) omega^2
+  // I of each grain (or its mean over a window).
   std::vector<Eigen::Matrix2d> internal_moments(const std::vector<Eigen::Vector2d> &position,
                                                 const std::vector<ContactForce>    &forces,
                                                 const std::vector<double>          &spin_term);
 
-  // The moment about the centre before symmetrisation; its skew part is half the unbalanced couple of the grain.
+  // Moment about the centre before symmetrisation. Its skew part is half the unbalanced couple of the grain.
   std::vector<Eigen::Matrix2d> raw_contact_moments(const std::vector<Eigen::Vector2d> &position,
                                                    const std::vector<ContactForce>    &forces);
 

@@ -1,4 +1,4 @@
-// diptych: velocities that impulses cause, and the residual of a contact problem
+// diptych: velocities due to impulses, and the residual of a contact problem
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/contacts/natural_map.h"
 
@@ -8,7 +8,7 @@ namespace diptych::discrete
 {
   std::vector<int> acting_contacts(const std::vector<Impulse> &impulses)
   {
-    // Which contacts act follows no pattern that a processor could foresee: no branch.
+    // Branch-free, because no branch predictor can foresee which contacts act.
     std::vector<int> acting(impulses.size());
     std::size_t      n = 0;
     for (std::size_t k = 0; k < impulses.size(); ++k)

@@ -1,4 +1,4 @@
-// diptych: velocities that impulses cause, and the residual of a contact problem
+// diptych: velocities due to impulses, and the residual of a contact problem
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,20 +8,20 @@
 
 namespace diptych::discrete
 {
-  // Contacts whose impulse does not vanish, ascending.
+  // Indices of the contacts with a nonzero impulse, ascending.
   std::vector<int> acting_contacts(const std::vector<Impulse> &impulses);
 
-  // v = v_free + M^-1 H r for all bodies; the same with acting_contacts() at hand.
+  // v = v_free + M^-1 H r for all bodies. The second version takes the result of acting_contacts().
   std::vector<BodyVelocity> velocities(const ContactProblem &problem, const std::vector<Impulse> &impulses);
   std::vector<BodyVelocity> velocities(const ContactProblem       &problem,
                                        const std::vector<Impulse> &impulses,
                                        const std::vector<int>     &acting);
 
-  // Natural map ||r - P(r)||_2 / ||r||_2: P solves every contact for itself with its own W_nn and W_tt, all others held, v
-  // computed afresh from r. Returns 0 where nothing acts and nothing should; infinity where r vanishes but P(r) does not.
+  // Natural map ||r - P(r)||_2 / ||r||_2: P solves every contact for itself with its own W_nn and W_tt, all others held. v is
+  // recomputed from r. Returns 0 if both r and P(r) vanish and infinity if only r vanishes.
   double natural_map_residual(const ContactProblem &problem, const std::vector<Impulse> &impulses);
 
-  // The same with v = v_free + M^-1 H r at hand.
+  // The same for given velocities v = v_free + M^-1 H r.
   double natural_map_residual(const ContactProblem            &problem,
                               const std::vector<BodyVelocity> &v,
                               const std::vector<Impulse>      &impulses);

@@ -1,4 +1,4 @@
-// diptych: a loading put down in a file, to be taken up again
+// diptych: state of an unfinished loading in a file, for a later restart
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/panel/checkpoint.h"
 
@@ -13,7 +13,7 @@ namespace diptych::discrete
 {
   namespace
   {
-    // Scalars are listed once for both directions: visit(name, member).
+    // The only list of scalars, for reading and writing: visit(name, member).
     template <class Visit> void visit_scalars(Checkpoint &p, Visit &&visit)
     {
       Report &r = p.report;
@@ -82,7 +82,7 @@ namespace diptych::discrete
       return g;
     }
 
-    // One row a wall: point, normal, velocity, mass, kind.
+    // One row per wall: point, normal, velocity, mass, kind.
     std::vector<double> wall_numbers(const std::vector<Wall> &walls)
     {
       std::vector<double> values;
@@ -140,7 +140,7 @@ namespace diptych::discrete
       const std::size_t n = body.size(), n_window = window_body.size();
       if (n % 2 != 0 || impulse.size() != n || change.size() != n || n_window % 2 != 0 || window_impulse.size() != n_window ||
           window_dissipation.size() != n_window / 2 || window_impact.size() != n_window / 2)
-        throw std::invalid_argument(file.path() + ": the lists in 'impulses' or 'window' do not fit each other");
+        throw std::invalid_argument(file.path() + ": the lengths of the lists in 'impulses' or 'window' do not match");
       for (std::size_t k = 0; k < n; k += 2)
         p.state.impulses.push_back({body[k], body[k + 1], impulse[k], impulse[k + 1], change[k], change[k + 1]});
       for (std::size_t k = 0; k < n_window; k += 2)
@@ -158,7 +158,7 @@ namespace diptych::discrete
       const std::vector<double> number = file.read(name);
       const bool is_whole              = number.size() == 1 && number[0] == std::floor(number[0]) && std::abs(number[0]) <= most;
       if (number.size() != 1 || (std::is_integral_v<Number> && !is_whole))
-        throw std::invalid_argument(file.path() + ": '" + name + "' is no single " +
+        throw std::invalid_argument(file.path() + ": '" + name + "' is not a single " +
                                     (std::is_integral_v<Number> ? "whole number" : "number"));
       return Number(number[0]);
     }
@@ -174,7 +174,7 @@ namespace diptych::discrete
              std::all_of(g.radius.begin(), g.radius.end(), size) && std::all_of(g.mass.begin(), g.mass.end(), size);
     }
 
-    // Every list is as long as the grains are many, and every pair names bodies that exist.
+    // Checks that every list has one entry per grain and that every pair consists of existing bodies.
     void check_sizes(const std::string &path, const Checkpoint &p, const bool row_is_whole)
     {
       const Grains     &g = p.state.grains;
@@ -188,12 +188,13 @@ namespace diptych::discrete
                          std::all_of(p.state.impulses.begin(), p.state.impulses.end(), both) &&
                          std::all_of(p.window.sums.begin(), p.window.sums.end(), both);
       if (!whole)
-        throw std::invalid_argument(path + " is no checkpoint of this version: its lists do not fit each other");
+        throw std::invalid_argument(path + " is not a checkpoint of this version: the lengths of its lists do not match");
       if (!are_finite(g))
-        throw std::invalid_argument(path + ": 'grains' hold a number that is not finite, or a size that is not positive");
+        throw std::invalid_argument(path +
+                                    ": 'grains' contains a number that is not finite, or a radius or mass that is not positive");
     }
 
-    // What no loading could have left.
+    // Rejects values that no loading can produce.
     void check_scalars(const std::string &path, const StoredCheckpoint &checkpoint)
     {
       const Checkpoint &p      = checkpoint.panel;
@@ -261,6 +262,6 @@ namespace diptych::discrete
     }
   catch (const std::out_of_range &)
     {
-      throw std::invalid_argument(path + " is no checkpoint of this version: an array is shorter than it must be");
+      throw std::invalid_argument(path + " is not a checkpoint of this version: an array is too short");
     }
 } // namespace diptych::discrete

@@ -1,4 +1,4 @@
-// diptych: a loading put down in a file, to be taken up again
+// diptych: state of an unfinished loading in a file, for a later restart
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,17 +8,18 @@
 
 namespace diptych::discrete
 {
-  // What a loading goes on from, and what of its other files belongs to it.
+  // State of a loading and the part of its other files that belongs to it.
   struct StoredCheckpoint
   {
     Checkpoint  panel;
-    long        n_rows = 0; // of discrete.csv, written before
-    std::string scene;      // the scene's identity: another one must refuse the checkpoint
+    long        n_rows = 0; // of discrete.csv, written before the checkpoint
+    std::string scene;      // identity of the scene; a run of another scene must reject the checkpoint
   };
 
-  // HDF5, all numbers with all bits; replaces the file only when complete. Throws std::runtime_error naming it.
+  // Writes an HDF5 file that keeps all bits of all numbers. The old file is replaced only when the new one is complete. Throws
+  // std::runtime_error with the name of the file.
   void write_checkpoint(const std::string &path, const StoredCheckpoint &checkpoint);
 
-  // Throws std::invalid_argument naming the file and what it lacks.
+  // Throws std::invalid_argument with the name of the file and the missing or wrong part.
   StoredCheckpoint read_checkpoint(const std::string &path);
 } // namespace diptych::discrete

@@ -1,4 +1,4 @@
-// diptych: the ledger of a loading, one row a step
+// diptych: history of a loading, one row per step
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/panel/history.h"
 
@@ -14,9 +14,9 @@ namespace diptych::discrete
 {
   namespace
   {
-    // Sum of all grains' moments about their centres, and the norms behind the skew share. What acts on a grain that is part of a
-    // platen counts from the platen's surface: height x force, as the forces on the platens ask for; what goes along a rigid
-    // platen is not known.
+    // Sum of all grains' moments about their centres, and the norms that give the skew share. For a grain that is part of a
+    // platen, a force contributes (height above the surface of the platen) x force, consistent with the forces on the platens.
+    // Forces along a rigid platen are unknown.
     struct MomentSums
     {
       Eigen::Matrix2d total       = Eigen::Matrix2d::Zero();
@@ -34,7 +34,7 @@ namespace diptych::discrete
             continue;
           const Contact         c     = make_contact(state, result.contacts[k].i, result.contacts[k].j);
           const Eigen::Vector2d force = impulse_vector(result.contacts[k], result.impulses[k]) / step;
-          // From i the contact lies at -(r_i + gap/2) n, from j at +(r_j + gap/2) n, with the opposite force.
+          // Seen from i the contact lies at -(r_i + gap/2) n. Seen from j it lies at +(r_j + gap/2) n, with the opposite force.
           const auto add = [&](const int body, const double sign) {
             if (const int platen = g.platen(body); platen >= 0)
               on_platens += sign * (c.point.y() - state.walls[platen].point.y()) * force.transpose();
@@ -56,7 +56,7 @@ namespace diptych::discrete
       if (std::any_of(g.fixed.begin(), g.fixed.end(), [](const std::uint8_t fixed) { return fixed >= lower_platen_grain; }))
         {
           sums.total.row(1) += on_platens;
-          sums.total(0, 1) = sums.total(1, 0); // platens hold what would turn them
+          sums.total(0, 1) = sums.total(1, 0); // platens resist rotation
         }
       sums.total = (0.5 * (sums.total + sums.total.transpose())).eval();
       return sums;

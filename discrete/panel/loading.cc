@@ -1,4 +1,4 @@
-// diptych: how a prepared sample is loaded
+// diptych: loading of a prepared sample
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/panel/loading.h"
 
@@ -21,7 +21,7 @@ namespace diptych::discrete
       return end != text.c_str() && *end == '\0' && std::isfinite(number) ? std::optional<double>(number) : std::nullopt;
     }
 
-    // A number, or the CSV file of that name.
+    // The number, or the table in the CSV file of that name.
     TimeTable table_of(const std::string &key, const std::string &text, const std::string &column)
     {
       if (const std::optional<double> number = number_of(text))
@@ -36,7 +36,7 @@ namespace diptych::discrete
         }
     }
 
-    // Velocity of the upper platen in the modes that prescribe one.
+    // Velocity of the upper platen in the modes that prescribe it.
     Eigen::Vector2d platen_velocity(const Loading &loading, const double speed)
     {
       switch (loading.mode)
@@ -97,7 +97,7 @@ namespace diptych::discrete
       return;
     if ((word != "velocity" && word != "force") || value.empty())
       throw std::invalid_argument("'" + text +
-                                  "' is not allowed: auto, velocity V or force F is, V and F a number or a CSV file");
+                                  "' is not allowed: give auto, velocity V or force F, where V and F are a number or a CSV file");
     kind = word == "velocity" ? Kind::velocity : Kind::force;
   }
 
@@ -167,10 +167,10 @@ namespace diptych::discrete
       {
         g.rotation[i] = 0;
         if (loading.mode == LoadingMode::time || g.fixed[i])
-          continue; // as they were read or prepared
+          continue; // velocities stay as read or prepared
         g.velocity[i] = loading.affine_start ? Eigen::Vector2d(velocity * (g.position[i].y() - bottom) / height)
                                              : Eigen::Vector2d::Zero();
-        g.spin[i]     = loading.affine_start ? -0.5 * velocity.x() / height : 0.; // that of the field
+        g.spin[i]     = loading.affine_start ? -0.5 * velocity.x() / height : 0.; // spin of the affine field
       }
     for (Wall &wall : state.walls)
       wall.velocity.setZero();

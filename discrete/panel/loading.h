@@ -1,4 +1,4 @@
-// diptych: how a prepared sample is loaded
+// diptych: loading of a prepared sample
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -14,9 +14,9 @@ namespace diptych::discrete
   enum class LoadingMode
   {
     descent,     // the upper platen moves down and sideways at constant speed
-    shear,       // it moves sideways at constant height
-    plane_shear, // it moves sideways and carries normal_pressure x width, free to rise and sink
-    time         // walls move as their keys say; stages are times
+    shear,       // the upper platen moves sideways at constant height
+    plane_shear, // the upper platen moves sideways under normal_pressure x width, free to rise and sink
+    time         // walls move as their keys specify; stages are times
   };
 
   constexpr auto choices(LoadingMode)
@@ -35,16 +35,16 @@ namespace diptych::discrete
     double              pressure                 = 1;    // P of the lateral condition
     double              inertial_number          = 3e-5; // I = rate d sqrt(rho/P), rate = speed of the upper platen / height
     double              horizontal_over_vertical = 1;    // descent: travel to the right per descent; 1: 45 degrees
-    std::vector<double> stages; // strains (mode time: times) at which a snapshot is made, ascending; the last is the end
+    std::vector<double> stages;                 // strains (mode time: times) of the snapshots, ascending; the last one is the end
     bool                affine_start    = true; // grains start with the velocities of the affine field between the platens
     LoadingMode         mode            = LoadingMode::descent;
-    double              strain_rate     = 0; // if not 0, in the place of the one that follows from inertial_number [1/time]
+    double              strain_rate     = 0; // if not 0, replaces the rate that follows from inertial_number [1/time]
     double              normal_pressure = 1; // plane_shear, on the upper platen
   };
 
-  // One component of a wall's motion as a scene says it: "auto" (what the loading and the lateral condition say), "velocity V"
-  // or "force F", V and F a number or a CSV file with the columns time, velocity (or force), piecewise linear; times count from
-  // the start of the loading. Forces act on the wall, per unit thickness.
+  // Motion of one component of a wall, as written in a scene. "auto" follows from the loading and the lateral condition.
+  // "velocity V" and "force F" take a number or a CSV file with the columns time and velocity (or force), piecewise linear. Times
+  // count from the start of the loading. Forces act on the wall, per unit thickness.
   struct DriveOption
   {
     enum class Kind
@@ -57,14 +57,14 @@ namespace diptych::discrete
     std::string value; // a number, or the path of a table
 
     DriveOption() = default;
-    // Throws std::invalid_argument where the text is none of the three.
+    // Throws std::invalid_argument if the text is not one of these three.
     DriveOption(const std::string &text);
     DriveOption(const char *text)
         : DriveOption(std::string(text))
     {}
 
     bool is_auto() const { return kind == Kind::automatic; }
-    bool names_a_file() const; // the value is no number
+    bool names_a_file() const; // the value is not a number
   };
   std::string text_of(const DriveOption &option);
 
@@ -73,7 +73,7 @@ namespace diptych::discrete
     DriveOption lower_x, lower_y, upper_x, upper_y, left_x, left_y, right_x, right_y;
   };
 
-  // The one place that knows the eight of them: visit(wall as in State::walls, axis, key, option).
+  // The only list of the eight drives: visit(wall as in State::walls, axis, key, option).
   template <class Options, class Visit> void for_each_drive(Options &o, Visit &&visit)
   {
     visit(0, 0, "drive_lower_x", o.lower_x), visit(0, 1, "drive_lower_y", o.lower_y);
@@ -88,33 +88,33 @@ namespace diptych::discrete
                                     "right wall of lateral = rigid_walls"};
     for_each_drive(o, [&](const int w, const int axis, const char *key, DriveOption &option) {
       const std::string meaning = std::string(axis == 0 ? "horizontal" : "vertical") + " motion of the " + wall[w] +
-                                  ": auto, velocity V or force F; V and F a number or a CSV file with the columns time and "
+                                  ": auto, velocity V or force F. V and F are a number or a CSV file with the columns time and "
                                   "velocity (or force). A component under a force moves freely";
       visitor(key, option, "-", meaning.c_str());
     });
   }
 
-  // Throws std::invalid_argument naming the key and what is wrong with its value; `key` is for the message.
+  // Throws std::invalid_argument with the key and the error in its value. `key` is only for the message.
   Drive read_drive(const std::string &key, const DriveOption &option);
   void  validate(const WallDriveOptions &options);
 
-  // Strain rate of the loading: given, or from the inertial number [1/time]. Mode time: 1, so that stages are times.
+  // Strain rate of the loading [1/time]: given, or from the inertial number. In mode time it is 1, so that stages are times.
   double strain_rate(const Loading &loading, double mean_diameter, double density);
 
-  // Sets the drives of walls and cell, wall velocities and, where wanted, the affine velocity field of the grains. `height`:
-  // of the prepared sample.
+  // Sets the drives of walls and cell, the wall velocities and, if wanted, the affine velocity field of the grains. `height` is
+  // that of the prepared sample.
   struct LoadingStart
   {
     const Loading          &loading;
     const LateralOptions   &lateral;
     const WallDriveOptions &drives;
-    double                  rate; // of strain_rate()
+    double                  rate; // from strain_rate()
   };
   void start_loading(State &state, const LoadingStart &start);
 
-  // The drives and masses alone; velocities stay as they are. For a loading that goes on.
+  // Sets only drives and masses and keeps the velocities. For a restart.
   void set_drives(State &state, const LoadingStart &start);
 
-  // How far the loading is at the present positions: descent or travel of the upper platen / initial height, or the time.
+  // Value of the loading variable: descent or travel of the upper platen / initial height, or the time.
   double loading_progress(const State &state, LoadingMode mode, const Eigen::Vector2d &initial_platen, double initial_height);
 } // namespace diptych::discrete

@@ -1,4 +1,4 @@
-// diptych: a snapshot of the state of a loading
+// diptych: makes a snapshot of the state of a loading
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/panel/make_snapshot.h"
 

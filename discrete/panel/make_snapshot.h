@@ -1,4 +1,4 @@
-// diptych: a snapshot of the state of a loading
+// diptych: makes a snapshot of the state of a loading
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace diptych::discrete
 {
-  // `result`: of the step that led to the state; `window`: of the steps since the preceding snapshot, empty for none.
+  // `result` belongs to the step that led to the state. `window` sums the steps since the preceding snapshot; it may be empty.
   Snapshot make_snapshot(const State        &state,
                          const StepResult   &result,
                          const WindowForces &window,

@@ -1,4 +1,4 @@
-// diptych: what the panel says where it cannot go on
+// diptych: messages of the panel if it cannot continue
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/panel/messages.h"
 
@@ -12,7 +12,7 @@ namespace diptych::discrete
     if (!report.touches)
       {
         text << "after " << report.steps
-             << " preparation steps no grain touches another: nothing carries loading/pressure (solid "
+             << " preparation steps no grain touches another, so nothing carries loading/pressure (solid "
              << "fraction " << report.solid_fraction << ")";
         return text.str();
       }
@@ -22,7 +22,7 @@ namespace diptych::discrete
     text << ": residual " << report.residual << ", unbalanced force " << report.unbalanced_force;
     if (report.settling_steps > 0)
       text << ", largest overlap " << report.largest_overlap << " mean diameters";
-    text << "; a little sample/preparation_friction quiets slender or tiny samples";
+    text << "; for slender or tiny samples a small sample/preparation_friction helps";
     return text.str();
   }
 
@@ -30,7 +30,7 @@ namespace diptych::discrete
   {
     std::ostringstream text;
     text << "the springs blew up while they took up the pressure: penalty_step_fraction is " << options.penalty.step_fraction
-         << ", and overlaps of the sample fling its grains apart";
+         << ", too large for this sample, or overlapping grains push each other apart";
     return text.str();
   }
 
@@ -52,9 +52,10 @@ namespace diptych::discrete
   std::string endless_text(const int stage, const double steps, const StepChoice &choice)
   {
     std::ostringstream text;
-    text << "stage " << stage << " would take " << steps << " steps of " << choice.step << ", a loading at most " << most_steps;
+    text << "stage " << stage << " would take " << steps << " steps of length " << choice.step << "; a loading may take at most "
+         << most_steps;
     if (!choice.bound.empty())
-      text << "; discrete/step = auto is bound there by: " << choice.bound;
+      text << "; the bound of discrete/step = auto is: " << choice.bound;
     return text.str();
   }
 
@@ -63,11 +64,11 @@ namespace diptych::discrete
     std::ostringstream text;
     text << "step " << failed.step << " at " << failed.where;
     if (options.method.method == Method::penalty)
-      text << " blew up: a grain went further than its radius in one step, penalty_step_fraction is "
+      text << " blew up: a grain moved by more than its radius in one step; give a penalty_step_fraction below "
            << options.penalty.step_fraction;
     else
-      text << " did not converge: residual " << failed.solve.residual << " after " << failed.solve.sweeps << " sweeps, wanted "
-           << failed.tolerance << ", nor did its halves, down to a step of " << failed.length
+      text << " did not converge: residual " << failed.solve.residual << " after " << failed.solve.sweeps << " sweeps, tolerance "
+           << failed.tolerance << "; its halves did not converge either, down to a step of " << failed.length
            << "; a larger step, tolerance or max_sweeps may help";
     return text.str();
   }

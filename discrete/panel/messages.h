@@ -1,4 +1,4 @@
-// diptych: what the panel says where it cannot go on
+// diptych: messages of the panel if it cannot continue
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,18 +8,19 @@
 
 namespace diptych::discrete
 {
+  // Message about a sample that did not come to rest.
   std::string unrest_text(const PreparationReport &report);
-  std::string press_text(const Options &options); // springs that blew up while they took up the pressure
+  std::string press_text(const Options &options); // springs blew up while they took up the pressure
   std::string momentum_text(int step, double residual);
   std::string interpenetration_text(int step, double penetration); // [mean diameters]
 
   std::string endless_text(int stage, double steps, const StepChoice &choice);
 
-  // A step that the sweeps left unsolved, or on which springs blew up.
+  // A step that did not converge, or in which springs blew up.
   struct FailedStep
   {
     int         step;  // counts from 1
-    std::string where; // along the loading
+    std::string where; // on the loading path
     SolveReport solve;
     double      tolerance, length;
   };

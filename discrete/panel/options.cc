@@ -1,4 +1,4 @@
-// diptych: everything that a scene says of the discrete panel, checked
+// diptych: options of the discrete panel, with their checks
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/panel/options.h"
 
@@ -12,7 +12,7 @@ namespace diptych::discrete
 {
   namespace
   {
-    // Collects the keys of one section that a condition leaves unread.
+    // Collects the keys of one section that have no effect under a condition.
     struct Unused
     {
       std::string             section;
@@ -106,7 +106,7 @@ namespace diptych::discrete
         add_grain(largest, {0, 0}, sample.mean_diameter, sample.density);
         return penalty_step(largest, options.penalty.stiffness * loading.pressure, options.penalty.step_fraction);
       }
-    // Grains that yield under a lateral pressure P carry t/s of about a third: s = (s1 + s2)/2 = P/(1 - t/s) = 1.5 P.
+    // Grains that yield under a lateral pressure P have t/s of about a third: s = (s1 + s2)/2 = P/(1 - t/s) = 1.5 P.
     const double stress   = (loading.mode == LoadingMode::descent ? 1.5 : 1) * loading.pressure;
     const double n_grains = sample.file.empty() ? expected_grains(sample) : 0;
     const double unit     = sample.mean_diameter * std::sqrt(sample.density / stress);
@@ -148,20 +148,21 @@ namespace diptych::discrete
     const bool penalty = options.method.method == Method::penalty;
     if (penalty && (options.law.normal_restitution != 0 || options.law.tangential_restitution != 0))
       throw std::invalid_argument("discrete/method = penalty: discrete/normal_restitution and tangential_restitution must be 0; "
-                                  "what rebounds there follows from penalty_damping");
+                                  "with springs, penalty_damping controls the rebound");
     if (penalty && options.method.store_problems)
-      throw std::invalid_argument("discrete/method = penalty has no contact problems: discrete/store_problems must be false");
+      throw std::invalid_argument(
+        "discrete/method = penalty has no contact problems to store: discrete/store_problems must be false");
     if (const double steps = expected_steps(sample, loading, options); steps > most_steps)
-      throw std::invalid_argument("the loading would take " + exact_text(std::ceil(steps)) + " steps, at most 1e+09: " +
-                                  (penalty ? "discrete/penalty_stiffness and penalty_step_fraction"
-                                   : options.time.step
-                                     ? "discrete/step = " + exact_text(*options.time.step)
-                                     : "discrete/step = auto gives " + exact_text(expected_step(sample, loading, options)) +
-                                         " for discrete/accuracy = " + exact_text(options.accuracy.accuracy)) +
-                                  " against the duration that loading/inertial_number or strain_rate give it");
+      throw std::invalid_argument(
+        "the loading would take " + exact_text(std::ceil(steps)) + " steps, but at most 1e+09 are allowed: " +
+        (penalty             ? "discrete/penalty_stiffness and penalty_step_fraction give the step"
+         : options.time.step ? "discrete/step = " + exact_text(*options.time.step)
+                             : "discrete/step = auto gives " + exact_text(expected_step(sample, loading, options)) +
+                                 " for discrete/accuracy = " + exact_text(options.accuracy.accuracy)) +
+        " ; loading/inertial_number or strain_rate gives the duration");
     if (penalty && !(loading.pressure > 0))
       throw std::invalid_argument(
-        "discrete/method = penalty: the stiffness is penalty_stiffness x loading/pressure, which must be positive");
+        "discrete/method = penalty: the stiffness penalty_stiffness x loading/pressure must be positive");
   }
 
   PreparationSetting preparation_setting(const Loading &loading, const Options &options)

@@ -1,4 +1,4 @@
-// diptych: everything that a scene says of the discrete panel
+// diptych: options of the discrete panel
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -14,7 +14,7 @@ namespace diptych::discrete
   {
     nscd,    // Non-Smooth Contact Dynamics
     penalty, // explicit springs, dashpots and Coulomb friction (Cundall & Strack 1979)
-    imported // nothing is computed: frames of another code
+    imported // no computation: frames of another code
   };
 
   constexpr auto choices(Method)
@@ -37,21 +37,21 @@ namespace diptych::discrete
     visitor(
       "method", o.method, "-",
       "nscd: Non-Smooth Contact Dynamics; penalty: explicit springs, dashpots and Coulomb friction (Cundall & Strack 1979); "
-      "imported: nothing is computed, frames of another code are taken from `file`");
-    visitor(
-      "file", FileName{o.file}, "-",
-      "imported: discrete.h5 of `diptych import`, discrete.csv beside it; {seed} in its path stands for sample/seed, so that an "
-      "ensemble runs over several samples");
+      "imported: no computation; the frames of another code are taken from `file`");
+    visitor("file", FileName{o.file}, "-",
+            "imported: discrete.h5 of `diptych import`, with discrete.csv in the same folder; {seed} in the path stands for "
+            "sample/seed, so "
+            "that an ensemble can use several samples");
     visitor("history_interval", o.history_interval, "steps", {0, 1000000000},
-            "between two rows of discrete.csv; 0: every step, penalty: about a thousand rows a stage");
+            "steps between two rows of discrete.csv; 0: every step (penalty: about a thousand rows per stage)");
     visitor("checkpoint_minutes", o.checkpoint_minutes, "min", {0., 1e6},
-            "between two checkpoints of a run, from which --resume goes on; 0: at every step");
+            "time between two checkpoints of a run, from which --resume continues; 0: at every step");
     visitor("store_problems", o.store_problems, "-",
             "write the contact problem of every snapshot's step with its solution to problem_NNNN.h5 (FCLIB layout, for "
             "`diptych solve` and other solvers)");
   }
 
-  // Everything of the scene's section `discrete`.
+  // All keys of the scene's section `discrete`.
   struct Options
   {
     MethodOptions     method;
@@ -63,7 +63,7 @@ namespace diptych::discrete
     LateralOptions    lateral;
     WallDriveOptions  drives;
     PenaltyOptions    penalty;
-    int               threads = 1; // of the command line; results do not depend on it
+    int               threads = 1; // from the command line; results do not depend on it
   };
 
   template <class Visitor> void visit_parameters(Options &o, Visitor &&visitor)
@@ -79,21 +79,21 @@ namespace diptych::discrete
     visit_parameters(o.penalty, visitor);
   }
 
-  // A key that nothing reads as the others stand, and the one that says so. Section and name of both.
+  // A key without effect, and the setting that makes it so. Both with their section.
   struct UnusedKey
   {
     std::string key, because; // "discrete/side_velocity", "discrete/lateral = end_grains"
   };
   std::vector<UnusedKey> unused_keys(const SampleOptions &sample, const Options &options);
 
-  // Throws std::invalid_argument on options that contradict each other or name wrong files.
+  // Throws std::invalid_argument if options contradict each other or file names are wrong.
   void validate(const SampleOptions &sample, const Loading &loading, const Options &options);
 
-  constexpr double most_steps = 1e9; // of a loading: months, even of a hundred grains
+  constexpr double most_steps = 1e9; // of a loading; they would take months even for a hundred grains
 
-  // As far as the scene alone tells: the length of a step [time], steps of the whole loading, rows of its history. step = auto is
-  // taken as for a sample without haste (step_at_rest) that yields under loading/pressure. 0 where nothing presses. Needs stages,
-  // not the rest of what validate() demands.
+  // Estimates from the scene only: length of a step [time], steps of the whole loading, rows of its history. step = auto is taken
+  // for a slow sample (step_at_rest) that yields under loading/pressure. 0 without pressure. These functions need the stages, but
+  // not the other conditions of validate().
   double expected_step(const SampleOptions &sample, const Loading &loading, const Options &options);
   double expected_steps(const SampleOptions &sample, const Loading &loading, const Options &options);
   double expected_rows(const SampleOptions &sample, const Loading &loading, const Options &options);

@@ -22,7 +22,7 @@ namespace diptych::discrete
     }
   } // namespace
 
-  // A sample under way: what changes is in `now`, the rest stays.
+  // A sample during preparation and loading. `now` holds everything that changes; the rest is constant.
   class Panel::Course
   {
   public:
@@ -50,19 +50,19 @@ namespace diptych::discrete
 
     Checkpoint now;
 
-    // False where it did not get quiet.
+    // Returns false if the sample did not come to rest.
     bool prepare()
     {
       const double start  = cpu_seconds();
       Report      &report = now.report;
       const auto   go_on  = [&](const int step, const int expected) {
-        tell("preparing the sample", std::min(1., double(step) / expected));
+        show_progress("preparing the sample", std::min(1., double(step) / expected));
         return !stop_requested();
       };
       PreparedSample prepared = prepare_sample(sample_, preparation_setting(loading_, options_), go_on,
                                                grains_ ? &*grains_ : nullptr);
       if (prepared.state.walls.empty())
-        return fail(""); // stopped while its file was read
+        return fail(""); // stopped while the file was read
       now.state                = std::move(prepared.state);
       report.preparation       = prepared.report;
       const bool quiet         = prepared.report.quiet || fail(unrest_text(report.preparation));
@@ -72,7 +72,7 @@ namespace diptych::discrete
       report.platen_speed      = loading_.mode == LoadingMode::time ? 0 : rate_ * report.initial_height;
       if (!ready)
         return false;
-      now.step = prepared.step; // that of the impulses
+      now.step = prepared.step; // length of the step that the impulses belong to
       StepSetting setting;
       setting.step          = prepared.step;
       const double friction = presses() ? options_.penalty.preload_friction : prepared.report.friction;
@@ -80,7 +80,7 @@ namespace diptych::discrete
       setting.mean_diameter = setting_.mean_diameter;
       prepared_       = make_snapshot(now.state, prepared.last_step, {}, make_reference(now.state, setting_.mean_diameter, 0.),
                                       setting);
-      prepared_->walk = walk_of(loading_.mode), prepared_->time = 0; // of the loading, not of what pressed or stored the sample
+      prepared_->walk = walk_of(loading_.mode), prepared_->time = 0; // the time of the preparation does not count
       start_loading(now.state, {loading_, options_.lateral, options_.drives, rate_});
       now.reference = make_reference(now.state, setting_.mean_diameter, loading_.mode == LoadingMode::time ? 0. : rate_);
       return true;
@@ -97,7 +97,7 @@ namespace diptych::discrete
     void load_to_stage(const int stage)
     {
       if (now.report.status == Status::stopped_by_user)
-        now.report.status = Status::finished; // and now it is to go on
+        now.report.status = Status::finished; // the run continues after a stop
       while (now.stage < stage && now.report.status == Status::finished)
         {
           if (now.steps_left == 0 && !plan_stage())
@@ -137,12 +137,12 @@ namespace diptych::discrete
 
     bool presses() const { return penalty() && loading_.mode != LoadingMode::time && options_.penalty.preload > 0; }
 
-    // The springs of the penalty method. False where it was stopped or they blew up.
+    // Compresses the springs of the penalty method. Returns false if it was stopped or the springs blew up.
     bool press(PreparedSample &prepared)
     {
       const LoadingStart start{loading_, options_.lateral, options_.drives, rate_};
       auto pressed = press_springs(now.state, {options_.penalty, start, setting_, sample_.density}, [this](const double share) {
-        tell("pressing the springs", share);
+        show_progress("pressing the springs", share);
         return !stop_requested();
       });
       if (!pressed || pressed->last_step.solve.status != SolveStatus::converged)
@@ -151,7 +151,7 @@ namespace diptych::discrete
       return true;
     }
 
-    void tell(const std::string &phase, const double fraction) const
+    void show_progress(const std::string &phase, const double fraction) const
     {
       if (hooks_.on_progress)
         hooks_.on_progress(phase, fraction);
@@ -164,7 +164,7 @@ namespace diptych::discrete
       return false;
     }
 
-    // Begins the next stage: its step, in whole numbers, and a new window. False where its steps have no end.
+    // Plans the next stage: a whole number of steps and a new window. Returns false if there are too many steps.
     bool plan_stage()
     {
       prepared_.reset();
@@ -196,7 +196,7 @@ namespace diptych::discrete
         return *options_.time.step;
       const StepChoice choice = choose_step(now.state, setting_, flow());
       if (!std::isfinite(choice.step))
-        throw std::invalid_argument("discrete/step = auto: nothing moves and nothing presses, so no step follows; give one");
+        throw std::invalid_argument("discrete/step = auto needs motion or pressure, and there is neither: give a discrete/step");
       now.report.step_bound = choice.bound;
       return choice.step;
     }
@@ -226,7 +226,7 @@ namespace diptych::discrete
 
     void store(const ContactProblem &problem, const std::vector<Contact> &contacts, const std::vector<Impulse> &impulses) const
     {
-      // Contacts were found at mid-step.
+      // The contacts belong to mid-step, so the positions must, too.
       const Grains  &g = now.state.grains;
       StoredGeometry geometry{setting_.step, {}, g.radius, g.position};
       for (std::size_t i = 0; i < g.size(); ++i)
@@ -236,7 +236,7 @@ namespace diptych::discrete
       hooks_.on_problem(now.stage + 1, problem, geometry, impulses);
     }
 
-    // Impulses are given and taken in pairs: more than round-off means that the program is wrong.
+    // Impulses act in pairs, so an error above round-off is a fault of the program.
     void check_momentum(const double residual) const
     {
       if (constexpr double round_off = 1e-10; residual > round_off)
@@ -251,7 +251,7 @@ namespace diptych::discrete
         options_);
     }
 
-    // Where nothing gives way between prescribed walls, rigid grains end up within each other.
+    // Between prescribed walls that cannot give way, rigid grains are forced into each other.
     bool interpenetrate(const double penetration)
     {
       constexpr double limit = 0.3; // mean diameters
@@ -262,8 +262,8 @@ namespace diptych::discrete
       return true;
     }
 
-    // A step on which the sweeps stall is taken in two halves, these in halves again if need be: another problem, which
-    // they mostly solve. False, with the reason in the report, where the smallest does not converge either. On return the
+    // Takes a step. If the sweeps stall, takes two halves, and these in halves again. Each half is another problem, and it mostly
+    // converges. Returns false, with the reason in the report, if the smallest step does not converge either. On return the
     // impulses of the state are those of a step of length h.
     bool advance_by(const double h, const int halvings)
     {
@@ -295,7 +295,7 @@ namespace diptych::discrete
       return done;
     }
 
-    // One step, or the reason in the report why there is none.
+    // Takes one step, or stores in the report why it failed.
     void step()
     {
       constexpr int most_halvings = 3;
@@ -319,7 +319,7 @@ namespace diptych::discrete
             hooks_.on_row(now.row);
           now.row.max_penetration = now.row.momentum_residual = 0, now.row.sweeps = 0;
         }
-      tell("loading the grains", now.report.progress / loading_.stages.back());
+      show_progress("loading the grains", now.report.progress / loading_.stages.back());
     }
 
     const SampleOptions         sample_;
@@ -350,7 +350,7 @@ namespace diptych::discrete
 
   Status Panel::prepare()
   {
-    (void)course->prepare(); // the report says why not
+    (void)course->prepare(); // the report gives the reason of a failure
     return course->now.report.status;
   }
 

@@ -18,8 +18,8 @@
 
 namespace diptych::discrete
 {
-  // Everything that changes while a sample is loaded. A panel that goes on from it gives the same bits as one that was never
-  // interrupted. Drives of walls and cell are no part of it: they follow from the loading.
+  // Everything that changes during a loading. A panel that continues from it gives the same bits as an uninterrupted one. The
+  // drives of walls and cell are not included, because they follow from the loading.
   struct Checkpoint
   {
     State        state;
@@ -27,29 +27,30 @@ namespace diptych::discrete
     HistoryRow   row;    // of the last step
     WindowForces window; // since the last stage
     Report       report;
-    int          stage      = 0; // how many are reached
-    long         steps_left = 0; // to the next one; 0: not begun
-    double       step       = 0; // their length
+    int          stage      = 0; // number of finished stages
+    long         steps_left = 0; // steps to the next stage; 0: not planned yet
+    double       step       = 0; // length of these steps
     long         interval   = 1; // steps between two rows of the history
   };
 
-  // All optional.
+  // Optional callbacks.
   struct Hooks
   {
-    std::function<bool()>                                          stop_requested; // asked before every step, preparation too
-    std::function<void()>                                          before_step; // of the loading: where a checkpoint may be taken
+    std::function<bool()> stop_requested; // called before every step, also during the preparation
+    std::function<void()> before_step;    // called before every step of the loading; a checkpoint may be taken here
     std::function<void(const std::string &phase, double fraction)> on_progress;
     std::function<void(const HistoryRow &)>                        on_row;
-    // The contact problem of a stage's last step with its solution, where store_problems is set; stages count from 1.
+    // Called with the contact problem of a stage's last step and its solution if store_problems is set. Stages count from 1.
     std::function<void(int stage, const ContactProblem &, const StoredGeometry &, const std::vector<Impulse> &)> on_problem;
   };
 
-  // One sample, from its preparation to the end of its loading. Any number of panels may live in one process.
+  // One sample, from its preparation to the end of its loading. A process may hold any number of panels.
   class Panel
   {
   public:
-    // A sample by its recipe (sample.file included), or `grains` put between platens and sides as the grains of a file are; of
-    // `sample` those keys count then that speak of files. Throws std::invalid_argument on options that contradict each other.
+    // The sample follows from the keys of `sample`, including sample.file. If `grains` is given, they are placed between platens
+    // and sides like grains of a file, and only the file keys of `sample` are used. Throws std::invalid_argument if options
+    // contradict each other.
     Panel(const SampleOptions         &sample,
           const Loading               &loading,
           const Options               &options,
@@ -59,21 +60,21 @@ namespace diptych::discrete
     Panel(Panel &&) noexcept;
     Panel &operator=(Panel &&) noexcept;
 
-    // Once: makes the sample ready, or takes up a loading where it was left.
+    // Call one of these once: prepare() makes the sample, resume() continues a loading from a checkpoint.
     [[nodiscard]] Status prepare();
     void                 resume(const Checkpoint &checkpoint);
 
-    // Loads up to stage 1, 2, ... number of stages. A step that does not converge is halved, up to three times; where that does
-    // not help the panel stays where it is and the report says why.
+    // Loads up to stage 1, 2, ... number of stages. A step that does not converge is halved, up to three times. If that fails,
+    // the panel keeps its state, and the report gives the reason.
     [[nodiscard]] Status advance_to(int stage);
 
-    // Of the prepared sample, or of the last accepted step with the means since the last stage.
+    // Snapshot of the prepared sample, or of the last accepted step with the means since the last stage.
     Snapshot snapshot() const;
-    bool     has_snapshot() const; // not before the first step of a panel that was taken up
+    bool     has_snapshot() const; // false for a resumed panel before its first step
 
     Checkpoint       checkpoint() const;
     const Report    &report() const;
-    int              stage() const; // how many are reached
+    int              stage() const; // number of finished stages
     const Reference &reference() const;
 
   private:

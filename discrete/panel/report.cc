@@ -1,4 +1,4 @@
-// diptych: what became of a sample on its way
+// diptych: report of the preparation and loading of a sample
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/panel/report.h"
 

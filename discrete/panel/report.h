@@ -1,4 +1,4 @@
-// diptych: what became of a sample on its way
+// diptych: report of the preparation and loading of a sample
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -21,24 +21,25 @@ namespace diptych::discrete
   struct Report
   {
     Status            status       = Status::finished;
-    double            progress     = 0;                   // reached, of what the loading walks along
+    double            progress     = 0;                   // reached value of the loading variable
     double            axial_strain = 0, shear_strain = 0; // reached
-    std::string       message;                            // empty when finished
+    std::string       message;                            // empty if finished
     PreparationReport preparation;
     double            step = 0;                                             // of the last stage
-    std::string       step_bound;                                           // step = auto: which bound of the rule gave it
+    std::string       step_bound;                                           // step = auto: the bound that gave the step
     double            tolerance = std::numeric_limits<double>::quiet_NaN(); // of the last stage
-    ExpectedErrors    expected;                                             // of step and tolerance; largest of all stages
+    ExpectedErrors    expected;                                             // due to step and tolerance; largest of all stages
     long              steps = 0, sweeps = 0, updates = 0; // of the loading; one update = one contact in one sweep
     double            preparation_cpu_s = 0, loading_cpu_s = 0, solver_cpu_s = 0;
     double            initial_height = 0, platen_speed = 0;                           // speed: strain rate x height
     double            error_over_residual = std::numeric_limits<double>::quiet_NaN(); // of grain stress, measured once
-    double            reference_residual  = error_over_residual;                      // of the solve it was measured against
-    double            reference_error = error_over_residual, estimated_error = error_over_residual; // true and estimated, there
-    int               snapshots_sampled = 0, snapshots_accurate = 0;
-    int               halved_steps = 0; // because the sweeps stalled
+    double            reference_residual  = error_over_residual; // of the reference solution of that measurement
+    double            reference_error     = error_over_residual,
+           estimated_error                = error_over_residual; // true and estimated error in that measurement
+    int snapshots_sampled = 0, snapshots_accurate = 0;
+    int halved_steps = 0; // because the sweeps stalled
   };
 
   void note(Report &report, const SampledAccuracy &accuracy);
-  void note(Report &report, const ExpectedErrors &errors); // the largest of all stages stays
+  void note(Report &report, const ExpectedErrors &errors); // keeps the largest of all stages
 } // namespace diptych::discrete

@@ -14,7 +14,7 @@ namespace diptych::discrete
 {
   namespace
   {
-    // What visit_contact_fields lists, as a function object.
+    // visit_contact_fields as a function object.
     const auto contact_fields = [](auto &entry, auto &&visit) { visit_contact_fields(entry, visit); };
 
     void write_contacts(Hdf5Writer &file, const std::string &group, const std::vector<ContactForce> &contacts)
@@ -44,30 +44,30 @@ namespace diptych::discrete
       file.attribute(name, "meaning", contact_impulses);
     }
 
-    // What frames of another code may lack: NaN throughout. Not written; the attribute says so.
-    constexpr char not_told[] = "not_told";
+    // Fields that frames of another code may lack. They are NaN throughout and are not written; this attribute lists them.
+    constexpr char missing_fields[] = "not_told";
 
-    bool is_told(const double value)
+    bool is_known(const double value)
     {
       return !std::isnan(value);
     }
-    bool is_told(const Eigen::Vector2d &value)
+    bool is_known(const Eigen::Vector2d &value)
     {
       return !value.array().isNaN().all();
     }
-    bool is_told(const Eigen::Matrix2d &value)
+    bool is_known(const Eigen::Matrix2d &value)
     {
       return !value.array().isNaN().all();
     }
-    template <class T> bool is_told(const std::vector<T> &values)
+    template <class T> bool is_known(const std::vector<T> &values)
     {
       if constexpr (is_whole<T>)
         return true;
       else
-        return values.empty() || std::any_of(values.begin(), values.end(), [](const T &value) { return is_told(value); });
+        return values.empty() || std::any_of(values.begin(), values.end(), [](const T &value) { return is_known(value); });
     }
 
-    template <class T> void set_untold(std::vector<T> &values, const std::size_t n)
+    template <class T> void set_unknown(std::vector<T> &values, const std::size_t n)
     {
       if constexpr (std::is_same_v<T, double>)
         values.assign(n, NAN);
@@ -75,31 +75,31 @@ namespace diptych::discrete
         values.assign(n, T::Constant(NAN));
     }
 
-    // Not every snapshot tells what a pair dissipates.
-    bool is_told_of_contacts(const Snapshot &s, const std::string &name, const std::size_t size)
+    // The dissipation of pairs is missing in some snapshots.
+    bool is_stored(const Snapshot &s, const std::string &name, const std::size_t size)
     {
       return name.rfind("window", 0) != 0 || size == s.window_forces.size();
     }
 
     void write_stage(Hdf5Writer &file, const std::string &group, const Snapshot &s)
     {
-      std::string untold;
+      std::string missing;
       const auto  write = [&](const std::string &name, const auto &values, const char *unit, const char *meaning) {
-        if (is_told(values))
+        if (is_known(values))
           write_field(file, group + "/" + name, values, unit, meaning);
         else
-          untold += name + " ";
+          missing += name + " ";
       };
       visit_grain_fields(s, write);
       visit_contact_lists(s, [&](const std::string &name, const std::vector<ContactForce> &contacts, const char *, const char *) {
         write_contacts(file, group + "/" + name, contacts);
       });
-      if (is_told(s.step))
+      if (is_known(s.step))
         write_impulses(file, group + "/contacts/impulse", s);
-      if (!untold.empty())
-        file.attribute(group, not_told, untold);
+      if (!missing.empty())
+        file.attribute(group, missing_fields, missing);
       visit_contact_values(s, [&](const std::string &name, const auto &values, const char *unit, const char *meaning) {
-        if (is_told_of_contacts(s, name, values.size()))
+        if (is_stored(s, name, values.size()))
           write(name, values, unit, meaning);
       });
       visit_outline(
@@ -125,15 +125,15 @@ namespace diptych::discrete
       const std::string      list       = group.substr(group.find_last_of('/') + 1) + "/";
       const std::vector<int> body       = file.read_int(group + "/body");
       if (body.size() % 2 != 0)
-        check.refuse(list + "body", "does not hold pairs");
+        check.refuse(list + "body", "does not contain pairs");
       std::vector<ContactForce> contacts(body.size() / 2);
       for (std::size_t k = 0; k < contacts.size(); ++k)
         {
           contacts[k].i = body[2 * k], contacts[k].j = body[2 * k + 1];
           if (contacts[k].i < 0 || contacts[k].i >= int(n_grains) || contacts[k].j < 0 ||
               contacts[k].j >= int(n_grains) + most_walls || contacts[k].i == contacts[k].j)
-            check.refuse(list + "body", "names a body that does not exist, or one body twice, in row " + std::to_string(k) +
-                                          " (counted from 0)");
+            check.refuse(list + "body", "contains a body that does not exist, or the same body twice, in row " +
+                                          std::to_string(k) + " (counted from 0)");
         }
       set_columns(contacts, contact_fields, [&](const std::string &name, auto &values) {
         values = read_field<typename std::decay_t<decltype(values)>::value_type>(file, group + "/" + name);
@@ -143,7 +143,7 @@ namespace diptych::discrete
       return contacts;
     }
 
-    // Sizes are above 0, normals of length 1, to the digits that other codes write.
+    // Checks that sizes are positive and normals have length 1 within the digits that other codes write.
     void check_values(const Snapshot &s, const ArrayCheck &check)
     {
       constexpr double digits   = 1e-3;
@@ -152,14 +152,14 @@ namespace diptych::discrete
         return c.normal.array().isNaN().all() || std::abs(c.normal.norm() - 1) < digits;
       };
       if (!std::all_of(s.radius.begin(), s.radius.end(), is_above) || !std::all_of(s.mass.begin(), s.mass.end(), is_above))
-        check.refuse("grains", "holds a radius or a mass that is not above 0");
+        check.refuse("grains", "contains a radius or a mass that is not above 0");
       visit_contact_lists(s, [&](const std::string &name, const std::vector<ContactForce> &contacts, const char *, const char *) {
         if (!std::all_of(contacts.begin(), contacts.end(), is_unit))
-          check.refuse(name + "/normal", "holds a normal that is not of length 1");
+          check.refuse(name + "/normal", "contains a normal that is not of length 1");
       });
     }
 
-    // Whether the list of attributes says that it may be no number.
+    // True if the value is finite or the meaning of the attribute allows nan or inf.
     bool may_be(const double value, const std::string &name, const std::string &meaning, const bool of_another_code)
     {
       if (std::isfinite(value))
@@ -171,7 +171,7 @@ namespace diptych::discrete
 
     void read_attributes(const Hdf5Reader &file, const std::string &group, const ArrayCheck &check, Snapshot &s)
     {
-      const bool of_another_code = !file.has(group + "/contacts/impulse"); // which has no step
+      const bool of_another_code = !file.has(group + "/contacts/impulse"); // imported frames have no step
       visit_attributes(s, [&](const char *name, auto &value, const char *, const char *meaning) {
         using Value = std::decay_t<decltype(value)>;
         if constexpr (std::is_same_v<Value, double>)
@@ -183,18 +183,18 @@ namespace diptych::discrete
         else if (const auto known = value_of<Value>(file.text_attribute(group, name)))
           value = *known;
         else
-          check.refuse(name, "is none of the names it may have");
+          check.refuse(name, "is not one of the allowed names");
       });
       if (!(s.mean_diameter > 0) || !(s.area > 0))
         check.refuse("mean_diameter or area", "is not above 0");
     }
 
-    // The sides stand where grains or walls are: farther from their box than the box is large, no grain made them.
+    // The sides must be near grains and walls. No sample has an outline farther from their box than the box is large.
     void check_outline(const Snapshot &s, const ArrayCheck &check)
     {
       const std::vector<Eigen::Vector2d> &left = s.outline.left, &right = s.outline.right;
       if (!(left.front().x() < right.front().x() && left.back().x() < right.back().x()))
-        check.refuse("outline", "has its left side right of the right one");
+        check.refuse("outline", "has its left side to the right of its right side");
       Eigen::Array2d low(INFINITY, s.lower_y), high(-INFINITY, s.upper_y);
       for (std::size_t i = 0; i < s.position.size(); ++i)
         {
@@ -208,7 +208,7 @@ namespace diptych::discrete
       visit_outline(s, [&](const std::string &name, const std::vector<Eigen::Vector2d> &points, const char *, const char *) {
         for (const Eigen::Vector2d &x : points)
           if ((x.array() < low - margin).any() || (x.array() > high + margin).any())
-            check.refuse(name, "lies farther from grains and walls than these are apart");
+            check.refuse(name, "lies too far from grains and walls: farther than these are from each other");
       });
     }
 
@@ -217,17 +217,17 @@ namespace diptych::discrete
       const ArrayCheck check{file.path() + ": " + group};
       Snapshot         s;
       read_attributes(file, group, check, s);
-      const std::string untold = file.has_attribute(group, not_told) ? file.text_attribute(group, not_told) : "";
+      const std::string missing = file.has_attribute(group, missing_fields) ? file.text_attribute(group, missing_fields) : "";
       visit_grain_fields(s, [&](const std::string &name, auto &values, const char *, const char *) {
         using Value = typename std::decay_t<decltype(values)>::value_type;
-        if (name != "grains/position" && untold.find(name + " ") != std::string::npos && !file.has(group + "/" + name))
-          return set_untold(values, s.position.size());
+        if (name != "grains/position" && missing.find(name + " ") != std::string::npos && !file.has(group + "/" + name))
+          return set_unknown(values, s.position.size());
         values = read_field<Value>(file, group + "/" + name);
         check.size(name, values.size(), s.position.size());
         check.finite(name, values);
       });
       if (s.position.empty())
-        check.refuse("grains/position", "holds no grain");
+        check.refuse("grains/position", "contains no grain");
       visit_contact_lists(s, [&](const std::string &name, std::vector<ContactForce> &contacts, const char *, const char *) {
         contacts = read_contacts(file, group + "/" + name, s.position.size(), check);
       });
@@ -235,7 +235,7 @@ namespace diptych::discrete
         using Value          = typename std::decay_t<decltype(values)>::value_type;
         const bool of_window = name.rfind("window", 0) == 0;
         if (of_window && !file.has(group + "/" + name))
-          return; // not every file tells what a pair dissipates
+          return; // the dissipation of pairs is missing in some files
         values = read_field<Value>(file, group + "/" + name);
         check.size(name, values.size(), of_window ? s.window_forces.size() : s.contacts.size());
         check.finite(name, values);
@@ -244,7 +244,7 @@ namespace diptych::discrete
         points = file.read_vectors(group + "/" + name);
         check.finite(name, points);
         if (points.size() < 2)
-          check.refuse(name, "holds fewer than two points");
+          check.refuse(name, "contains fewer than two points");
       });
       check_values(s, check);
       check_outline(s, check);
@@ -278,7 +278,7 @@ namespace diptych::discrete
     stages.close();
   }
 
-  // Grains, contacts and window forces of one instant as ParaView shows them.
+  // Lists grains, contacts and window forces of one instant for ParaView.
   void SnapshotFile::list(const Snapshot &s)
   {
     const std::string stage  = stage_name(collections[0].grids.size()) + "/";
@@ -288,7 +288,7 @@ namespace diptych::discrete
     XdmfGrid grains = points("grains", "position", s.position.size()), contacts = points("contacts", "point", s.contacts.size()),
              window = points("window", "point", s.window_forces.size());
     visit_grain_fields(s, [&](const std::string &name, const auto &values, const char *, const char *) {
-      if (name != "grains/position" && is_told(values))
+      if (name != "grains/position" && is_known(values))
         grains.attributes.push_back(xdmf_field(stage + name, values));
     });
     visit_contact_lists(s, [&](const std::string &list, const std::vector<ContactForce> &entries, const char *, const char *) {
@@ -298,7 +298,7 @@ namespace diptych::discrete
       });
     });
     visit_contact_values(s, [&](const std::string &name, const auto &values, const char *, const char *) {
-      if (is_told_of_contacts(s, name, values.size()))
+      if (is_stored(s, name, values.size()))
         (name.rfind("contacts/", 0) == 0 ? contacts : window).attributes.push_back(xdmf_field(stage + name, values));
     });
     collections[0].grids.push_back(std::move(grains));

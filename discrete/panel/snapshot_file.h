@@ -11,16 +11,16 @@
 
 namespace diptych::discrete
 {
-  // PATH.h5 with one group stage_NNNN a snapshot (snapshot_fields.h says what is in it) and PATH.xdmf beside it, which ParaView
-  // opens: grains, contacts and window forces as points. A snapshot is added without touching those before it.
+  // PATH.h5 with one group stage_NNNN per snapshot (fields: snapshot_fields.h), and PATH.xdmf for ParaView with grains, contacts
+  // and window forces as points. Adding a snapshot does not touch the earlier ones.
   class SnapshotFile
   {
   public:
-    explicit SnapshotFile(const std::string &path_without_ending);          // begins anew
-    SnapshotFile(const std::string &path_without_ending, std::size_t kept); // goes on from the first `kept` snapshots
+    explicit SnapshotFile(const std::string &path_without_ending);          // starts a new file
+    SnapshotFile(const std::string &path_without_ending, std::size_t kept); // continues after the first `kept` snapshots
 
     void        add(const Snapshot &snapshot);
-    void        close(); // one file of all; without it PATH.h5 links files in the folder PATH
+    void        close(); // joins all stages in one file; before that PATH.h5 links files in the folder PATH
     std::size_t size() const { return stages.size(); }
 
   private:
@@ -31,10 +31,10 @@ namespace diptych::discrete
     std::vector<XdmfCollection> collections = {{"grains", {}}, {"contacts", {}}, {"window", {}}};
   };
 
-  // A whole file at once.
+  // Writes a whole file at once.
   void write_snapshots(const std::string &path_without_ending, const std::vector<Snapshot> &snapshots);
 
-  // Throws std::invalid_argument naming file and dataset where one is missing, damaged, of another length than it must be, not
-  // finite or out of range. Window forces and all that the comparison needs are restored.
+  // Restores window forces and all that the comparison needs. Throws std::invalid_argument with file and dataset if a dataset is
+  // missing, damaged, not finite, out of range or of the wrong length.
   std::vector<Snapshot> read_snapshots(const std::string &h5_path);
 } // namespace diptych::discrete

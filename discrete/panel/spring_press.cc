@@ -1,4 +1,4 @@
-// diptych: the springs of the penalty method take up the pressure before the loading
+// diptych: preload of the springs of the penalty method before the loading
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/panel/spring_press.h"
 

@@ -1,4 +1,4 @@
-// diptych: the springs of the penalty method take up the pressure before the loading
+// diptych: preload of the springs of the penalty method before the loading
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -9,18 +9,18 @@
 
 namespace diptych::discrete
 {
-  // A sample of rigid grains has no overlap to press with: loaded at once, soft springs would be squeezed together during the
-  // loading, and what overlaps would be flung apart.
+  // Rigid grains have no overlap that could carry the pressure. Without a preload, soft springs would be compressed during the
+  // loading, and overlapping grains would be pushed apart.
   struct SpringPress
   {
     const PenaltyOptions &penalty;
-    const LoadingStart   &start;   // the sides act as it says, the platens rest; drives of its own are left out
-    StepSetting           setting; // its friction is that of the loading
+    const LoadingStart   &start;   // sets the sides; the platens rest and its wall drives are ignored
+    StepSetting           setting; // with the friction of the loading
     double                density; // of the grains
   };
 
-  // Steps for penalty_preload under penalty_preload_friction. What the state was pressed with, its length of step included; ends
-  // early where the springs blow up, as `last_step.solve` tells. Nothing where `go_on`, asked with the share done, says no.
+  // Steps for the time penalty_preload with penalty_preload_friction. Returns the last step and its length. Ends early if the
+  // springs blow up, see `last_step.solve`. Returns nothing if `go_on`, called with the finished share, returns false.
   struct PressedSample
   {
     StepResult last_step;

@@ -9,7 +9,7 @@ namespace diptych::discrete
   void WindowForces::add(const StepResult &result, const std::vector<double> &spin_term, const double step)
   {
     const auto           before = [](const PairSum &a, const PairSum &b) { return a.i != b.i ? a.i < b.i : a.j < b.j; };
-    std::vector<PairSum> now; // ascending, as the contacts are
+    std::vector<PairSum> now; // ascending like the contacts
     for (std::size_t k = 0; k < result.contacts.size(); ++k)
       if (const Contact &c = result.contacts[k]; result.impulses[k].normal > 0)
         now.push_back({c.i, c.j, result.contact_dissipation[k], result.contact_impact[k], impulse_vector(c, result.impulses[k])});

@@ -7,9 +7,9 @@
 
 namespace diptych::discrete
 {
-  // Sums impulse and friction dissipation of every pair that touches, and the spin term of every grain, over the steps since the
-  // last reset.
-  // Contacts of rigid grains make and break within a few steps: single steps scatter, their mean is the stress.
+  // Sums of the impulse and friction dissipation of every touching pair, and of the spin term of every grain, since the last
+  // reset. Contacts of rigid grains open and close within a few steps. Forces of single steps therefore scatter, and only their
+  // mean gives the stress.
   struct WindowForces
   {
     struct PairSum
@@ -21,15 +21,15 @@ namespace diptych::discrete
     };
     std::vector<PairSum> sums;     // ascending in (i, j)
     std::vector<double>  spin;     // sum of step x spin term, of each grain
-    double               time = 0; // of the steps
+    double               time = 0; // duration of the steps
 
     void add(const StepResult &result, const std::vector<double> &spin_term, double step);
     void reset() { *this = WindowForces(); }
 
     std::vector<double> mean_spin_term() const;
-    // Mean force of every pair, placed at its contact point in `state` (between the surfaces if they have parted).
+    // Mean force of every pair, placed at its contact point in `state`, or midway between the surfaces if they have parted.
     std::vector<ContactForce> mean_forces(const State &state) const;
-    // Sum, not mean, of each entry of mean_forces(). [energy]
+    // Sum (not mean) for each entry of mean_forces(). [energy]
     std::vector<double> dissipation() const;
     std::vector<double> impact_dissipation() const;
   };

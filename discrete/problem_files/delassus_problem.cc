@@ -1,4 +1,4 @@
-// diptych: the contact problem with the bodies eliminated, and its solution
+// diptych: contact problem with the bodies eliminated, and its solution
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/problem_files/delassus_problem.h"
 
@@ -76,7 +76,7 @@ namespace diptych::discrete
   DelassusProblem delassus_form(const ContactProblem &problem)
   {
     const BodyMatrices b = body_matrices(problem);
-    // Without the rows of bodies that do not move a driven wall would couple all its contacts with zeros.
+    // With the rows of immovable bodies, a driven wall would couple all its contacts with zeros.
     Eigen::SparseMatrix<double> velocity = b.inverse_mass.asDiagonal() * b.h;
     velocity.prune([](int, int, const double value) { return value != 0; });
     DelassusProblem result = delassus_problem(b.h.transpose() * velocity, b.h.transpose() * b.free_velocity + b.velocity_offset,
@@ -156,12 +156,12 @@ namespace diptych::discrete
       return problem.blocks[std::lower_bound(begin + problem.row_begin[k], begin + problem.row_begin[k + 1], int(k)) - begin];
     }
 
-    // What a contact needs of its own block.
+    // Data of a contact's own block.
     struct Own
     {
       DelassusBlock w;
       double        inverse_wnn, inverse_wtt, friction;
-      bool          coupled; // W_nt counts
+      bool          coupled; // W_nt matters
     };
 
     std::vector<Own> own_blocks(const DelassusProblem &problem)
@@ -180,8 +180,8 @@ namespace diptych::discrete
       return std::min(bound, std::max(-bound, value));
     }
 
-    // One step of relaxation, normal first; the tangential velocity sees the new normal impulse, so that a contact with
-    // W_nt != 0 converges as well.
+    // One relaxation, normal direction first. The tangential velocity includes the new normal impulse, so that a contact with
+    // W_nt != 0 also converges.
     inline Impulse relaxed(const Own &c, const RelativeVelocity &u, const Impulse &r, const double omega)
     {
       const double normal     = std::max(0., r.normal - omega * u.normal * c.inverse_wnn);
@@ -189,7 +189,7 @@ namespace diptych::discrete
       return {normal, clamp(r.tangential - omega * tangential * c.inverse_wtt, c.friction * normal)};
     }
 
-    // The exact solution of one contact with the others held: open, sticking or slipping to one of two sides.
+    // Exact solution of one contact with the others held: open, sticking, or slipping in one of two directions.
     Impulse exact(const Own &c, const RelativeVelocity &u, const Impulse &r)
     {
       const DelassusBlock   &w = c.w;
@@ -258,7 +258,7 @@ namespace diptych::discrete
       return relative_norm(difference, norm);
     }
 
-    // The nearest point of |r_t| <= mu r_n.
+    // Nearest point with |r_t| <= mu r_n.
     Impulse onto_coulombs_cone(const Impulse &r, const double mu)
     {
       const double tangential = std::abs(r.tangential);
@@ -313,7 +313,7 @@ namespace diptych::discrete
       }
     const bool plain = options.solver == ContactSolver::nsgs;
     Iteration  iteration;
-    iteration.refresh  = [] {}; // W r + q is always summed afresh
+    iteration.refresh  = [] {}; // W r + q is always computed from scratch
     iteration.residual = [&] { return residual(problem, own, impulses); };
     iteration.sweep    = [&](const double sticking, const double slipping, const int n_sweeps) {
       for (int sweep = 0; sweep < n_sweeps; ++sweep)

@@ -1,4 +1,4 @@
-// diptych: contact problems read from the layout of FCLIB
+// diptych: reads contact problems in the layout of FCLIB
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/problem_files/fclib.h"
 
@@ -21,7 +21,7 @@ namespace diptych::discrete
           file.refuse(matrix, "equality constraints are not supported");
     }
 
-    // Checks what both descriptions have in common; returns mu.
+    // Checks the common part of both descriptions and returns mu.
     Eigen::VectorXd read_friction(const FclibInput &file, const std::string &group)
     {
       if (!file.has(group))
@@ -35,7 +35,7 @@ namespace diptych::discrete
       return Eigen::Map<const Eigen::VectorXd>(mu.data(), Eigen::Index(mu.size()));
     }
 
-    // A contact that nothing can move has no solution of its own.
+    // A contact of two immovable bodies has no unique solution.
     void require_positive_diagonal(const FclibInput &file, const std::string &name, const Matrix &w)
     {
       for (int a = 0; a < w.rows(); ++a)
@@ -110,7 +110,8 @@ namespace diptych::discrete
         delassus, h.transpose() * inverse_mass.times(Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(f.data(), n))) + w, mu);
     }
 
-    // Of a file that carries both forms the local one is solved; the other goes into the file of the solution as it stands.
+    // If a file has both forms, the local one is solved. The global one is only copied to the file of the solution, so its
+    // numbers are checked here.
     void require_numbers_of_global(const FclibInput &file)
     {
       for (const char *part : {"/M/x", "/H/x", "/vectors/f", "/vectors/w", "/vectors/mu"})

@@ -19,7 +19,7 @@ namespace diptych::discrete
   enum class ProblemForm
   {
     body, // bodies with their masses
-    local // contacts alone
+    local // contacts only
   };
   constexpr auto choices(ProblemForm)
   {
@@ -27,29 +27,29 @@ namespace diptych::discrete
   }
 
   // A plane problem of a file: u = W r + q, impulses r, normal component first. The layout is that of FCLIB (Acary, Bremond,
-  // Koziara & Perignon 2014): /fclib_local (W, q, mu) and /fclib_global (M v = f + H r, u = H^T v + w, mu), beside /solution
-  // and /guesses; matrices by rows (nz = -2), by columns (nz = -1) or as triplets (nz >= 0; p is the column and i the row).
+  // Koziara & Perignon 2014): /fclib_local (W, q, mu), /fclib_global (M v = f + H r, u = H^T v + w, mu), /solution and /guesses.
+  // Matrices are stored by rows (nz = -2), by columns (nz = -1) or as triplets (nz >= 0; p is the column and i the row).
   struct StoredProblem
   {
-    DelassusProblem local; // contacts in the order of the file; made from /fclib_global where that is all
+    DelassusProblem local; // contacts in the order of the file; made from /fclib_global if there is no /fclib_local
     std::optional<ContactProblem>
-                         bodies; // of our own group /nscd: discs, then walls; rows in the order of the file, swept upwards
-    ProblemForm          form = ProblemForm::local; // body where there are bodies
-    std::string          reason;                    // why there are none
-    std::vector<Impulse> solution;                  // /solution/r; empty: none
+                         bodies; // from Diptych's group /nscd: discs, then walls; rows in the order of the file, swept upward
+    ProblemForm          form = ProblemForm::local; // body if `bodies` is set
+    std::string          reason;                    // reason why `bodies` is empty
+    std::vector<Impulse> solution;                  // /solution/r; may be empty
     std::vector<std::vector<Impulse>> guesses;      // /guesses/1, 2, ...
   };
 
-  // The body form is taken where its W and q are those of the file within 1e-10 and no contact couples its normal and
-  // tangential directions. Throws std::invalid_argument naming file, dataset and values on whatever is missing or malformed, on
-  // space dimension 3 and on equality constraints (V, G).
+  // Takes the body form if its W and q agree with the file within 1e-10 and no contact couples its normal and tangential
+  // directions. Throws std::invalid_argument with file, dataset and values if data are missing or malformed. Space dimension 3
+  // and equality constraints (V, G) are also refused.
   StoredProblem read_fclib(const std::string &path);
 
-  // One of the two descriptions alone, contacts in the order of the file. Throws like read_fclib().
+  // Reads one of the two descriptions, with the contacts in the order of the file. Throws like read_fclib().
   DelassusProblem read_fclib_local(const std::string &path);
   DelassusProblem read_fclib_global(const std::string &path);
 
-  // What a contact problem does not say of its sample. Discs come first among the bodies.
+  // Data of the sample that a contact problem does not contain. Discs come first among the bodies.
   struct StoredGeometry
   {
     double                       step = 0; // [time]
@@ -63,10 +63,11 @@ namespace diptych::discrete
     std::string title, description;
   };
 
-  // Writes /fclib_local and /fclib_global by rows, contacts in the order of the problem, under `path`.part, then renames.
-  // Third component of a body in /fclib_global: its surface speed. With a geometry also /nscd, from which the body form can be
-  // read again, but not where a contact acts on a free cell. With impulses (one a contact) also /solution. Throws
-  // std::runtime_error where the file cannot be written and std::invalid_argument where sizes do not fit.
+  // Writes /fclib_local and /fclib_global by rows, with the contacts in the order of the problem. The file is written as
+  // `path`.part and then renamed. The third component of a body in /fclib_global is its surface speed. With a geometry, /nscd is
+  // written too, from which the body form can be restored, unless a contact acts on a free cell. With impulses (one per contact)
+  // /solution is written too. Throws std::runtime_error if the file cannot be written and std::invalid_argument if sizes do not
+  // match.
   void write_fclib(const std::string                   &path,
                    const ContactProblem                &problem,
                    const StoredText                    &about,
@@ -81,6 +82,6 @@ namespace diptych::discrete
     double                        residual = 0; // natural map relative to |r|
   };
 
-  // All of `from`, its solution replaced. The two paths may be the same.
+  // Copies all of `from` except its solution, which is replaced. Both paths may be the same.
   void write_solution(const std::string &from, const std::string &to, const StoredSolution &solution);
 } // namespace diptych::discrete

@@ -11,7 +11,7 @@ namespace diptych::discrete
 {
   namespace
   {
-    // The group /nscd as it stands.
+    // Contents of the group /nscd.
     struct NscdGroup
     {
       std::vector<double> inverse_mass, free_velocity, normal, tangent, offset, radius, position;
@@ -28,7 +28,7 @@ namespace diptych::discrete
         file.refuse(name, text("has ", bodies.size(), " entries where ", n, " are needed"));
       for (std::size_t k = 0; k < n; ++k)
         if (bodies[k] < 0 || bodies[k] >= n_bodies)
-          file.refuse(name, text("contact ", k, " names body ", bodies[k], " of ", n_bodies));
+          file.refuse(name, text("contact ", k, " has body number ", bodies[k], " of ", n_bodies));
       return bodies;
     }
 
@@ -38,7 +38,7 @@ namespace diptych::discrete
       group.free_velocity = file.numbers("/nscd/v_free");
       group.radius        = file.numbers("/nscd/radius");
       if (file.has("/nscd/H/x"))
-        (void)file.numbers("/nscd/H/x"); // it follows from the rest, but goes on into the solution
+        (void)file.numbers("/nscd/H/x"); // redundant, but copied to the solution
       if (group.free_velocity.size() % 3 != 0 || group.radius.size() > group.free_velocity.size() / 3)
         file.refuse("/nscd/v_free", text("has ", group.free_velocity.size(), " entries for ", group.radius.size(), " discs"));
       group.inverse_mass = file.numbers("/nscd/Minv_diag", group.free_velocity.size());
@@ -49,12 +49,12 @@ namespace diptych::discrete
       group.body_i       = read_bodies(file, "/nscd/body_i", n, group.n_bodies());
       group.body_j       = read_bodies(file, "/nscd/body_j", n, group.n_bodies());
       for (const auto &[name, size] : {std::pair("/nscd/gap", n), std::pair("/nscd/dt", std::size_t(1))})
-        if (file.has(name)) // for those who read a solved file
+        if (file.has(name)) // not used here, but by readers of a solved file
           (void)file.numbers(name, size);
       return group;
     }
 
-    // Why the group is none of discs and of walls that do not turn; empty: it is.
+    // Reason why the group does not describe discs and walls that do not turn; empty if it does.
     std::string obstacle(const NscdGroup &g)
     {
       for (int b = 0; b < g.n_bodies(); ++b)
@@ -91,7 +91,7 @@ namespace diptych::discrete
       return bodies;
     }
 
-    // Body i of a row is a disc; the relative velocity is the same seen from the other side, with the normal reversed.
+    // Body i of a row must be a disc. Seen from the other body, the relative velocity is the same and the normal is reversed.
     ContactRow contact_row(const NscdGroup &g, const std::size_t k, const double friction)
     {
       const bool   reversed = !g.is_disc(g.body_i[k]);
@@ -104,7 +104,7 @@ namespace diptych::discrete
       return {nx, ny, i, j, 0, -1, spin(i), spin(j), jx, jy, cn, ct, friction, 1 / wnn, 1 / wtt};
     }
 
-    // The largest |W_nt| / sqrt(W_nn W_tt) of a contact's own block.
+    // Largest |W_nt| / sqrt(W_nn W_tt) of a contact's own block.
     double own_coupling(const ContactProblem &problem)
     {
       double largest = 0;
@@ -138,7 +138,7 @@ namespace diptych::discrete
     for (std::size_t k = 0; k < local.n_contacts(); ++k)
       bodies.contacts.push_back(contact_row(g, k, local.friction[k]));
     if (const double difference = relative_difference(local, delassus_form(bodies)); !(difference <= 1e-10))
-      return {std::nullopt, text("/nscd gives another W or q than the rest of the file, relative difference ", difference)};
+      return {std::nullopt, text("W or q of /nscd differs from the rest of the file, relative difference ", difference)};
     if (const double coupling = own_coupling(bodies); coupling > 1e-10)
       return {std::nullopt,
               text("a contact couples its normal and tangential directions: |W_nt| / sqrt(W_nn W_tt) = ", coupling)};

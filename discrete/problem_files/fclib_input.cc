@@ -1,4 +1,4 @@
-// diptych: FCLIB files as input that may be wrong
+// diptych: FCLIB files as unchecked input
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/problem_files/fclib_input.h"
 
@@ -10,7 +10,7 @@ namespace diptych::discrete
 {
   namespace
   {
-    // What the reader reports as trouble with a file is here the input's fault.
+    // Errors that the reader reports for a file count as wrong input here.
     template <class Function> auto as_input(Function &&function)
     {
       try
@@ -79,7 +79,7 @@ namespace diptych::discrete
     return Eigen::Map<const Eigen::VectorXd>(values.data(), Eigen::Index(n));
   }
 
-  // The entries of offsets `p` along one direction and indices `i` along the other.
+  // Entries from offsets `p` along one direction and indices `i` along the other.
   FclibInput::Places FclibInput::compressed(const std::string &name, const int n_lines) const
   {
     const std::vector<int> p = integers(name + "/p"), i = integers(name + "/i");
@@ -96,7 +96,7 @@ namespace diptych::discrete
     return entries;
   }
 
-  // (row, column) of each entry, whatever the storage.
+  // (row, column) of each entry, for any storage.
   FclibInput::Places FclibInput::places(const std::string &name, const int m, const int n) const
   {
     const int nz = integer(name + "/nz");

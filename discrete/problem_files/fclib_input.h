@@ -1,4 +1,4 @@
-// diptych: FCLIB files as input that may be wrong
+// diptych: FCLIB files as unchecked input
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -22,7 +22,7 @@ namespace diptych::discrete
     return out.str();
   }
 
-  // An HDF5 file whose every defect is wrong input: all functions throw std::invalid_argument naming file, dataset and values.
+  // An HDF5 file as input. On any defect its functions throw std::invalid_argument with file, dataset and values.
   class FclibInput
   {
   public:
@@ -37,8 +37,8 @@ namespace diptych::discrete
     int                 integer(const std::string &name) const;
     Eigen::VectorXd     vector(const std::string &name, std::size_t n) const;
 
-    // By rows (nz = -2: p row offsets, i columns), by columns (nz = -1: p column offsets, i rows) or triplets (nz of them: p
-    // columns, i rows); entries of one place are added.
+    // Matrix stored by rows (nz = -2: p row offsets, i columns), by columns (nz = -1: p column offsets, i rows) or as nz triplets
+    // (p columns, i rows). Entries at the same place are added.
     Eigen::SparseMatrix<double> matrix(const std::string &name, long n_rows, long n_columns) const;
 
   private:
@@ -51,13 +51,13 @@ namespace diptych::discrete
     Hdf5Reader  reader_;
   };
 
-  // The body form of /nscd, rows in the order of the file and swept from bottom to top; or the reason why there is none.
+  // Body form of /nscd, with the rows in the order of the file and swept upward, or the reason why there is none.
   struct BodyForm
   {
     std::optional<ContactProblem> bodies;
     std::string                   reason;
   };
 
-  // `local` holds W, q and mu of the same file. Throws like FclibInput where /nscd is malformed.
+  // `local` holds W, q and mu of the same file. Throws like FclibInput if /nscd is malformed.
   BodyForm read_body_form(const FclibInput &file, const DelassusProblem &local);
 } // namespace diptych::discrete

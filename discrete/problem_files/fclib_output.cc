@@ -1,4 +1,4 @@
-// diptych: contact problems written in the layout of FCLIB
+// diptych: writes contact problems in the layout of FCLIB
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <stdexcept>
@@ -66,7 +66,7 @@ namespace diptych::discrete
       writer.write("/fclib_local/vectors/q", normal_first(problem.q));
     }
 
-    // Components that do not move are no unknowns: what they contribute to u goes into w.
+    // Components that do not move are not unknowns. Their contribution to u goes into w.
     void write_global(Hdf5Writer &writer, const BodyMatrices &b)
     {
       std::vector<int> free;
@@ -90,7 +90,7 @@ namespace diptych::discrete
       write_vector(writer, "/fclib_global/vectors/w", b.h.transpose() * driven + b.velocity_offset);
     }
 
-    // Third component: the rate of rotation omega = s / r of a disc; walls do not turn.
+    // The third component is the rate of rotation omega = s / r of a disc. Walls do not turn.
     void write_nscd(Hdf5Writer &writer, const ContactProblem &problem, BodyMatrices b, const StoredGeometry &geometry)
     {
       const std::size_t n_discs = geometry.radius.size(), n_bodies = problem.free_velocity.size();
@@ -99,7 +99,7 @@ namespace diptych::discrete
       for (std::size_t body = 0; body < n_bodies; ++body)
         scale[3 * body + 2] = body < n_discs ? geometry.radius[body] : 0;
       for (std::size_t body = 0; body < n_bodies; ++body)
-        if (const double w = problem.free_velocity[body].inverse_mass; w > 0) // discs without a contact move too
+        if (const double w = problem.free_velocity[body].inverse_mass; w > 0) // discs without a contact also move
           b.inverse_mass.segment<2>(3 * body).setConstant(w);
       b.h = scale.asDiagonal() * b.h;
       for (int a = 0; a < scale.size(); ++a)
@@ -132,9 +132,9 @@ namespace diptych::discrete
     {
       if (geometry.gap.size() != problem.contacts.size() || geometry.position.size() != geometry.radius.size() ||
           geometry.radius.size() > problem.free_velocity.size())
-        throw std::invalid_argument(text("a geometry of ", geometry.gap.size(), " gaps, ", geometry.radius.size(), " radii and ",
-                                         geometry.position.size(), " positions does not fit ", problem.contacts.size(),
-                                         " contacts and ", problem.free_velocity.size(), " bodies"));
+        throw std::invalid_argument(text("the geometry has ", geometry.gap.size(), " gaps, ", geometry.radius.size(),
+                                         " radii and ", geometry.position.size(), " positions, but the problem has ",
+                                         problem.contacts.size(), " contacts and ", problem.free_velocity.size(), " bodies"));
     }
   } // namespace
 
@@ -147,7 +147,7 @@ namespace diptych::discrete
     if (geometry)
       require_sizes(problem, *geometry);
     if (!solution.empty() && solution.size() != problem.contacts.size())
-      throw std::invalid_argument("one impulse for each contact is needed");
+      throw std::invalid_argument("the solution must have one impulse per contact");
     const BodyMatrices    b     = body_matrices(problem);
     const DelassusProblem local = delassus_form(problem);
     Hdf5Writer            writer(path);

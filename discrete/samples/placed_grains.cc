@@ -12,8 +12,8 @@ namespace diptych::discrete
 {
   namespace
   {
-    // Platens and sides of a sample whose grains are given: where the keys say, where a snapshot had them, or at the outermost
-    // edge of any grain (platens: of any grain that moves, for fixed ones may be a rough bottom).
+    // Positions of platens and sides of given grains: from the keys, from a snapshot, or at the outermost edge of any grain.
+    // Fixed grains count with their centre, because they may be a rough bottom that platens cross.
     SampleBox box_around(const SampleOptions &o, const GrainFile &file)
     {
       const Grains   &g   = file.grains;
@@ -53,7 +53,7 @@ namespace diptych::discrete
     return std::accumulate(grains.mass.begin(), grains.mass.end(), 0.) / std::sqrt(double(grains.size()));
   }
 
-  // Sides as the lateral condition wants them during the preparation: what is free is free under the pressure.
+  // Sides during the preparation: a free side is free under the pressure.
   void set_sides(State &state, const PreparationSetting &setting)
   {
     const double mass = default_wall_mass(state.grains);
@@ -90,14 +90,14 @@ namespace diptych::discrete
     if (std::holds_alternative<PeriodicSides>(preparation.lateral))
       {
         if (o.width <= 0)
-          throw std::invalid_argument("sample/width = 0: a periodic sample from a file needs its period there");
+          throw std::invalid_argument("sample/width = 0: for a periodic sample from a file, give its period here");
         state.cell     = PeriodicCell{o.width};
         box.cell_width = o.width;
         state.walls.resize(2);
       }
     check_grains(file, box, o.allowed_overlap);
     if (const auto &fixed = file.grains.fixed; std::all_of(fixed.begin(), fixed.end(), [](const auto held) { return held != 0; }))
-      throw std::invalid_argument("every grain is fixed (column or dataset `fixed`): nothing could move");
+      throw std::invalid_argument("every grain is fixed (column or dataset `fixed`), so nothing can move");
     state.grains = std::move(file.grains);
     set_sides(state, preparation);
     validate_walls(state);

@@ -19,10 +19,10 @@ namespace diptych::discrete
   // Default inertia of a wall or cell width that moves under a force: sqrt(number of grains) x mean grain mass.
   double default_wall_mass(const Grains &grains);
 
-  // What `lateral` makes of the walls and the cell.
+  // Sets up side walls or cell for the lateral condition during the preparation.
   void set_sides(State &state, const PreparationSetting &setting);
 
-  // Whatever is wrong with the file of a key is told together with the key.
+  // Calls read(file) and adds the key to the message of an error in the file.
   template <class Read> auto read_for(const std::string &key, const std::string &file, Read &&read)
   {
     try
@@ -39,20 +39,20 @@ namespace diptych::discrete
       }
   }
 
-  // The grains of a file between platens and sides where they touch them, checked.
+  // Grains of a file between platens and sides, checked.
   struct FileSample
   {
     State                      state;
     std::optional<StoredStage> stage;
   };
 
-  // Platens and sides as the options say, or as a snapshot stored them, or where the grains touch them. Throws
-  // std::invalid_argument naming grains, places and keys.
+  // Places platens and sides at the given positions, or as a snapshot stored them, or where the grains touch them. Throws
+  // std::invalid_argument with grains, places and keys.
   FileSample place_grains(const SampleOptions &options, const PreparationSetting &preparation, GrainFile file);
 
-  // The same with the file of `sample/file`. `go_on` is asked while it is read; where it says no, ReadingStopped is thrown.
+  // The same with the file of `sample/file`. `go_on` is called during reading. If it returns false, ReadingStopped is thrown.
   FileSample file_sample(const SampleOptions &options, const PreparationSetting &preparation, const GoOn &go_on = {});
 
-  // Throws std::invalid_argument naming key, file, place and range where the file of the sample is wrong. Reads it whole.
+  // Reads the whole file of the sample. Throws std::invalid_argument with key, file, place and range if it is wrong.
   void check_sample_file(const SampleOptions &options, const PreparationSetting &setting, const GoOn &go_on = {});
 } // namespace diptych::discrete

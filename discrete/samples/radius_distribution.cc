@@ -1,4 +1,4 @@
-// diptych: distributions of grain radii, and the radii of a sample that follows one
+// diptych: distributions of grain radii, and radii that follow one
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/samples/radius_distribution.h"
 
@@ -22,7 +22,7 @@ namespace diptych::discrete
                                     " (the smallest radius) or more");
     }
 
-    // The first point that breaks the rules of a grading curve, or row -1.
+    // The first point that violates the rules of a grading curve; row -1 if there is none.
     struct Fault
     {
       int         row = -1;
@@ -77,8 +77,8 @@ namespace diptych::discrete
       return radius;
     }
 
-    // Mass curve F piecewise linear, s = dF/dr: number of grains from a up to r within a piece is s (1/a - 1/r), in all
-    // dF / (a b); solved for r:  1/r = 1/a - number / s.
+    // The mass curve F is piecewise linear with the slope s = dF/dr. Within a piece from a to b the number of grains from a up to
+    // r is s (1/a - 1/r), in total dF / (a b). Solved for r this is 1/r = 1/a - number / s.
     std::vector<double> quantiles(const RadiusTable &d, const int n)
     {
       const auto in_piece = [&](const std::size_t k) {
@@ -90,7 +90,7 @@ namespace diptych::discrete
 
       std::vector<double> radius(n);
       std::size_t         piece = 0;
-      double              below = 0; // number of grains in the pieces before
+      double              below = 0; // number of grains in the previous pieces
       for (int k = 0; k < n; ++k)
         {
           const double wanted = total * (k + 0.5) / n;

@@ -1,4 +1,4 @@
-// diptych: distributions of grain radii, and the radii of a sample that follows one
+// diptych: distributions of grain radii, and radii that follow one
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -20,12 +20,12 @@ namespace diptych::discrete
     double min, max; // [length or mean diameters]
   };
 
-  // Grading curve as of a sieve analysis: the share `passing` of the mass belongs to radii up to `radius`, linear between the
-  // points. A flat piece holds no grains. Number density within a piece: slope / r^2.
+  // Grading curve of a sieve analysis. The share `passing` of the mass belongs to radii up to `radius`, linear between the
+  // points. A flat piece holds no grains. The number density within a piece is slope / r^2.
   struct RadiusTable
   {
     std::vector<double> radius;  // ascending, above 0 [any length; see RadiusScale]
-    std::vector<double> passing; // by mass, from 0 to 1, never falling
+    std::vector<double> passing; // by mass, from 0 to 1, not decreasing
   };
 
   using RadiusDistribution = std::variant<UniformByNumber, UniformByMass, RadiusTable>;
@@ -37,15 +37,15 @@ namespace diptych::discrete
                       // UniformByNumber must have min + max = 1 by itself
   };
 
-  // n >= 1 radii, ascending: the quantiles (k + 1/2)/n of the distribution by number, so that a sample has the same radii
-  // whatever its seed and only their places are random. Throws std::invalid_argument naming parameter, value and range where
-  // the distribution is none (see validate).
+  // n >= 1 radii, ascending: the quantiles (k + 1/2)/n of the distribution by number. All seeds of a sample therefore have the
+  // same radii, and only the places are random. Throws std::invalid_argument with parameter, value and range if the distribution
+  // is not valid (see validate).
   std::vector<double> radius_quantiles(const RadiusDistribution &distribution, int n, RadiusScale scale = RadiusScale::as_given);
 
-  // Throws std::invalid_argument naming parameter, value and range: 0 < min <= max; a table as its comments demand.
+  // Throws std::invalid_argument with parameter, value and range unless 0 < min <= max, or the table obeys the comments above.
   void validate(const RadiusDistribution &distribution);
 
-  // CSV file with the columns `radius` and `passing`; passing is a fraction when its last value is 1, per cent when it is 100.
-  // Throws std::invalid_argument naming file, line, column, value and range.
+  // CSV file with the columns `radius` and `passing`. passing is a fraction if its last value is 1, and per cent if it is 100.
+  // Throws std::invalid_argument with file, line, column, value and range.
   RadiusTable read_radius_table(const std::string &path);
 } // namespace diptych::discrete

@@ -1,4 +1,4 @@
-// diptych: grains and time tables read from files, checked before anything is computed
+// diptych: grains and time tables from files, checked before the computation
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/samples/sample_file.h"
 
@@ -18,7 +18,7 @@ namespace diptych::discrete
 {
   namespace
   {
-    // Beyond these no unit system leads; they keep squares and cell numbers within double and int.
+    // No sensible unit system exceeds these limits. They keep squares and cell numbers within double and int.
     constexpr double smallest_length = 1e-12, largest_magnitude = 1e12;
 
     // Platens and side walls: bodies n_grains to n_grains + 3.
@@ -70,10 +70,10 @@ namespace diptych::discrete
       return wanted == -1 ? n_stages - 1 : wanted;
     }
 
-    // Reads datasets of one stage and says which one is wrong.
+    // Reads datasets of one stage and refuses wrong ones by name.
     struct StageReader
     {
-      // Of a wall; NaN where there is none or the file does not tell.
+      // Position of a wall; NaN if there is none or the file does not contain it.
       double place(const std::string &name) const
       {
         const double value = file.has_attribute(group, name) ? file.attribute(group, name) : NAN;
@@ -149,7 +149,7 @@ namespace diptych::discrete
     {
       const std::size_t n = stage.file.read(stage.group + "/grains/radius").size();
       if (n == 0)
-        stage.refuse("grains/radius", "no grain; allowed: 1 or more");
+        stage.refuse("grains/radius", "contains no grain; allowed: 1 or more");
       Grains grains;
       grains.radius   = stage.numbers("grains/radius", n, smallest_length);
       grains.position = stage.vectors("grains/position", n);
@@ -164,17 +164,17 @@ namespace diptych::discrete
       return grains;
     }
 
-    // i is a grain, j > i a grain or one of the walls.
+    // Body i must be a grain, and j > i a grain or one of the walls.
     void check_pair(const StageReader &stage, const std::size_t row, const double i, const double j, const std::size_t n_grains)
     {
       const bool whole = i == std::floor(i) && j == std::floor(j);
       if (!(whole && i >= 0 && i < double(n_grains) && j > i && j < double(n_grains + most_walls)))
         stage.refuse("contacts/body", "row " + std::to_string(row) + " (counted from 0) = " + exact_text(i) + ", " +
                                         exact_text(j) + "; allowed: 0 to " + std::to_string(n_grains - 1) +
-                                        ", and more than that to " + std::to_string(n_grains + most_walls - 1));
+                                        ", and a larger number up to " + std::to_string(n_grains + most_walls - 1));
     }
 
-    // Open contacts carry nothing and are left out, as in State.
+    // Open contacts carry no impulse and are left out, as in State.
     std::vector<PairImpulse> read_impulses(const StageReader &stage, const std::size_t n_grains)
     {
       const std::string contacts = stage.group + "/contacts";
@@ -211,7 +211,7 @@ namespace diptych::discrete
       for (std::size_t i = 0; i < g.size(); ++i)
         {
           const double surface   = g.position[i][side.axis] - side.inward * g.radius[i];
-          const double tolerance = (g.fixed[i] ? 2. : allowed_overlap) * g.radius[i]; // a fixed one may straddle it
+          const double tolerance = (g.fixed[i] ? 2. : allowed_overlap) * g.radius[i]; // a fixed grain may straddle the side
           if (side.inward * (*side.place - surface) <= tolerance)
             continue;
           const std::string axis = side.axis == 0 ? "x" : "y";
@@ -240,11 +240,12 @@ namespace diptych::discrete
                                   (n_pairs == 1 ? " such pair)" : " such pairs; this is the worst)"));
     }
 
-    // Before pairs are looked for, which may be as many as all: grains of about one size of which a cell of theirs cannot hold as
-    // many, whatever overlaps are allowed; or cells that hold too many on the whole. Pairs go with the sum of the squares.
+    // Refuses crowds before pairs are searched, because the pairs could be as many as all. A crowd is one cell with more grains
+    // of similar size than fit, whatever overlap is allowed. Cells that are too full on average are refused, too: the number of
+    // pairs grows with the sum of the squares.
     void check_crowds(const GrainFile &file, const State &state)
     {
-      constexpr std::size_t most = 1000, side_by_side = 40; // without overlap fewer than this
+      constexpr std::size_t most = 1000, side_by_side = 40; // without overlap there are fewer
       constexpr double      few_pairs = 1e6;
       double                sum       = 0;
       std::vector<int>      crowd;
@@ -258,10 +259,10 @@ namespace diptych::discrete
         }
       if (crowd.size() <= most && sum <= std::max(few_pairs, double(side_by_side) * double(file.grains.size())))
         return;
-      throw std::invalid_argument(file.place(crowd[0]) + " and " + (file.line.empty() ? "grain " : "line ") +
-                                  std::to_string(file.line.empty() ? crowd[1] : file.line[crowd[1]]) + ": " +
-                                  std::to_string(crowd.size()) + " grains of about one size lie in one square of the side " +
-                                  exact_text(side) + ": they lie upon each other");
+      throw std::invalid_argument(
+        file.place(crowd[0]) + " and " + (file.line.empty() ? "grain " : "line ") +
+        std::to_string(file.line.empty() ? crowd[1] : file.line[crowd[1]]) + ": " + std::to_string(crowd.size()) +
+        " grains of similar size lie in one square with sides of length " + exact_text(side) + ", on top of each other");
     }
 
     void check_overlaps(const GrainFile &file, const std::optional<double> &cell_width, const double allowed)

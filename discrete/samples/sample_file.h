@@ -1,4 +1,4 @@
-// diptych: grains and time tables read from files, checked before anything is computed
+// diptych: grains and time tables from files, checked before the computation
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -11,19 +11,19 @@
 
 namespace diptych::discrete
 {
-  // What a stage of a snapshot file holds beside its grains.
+  // Contents of a stage of a snapshot file besides its grains.
   struct StoredStage
   {
     int                      number;           // of the group stage_NNNN
     double                   time;             // [time]
-    double                   step;             // length of the step the impulses belong to [time]
+    double                   step;             // length of the step that the impulses belong to [time]
     double                   lower_y, upper_y; // platens [length]
-    double                   left_x, right_x;  // side walls [length]; NaN where there are none
+    double                   left_x, right_x;  // side walls [length]; NaN without side walls
     double                   mean_diameter;    // [length]
-    std::vector<PairImpulse> impulses;         // closed contacts, ascending in (i, j); sign as in State; empty: none stored
+    std::vector<PairImpulse> impulses;         // closed contacts, ascending in (i, j); sign as in State; may be empty
   };
 
-  // Grains with the place each of them stands at.
+  // Grains and the place of each grain in its file.
   struct GrainFile
   {
     std::string                path;
@@ -35,7 +35,7 @@ namespace diptych::discrete
     std::string place(std::size_t grain) const;
   };
 
-  // Where grains may be; what is absent does not bound them.
+  // Region of the grains; absent members do not limit it.
   struct SampleBox
   {
     std::optional<double> lower_y = {}, upper_y = {}; // platens [length]
@@ -43,27 +43,27 @@ namespace diptych::discrete
     std::optional<double> cell_width = {};            // period along x [length]
   };
 
-  // CSV file whose header line names x, y, r and, where wanted, vx, vy, omega (0 where absent) and fixed (0 or 1; 0 where
-  // absent), in any order: centre and radius [length, 1e-12 to 1e12 the radius], velocity [length/time], spin, counter-clockwise
-  // positive [rad/time]. Rotations start from 0, masses are density x pi r^2 (density: mass/length^2 per unit thickness).
-  // Throws std::invalid_argument naming file, line, column, value and range (see read_csv).
+  // Reads a CSV file. Its header names x, y, r and, optionally, vx, vy, omega and fixed in any order; missing columns are 0. x, y
+  // and r are centre and radius [length; radius 1e-12 to 1e12], vx and vy the velocity [length/time], omega the anticlockwise
+  // spin [rad/time]. fixed is a value of Grains::fixed. Rotations start from 0 and masses are density x pi r^2 (density:
+  // mass/length^2 per unit thickness). Throws std::invalid_argument with file, line, column, value and range (see read_csv).
   GrainFile read_grains_csv(const std::string &path, double density, const GoOn &go_on = {});
 
-  // Writes such a file with all columns and numbers that read back with the same bits; rotations and masses are not kept.
-  // Throws std::runtime_error when it cannot be written.
+  // Writes such a file with all columns. The numbers read back with the same bits; rotations and masses are lost. Throws
+  // std::runtime_error if the file cannot be written.
   void write_grains_csv(const std::string &path, const Grains &grains);
 
-  // Grains of one stage (the last by default) of a file written by write_snapshots; grains/fixed may be absent: none is.
-  // Throws std::invalid_argument naming file and dataset, where it is truncated or lacks one, and row, value and range where
-  // sizes or values are impossible, or where there is no such stage.
+  // Grains of one stage (default: the last) of a file of write_snapshots. If grains/fixed is absent, all grains are free. Throws
+  // std::invalid_argument if the file is truncated or incomplete, the stage does not exist, or sizes or values are impossible.
+  // The message contains file, dataset, row, value and range.
   GrainFile read_grains_hdf5(const std::string &path, int stage = -1);
 
-  // Throws std::invalid_argument naming the grains' places, values and range where a disc reaches beyond a platen or side wall,
-  // or two discs (or images in a cell) overlap, by more than allowed_overlap x radius (of the smaller disc). Fixed grains may
-  // overlap each other and straddle walls, as in rough bottoms: neither gives way.
+  // Throws std::invalid_argument with the grains' places, values and range in two cases: a disc reaches beyond a platen or side
+  // wall by more than allowed_overlap x radius, or two discs (or images in a cell) overlap by more than that share of the smaller
+  // radius. Fixed grains may overlap each other and straddle walls, as in rough bottoms, because neither gives way.
   void check_grains(const GrainFile &file, const SampleBox &box, double allowed_overlap);
 
-  // CSV file with the columns `time` (ascending) and `column`; further columns may stand beside them.
-  // Throws std::invalid_argument naming file, line, column, value and range.
+  // CSV file with the columns `time` (ascending) and `column`; other columns are ignored. Throws std::invalid_argument with file,
+  // line, column, value and range.
   TimeTable read_time_table(const std::string &path, const std::string &column);
 } // namespace diptych::discrete

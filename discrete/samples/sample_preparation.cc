@@ -20,7 +20,7 @@ namespace diptych::discrete
 {
   namespace
   {
-    // std::uniform_real_distribution may differ between libraries; 53 bits of the generator do not.
+    // The standard fixes the generator, but std::uniform_real_distribution may differ between libraries.
     double uniform(std::mt19937_64 &random)
     {
       return double(random() >> 11) * 0x1.0p-53;
@@ -54,7 +54,7 @@ namespace diptych::discrete
       return area;
     }
 
-    // Of a thousand of them. [length]
+    // Radii of a thousand grains of the distribution. [length]
     std::vector<double> typical_radii(const SampleOptions &o)
     {
       std::vector<double> radius = radius_quantiles(distribution(o), 1000, RadiusScale::mean_diameter_one);
@@ -63,7 +63,7 @@ namespace diptych::discrete
       return radius;
     }
 
-    // Width and height of the sample, from grain area and what the user gave.
+    // Width and height of the sample from the grain area and the keys.
     Eigen::Vector2d sample_size(const SampleOptions &o, const double area)
     {
       const double whole = area / o.solid_fraction;
@@ -75,8 +75,8 @@ namespace diptych::discrete
       return {whole / height, height};
     }
 
-    // Random centres in a box of the sample's height that is as wide as box_solid_fraction asks (a cell of fixed width: as
-    // high); periodic sides: a cell instead of side walls.
+    // Random centres in a box with the height of the sample and the width that gives box_solid_fraction. With a cell of fixed
+    // width, the height follows instead. Periodic sides have a cell instead of side walls.
     State random_box(const SampleOptions &o, const LateralCondition &lateral)
     {
       std::mt19937_64           random(o.seed);
@@ -118,7 +118,7 @@ namespace diptych::discrete
       return sorted;
     }
 
-    // Everything stands still, nothing is free under a force any more.
+    // Stops everything and removes all forces on walls and cell.
     void bring_to_rest(State &state)
     {
       stop(state);
@@ -129,7 +129,7 @@ namespace diptych::discrete
       state.time = 0;
     }
 
-    // Throws std::invalid_argument where no grain is left free.
+    // Throws std::invalid_argument if no free grain remains.
     void roughen_platens(State &state)
     {
       Grains   &g = state.grains;
@@ -139,7 +139,7 @@ namespace diptych::discrete
           if (make_contact(state, i, n + platen).gap < 0.2 * g.radius[i] && !g.fixed[i])
             g.fixed[i] = std::uint8_t(lower_platen_grain + platen);
       if (std::all_of(g.fixed.begin(), g.fixed.end(), [](const std::uint8_t fixed) { return fixed != 0; }))
-        throw std::invalid_argument("sample/rough_platens = true: every grain reaches a platen, and none is left to move");
+        throw std::invalid_argument("sample/rough_platens = true: every grain touches a platen, and none remains free to move");
     }
 
     double step_of_preparation(const SampleOptions &o, const double pressure)
@@ -170,7 +170,7 @@ namespace diptych::discrete
       return disc_area(state.grains.radius) / outline_area(make_outline(state, mean_diameter));
     }
 
-    // Steps until quiet, then more that take out the overlaps.
+    // Takes steps until the sample is at rest, and then further ones that remove the overlaps.
     PreparedSample compact(State                                start,
                            const SampleOptions                 &options,
                            StepSetting                          setting,
@@ -236,7 +236,7 @@ namespace diptych::discrete
       return text;
     }
 
-    // The more friction, the looser the sample: bisection.
+    // Bisection: more friction gives a looser sample.
     PreparedSample at_solid_fraction(SampleOptions                        options,
                                      const PreparationSetting            &preparation,
                                      const std::function<bool(int, int)> &progress)
@@ -244,7 +244,7 @@ namespace diptych::discrete
       constexpr double tolerance = 0.002, loosest_friction = 1;
       constexpr int    most_tries = 12;
       const double     target     = options.target_solid_fraction;
-      // The box must be looser than what is wanted; below 0.6 soft discs carry nothing.
+      // The box must be looser than the target; below 0.6 soft discs carry nothing.
       double low = 0, high = loosest_friction, densest = 0, loosest = 1;
       bool   bracketed = false;
       for (const double box : {std::max(0.6, target - 0.04), 0.6})
@@ -264,10 +264,10 @@ namespace diptych::discrete
       if (!bracketed)
         throw std::invalid_argument("sample/target_solid_fraction = " + three_digits(target) +
                                     " is out of reach: " + three_digits(loosest) + " to " + three_digits(densest) +
-                                    " are what preparation friction between 0 and 1 gives");
+                                    " is the range for preparation friction between 0 and 1");
       for (int k = 0; k < most_tries; ++k)
         {
-          const double   middle = k == 0 ? 0.2 : 0.5 * (low + high); // half of the range lies below 0.2
+          const double   middle = k == 0 ? 0.2 : 0.5 * (low + high); // half of the range of solid fractions lies below 0.2
           PreparedSample sample = relaxed_and_compacted(options, preparation, middle, progress);
           if (std::abs(sample.report.solid_fraction - target) <= tolerance || !sample.report.quiet)
             return sample;
@@ -294,7 +294,7 @@ namespace diptych::discrete
           state.impulses = file.stage->impulses;
           sample.step    = file.stage->step;
         }
-      sample.report.quiet          = true; // nobody asked
+      sample.report.quiet          = true; // a sample from a file need not be at rest
       sample.report.solid_fraction = solid_fraction(state, o.mean_diameter);
       sample.last_step.contacts    = find_contacts(state, std::vector<double>(state.grains.size(), 0.));
       for (const Contact &c : sample.last_step.contacts)
@@ -323,7 +323,7 @@ namespace diptych::discrete
 
   namespace
   {
-    // A generated sample has some grains and room for them side by side.
+    // A generated sample must have enough grains and room for them.
     void check_size(const SampleOptions &o)
     {
       constexpr double fewest = 10, most = 1e7;
@@ -335,7 +335,7 @@ namespace diptych::discrete
         throw std::invalid_argument("sample/width = " + exact_text(o.width) + ", sample/height = " + exact_text(o.height) +
                                     " and sample/width_over_height = " + exact_text(o.width_over_height) + " make a sample of " +
                                     exact_text(size.x()) + " x " + exact_text(size.y()) +
-                                    "; neither may be less than the largest grain's diameter, " + exact_text(least));
+                                    "; both must be at least the diameter of the largest grain, " + exact_text(least));
     }
   } // namespace
 

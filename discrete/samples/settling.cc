@@ -1,4 +1,4 @@
-// diptych: takes the overlaps out of a compacted sample
+// diptych: removes the overlaps of a compacted sample
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/samples/settling.h"
 
@@ -21,7 +21,8 @@ namespace diptych::discrete
 
   Settled settle(State &state, StepSetting setting, const SettlingOptions &options, const std::function<bool()> &go_on)
   {
-    // What a residual e leaves of overlaps is about e h^2 P/m: 1e-4 d at a step of 0.2 d sqrt(rho/P) needs this.
+    // A residual e leaves an overlap of about e h^2 P/m. An overlap of 1e-4 d at a step of 0.2 d sqrt(rho/P) requires this
+    // tolerance.
     constexpr double tolerance          = 5e-5;
     constexpr int    max_sweeps         = 2000;
     setting.time.penetration_correction = PenetrationCorrection::velocity;
@@ -32,8 +33,8 @@ namespace diptych::discrete
     stop(state);
     while (settled.steps < options.most_steps && go_on())
       {
-        State next              = state;
-        settled.last_step       = advance(next, setting, cache); // contacts at the places of `state`, for nothing moves yet
+        State next        = state;
+        settled.last_step = advance(next, setting, cache); // contacts at the positions of `state`, because nothing moves yet
         settled.largest_overlap = settled.last_step.largest_penetration;
         ++settled.steps;
         state.impulses      = next.impulses;

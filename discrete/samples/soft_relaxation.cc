@@ -13,7 +13,7 @@ namespace diptych::discrete
   {
     using Vectors = std::vector<Eigen::Vector2d>;
 
-    // Unit stiffness: force = overlap. Returns the largest overlap.
+    // Forces for unit stiffness, i.e. force = overlap. Returns the largest overlap.
     double contact_forces(const std::vector<Contact> &contacts, Vectors &force)
     {
       double largest = 0;
@@ -42,7 +42,7 @@ namespace diptych::discrete
                                     const int                    max_iterations,
                                     const std::function<bool()> &go_on)
   {
-    // FIRE's own constants; unit masses and stiffness make the highest frequency about 3.5, so that 0.4 is a safe step.
+    // Constants of FIRE. Unit masses and stiffness give a highest frequency of about 3.5, so 0.4 is a safe step.
     constexpr double largest_step = 0.4, shrink = 0.5, grow = 1.1, mixing_start = 0.1, mixing_decay = 0.99;
     constexpr int    patience = 5;
 

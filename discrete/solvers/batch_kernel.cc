@@ -9,7 +9,7 @@ namespace diptych::discrete
 {
   namespace
   {
-    // Four body records as columns: x, y, surface, inverse mass of the four lanes.
+    // Four body records as columns: x, y, surface speed and inverse mass of the four lanes.
     struct Bodies
     {
       Four x, y, surface, inverse_mass;
@@ -95,7 +95,7 @@ namespace diptych::discrete
       }
   }
 
-  // Sums over the batches, lane by lane, of |r - P(r)|^2 and |r|^2.
+  // Sums |r - P(r)|^2 and |r|^2 over the batches, lane by lane.
   DIPTYCH_FOR_EACH_MACHINE void add_squares(const ContactBatch          *batches,
                                             const std::array<double, 4> *terms,
                                             const std::size_t            n,

@@ -11,17 +11,17 @@ namespace diptych::discrete
 {
   inline constexpr int lanes = 4;
 
-  // Four contacts that share no moving body (256 bytes). Their ki, kj and W_tt follow from the inverse masses of discs:
-  // k = 2/m, W_tt = 3 W_nn. Empty lanes act on a body that does not move.
+  // Four contacts that share no moving body (256 bytes). ki, kj and W_tt follow from the inverse masses of discs: k = 2/m and
+  // W_tt = 3 W_nn. Empty lanes act on a body that does not move.
   struct alignas(64) ContactBatch
   {
     double nx[lanes], ny[lanes], normal_term[lanes], friction[lanes], inverse_wnn[lanes], normal[lanes], tangential[lanes];
     int    i[lanes], j[lanes];
   };
 
-  // All three take n batches with the tangential terms of their lanes (null: zero throughout) and the velocities of all bodies.
+  // The three functions take n batches, the tangential terms of their lanes (null: all zero) and the velocities of all bodies.
 
-  // One over-relaxed pass; contacts at their Coulomb bound (judged on their old impulse) take `slipping`.
+  // One over-relaxed pass. Contacts at their Coulomb bound (by their old impulse) take `slipping`.
   void sweep_batches(ContactBatch                    *batches,
                      const std::array<double, lanes> *terms,
                      std::size_t                      n,

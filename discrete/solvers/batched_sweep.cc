@@ -1,4 +1,4 @@
-// diptych: over-relaxed sweeps, four independent contacts at a time, on one thread or several
+// diptych: over-relaxed sweeps over four independent contacts at a time, on one or more threads
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/solvers/batched_sweep.h"
 
@@ -21,7 +21,7 @@ namespace diptych::discrete
       return batch;
     }
 
-    // Sweeps that a part has behind it, where other threads can see it. A cache line each.
+    // Number of sweeps that a part has finished, visible to other threads. Each counter has a cache line of its own.
     class alignas(64) Progress
     {
     public:
@@ -35,8 +35,8 @@ namespace diptych::discrete
       std::atomic<int> done_{0};
     };
 
-    // Neighbouring parts of `n` for each thread. Where they cannot be shared out evenly, the rounding changes with every sweep,
-    // so that it evens out.
+    // Consecutive parts of `n` for one thread. If they cannot be divided evenly, the rounding changes with every sweep, so that
+    // the work evens out.
     struct Share
     {
       int begin, end;
@@ -49,11 +49,13 @@ namespace diptych::discrete
     }
   } // namespace
 
-  // Two discs, or a disc and a body whose motion is prescribed.
+  // True for two discs, or a disc and a body with prescribed motion.
   bool BatchedContacts::fits_a_batch(const ContactRow &c) const
   {
     const double wi = problem_.free_velocity[c.i].inverse_mass, wj = problem_.free_velocity[c.j].inverse_mass;
-    const auto   same = [](const double a, const double b) { return std::abs(a - b) <= 1e-14 * std::abs(b); }; // files round
+    const auto   same = [](const double a, const double b) {
+      return std::abs(a - b) <= 1e-14 * std::abs(b);
+    }; // files round these numbers
     return c.cell < 0 && same(c.jx, wj) && same(c.jy, wj) && same(c.ki, 2 * wi) && same(c.kj, 2 * wj) &&
            same(c.inverse_wtt, c.inverse_wnn * disc_wnn_over_wtt);
   }
@@ -87,7 +89,7 @@ namespace diptych::discrete
       n_blocks /= 2;
   }
 
-  // False where a contact would join blocks that are no neighbours, or a body contacts of two gaps between blocks.
+  // Returns false if a contact would join blocks that are not neighbours, or if a body has contacts in two gaps between blocks.
   bool BatchedContacts::cut(const std::vector<int> &rows, const int n_blocks)
   {
     const std::size_t n_bodies = problem_.free_velocity.size();
@@ -128,11 +130,11 @@ namespace diptych::discrete
     return true;
   }
 
-  // First fit: a batch takes from a window of 64 waiting rows the oldest ones that share no moving body with each other,
-  // nor, as far as the window allows, with the batch before, whose velocities need not be waited for then.
+  // First fit. A batch takes, from a window of 64 waiting rows, the oldest ones that share no moving body. As far as the window
+  // allows, they also share no moving body with the previous batch, because then the sweep need not wait for its velocities.
   BatchedContacts::Part BatchedContacts::make_part(const std::vector<int> &rows)
   {
-    std::vector<int> own; // bodies that do not move, each with a private copy
+    std::vector<int> own; // immovable bodies, each with a private copy
     Part             part;
     part.idle_body = int(v_.size());
     v_.push_back({0, 0, 0, 0});
@@ -165,7 +167,7 @@ namespace diptych::discrete
       return int(v_.size()) - 1;
     };
 
-    // Waiting rows as a linked list: after[k + 1] follows row k, after[0] is the oldest.
+    // Waiting rows as a linked list: after[k + 1] follows row k, and after[0] is the oldest row.
     std::vector<int> after(n + 1);
     std::iota(after.begin(), after.end(), 0);
     int waiting = 0, entered = 0, taken_rows = 0;
@@ -260,8 +262,8 @@ namespace diptych::discrete
       wake(part);
   }
 
-  // Batches in which a contact has come to act join those that are swept every time, for good: left among the idle ones, contacts
-  // that come and go keep the sweeps from converging.
+  // A batch with a newly acting contact joins the batches that are swept every time and stays there. If it stayed idle, contacts
+  // that come and go would keep the sweeps from converging.
   void BatchedContacts::wake(Part &part)
   {
     for (std::size_t b = part.n_awake; b < part.batches.size(); ++b)
@@ -288,8 +290,8 @@ namespace diptych::discrete
       }
   }
 
-  // No barrier between blocks and what lies between them: a block waits for the contacts at both its ends, these for the blocks
-  // at both their sides. A thread that has fewer blocks in this sweep thus goes on to the next one, where it has more.
+  // There is no barrier between blocks and the contacts between them. A block waits for the contacts at both its ends, and these
+  // wait for the blocks on both sides. So a thread that has fewer blocks in this sweep can start the next one, where it has more.
   void BatchedContacts::sweep(const double omega_sticking, const double omega_slipping, const int n, ThreadTeam &team)
   {
     const int             n_blocks = int(blocks_.size()), n_between = int(between_.size());
@@ -301,7 +303,7 @@ namespace diptych::discrete
           const Share mine = share_of(n_blocks, rank, team.size(), k), ends = share_of(n_between, rank, team.size(), k);
           for (int b = mine.begin; b < mine.end; ++b)
             {
-              blocks[b].wait_for(k); // another thread may have swept it; a single block has no ends to tell
+              blocks[b].wait_for(k); // another thread may have swept it, and a single block has no ends to wait for
               if (b > 0)
                 between[b - 1].wait_for(k);
               if (b < n_between)
@@ -338,7 +340,7 @@ namespace diptych::discrete
     const std::size_t              n = blocks_.size() + between_.size();
     std::vector<NaturalMapSquares> squares(n);
     team.run([&](const int rank) {
-      // The blocks that this thread sweeps, which its cache knows; then what lies between.
+      // First the blocks that this thread sweeps, because they are in its cache, then the contacts between blocks.
       const Share mine = share_of(int(blocks_.size()), rank, team.size(), 0);
       const Share ends = share_of(int(between_.size()), rank, team.size(), 0);
       for (int b = mine.begin; b < mine.end; ++b)
@@ -346,7 +348,7 @@ namespace diptych::discrete
       for (int b = ends.begin; b < ends.end; ++b)
         squares[blocks_.size() + b] = residual_squares(between_[b]);
     });
-    NaturalMapSquares sum; // in the order of the parts, whoever made them
+    NaturalMapSquares sum; // in the order of the parts, so that the sum does not depend on the threads
     for (const NaturalMapSquares &s : squares)
       sum.difference += s.difference, sum.norm += s.norm;
     for (std::size_t k = 0; k < rest_.size(); ++k)

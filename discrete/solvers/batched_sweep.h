@@ -1,4 +1,4 @@
-// diptych: over-relaxed sweeps, four independent contacts at a time, on one thread or several
+// diptych: over-relaxed sweeps over four independent contacts at a time, on one or more threads
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -11,53 +11,53 @@
 
 namespace diptych::discrete
 {
-  // The contacts of a problem cut, in the order of its sweeps, into blocks of about equal size that share no grain, and the
-  // contacts between neighbouring blocks. A sweep takes all blocks, then all contacts between blocks, then the rows that do
-  // not fit a batch (walls under a force, the edge of a free cell). Contacts that are open in the guess, a third of the rows
-  // where grains are sheared, have batches of their own, which are swept every `idle_every` sweeps and at the last of a call
-  // until one of the four acts. Blocks depend on nothing but the problem, so every number of threads gives the same bits; and
-  // within a batch the order does not matter, so every instruction set does.
+  // The contacts of a problem, cut in sweep order into blocks of similar size that share no grain, and the contacts between
+  // neighbouring blocks. A sweep takes all blocks, then the contacts between blocks, then the rows that do not fit a batch (walls
+  // under a force, the edge of a free cell). Contacts that are open in the guess have batches of their own; in sheared samples
+  // these are a third of the rows. Such a batch is idle: it is swept every `idle_every` sweeps and at the last sweep of a call,
+  // until one of its four contacts acts. Blocks depend only on the problem, so every number of threads gives the same bits. The
+  // order within a batch does not matter, so every instruction set does too.
   class BatchedContacts
   {
   public:
-    // The problem must outlive this. One too small or too tangled to be cut is one block. Rows in `held` are not swept. `guess`:
-    // impulses by which contacts are thought to be open; none, or none that acts: all are thought to act.
+    // The problem must outlive this object. A problem that cannot be cut, or is too small, is one block. Rows in `held` are not
+    // swept. Contacts with zero impulse in `guess` count as open. If `guess` is empty or all zero, no contact counts as open.
     explicit BatchedContacts(const ContactProblem       &problem,
                              const std::vector<int>     &held  = {},
                              const std::vector<Impulse> &guess = {});
 
-    void                 set_impulses(const std::vector<Impulse> &impulses); // one per row; velocities are taken from them
+    void                 set_impulses(const std::vector<Impulse> &impulses); // one per row; the velocities follow from them
     std::vector<Impulse> impulses() const;
 
-    // `n` sweeps. Contacts at their Coulomb bound (judged on their old impulse) take omega_slipping.
+    // Does `n` sweeps. Contacts at their Coulomb bound (by their old impulse) take omega_slipping.
     void sweep(double omega_sticking, double omega_slipping, int n, ThreadTeam &team);
 
-    // Calls solve(velocities, impulses of the held rows in the order given), which may change both, in step with each other.
+    // Calls solve(velocities, impulses of the held rows in the given order), which may change both consistently.
     template <class Solve> void solve_held(Solve &&solve) { solve(v_, rest_impulses_.data() + n_swept_rest_); }
 
-    const std::vector<BodyVelocity> &velocities() const { return v_; } // of the problem's bodies first
+    const std::vector<BodyVelocity> &velocities() const { return v_; } // the bodies of the problem come first
 
-    // Velocities taken afresh from the impulses, so that round-off does not pile up.
+    // Recomputes the velocities from the impulses, so that round-off does not accumulate.
     void refresh_velocities();
 
-    // Natural map of contact_problem.h, for the present velocities.
+    // Natural map (natural_map.h) at the present velocities.
     double residual(ThreadTeam &team) const;
 
     std::size_t      n_blocks() const { return blocks_.size(); }
     std::size_t      n_batches() const;
-    std::vector<int> order() const; // rows in the order in which a sweep takes them
+    std::vector<int> order() const; // rows in the order of a sweep
 
   private:
     static constexpr int idle_every = 5;
 
-    // What one thread sweeps at a time.
+    // Unit of work of one thread.
     struct Part
     {
       std::vector<ContactBatch>          batches;
-      std::vector<std::array<double, 4>> tangential_term; // one a batch; none: zero throughout
+      std::vector<std::array<double, 4>> tangential_term; // one per batch; empty: all zero
       std::vector<std::array<int, 4>>    rows;            // -1 in an empty lane
-      std::size_t                        n_awake   = 0;   // batches before those that are idle
-      int                                idle_body = 0;   // of the part's empty lanes
+      std::size_t                        n_awake   = 0;   // number of batches before the idle ones
+      int                                idle_body = 0;   // body of the part's empty lanes
     };
 
     bool                           fits_a_batch(const ContactRow &row) const;
@@ -73,13 +73,13 @@ namespace diptych::discrete
 
     const ContactProblem &problem_;
     std::vector<Part>     blocks_, between_; // between_[b] lies between blocks b and b + 1
-    std::vector<int>      rest_;             // rows taken one by one, then those held
-    std::size_t           n_swept_rest_ = 0; // without those held
+    std::vector<int>      rest_;             // rows taken one by one, then the held rows
+    std::size_t           n_swept_rest_ = 0; // without the held rows
     std::vector<Impulse>  rest_impulses_;
-    // Velocities of all bodies of the problem, then for each part its own copies of the bodies that do not move, so that no
-    // two threads write to one.
+    // Velocities of all bodies of the problem, followed for each part by its copies of the immovable bodies. The copies keep two
+    // threads from writing to the same body.
     std::vector<BodyVelocity> v_;
-    std::vector<int>          batch_of_; // last batch that took each body, while a part is made
-    std::vector<char>         is_idle_;  // rows thought open
+    std::vector<int>          batch_of_; // last batch that used each body, while a part is made
+    std::vector<char>         is_idle_;  // rows that count as open
   };
 } // namespace diptych::discrete

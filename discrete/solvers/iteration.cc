@@ -11,13 +11,14 @@ namespace diptych::discrete
 {
   namespace
   {
-    // Plain sweeps within every hundred over-relaxed ones: they take out what over-relaxation leaves at the Coulomb bound.
+    // Plain sweeps in every cycle of a hundred. They remove the error that over-relaxation leaves at the Coulomb bound.
     constexpr int plain_sweeps = 10, cycle = 100;
 
-    // Sheared rigid grains hang on just enough contacts, some of which slide without a stable balance. Where those are few, they
-    // are swept by themselves (stall_relief.h); else the sweeps wander from one set of sliding contacts to the next before they
-    // find one on which they converge, and plain ones wander longest: omega moves on to another of a few values, for ever, as
-    // what one value circles around another leaves. Either where the residual has not halved within `patience` sweeps.
+    // Remedy against stagnation, i.e. a residual that has not halved within `patience` sweeps. Sheared rigid grains have just
+    // enough contacts, and some of these slide without a stable balance. If these are few, they are swept by themselves
+    // (stall_relief.h). Otherwise the sweeps wander from one set of sliding contacts to the next until they converge on one.
+    // Plain sweeps wander longest. Then omega moves to another of a few values, in turn, because the states differ on which
+    // different omegas circle.
     class StagnationControl
     {
     public:
@@ -39,7 +40,7 @@ namespace diptych::discrete
         ++turn_, reference_ = residual, since_ = sweeps, patience_ = long_patience;
       }
 
-      // With contacts that are swept by themselves it soon shows whether the others converge.
+      // If some contacts are swept by themselves, fewer sweeps show whether the others converge.
       void start_again(const long sweeps, const double residual)
       {
         turn_ = 0, reference_ = 2 * residual, since_ = sweeps, patience_ = short_patience;
@@ -58,7 +59,7 @@ namespace diptych::discrete
   {
     const bool over_relaxed = options.solver == ContactSolver::psor;
 
-    constexpr long     sweeps_per_refresh = 1000; // round-off of the running velocities stays below 1e-13
+    constexpr long     sweeps_per_refresh = 1000; // keeps the round-off of the running velocities below 1e-13
     const std::clock_t begin              = std::clock();
     StagnationControl  control(options.omega_sticking);
     SolveReport        report;

@@ -1,4 +1,4 @@
-// diptych: sweeps, checked from outside, until the residual is small
+// diptych: sweeps until the residual, measured outside the sweeps, is small
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/solvers/solver.h"
 
@@ -13,7 +13,7 @@ namespace diptych::discrete
 {
   namespace
   {
-    // Row by row in the order of the problem.
+    // Sweeps row by row in the order of the problem.
     SolveReport solve_nsgs(const ContactProblem &problem,
                            const SolverOptions  &options,
                            std::vector<Impulse> &impulses,
@@ -69,7 +69,7 @@ namespace diptych::discrete
 
   SolveReport solve(const ContactProblem &problem, const SolverOptions &options, std::vector<Impulse> &impulses)
   {
-    ThreadTeam alone(1);
-    return solve(problem, options, impulses, alone);
+    ThreadTeam one_thread(1);
+    return solve(problem, options, impulses, one_thread);
   }
 } // namespace diptych::discrete

@@ -1,4 +1,4 @@
-// diptych: what a scene says of the contact solver, and what a solution reports
+// diptych: options and report of the contact solver
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -21,14 +21,14 @@ namespace diptych::discrete
 
   struct SolverOptions
   {
-    ContactSolver solver           = ContactSolver::psor;
-    double        tolerance        = 2e-5; // natural map residual relative to |r|; of a step: by the rule or as the user said
+    ContactSolver solver    = ContactSolver::psor;
+    double        tolerance = 2e-5; // residual (natural map relative to |r|) at which a step ends; set by the rule or by the user
     int           max_sweeps       = 50000;
     double        omega_sticking   = 1.8;
     double        omega_slipping   = 1.0;
     int           sweeps_per_check = 20;
 
-    // Asked with every check of the residual: true ends the solve where it is. For a caller that throws the step away.
+    // Called at every check of the residual; true ends the solve. For callers that discard the step.
     std::function<bool()> stop_requested;
   };
 
@@ -36,14 +36,16 @@ namespace diptych::discrete
   {
     visitor("solver", o.solver, "-",
             "psor: over-relaxed Gauss-Seidel, omega by contact status; nsgs: plain Gauss-Seidel, the reference");
-    visitor("max_sweeps", o.max_sweeps, "-", {1, 100000000},
-            "sweeps after which a step counts as not converged; it is then halved, up to three times, before the run stops with "
-            "exit code 3");
-    visitor("omega_sticking", o.omega_sticking, "-", {0.1, 1.99},
-            "psor: relaxation of sticking and open contacts; other values between 1 and this are tried in turn where the "
-            "residual stagnates");
+    visitor(
+      "max_sweeps", o.max_sweeps, "-", {1, 100000000},
+      "sweeps after which a step counts as not converged; the run then halves the step, up to three times, before it stops with "
+      "exit code 3");
+    visitor(
+      "omega_sticking", o.omega_sticking, "-", {0.1, 1.99},
+      "psor: relaxation of sticking and open contacts; if the residual stagnates, the solver tries other values between 1 and "
+      "this one in turn");
     visitor("omega_slipping", o.omega_slipping, "-", {0.1, 1.99},
-            "psor: relaxation of contacts at their Coulomb bound; above 1 limit cycles were measured");
+            "psor: relaxation of contacts at their Coulomb bound; above 1 the sweeps may end in limit cycles");
     visitor("sweeps_per_check", o.sweeps_per_check, "-", {1, 10000}, "sweeps between two evaluations of the residual");
   }
 
@@ -52,7 +54,7 @@ namespace diptych::discrete
     converged,
     max_sweeps_reached,
     stopped, // SolverOptions::stop_requested
-    blown_up // explicit springs, where nothing is swept: a body ran away
+    blown_up // explicit springs, which need no sweeps: a body moved too fast
   };
 
   constexpr auto choices(SolveStatus)
@@ -67,7 +69,7 @@ namespace diptych::discrete
     SolveStatus status   = SolveStatus::converged;
     long        sweeps   = 0;
     double      residual = 0; // natural map, relative to |r|, measured outside the solver
-    int         relieved = 0; // psor: contacts that were swept by themselves at the end, because the sweeps had stalled on them
-    double      cpu_s    = 0; // of all threads, making of batches and residual checks included
+    int         relieved = 0; // psor: contacts swept by themselves at the end, because the sweeps had stalled on them
+    double      cpu_s    = 0; // of all threads, including batch construction and residual checks
   };
 } // namespace diptych::discrete

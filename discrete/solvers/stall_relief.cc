@@ -1,4 +1,4 @@
-// diptych: over-relaxed sweeps with more of them where they stall
+// diptych: over-relaxed sweeps with extra sweeps over stalled contacts
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/solvers/stall_relief.h"
 
@@ -15,7 +15,8 @@ namespace diptych::discrete
     batches_->set_impulses(impulses);
   }
 
-  // The held contacts, then two plain sweeps that smooth what surrounds them, and the held ones again, for the residual to tell.
+  // Sweeps the held contacts, then does two plain sweeps to smooth their surroundings. The held contacts come again at the end,
+  // so that the residual shows the other contacts only.
   void RelievedSweeps::sweep(const double omega_sticking, const double omega_slipping, const int n, ThreadTeam &team)
   {
     const int  plain   = held_.empty() ? 0 : std::min(n, 2);
@@ -33,7 +34,7 @@ namespace diptych::discrete
     const std::vector<Impulse> impulses = batches_->impulses();
     std::vector<int>           stalled  = stalled_contacts(problem_, impulses, held_);
     if (stalled == held_)
-      stalled.clear(); // no help the second time
+      stalled.clear(); // a second time the same set does not help
     if (stalled != held_)
       {
         held_    = std::move(stalled);

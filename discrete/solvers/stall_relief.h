@@ -1,4 +1,4 @@
-// diptych: over-relaxed sweeps with more of them where they stall
+// diptych: over-relaxed sweeps with extra sweeps over stalled contacts
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace diptych::discrete
 {
-  // The batched sweeps of a problem. Where they stall on few contacts, these are taken out and swept by themselves, almost to
-  // their solution, between some sweeps of the others.
+  // The batched sweeps of a problem. If they stall on a few contacts, these contacts are swept by themselves, almost to their
+  // solution, at intervals between the sweeps over the others.
   class RelievedSweeps
   {
   public:
@@ -21,7 +21,8 @@ namespace diptych::discrete
     double               residual(ThreadTeam &team) const { return batches_->residual(team); }
     std::vector<Impulse> impulses() const { return batches_->impulses(); }
 
-    // To be called where the residual stagnates. False where that is not the doing of a few contacts: then all are swept alike.
+    // To be called if the residual stagnates. Returns false if a few contacts are not the cause; then all contacts are swept
+    // alike.
     bool relieve();
 
     int n_relieved() const { return int(held_.size()); } // contacts swept by themselves at present

@@ -1,4 +1,4 @@
-// diptych: the few contacts on which sweeps stall, and sweeps over them alone
+// diptych: the few contacts on which sweeps stall, and sweeps over them only
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/solvers/stalled_contacts.h"
 
@@ -12,7 +12,7 @@ namespace diptych::discrete
 {
   namespace
   {
-    // Squares of r - P(r), contact by contact.
+    // Squares of r - P(r) for each contact.
     std::vector<double> natural_map_squares(const ContactProblem &problem, const std::vector<Impulse> &impulses)
     {
       const std::vector<BodyVelocity> v = velocities(problem, impulses);
@@ -26,7 +26,7 @@ namespace diptych::discrete
       return squares;
     }
 
-    // As few as hold `share` of the sum.
+    // The fewest contacts that make up `share` of the sum.
     std::vector<int> largest(const std::vector<double> &squares, const double share)
     {
       std::vector<int> by_size(squares.size());
@@ -75,7 +75,7 @@ namespace diptych::discrete
     for (int sweep = 0; sweep < most_sweeps; ++sweep)
       {
         const bool        check = sweep % sweeps_per_check == 0;
-        NaturalMapSquares squares; // of each contact before its turn: as small as those of all at once where the sweeps are done
+        NaturalMapSquares squares; // of each contact before its update; at convergence as small as those of all contacts at once
         for (std::size_t k = 0; k < rows.size(); ++k)
           {
             const ContactRow &c = problem.contacts[rows[k]];

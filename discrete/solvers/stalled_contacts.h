@@ -1,4 +1,4 @@
-// diptych: the few contacts on which sweeps stall, and sweeps over them alone
+// diptych: the few contacts on which sweeps stall, and sweeps over them only
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,14 +8,14 @@
 
 namespace diptych::discrete
 {
-  // The contacts on which four fifths of |r - P(r)|^2 lie, with all others between the bodies of these and of the contacts in
-  // `held`, ascending. None where they would be more than a twentieth of all (60 to 250):
-  // then the sweeps do not stall on a few contacts.
+  // The contacts that make up four fifths of |r - P(r)|^2, together with all contacts between the bodies of these and of the
+  // contacts in `held`, ascending. Empty if these are more than a twentieth of all (60 to 250), because then the sweeps do not
+  // stall on a few contacts.
   std::vector<int> stalled_contacts(const ContactProblem       &problem,
                                     const std::vector<Impulse> &impulses,
                                     const std::vector<int>     &held);
 
-  // Plain sweeps over `rows` alone, all other contacts held, until they are solved to 1e-8 of |r| or 200 are done. `impulses`:
-  // one a row, contained in the velocities `v` of all bodies, which follow.
+  // Plain sweeps over `rows` with all other contacts held, until they are solved to 1e-8 of |r| or 200 sweeps are done.
+  // `impulses` has one entry per row; the velocities `v` of all bodies contain them and are updated.
   void sweep_alone(const ContactProblem &problem, const std::vector<int> &rows, std::vector<BodyVelocity> &v, Impulse *impulses);
 } // namespace diptych::discrete

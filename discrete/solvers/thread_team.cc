@@ -1,4 +1,4 @@
-// diptych: a few threads that work in step
+// diptych: a few threads that work in lockstep
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/solvers/thread_team.h"
 
@@ -25,8 +25,8 @@ namespace diptych::discrete
       catch (const std::system_error &error)
         {
           end();
-          throw std::runtime_error("of " + std::to_string(size) + " threads the system starts " + std::to_string(rank) +
-                                   " (--threads): " + error.code().message());
+          throw std::runtime_error("cannot start " + std::to_string(size) + " threads: the system allows " +
+                                   std::to_string(rank) + " (--threads): " + error.code().message());
         }
   }
 

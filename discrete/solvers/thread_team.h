@@ -1,4 +1,4 @@
-// diptych: a few threads that work in step
+// diptych: a few threads that work in lockstep
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -11,21 +11,21 @@
 
 namespace diptych::discrete
 {
-  // Threads 0 .. size()-1, of which 0 is the caller's own. Waiting threads spin a little, then yield, and sleep between runs.
+  // Threads 0 .. size()-1; thread 0 is the caller. Waiting threads first spin, then yield, and sleep between runs.
   class ThreadTeam
   {
   public:
-    explicit ThreadTeam(int size); // throws std::runtime_error where the system starts fewer
+    explicit ThreadTeam(int size); // throws std::runtime_error if the system starts fewer threads
     ~ThreadTeam();
     ThreadTeam(const ThreadTeam &)            = delete;
     ThreadTeam &operator=(const ThreadTeam &) = delete;
 
     int size() const { return int(workers_.size()) + 1; }
 
-    // Calls work(0) here and work(k) on every other thread; returns when all are done.
+    // Calls work(0) here and work(k) on every other thread. Returns when all are done.
     void run(const std::function<void(int)> &work);
 
-    // To be called by every thread of a run: none goes on before all have come.
+    // To be called by every thread of a run. No thread continues before all have arrived.
     void barrier();
 
     // Waits, within a run, until another thread has made done() true.

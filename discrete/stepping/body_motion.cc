@@ -1,4 +1,4 @@
-// diptych: bodies drift with their velocities and take new ones
+// diptych: positions and velocities of bodies in a step
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/stepping/body_motion.h"
 

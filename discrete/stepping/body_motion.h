@@ -1,4 +1,4 @@
-// diptych: bodies drift with their velocities and take new ones
+// diptych: positions and velocities of bodies in a step
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -12,11 +12,11 @@ namespace diptych::discrete
   // q += duration v for grains, walls and the cell.
   void drift(State &state, double duration);
 
-  // Velocities of a solved problem to grains that are not held, walls and the cell.
+  // Gives the velocities of a solved problem to free grains, walls and the cell.
   void take_velocities(const std::vector<BodyVelocity> &v, State &state);
 
-  // Keeps the impulses of the contacts that act for the next step's first guess, and what `previous`, those of the step before,
-  // has become of. `contacts` ascend in (i, j).
+  // Stores the impulses of the acting contacts, and their change from `previous`, for the first guess of the next step.
+  // `previous` holds the impulses of the last step. `contacts` ascend in (i, j).
   void keep_impulses(const std::vector<Contact> &contacts,
                      const std::vector<Impulse> &impulses,
                      const std::vector<Impulse> &previous,

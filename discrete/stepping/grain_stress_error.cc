@@ -1,4 +1,4 @@
-// diptych: how far the grain stresses of an unfinished solve are from those of a finished one
+// diptych: estimated error of the grain stresses of an unfinished solve
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/stepping/grain_stress_error.h"
 
@@ -79,7 +79,8 @@ namespace diptych::discrete
                             SampledAccuracy      &accuracy)
   {
     const auto moments = [&](const std::vector<Impulse> &r) { return contact_moments(sampled.radius, sampled.contacts, r); };
-    // The condition is asked only where the residual is small enough, so the loop is given none to start with.
+    // solve() calls the condition only if the residual is below its tolerance. An infinite tolerance makes it call at every
+    // check.
     GrainStressError error;
     double           wanted   = request.options.snapshot_accuracy;
     double           residual = std::numeric_limits<double>::infinity();
@@ -107,7 +108,7 @@ namespace diptych::discrete
         on.max_sweeps                  = request.options.reference_sweeps;
         accuracy.reference_residual    = solve(sampled.problem, on, reference, team).residual;
         accuracy.true_error            = relative_difference(moments(impulses), moments(reference));
-        // Only what is nearer to the solution by much can serve as one.
+        // Only a copy that is much closer to the solution can serve as reference.
         if (accuracy.reference_residual <= 0.1 * report.residual)
           accuracy.error_over_residual = accuracy.true_error / report.residual;
       }

@@ -1,4 +1,4 @@
-// diptych: explicit smooth contacts (penalty), against which the non-smooth scheme is charted
+// diptych: explicit smooth contacts (penalty method), for comparison with the non-smooth scheme
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/stepping/penalty.h"
 
@@ -23,12 +23,13 @@ namespace diptych::discrete
     void validate(const StepSetting &setting, const PenaltyOptions &options)
     {
       if (!(options.stiffness * setting.pressure > 0))
-        throw std::invalid_argument("penalty steps need penalty_stiffness x pressure > 0: it is the contacts' stiffness");
+        throw std::invalid_argument(
+          "penalty steps need penalty_stiffness x pressure > 0, because this is the stiffness of the contacts");
       if (!(setting.step > 0))
         throw std::invalid_argument("penalty steps need step > 0");
     }
 
-    // A grain that travels more than its radius in a step, or anything that is not finite.
+    // True if a grain travels more than its radius in a step, or if anything is not finite.
     bool has_blown_up(const State &state, const double h)
     {
       const Grains &g = state.grains;
@@ -53,11 +54,11 @@ namespace diptych::discrete
     {
       double kn, kt;        // [pressure]
       double damping;       // fraction of critical
-      double previous_step; // of the impulse that holds a spring
+      double previous_step; // length of the step whose impulse holds the spring
     };
 
-    // One contact; `r` holds its impulse of the last step and takes that of this one. Returns the work of sliding since the
-    // preceding q_m.
+    // Updates one contact. `r` holds its impulse of the last step and receives that of this step. Returns the work of sliding
+    // since the preceding q_m.
     double apply_law(const SpringLaw        &law,
                      const ContactRow       &c,
                      const double            gap,
@@ -73,8 +74,8 @@ namespace diptych::discrete
       return ft * (spring - ft) / law.kt;
     }
 
-    // The ledger of a step takes all tangential work for friction; here only sliding is, the rest is elastic and counts with the
-    // work along the normal.
+    // The ledger of a step counts all tangential work as friction. Here only sliding is friction. The rest is elastic and counts
+    // with the work along the normal.
     void take_ledger(StepLedger ledger, StepResult &result)
     {
       const std::vector<double> &each    = result.contact_dissipation;
@@ -98,7 +99,7 @@ namespace diptych::discrete
       if (!grains.fixed[i])
         mass = std::min(mass, grains.mass[i]);
     if (!std::isfinite(mass) || !(stiffness > 0))
-      throw std::invalid_argument("a penalty step needs a grain that moves and a positive stiffness");
+      throw std::invalid_argument("a penalty step needs a positive stiffness and at least one grain that is not fixed");
     return fraction * std::sqrt(mass / stiffness);
   }
 

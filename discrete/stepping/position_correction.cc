@@ -1,4 +1,4 @@
-// diptych: takes out what penetration a step has left
+// diptych: removal of the penetration that a step leaves
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/stepping/position_correction.h"
 
@@ -19,10 +19,10 @@ namespace diptych::discrete
       return gap;
     }
 
-    // Rows whose contacts act or might be closed by what is moved, with the impulses of the step.
+    // Rows of contacts that act, or that the correction might close, with the impulses of the step.
     struct Displacements
     {
-      ContactProblem       problem; // its velocities are those of w
+      ContactProblem       problem; // its velocities are w
       std::vector<Impulse> impulses;
     };
 
@@ -76,7 +76,7 @@ namespace diptych::discrete
     const Displacements displacements = make_displacements(solved, gap, penetration);
     BatchedContacts     batches(displacements.problem);
     batches.set_impulses(displacements.impulses);
-    batches.sweep(1., 1., sweeps, team); // over-relaxed ones swing, and drive grains apart
+    batches.sweep(1., 1., sweeps, team); // over-relaxed sweeps oscillate and push grains apart
     batches.refresh_velocities();
     move(state, batches.velocities(), solved.step);
   }

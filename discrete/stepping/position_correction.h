@@ -1,4 +1,4 @@
-// diptych: takes out what penetration a step has left
+// diptych: removal of the penetration that a step leaves
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace diptych::discrete
 {
-  // What a step was solved with and for.
+  // A step's contact problem with its solution.
   struct SolvedContacts
   {
     const ContactProblem            &problem;
@@ -18,11 +18,11 @@ namespace diptych::discrete
     double                           step;
   };
 
-  // Ten Gauss-Seidel sweeps of the contact law on displacements h w, w = M^-1 H (r' - r), that start from the impulses r of the
-  // step:
+  // Ten Gauss-Seidel sweeps of the contact law on displacements h w, with w = M^-1 H (r' - r), starting from the impulses r of
+  // the step:
   //   0 <= g + h (u_n' + w_n)  _|_  r_n' >= 0,   |r_t'| <= mu r_n', sliding against w_t.
-  // So loaded contacts hold with their friction while their grains are parted: sweeps without it would let them slide, and the
-  // sample would take up the overlap without giving its volume back. Adds no velocity and no impulse. Does nothing where no
-  // penetration at the next mid-step exceeds `enough` [length].
+  // Loaded contacts keep their friction while their grains move apart. Without friction they would slide, and the sample would
+  // absorb the overlap without giving its volume back. Adds no velocity and no impulse. Does nothing if no penetration at the
+  // next mid-step exceeds `enough` [length].
   void correct_positions(State &state, const SolvedContacts &solved, double enough, ThreadTeam &team);
 } // namespace diptych::discrete

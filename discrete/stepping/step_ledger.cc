@@ -26,11 +26,11 @@ namespace diptych::discrete
     void add_grains(const SolvedStep &s, StepEnergies &e)
     {
       const Grains &g      = s.state.grains;
-      double        energy = e.kinetic, change = e.kinetic_change, work = e.external_work; // in registers
+      double        energy = e.kinetic, change = e.kinetic_change, work = e.external_work; // local copies stay in registers
       for (std::size_t i = 0; i < g.size(); ++i)
         {
           if (g.platen(i) >= 0)
-            continue; // its mass is the platen's
+            continue; // the mass of the platen includes it
           const double was = kinetic(g.mass[i], s.v[i]), is = kinetic(g.mass[i], s.v_new[i]);
           energy += is;
           change += is - was;
@@ -51,7 +51,7 @@ namespace diptych::discrete
       double impact = 0, friction = 0, correction = 0; // work, split by direction
     };
 
-    // Sums over the acting contacts; work of each contact and the forces of the walls go to the ledger.
+    // Sums over the acting contacts. Also stores the work of each contact and the forces of the walls in the ledger.
     ContactSums sum_contacts(const SolvedStep &s, const bool corrects_by_velocity, StepLedger &ledger)
     {
       const std::size_t n = s.state.grains.size();
@@ -80,7 +80,8 @@ namespace diptych::discrete
       return sum;
     }
 
-    // A held grain takes contact impulses without moving otherwise: what holds it gives them back and works with them.
+    // A held grain takes contact impulses without changing its motion. Its support returns these impulses and does work with
+    // them.
     Eigen::Vector2d add_held_grains(const SolvedStep &s, StepEnergies &e)
     {
       const Grains   &g        = s.state.grains;
@@ -102,7 +103,7 @@ namespace diptych::discrete
       return reaction;
     }
 
-    // Free components gain kinetic energy from applied forces, prescribed ones do work on the sample.
+    // Free components gain kinetic energy from applied forces. Prescribed components do work on the sample.
     void add_walls(const SolvedStep &s, const std::vector<Eigen::Vector2d> &wall_force, StepEnergies &e)
     {
       const std::size_t n = s.state.grains.size();
@@ -123,8 +124,8 @@ namespace diptych::discrete
         }
     }
 
-    // The width of the cell: a body under -pressure x height, or a prescribed motion that works against the impulses across
-    // the edge.
+    // The width of the cell is a body under -pressure x height, or it has a prescribed motion that works against the impulses
+    // across the edge.
     void add_cell(const SolvedStep &s, StepEnergies &e)
     {
       if (!s.state.cell || !s.state.cell->moves())

@@ -11,31 +11,31 @@ namespace diptych::discrete
 {
   // Work of one step. kinetic_change = external_work - friction_dissipation - impact_dissipation to round-off, because
   // momentum is balanced over the step: sum r.(u + u')/2 is the work of the impulses. Free walls and a free cell width are
-  // bodies with kinetic energy like grains; prescribed walls and fixed grains do external work. [energy]
+  // bodies with kinetic energy like grains. Prescribed walls and fixed grains do external work. [energy]
   struct StepEnergies
   {
     double kinetic = 0, kinetic_change = 0, external_work = 0, friction_dissipation = 0, impact_dissipation = 0;
-    double correction_work = 0; // share of -impact_dissipation that a velocity correction of penetrations put in
+    double correction_work = 0; // share of -impact_dissipation that comes from a velocity correction of penetrations
   };
 
   struct StepLedger
   {
     StepEnergies                 energies;
     std::vector<Eigen::Vector2d> wall_force;           // of each wall on the sample = impulse / step
-    std::vector<double>          contact_impact;       // likewise energies.impact_dissipation [energy]
-    std::vector<double>          contact_dissipation;  // of each contact, their sum is energies.friction_dissipation [energy]
+    std::vector<double>          contact_impact;       // of each contact; the sum is energies.impact_dissipation [energy]
+    std::vector<double>          contact_dissipation;  // of each contact; the sum is energies.friction_dissipation [energy]
     double                       unbalanced_force = 0; // mean over grains of |m dv/h| / mean normal contact force
     double momentum_residual = 0; // |sum m dv - h F - impulses of walls and fixed grains| / (sum |r| + sum m |v|)
   };
 
-  // A solved step: bodies as they were (positions at mid-step), velocities before and after, what acted.
+  // A solved step: positions at mid-step, velocities before and after, and what acted.
   struct SolvedStep
   {
     const State                        &state;
     const ContactProblem               &problem;
     const std::vector<Contact>         &contacts;
     const std::vector<Impulse>         &impulses;
-    const std::vector<int>             &acting;        // acting_contacts() of them
+    const std::vector<int>             &acting;        // acting_contacts(impulses)
     const std::vector<Eigen::Vector2d> &applied_force; // on each grain
     const std::vector<BodyVelocity>    &v, &v_new;
     double                              step;

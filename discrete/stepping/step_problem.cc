@@ -1,4 +1,4 @@
-// diptych: the contact problem of a step, from the bodies and their contacts
+// diptych: contact problem of a step, made from the bodies and their contacts
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/stepping/step_problem.h"
 
@@ -13,7 +13,7 @@ namespace diptych::discrete
 {
   namespace
   {
-    // c_n; `share`: of corrected_share().
+    // c_n. `share` is corrected_share().
     double normal_term(const Contact &c, const double un, const double en, const double share, const double h)
     {
       if (en > 0 && un < 0 && (c.gap <= 0 || c.gap + h * un < 0))
@@ -21,8 +21,8 @@ namespace diptych::discrete
       return (c.gap < 0 ? share * c.gap : c.gap) / h;
     }
 
-    // Who takes part in a row: the platen in the place of a grain that is part of it. Where that grain is i, the row is turned
-    // round, with the normal reversed; relative velocity and impulse keep their signs.
+    // Bodies of a row. The platen replaces a grain that is part of it. If that grain is i, the row is turned round: the normal is
+    // reversed, and relative velocity and impulse keep their signs.
     struct RowBodies
     {
       int  i, j;
@@ -38,7 +38,7 @@ namespace diptych::discrete
       return {c.i, platen >= 0 ? n + platen : c.j};
     }
 
-    // Geometry and mobilities of a row, whatever it held: all but the terms of the law.
+    // Sets geometry and mobilities of a row, i.e. everything except the terms of the law.
     void set_kinematics(const State &state, const Contact &c, const std::vector<BodyVelocity> &v, ContactRow &row)
     {
       const int       n      = int(state.grains.size());

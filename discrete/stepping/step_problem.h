@@ -1,4 +1,4 @@
-// diptych: the contact problem of a step, from the bodies and their contacts
+// diptych: contact problem of a step, made from the bodies and their contacts
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -10,17 +10,18 @@ namespace diptych::discrete
   struct StepOptions;
   struct StepSetting;
 
-  // Velocities of all bodies in the form of the contact problem: grains, walls, the cell if its width is free.
+  // Velocities of all bodies in the form of the contact problem: grains, walls, and the cell if its width is free.
   std::vector<BodyVelocity> body_velocities(const State &state);
 
-  // v + h M^-1 F: `force` on each grain, walls and cell driven as they say, prescribed components as at the end of the step.
+  // v + h M^-1 F: `force` acts on the grains, and the drives act on walls and cell. Prescribed components have the value at the
+  // end of the step.
   std::vector<BodyVelocity> free_velocities(const State                        &state,
                                             const std::vector<BodyVelocity>    &v,
                                             const std::vector<Eigen::Vector2d> &force,
                                             const StepSetting                  &setting);
 
-  // Rows in the order of `contacts`, swept upward. `v`: velocities at the beginning of the step, for impacts. `problem` brings
-  // the free velocities, and maybe rows of the preceding step, whose memory is used again.
+  // Rows in the order of `contacts`, to be swept upward. `v` is the velocity at the beginning of the step, which decides on
+  // impacts. `problem` holds the free velocities, and perhaps rows of the last step; their memory is reused.
   ContactProblem make_problem(const State                     &state,
                               const StepSetting               &setting,
                               const std::vector<Contact>      &contacts,
@@ -33,7 +34,7 @@ namespace diptych::discrete
     return {c.normal.x() * r.normal - c.normal.y() * r.tangential, c.normal.y() * r.normal + c.normal.x() * r.tangential};
   }
 
-  // What a closed contact takes back of its penetration within the step through its normal term, as a share.
+  // Share of its penetration that a closed contact removes within the step through its normal term.
   double corrected_share(const StepOptions &time);
 
   // Coulomb coefficient between a grain and body j.

@@ -1,4 +1,4 @@
-// diptych: the length of a step, from forces and motion
+// diptych: step length and tolerance, from forces, motion and accuracy
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/stepping/step_rule.h"
 
@@ -18,7 +18,7 @@ namespace diptych::discrete
       return mass / area;
     }
 
-    // What tables and forces of walls ask for: speeds to come, intervals to resolve, accelerations from rest.
+    // Demands of the tables and forces of walls: future speeds, intervals to resolve, accelerations from rest.
     struct DriveDemands
     {
       double speed = 0, interval = std::numeric_limits<double>::infinity(), acceleration = 0;
@@ -51,16 +51,17 @@ namespace diptych::discrete
 
     constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    // Relative errors as measured (benchmarks/studies): of the strength by the step in units of d sqrt(rho/s) and by the strain
-    // per step; of the dilation by tolerance x step / I, the more the longer the step.
+    // Coefficients of the relative errors, as measured (benchmarks/studies). The error of the strength grows with the step in
+    // units of d sqrt(rho/s) and with the strain per step. The error of the dilation grows with tolerance x step / I and with the
+    // step.
     constexpr double strength_of_step = 0.05, strength_of_strain = 55;
     constexpr double dilation_of_noise = 0.2, dilation_of_noise_and_step = 0.8;
-    constexpr double dilation_share = 1.25; // of the accuracy
-    // Residuals add up along extended chains: larger samples lose more.
+    constexpr double dilation_share = 1.25; // error of the dilation / accuracy
+    // Residuals add up along extended chains, so larger samples lose more.
     constexpr double grains_of_rule = 1000, power_of_grains = 0.75;
-    // Beyond them the rule has been seen to fail: half of the dilation goes.
+    // Beyond these limits the rule fails: half of the dilation is lost.
     constexpr double longest_loading_step = 0.4, coarsest_accuracy = 0.05;
-    // Residuals of looser solves mean nothing any more.
+    // The residual of a looser solve says nothing about its error.
     constexpr double loosest_tolerance = 1e-2;
 
     double accuracy_of(const FlowState &flow)
@@ -73,7 +74,7 @@ namespace diptych::discrete
       return 1e-3 * accuracy_of(flow);
     }
 
-    // d sqrt(rho/s); infinity where nothing is pressed.
+    // d sqrt(rho/s); infinity without pressure.
     double unit_of_time(const State &state, const StepSetting &setting, const FlowState &flow)
     {
       const bool   end_grains = std::holds_alternative<EndGrains>(setting.lateral);
@@ -91,13 +92,13 @@ namespace diptych::discrete
       return std::pow(std::max(1., n_grains / grains_of_rule), power_of_grains);
     }
 
-    // Of 1000 grains; step and tolerance x step / I in the unit of time.
+    // Error for 1000 grains. step is in the unit of time, noise = tolerance x step / I.
     double dilation_error(const double step, const double noise)
     {
       return noise * (dilation_of_noise + dilation_of_noise_and_step * step);
     }
 
-    // The step, in the unit of time, at which a tolerance makes the error that is allowed. per_step: noise over step.
+    // Step, in the unit of time, at which a tolerance causes the allowed error. per_step: noise / step.
     double longest_step(const double allowed, const double per_step)
     {
       const double a = dilation_of_noise_and_step, b = dilation_of_noise;

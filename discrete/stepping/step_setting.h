@@ -1,4 +1,4 @@
-// diptych: what a step needs besides the state
+// diptych: data that a step needs besides the state
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -22,14 +22,14 @@ namespace diptych::discrete
   {
     visitor("friction", o.friction, "-", {0., 100.}, "Coulomb coefficient between grains");
     visitor("platen_friction", o.platen_friction, "-", {0., 100.},
-            "Coulomb coefficient at the platens; greater than `friction`, or the sample slides along them");
+            "Coulomb coefficient at the platens; below `friction` the sample slides along them");
     visitor("wall_friction", o.wall_friction, "-", {0., 100.}, "Coulomb coefficient at rigid side walls");
     visitor("normal_restitution", o.normal_restitution, "-", {0., 1.},
             "e_n = (1-w)/w of Moreau's weighted average velocity; 0: inelastic");
-    visitor("tangential_restitution", o.tangential_restitution, "-", {-1., 1.}, "e_t, likewise for the tangential velocity");
+    visitor("tangential_restitution", o.tangential_restitution, "-", {-1., 1.}, "e_t, the same for the tangential velocity");
   }
 
-  // What undoes interpenetration.
+  // Method that removes interpenetration.
   enum class PenetrationCorrection
   {
     projection,    // position sweeps after the step
@@ -55,26 +55,28 @@ namespace diptych::discrete
 
   template <class Visitor> void visit_parameters(StepOptions &o, Visitor &&visitor)
   {
-    visitor("step", o.step, "time", {1e-12, 1e12},
-            "step h, at most d sqrt(rho/P) with free end grains, shortened so that every stage is a whole number of steps; auto: "
-            "chosen at the start of every stage from forces, motion and accuracy (discrete/README.md)");
+    visitor(
+      "step", o.step, "time", {1e-12, 1e12},
+      "step h, at most d sqrt(rho/P) with free end grains; it is shortened so that every stage is a whole number of steps. auto: "
+      "chosen at the start of every stage from forces, motion and accuracy (discrete/README.md)");
     visitor("penetration_correction", o.penetration_correction, "-",
-            "what undoes interpenetration: up to ten position sweeps after the step, or gap/h (soft_velocity: 0.2 gap/h) in the "
-            "normal term, whose work is a ledger column");
-    visitor("gravity_x", o.gravity_x, "length/time^2", {-1e12, 1e12}, "horizontal acceleration of gravity, on grains");
-    visitor("gravity_y", o.gravity_y, "length/time^2", {-1e12, 1e12}, "vertical acceleration of gravity, on grains");
+            "method that removes interpenetration: up to ten position sweeps after the step (projection), or gap/h (velocity) or "
+            "0.2 gap/h (soft_velocity) in the normal term, whose work is a column of the ledger");
+    visitor("gravity_x", o.gravity_x, "length/time^2", {-1e12, 1e12},
+            "horizontal acceleration of gravity; it acts on grains only");
+    visitor("gravity_y", o.gravity_y, "length/time^2", {-1e12, 1e12}, "vertical acceleration of gravity; it acts on grains only");
   }
 
-  // All that a step needs besides the state.
+  // All data that a step needs besides the state.
   struct StepSetting
   {
     double            step = 1; // h [time]
-    StepOptions       time;     // its `step` is what the user asked for
+    StepOptions       time;     // its `step` is the value from the scene
     ContactLawOptions law;
     SolverOptions     solver;
     LateralCondition  lateral;
-    double            pressure           = 1;     // of the containing action
+    double            pressure           = 1;     // of the lateral action
     double            mean_diameter      = 1;     // [length]
-    bool              accept_unconverged = false; // only while a sample is prepared
+    bool              accept_unconverged = false; // only during the preparation of a sample
   };
 } // namespace diptych::discrete

@@ -27,7 +27,8 @@ namespace diptych::discrete
         {
           const Wall &wall = state.walls[w];
           wall_speed       = std::max({wall_speed, wall.velocity.norm(), prescribed_wall_velocity(wall, state.time + h).norm()});
-          // A wall under a force mostly rests on grains: what it could gain without them would flood the list at long steps.
+          // A wall under a force mostly rests on grains. The speed that it could reach without them would flood the list at long
+          // steps.
           wall_speed += std::min(h * applied_wall_force(state, w, state.time).cwiseProduct(wall.inverse_mass()).norm(),
                                  0.1 * setting.mean_diameter / h);
         }
@@ -63,7 +64,7 @@ namespace diptych::discrete
   StepResult advance(State &state, const StepSetting &setting, StepCache &cache, const SampleRequest *sample)
   {
     const double h = setting.step;
-    State        trial{state.grains, state.walls, state.cell, {}, state.time}; // gets impulses of its own
+    State        trial{state.grains, state.walls, state.cell, {}, state.time}; // without the impulses of the last step
     drift(trial, 0.5 * h);
 
     StepResult result;

@@ -13,11 +13,11 @@
 
 namespace diptych::discrete
 {
-  // What one step hands to the next to save work; results do not depend on it.
+  // Data that one step passes to the next to save work. Results do not depend on them.
   struct StepCache
   {
     NeighbourList               neighbours;
-    ContactProblem              problem; // for its memory
+    ContactProblem              problem; // reused for its memory
     std::shared_ptr<ThreadTeam> team = std::make_shared<ThreadTeam>(1);
   };
 
@@ -26,15 +26,15 @@ namespace diptych::discrete
     SolveReport                    solve;
     std::vector<Contact>           contacts;      // at mid-step, ascending in (i, j)
     std::vector<Impulse>           impulses;      // of each contact
-    std::vector<Eigen::Vector2d>   applied_force; // on each grain: containing action and gravity
+    std::vector<Eigen::Vector2d>   applied_force; // on each grain: lateral action and gravity
     std::vector<Eigen::Vector2d>   wall_force;    // of each wall on the sample = impulse / step
     StepEnergies                   energies;
     std::vector<double>            contact_dissipation;     // by friction, of each contact; sum: energies.friction_dissipation
-    std::vector<double>            contact_impact;          // likewise, normal to the contact; sum: energies.impact_dissipation
+    std::vector<double>            contact_impact;          // along the normal, of each contact; sum: energies.impact_dissipation
     double                         largest_penetration = 0; // at mid-step [length]
     double                         momentum_residual   = 0; // see StepLedger
     double                         unbalanced_force    = 0; // mean over grains of |m dv/h| / mean normal contact force
-    std::optional<SampledAccuracy> accuracy;                // where the step was sampled
+    std::optional<SampledAccuracy> accuracy;                // if the step was sampled
   };
 
   // Advances the state by one step (Moreau 1988, Jean 1999, theta = 1/2):
@@ -42,15 +42,15 @@ namespace diptych::discrete
   //   q' = q_m + (h/2) v'; penetrations corrected.
   // Normal term: c_n = e_n u_n for an impact (u_n < 0 and the gap is or would be closed), max(g, 0)/h otherwise, so that
   // g + h u_n' >= 0 is exactly the gap at the next q_m. Detection margin of a grain: 0.04 d + 1.2 h (|v| + h |F|/m).
-  // Where the solver does not converge the state stays as it was, unless accept_unconverged is set.
-  // `sample`: solve further, until the grains' stress is as accurate as the request says.
+  // If the solver does not converge, the state stays unchanged unless accept_unconverged is set. With `sample` the solve
+  // continues until the grains' stress has the requested accuracy.
   StepResult advance(State &state, const StepSetting &setting, StepCache &cache, const SampleRequest *sample = nullptr);
   StepResult advance(State &state, const StepSetting &setting);
 
-  // Lateral action and gravity on each grain at the present positions; nothing on fixed grains. [pressure x length]
+  // Lateral action and gravity on each grain at the present positions; zero for fixed grains. [pressure x length]
   std::vector<Eigen::Vector2d> applied_forces(const State &state, const StepSetting &setting);
 
-  // Of the grains; of all bodies, free walls and a free cell width included.
+  // Kinetic energy of the grains, or of all bodies with free walls and a free cell width.
   double kinetic_energy(const Grains &grains);
   double kinetic_energy(const State &state);
 } // namespace diptych::discrete

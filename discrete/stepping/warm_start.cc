@@ -1,4 +1,4 @@
-// diptych: where the solution of a step starts
+// diptych: first guess of the solution of a step
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/stepping/warm_start.h"
 
@@ -30,7 +30,7 @@ namespace diptych::discrete
           ++pair;
         if (pair == previous.end())
           break;
-        // Which contacts were there before follows no pattern: a choice without a branch.
+        // Selects without a branch, because no branch predictor can foresee which contacts were there before.
         const PairImpulse  none{c.i, c.j, 0, 0};
         const bool         known = pair->i == c.i && pair->j == c.j;
         const PairImpulse &r     = *(known ? &*pair : &none);
@@ -47,7 +47,7 @@ namespace diptych::discrete
     if (changed.empty())
       return;
     const std::vector<BodyVelocity> v = velocities(problem, impulses);
-    std::vector<BodyVelocity>       w = at_rest(problem.free_velocity); // that the changes cause
+    std::vector<BodyVelocity>       w = at_rest(problem.free_velocity); // velocities due to the changes
     for (const int k : changed)
       apply_impulse(problem.contacts[k], changes[k], w);
     double work = 0, change_of_work = 0;
@@ -56,7 +56,8 @@ namespace diptych::discrete
         const ContactRow      &c = problem.contacts[k];
         const RelativeVelocity u = relative_velocity(c, v), du = relative_velocity(c, w);
         const double           violation = u.tangential + c.tangential_term;
-        const bool   slides     = is_slipping(c.friction, impulses[k]) && impulses[k].tangential * violation < 0; // as it should
+        const bool             slides    = is_slipping(c.friction, impulses[k]) &&
+                            impulses[k].tangential * violation < 0; // in the right direction
         const double tangential = slides ? 0 : changes[k].tangential;
         work += changes[k].normal * (u.normal + c.normal_term) + tangential * violation;
         change_of_work += changes[k].normal * du.normal + tangential * du.tangential;

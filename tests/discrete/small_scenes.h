@@ -1,4 +1,4 @@
-// diptych: the small scenes that several tests start from
+// diptych: small scenes that several tests use
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,7 +8,7 @@ namespace diptych::tests
 {
   using namespace diptych::discrete;
 
-  // Plain Gauss-Seidel to round-off, no lateral action, no friction but what a test sets.
+  // Plain Gauss-Seidel to round-off, without lateral action and friction unless a test sets them.
   inline StepSetting exact_setting(const double step)
   {
     StepSetting setting;
@@ -30,7 +30,7 @@ namespace diptych::tests
     return state;
   }
 
-  // A disc whose gap to the floor is zero at mid-step, where contacts are looked for.
+  // A disc whose gap to the floor is zero at mid-step, when contacts are searched.
   inline State touching_at_mid_step(const Eigen::Vector2d &velocity, const double step)
   {
     State state = disc_on_floor(velocity);
@@ -48,7 +48,7 @@ namespace diptych::tests
     return state;
   }
 
-  // A sample that is prepared within a second.
+  // A sample that takes less than a second to prepare.
   inline SampleOptions small_sample(const int grains = 300, const int seed = 1)
   {
     SampleOptions options;
@@ -73,7 +73,7 @@ namespace diptych::tests
     return options;
   }
 
-  // A loading with all that it handed over.
+  // A loading with everything that it returned.
   struct Course
   {
     Report                  report;
@@ -82,11 +82,11 @@ namespace diptych::tests
     Grains                  prepared; // before the loading
   };
 
-  // Prepares the panel, if it is not under way, and loads it to its end; a snapshot for the start and every stage, and one where
-  // it ended early.
-  inline Report walked(Panel &panel, const int n_stages, std::vector<Snapshot> &snapshots, const bool under_way = false)
+  // Prepares the panel, unless it is resumed, and loads it to its end. Takes a snapshot at the start, at every stage, and where
+  // the loading ended early.
+  inline Report run_to_end(Panel &panel, const int n_stages, std::vector<Snapshot> &snapshots, const bool is_resumed = false)
   {
-    if (!under_way && panel.prepare() == Status::finished)
+    if (!is_resumed && panel.prepare() == Status::finished)
       snapshots.push_back(panel.snapshot());
     while (panel.stage() < n_stages && panel.report().status == Status::finished)
       {
@@ -103,14 +103,14 @@ namespace diptych::tests
     Hooks  hooks;
     hooks.on_row = [&](const HistoryRow &row) { course.rows.push_back(row); };
     Panel panel(sample, loading, options, hooks);
-    course.report = walked(panel, int(loading.stages.size()), course.snapshots);
+    course.report = run_to_end(panel, int(loading.stages.size()), course.snapshots);
     if (!course.snapshots.empty())
       for (std::size_t i = 0; i < course.snapshots[0].radius.size(); ++i)
         add_grain(course.prepared, course.snapshots[0].position[i], course.snapshots[0].radius[i], sample.density);
     return course;
   }
 
-  // A sheared state and the result of the step that led to it, both for tests that need a real packing.
+  // A sheared state and the result of the step that led to it, for tests that need a real packing.
   struct ShearedSample
   {
     State       before, state;
@@ -125,7 +125,7 @@ namespace diptych::tests
     sheared.setting.step              = 0.1;
     sheared.setting.solver.tolerance  = 1e-5;
     sheared.setting.solver.max_sweeps = 400000;
-    // Affine start: an impulsive one on a packed sample is much harder to solve.
+    // An affine start, because an impulsive start of a dense sample is much harder to solve.
     const Eigen::Vector2d velocity(0.02, -0.02);
     sample.state.walls[1].velocity = velocity;
     for (std::size_t i = 0; i < sample.state.grains.size(); ++i)

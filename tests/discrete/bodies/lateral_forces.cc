@@ -1,4 +1,4 @@
-// diptych: the containing action of the paper
+// diptych: Moreau's containing action
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ namespace
     EXPECT_NEAR(left, pressure * height, 1e-10 * left);
     EXPECT_NEAR(right, -pressure * height, 1e-10 * left);
 
-    // Within one band and side the forces are as the masses.
+    // Within one band and side the forces are proportional to the masses.
     const double w     = height / n_bands;
     double       ratio = 0;
     for (std::size_t i = 0; i < force.size(); ++i)

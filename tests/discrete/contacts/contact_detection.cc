@@ -57,7 +57,7 @@ namespace
     return pairs;
   }
 
-  // Sizes over four decades, clusters that are far apart, grains that fly, with a period and without: cells share bins then.
+  // Sizes over four decades, distant clusters and fast grains, with and without a period. Cells then share bins.
   TEST(ContactDetection, AgreesWithTheTestOfAllPairsForAnySizesAndPlaces)
   {
     std::mt19937 random(11);
@@ -84,7 +84,7 @@ namespace
     EXPECT_GT(n_found, 10000u);
   }
 
-  // Were each of them held against all, this would take minutes.
+  // With a comparison of all pairs this would take minutes.
   TEST(ContactDetection, OneGrainFarAwayOrHugeDoesNotMakeAllPairsNear)
   {
     State state;
@@ -97,7 +97,7 @@ namespace
     EXPECT_LE(n, lattice + 2); // the huge one touches the first column between two grains
   }
 
-  // A list of millions of grains takes seconds; who asks for an end of the run must not wait for it.
+  // A list of millions of grains takes seconds. A request to stop the run must not wait for it.
   TEST(ContactDetection, AListThatIsNotWantedAnyMoreIsLeft)
   {
     const State               state = random_grains(20000, 140, 3);
@@ -106,7 +106,8 @@ namespace
     int                       asked = 0;
     EXPECT_TRUE(neighbours.find_contacts(state, margin, [&] { return ++asked < 3; }).empty());
     EXPECT_EQ(asked, 3);
-    EXPECT_EQ(neighbours.find_contacts(state, margin).size(), find_contacts(state, margin).size()) << "half a list was kept";
+    EXPECT_EQ(neighbours.find_contacts(state, margin).size(), find_contacts(state, margin).size())
+      << "an incomplete list was kept";
     EXPECT_EQ(asked, 3);
   }
 

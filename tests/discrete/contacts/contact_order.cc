@@ -1,4 +1,4 @@
-// diptych: the sweep order holds every contact once, from below upward
+// diptych: the sweep order contains every contact once, from the bottom upward
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <set>
 
@@ -24,7 +24,7 @@ namespace
       EXPECT_TRUE(row >= 0 && row < int(contacts.size()));
   }
 
-  // Grains on one line, or one flung to the end of the world, must not ask for endless layers.
+  // Grains on one line, or a very distant grain, must not require endless layers.
   TEST(SweepOrder, CopesWithOneLineAndWithFarFlungGrains)
   {
     EXPECT_TRUE(sweep_order({}, 1.).empty());

@@ -1,4 +1,4 @@
-// diptych: Moreau's internal moment as a measure: additive, symmetric, independent of the origin
+// diptych: Moreau's internal moment is additive, symmetric and independent of the origin
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace
     return 0.5 * (m + m.transpose());
   }
 
-  // A real step with all its forces, at the positions of mid-step, where contacts and couples are balanced.
+  // A real step with all its forces, at the positions of mid-step, where contacts and couples balance.
   struct Step
   {
     ShearedSample                sheared = sheared_sample();
@@ -42,9 +42,9 @@ namespace
     }
   };
 
-  // For any set S of grains, by virtual power with an affine field (Moreau 1997, eq. 5):
-  // sum_S M_i = -sym sum (forces from outside S) x (x) f + sym sum_S x_i (x) m_i a_i - spin terms. Here for S = all grains,
-  // then S = lower half, whose outside forces are those of the platen and of the upper half.
+  // For any set S of grains, virtual power with an affine field gives (Moreau 1997, eq. 5)
+  //   sum_S M_i = -sym sum (forces from outside S) x (x) f + sym sum_S x_i (x) m_i a_i - spin terms.
+  // Here S is first all grains and then the lower half, whose outside forces come from the platen and from the upper half.
   TEST(InternalMoment, IsAdditiveOverAnyPartition)
   {
     const Step                         step;
@@ -102,7 +102,7 @@ namespace
         const double couple = step.sheared.state.grains.moment_of_inertia(i) *
                               (step.sheared.state.grains.spin[i] - step.sheared.before.grains.spin[i]) /
                               step.sheared.setting.step;
-        // Contact points lie midway between the surfaces: off by half a gap times the tangential force.
+        // Contact points are midway between the surfaces, so they are off by half a gap times the tangential force.
         EXPECT_NEAR(-(raw[i](0, 1) - raw[i](1, 0)), couple, 0.02 * raw[i].norm() + 1e-12);
       }
   }

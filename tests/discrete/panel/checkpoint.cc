@@ -1,4 +1,4 @@
-// diptych: a loading taken up from a checkpoint goes on with the same bits
+// diptych: a checkpoint keeps every bit of a loading, and wrong files are refused
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "tests/discrete/panel/checkpoint_examples.h"
 
@@ -14,8 +14,8 @@ namespace
     EXPECT_EQ(after.panel.report.status, Status::finished);
   }
 
-  // Before the first step there are no rows, no impulses and no window; without a cell there is none afterwards.
-  TEST(Checkpoint, KeepsWhatIsEmptyEmpty)
+  // Before the first step there are no rows, no impulses and no window. Without a cell there is none after reading.
+  TEST(Checkpoint, KeepsEmptyListsEmpty)
   {
     StoredCheckpoint before;
     before.panel.state = disc_on_floor({0, 0});
@@ -29,8 +29,8 @@ namespace
     EXPECT_EQ(after.scene, "");
   }
 
-  // A file that is one, checksums and all, and holds what no loading leaves.
-  TEST(Checkpoint, WhatNoLoadingLeavesIsRefused)
+  // A valid file with right checksums, whose contents no loading can produce.
+  TEST(Checkpoint, StatesThatNoLoadingProducesAreRefused)
   {
     const auto refused = [](const std::string &word, const std::function<void(Checkpoint &)> &change) {
       const CheckpointFile file;
@@ -59,7 +59,7 @@ namespace
     refused("grains", [](Checkpoint &p) { p.state.grains.radius[4] = 0; });
   }
 
-  TEST(Checkpoint, AFileThatIsNoneIsNamed)
+  TEST(Checkpoint, AFileThatIsNotACheckpointIsNamed)
   {
     const CheckpointFile file;
     const auto           expect_named = [&] {
@@ -73,7 +73,7 @@ namespace
           EXPECT_NE(std::string(error.what()).find(file.path), std::string::npos) << error.what();
         }
     };
-    expect_named(); // missing
+    expect_named(); // missing file
     std::ofstream(file.path) << "no HDF5";
     expect_named();
     write_checkpoint(file.path, random_checkpoint());

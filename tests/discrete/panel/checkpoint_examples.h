@@ -18,7 +18,7 @@ namespace
 {
   using namespace diptych::tests;
 
-  // Every number of an object in turn, so that two of them can be compared bit by bit, NaN included.
+  // Every number of an object in turn, so that two objects can be compared bit by bit, NaN included.
   struct Bits
   {
     std::vector<std::uint64_t> words = {};
@@ -87,7 +87,7 @@ namespace
     return b.words;
   }
 
-  // All that a checkpoint promises to keep; drives follow from the scene.
+  // Everything that a checkpoint must keep. Drives follow from the scene.
   std::vector<std::uint64_t> bits(const Checkpoint &p)
   {
     Bits          b;
@@ -110,7 +110,7 @@ namespace
     return b.words;
   }
 
-  // Values over many decades of both signs.
+  // Random values over many decades, with both signs.
   struct Dice
   {
     std::mt19937_64 random{7};
@@ -196,7 +196,7 @@ namespace
     return checkpoint;
   }
 
-  // A file name that lives as long as the test.
+  // A file that exists as long as the test.
   struct CheckpointFile
   {
     std::string path = (std::filesystem::path(testing::TempDir()) / ("checkpoint" + std::to_string(::getpid()) + ".h5")).string();

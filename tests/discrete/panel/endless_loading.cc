@@ -1,4 +1,4 @@
-// diptych: loadings that would take steps without end
+// diptych: loadings that would take too many steps
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <filesystem>
 #include <fstream>
@@ -31,9 +31,9 @@ namespace
     return "";
   }
 
-  // Steps = strain / (I h) with h in d sqrt(rho/P). The rule's step shrinks with I where its tolerance cannot, so steps go with
-  // 1/I^2.
-  TEST(EndlessLoading, StepsWithoutEndAreRefusedWhoeverChoseTheStep)
+  // Steps = strain / (I h) with h in d sqrt(rho/P). The step of the rule decreases with I once its tolerance is at its limit, so
+  // the number of steps grows with 1/I^2.
+  TEST(EndlessLoading, TooManyStepsAreRefusedForGivenAndAutomaticSteps)
   {
     Loading loading         = far_as_one_percent();
     loading.inertial_number = 1e-9;
@@ -49,8 +49,8 @@ namespace
     EXPECT_EQ(refusal(small_sample(150), loading, options), "");
   }
 
-  // What only the walls' tables ask for is found when the loading begins.
-  TEST(EndlessLoading, TablesOfWallsThatAskForStepsWithoutEndStopTheRun)
+  // Demands of the walls' tables become known only when the loading begins.
+  TEST(EndlessLoading, TooManyStepsDueToWallTablesStopTheRun)
   {
     const std::string path = (std::filesystem::temp_directory_path() / "diptych_steep_velocity.csv").string();
     std::ofstream(path) << "time,velocity\n0,0\n1e-12,-0.02\n3,-0.02\n";

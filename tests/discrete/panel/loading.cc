@@ -1,4 +1,4 @@
-// diptych: every mode of loading, every lateral condition, and what the history says of them
+// diptych: every mode of loading, every lateral condition, and their history
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 #include <filesystem>
@@ -36,7 +36,7 @@ namespace
     EXPECT_LT(penetration, 0.02);
   }
 
-  // rate = I sqrt(P/rho)/d; the key strain_rate in its place; stages are times in mode time.
+  // rate = I sqrt(P/rho)/d, unless strain_rate is given. In mode time the stages are times.
   TEST(Loading, RateFollowsFromTheInertialNumberUnlessGiven)
   {
     Loading loading;
@@ -48,8 +48,8 @@ namespace
     EXPECT_EQ(strain_rate(loading, 2., 4.), 1);
   }
 
-  // Platen at (k, -1) x rate x height (descent) or (1, 0) x rate x height; affine: v = V y/height and the spin of that field,
-  // -(1/2) dvx/dy; impulsive: grains at rest.
+  // The platen moves at (k, -1) x rate x height (descent) or (1, 0) x rate x height. Affine start: v = V y/height and the spin of
+  // that field, -(1/2) dvx/dy. Impulsive start: grains at rest.
   TEST(Loading, StartsWithTheAffineFieldOrImpulsively)
   {
     for (const LoadingMode mode : {LoadingMode::descent, LoadingMode::shear})
@@ -76,7 +76,7 @@ namespace
           }
   }
 
-  TEST(Loading, DescentAndShearGoWhereTheyAreSent)
+  TEST(Loading, DescentAndShearReachTheirTarget)
   {
     Loading loading                  = one_percent();
     loading.horizontal_over_vertical = -0.5;
@@ -93,7 +93,7 @@ namespace
     EXPECT_NEAR(shear.snapshots.back().shear_strain, 0.01, 1e-13);
   }
 
-  // The same final strain from an impulsive start: reached too, with more sweeps at the outset and ledgers closed.
+  // An impulsive start reaches the same final strain, with more sweeps at the beginning and closed ledgers.
   TEST(Loading, ImpulsiveStartReachesItsStage)
   {
     Loading loading      = one_percent();
@@ -103,8 +103,8 @@ namespace
     EXPECT_NEAR(course.rows.back().axial_strain, 0.01, 1e-13);
   }
 
-  // Platen free to rise: M a = f - P_n x width in every step, f the sample's push; so the force on the sample is -(P_n width + M
-  // a).
+  // The platen is free to rise: M a = f - P_n x width in every step, where f is the push of the sample. So the force on the
+  // sample is -(P_n width + M a).
   TEST(Loading, PlaneShearHoldsTheNormalPressureInEveryStep)
   {
     const double         pressure = 2, normal = 3;
@@ -153,8 +153,8 @@ namespace
     return path;
   }
 
-  // Velocity 0 -> -0.02 within t = 0 to 1, then constant: at t = 3 the platen has gone -0.01 - 0.04 = -0.05 (the rule is exact
-  // for knots at steps). The right wall carries the force of its own file, 30 -> 40: M a = F + push.
+  // The velocity changes from 0 to -0.02 between t = 0 and 1 and is constant then. At t = 3 the platen has moved by -0.01 - 0.04
+  // = -0.05 (the rule is exact for knots at steps). The right wall carries the force of its file, 30 -> 40: M a = F + push.
   TEST(Loading, ModeTimeFollowsItsFiles)
   {
     Options options         = quick_options();
@@ -169,7 +169,7 @@ namespace
     ASSERT_EQ(course.snapshots.size(), 3u);
     EXPECT_NEAR(course.snapshots[1].upper_platen_displacement.y(), -0.01, 1e-13);
     EXPECT_NEAR(course.snapshots[2].upper_platen_displacement.y(), -0.05, 1e-13);
-    double mean = 0; // of the last second: F = -38.3 at t = 2.5, up to M dv/1
+    double mean = 0; // mean over the last second: F = -38.3 at t = 2.5, up to M dv/1
     int    n    = 0;
     for (const HistoryRow &row : course.rows)
       if (row.time > 2)
@@ -180,7 +180,8 @@ namespace
     EXPECT_THROW(options.drives.upper_y = "speed 3", std::invalid_argument);
   }
 
-  // Every lateral condition takes the sample to its stage with ledgers closed. Sides or width that are driven go V T outwards.
+  // With every lateral condition the sample reaches its stage with closed ledgers. Driven sides, or a driven width, move V T
+  // outwards.
   TEST(Loading, EveryLateralConditionReachesItsStage)
   {
     for (const Lateral lateral : {Lateral::rigid_walls, Lateral::periodic})
@@ -204,12 +205,12 @@ namespace
             }
           else
             {
-              EXPECT_GT(spread, 0) << "under vertical compression a width held by the pressure opens";
+              EXPECT_GT(spread, 0) << "under vertical compression a width under the pressure grows";
             }
         }
   }
 
-  // P23: in each band the forces on the left sum to w P, on the right to -w P, for any count and height.
+  // P23: in each band the forces on the left add up to w P and on the right to -w P, for any number of end grains and any height.
   TEST(LateralAction, SumsAreExactInEveryBand)
   {
     const PreparedSample sample = prepare_sample(small_sample(300), {}, [](int, int) { return true; });
@@ -256,7 +257,7 @@ namespace
     return largest;
   }
 
-  // P23: five end grains a band are a barrier, and so are three and seven: over 2 % of strain nothing gets out, and the mean
+  // P23: five end grains per band are a barrier, and so are three and seven. Over 2 % of strain no grain escapes, and the mean
   // lateral stress is the pressure.
   TEST(LateralAction, NoGrainEscapes)
   {
@@ -285,8 +286,8 @@ namespace
       }
   }
 
-  // P24: a share, and the smaller the platen's friction the larger.
-  TEST(History, PlatenSlidingGrowsWhereThePlatenIsSmooth)
+  // P24: the sliding share grows as the friction of the platen decreases.
+  TEST(History, PlatenSlidingGrowsIfThePlatenIsSmooth)
   {
     double share[2] = {0, 0};
     for (int k = 0; k < 2; ++k)
@@ -307,7 +308,7 @@ namespace
     EXPECT_GT(share[1], share[0] + 0.2);
   }
 
-  // P28: a small grain in a cavity of six fixed ones carries nothing until it falls on one of them.
+  // P28: a small grain in a cavity of six fixed ones carries no force until it falls on one of them.
   TEST(History, AGrainInACavityIsARattler)
   {
     State state;
@@ -324,8 +325,8 @@ namespace
     EXPECT_TRUE(carried);
   }
 
-  // P15: masses are true. Density x 4 at the same forces and the same inertial number: the same path in twice the time. A power
-  // of two scales every number exactly, except where the detection margin adds a fixed length.
+  // P15: masses are true. Four times the density at the same forces and the same inertial number gives the same path in twice the
+  // time. A power of two scales every number exactly, except where the detection margin adds a fixed length.
   TEST(Loading, ScalingTheMassesScalesTheTime)
   {
     SampleOptions sample  = small_sample(150);
@@ -351,10 +352,10 @@ namespace
     return sum / n;
   }
 
-  // The same sample by explicit penalty steps: mean stress ratio over 0.5-1.5 % as by NSCD, to the scatter of 200 discs (0.05).
-  // Above the critical step (about 1 here) it first heats silently, the ratio falling by a third at 1.2; at twice it the run
-  // blows up, says so, and keeps what it had.
-  TEST(Penalty, ThroughThePanelAgreesWithNscdAndBlowsUpHonestly)
+  // The same sample by explicit penalty steps. The mean stress ratio over 0.5-1.5 % agrees with NSCD within the scatter of 200
+  // discs (0.05). Above the critical step (about 1 here) the sample first gains energy unnoticed, and the ratio falls by a third
+  // at 1.2. At twice the critical step the run blows up, reports it, and keeps its results.
+  TEST(Penalty, ThroughThePanelAgreesWithNscdAndReportsItsBlowUp)
   {
     Loading loading       = one_percent();
     loading.stages        = {0.015};
@@ -365,7 +366,7 @@ namespace
     expect_ledgers_closed(nscd);
     ASSERT_EQ(penalty.report.status, Status::finished) << penalty.report.message;
     EXPECT_NEAR(penalty.report.axial_strain, 0.015, 1e-12);
-    EXPECT_EQ(penalty.snapshots.front().time, 0) << "of the loading, not of the press";
+    EXPECT_EQ(penalty.snapshots.front().time, 0) << "time of the loading, not of the preload";
     RecordProperty("nscd", std::to_string(mean_stress_ratio(nscd, 0.005)));
     RecordProperty("penalty", std::to_string(mean_stress_ratio(penalty, 0.005)));
     EXPECT_NEAR(mean_stress_ratio(penalty, 0.005), mean_stress_ratio(nscd, 0.005), 0.05);

@@ -1,4 +1,4 @@
-// diptych: many samples in one process leave nothing behind, in memory or in results
+// diptych: many samples in one process leave no trace in memory or results
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <malloc.h>
 #include <sys/wait.h>
@@ -12,7 +12,7 @@ namespace
 {
   using namespace diptych::tests;
 
-  // Every fifth of them takes one of five turns: friction, seed, step, sides and method.
+  // Panel k has one of five variants: friction, seed, step, sides and method.
   Course turn(const int k)
   {
     SampleOptions sample  = small_sample(40, 1 + k % 2);
@@ -42,7 +42,7 @@ namespace
     return values;
   }
 
-  // The same in a process that has run nothing else: the numbers come through a pipe.
+  // The same in a process that has run nothing else. The numbers come through a pipe.
   std::vector<double> numbers_of_a_fresh_process(const int k)
   {
     int ends[2];
@@ -87,7 +87,7 @@ namespace
     return now.uordblks + now.hblkhd;
   }
 
-  // Fifty samples, ten of each kind. After the first ten (which fill what a library keeps once) nothing more may stay in use.
+  // Fifty samples, ten of each variant. After the first ten, which fill static data of libraries, memory in use must not grow.
   TEST(ManyPanels, KeepNoMemoryAndGiveTheBitsOfAFreshProcess)
   {
     std::vector<std::vector<double>> fresh;
@@ -101,7 +101,7 @@ namespace
         const std::vector<double> here = numbers(turn(k));
         ASSERT_EQ(here, fresh[std::size_t(k % 10)]) << "panel " << k;
       }
-    // 40 panels of 40 grains: one that kept so much as its positions would add 40 x 640 bytes.
+    // 40 panels of 40 grains: if each kept only its positions, this would add 40 x 640 bytes.
     EXPECT_LT(bytes_in_use(), before + 10000);
   }
 } // namespace

@@ -1,4 +1,4 @@
-// diptych: a loaded sample: stages, ledgers, determinism, honest ends
+// diptych: a loaded sample: stages, ledgers, determinism, early ends
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <filesystem>
 
@@ -31,7 +31,7 @@ namespace
         EXPECT_LE(row.residual, 1e-4);
         EXPECT_LT(row.max_penetration, 0.02);
       }
-    // A dense sample sheared at 1 % strain carries a deviator, more than half of what friction 0.4 allows at most.
+    // A dense sample sheared by 1 % carries a deviator of more than half of the largest one that friction 0.4 allows.
     EXPECT_GT(r.rows.back().stress_ratio, 0.2);
     EXPECT_LT(r.rows.back().stress_ratio, 0.6);
   }
@@ -46,8 +46,8 @@ namespace
     EXPECT_NE(a.snapshots.back().position, c.snapshots.back().position);
   }
 
-  // Forces times 4 at equal masses: the same path in half the time (P8). A power of two scales every number exactly, except
-  // where the detection margin adds a fixed length to one that scales.
+  // Forces times 4 at equal masses give the same path in half the time (P8). A power of two scales every number exactly, except
+  // where the detection margin adds a fixed length to a scaled one.
   TEST(Panel, ScalingTheForcesScalesTheTime)
   {
     SampleOptions sample  = small_sample(200);
@@ -85,7 +85,7 @@ namespace
     hooks.stop_requested = [&] { return steps == 7; };
     Panel                 panel(small_sample(150), short_loading(), quick_options(), hooks);
     std::vector<Snapshot> snapshots;
-    const Report          report = walked(panel, 2, snapshots);
+    const Report          report = run_to_end(panel, 2, snapshots);
     EXPECT_EQ(report.status, Status::stopped_by_user);
     EXPECT_EQ(steps, 7);
     ASSERT_EQ(snapshots.size(), 2u) << "the prepared sample and the last accepted step";
@@ -93,7 +93,8 @@ namespace
     EXPECT_GT(report.axial_strain, 0);
   }
 
-  // Asked 30 times the preparation is among its soft discs or first sweeps: no step, no snapshot, and the report says by whom.
+  // At the 30th call the preparation relaxes soft discs or does its first sweeps. There is no step and no snapshot, and the
+  // report says that the user stopped it.
   TEST(Panel, StopsWithinItsPreparationOnRequest)
   {
     int   asked = 0;
@@ -118,7 +119,7 @@ namespace
     EXPECT_FALSE(panel.has_snapshot());
   }
 
-  // Stopped within a stage and asked to go on, a panel in memory ends with the bits of one left alone.
+  // A panel in memory that was stopped within a stage and then continues ends with the bits of an uninterrupted one.
   TEST(Panel, GoesOnAfterAStopWithTheSameBits)
   {
     const Course whole = loaded(small_sample(150), short_loading(), quick_options());
@@ -128,14 +129,14 @@ namespace
     hooks.stop_requested = [&] { return steps == 7; };
     Panel                 panel(small_sample(150), short_loading(), quick_options(), hooks);
     std::vector<Snapshot> snapshots;
-    (void)walked(panel, 2, snapshots);
-    steps = 100; // the hook says stop no more
+    (void)run_to_end(panel, 2, snapshots);
+    steps = 100; // the hook no longer stops
     ASSERT_EQ(panel.advance_to(2), Status::finished);
     EXPECT_EQ(panel.snapshot().position, whole.snapshots.back().position);
     EXPECT_EQ(panel.snapshot().internal_moment, whole.snapshots.back().internal_moment);
   }
 
-  // Grains given as arrays are the grains of a file with the same numbers.
+  // Grains from arrays equal the grains of a file with the same numbers.
   TEST(Panel, GrainsFromArraysAreThoseOfAFile)
   {
     const Grains      grains = loaded(small_sample(100), short_loading(), quick_options()).prepared;
@@ -147,14 +148,15 @@ namespace
     sample.file = path;
     Panel                 from_file(sample, short_loading(), quick_options());
     std::vector<Snapshot> a, b;
-    EXPECT_EQ(walked(from_arrays, 2, a).status, Status::finished);
-    EXPECT_EQ(walked(from_file, 2, b).status, Status::finished);
+    EXPECT_EQ(run_to_end(from_arrays, 2, a).status, Status::finished);
+    EXPECT_EQ(run_to_end(from_file, 2, b).status, Status::finished);
     EXPECT_EQ(a.back().position, b.back().position);
     EXPECT_EQ(a.back().mean_internal_moment, b.back().mean_internal_moment);
     std::filesystem::remove(path);
   }
 
-  // The penalty method rebounds by its dashpots and has no contact problems: keys that would be ignored are refused.
+  // The rebound of the penalty method follows from its dashpots, and it has no contact problems. Keys that it would ignore are
+  // refused.
   TEST(Panel, KeysThatThePenaltyMethodWouldIgnoreAreRefused)
   {
     Options options                = quick_options();
@@ -173,7 +175,7 @@ namespace
     EXPECT_THROW(Panel(small_sample(150), loading, quick_options()), std::invalid_argument);
   }
 
-  // The window's mean forces carry the mean of the stress of its steps: their moments differ only by the motion within it.
+  // The mean forces of a window carry the mean stress of its steps. Their moments differ only by the motion within the window.
   TEST(Panel, WindowForcesCarryTheMeanStress)
   {
     const Course    r    = loaded(small_sample(), short_loading(), quick_options());

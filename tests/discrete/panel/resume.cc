@@ -1,10 +1,10 @@
-// diptych: a loading taken up from a checkpoint goes on with the same bits
+// diptych: a loading resumed from a checkpoint gives the same bits
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "tests/discrete/panel/checkpoint_examples.h"
 
 namespace
 {
-  // A loading, and what it was before each of its steps.
+  // A loading, with a checkpoint before each of its steps.
   struct Course
   {
     Report                  report;
@@ -16,19 +16,19 @@ namespace
   Course loaded(const SampleOptions &sample, const Loading &loading, const Options &options, const Checkpoint *resume = nullptr)
   {
     Course course;
-    Panel *under_way = nullptr;
+    Panel *running = nullptr;
     Hooks  hooks;
     hooks.on_row      = [&](const HistoryRow &row) { course.rows.push_back(row); };
-    hooks.before_step = [&] { course.before.push_back(under_way->checkpoint()); };
+    hooks.before_step = [&] { course.before.push_back(running->checkpoint()); };
     Panel panel(sample, loading, options, hooks);
-    under_way = &panel;
+    running = &panel;
     if (resume)
       panel.resume(*resume);
-    course.report = walked(panel, int(loading.stages.size()), course.snapshots, resume != nullptr);
+    course.report = run_to_end(panel, int(loading.stages.size()), course.snapshots, resume != nullptr);
     return course;
   }
 
-  // Taken up before step k (counted from 0) by way of a file, the loading ends with the same rows and snapshots.
+  // Resumed before step k (counted from 0) through a file, the loading ends with the same rows and snapshots.
   void expect_same_from(const SampleOptions       &sample,
                         const Loading             &loading,
                         const Options             &options,
@@ -40,14 +40,14 @@ namespace
     ASSERT_EQ(whole.rows.size(), whole.before.size());
     for (const std::size_t k : ks)
       {
-        SCOPED_TRACE("taken up before step " + std::to_string(k) + " of " + std::to_string(whole.rows.size()));
+        SCOPED_TRACE("resumed before step " + std::to_string(k) + " of " + std::to_string(whole.rows.size()));
         ASSERT_LT(k, whole.rows.size());
         const std::vector<HistoryRow> rest(whole.rows.begin() + k, whole.rows.end());
         const StoredCheckpoint        kept  = written_and_read({whole.before[k], long(k), ""});
         const Course                  again = loaded(sample, loading, options, &kept.panel);
         ASSERT_EQ(again.report.status, Status::finished) << again.report.message;
         EXPECT_TRUE(bits(again.rows) == bits(rest));
-        const std::size_t done = kept.panel.stage + 1; // snapshots written before
+        const std::size_t done = kept.panel.stage + 1; // snapshots written before the checkpoint
         ASSERT_EQ(again.snapshots.size() + done, whole.snapshots.size());
         for (std::size_t s = 0; s < again.snapshots.size(); ++s)
           EXPECT_TRUE(bits(again.snapshots[s]) == bits(whole.snapshots[done + s])) << "stage " << done + s;
@@ -58,7 +58,7 @@ namespace
       }
   }
 
-  // Two stages of ten steps; the second differs from the first by rounding.
+  // Two stages of ten steps. The second one differs from the first by rounding.
   Loading two_stages()
   {
     Loading loading;
@@ -75,7 +75,7 @@ namespace
     return options;
   }
 
-  // Before the first step, within a stage, before its last step, before the first of the next.
+  // Before the first step, within a stage, before its last step, and before the first step of the next stage.
   const std::vector<std::size_t> everywhere = {0, 1, 5, 9, 10, 11, 19};
 
   TEST(Resume, FreeSidesWithWindowsAndSampledSnapshots)
@@ -112,7 +112,7 @@ namespace
     expect_same_from(small_sample(150), loading, options, {0, 7, 10, 13});
   }
 
-  // The step of the second stage is chosen from the row before it, which the checkpoint must hold although no row is due.
+  // The step of the second stage follows from the previous row. The checkpoint must contain that row although no row is due.
   TEST(Resume, AutomaticStepAndRowsFarApart)
   {
     Options options = quick_options();
@@ -133,7 +133,7 @@ namespace
     expect_same_from(small_sample(150), loading, options, {0, 4, 10, 15});
   }
 
-  // Springs carry the history of sliding in the impulses: step lengths that differ by rounding must not tear them.
+  // The impulses hold the sliding history of springs. Step lengths that differ by rounding must not change it.
   TEST(Resume, SpringsInTheMiddleOfAStage)
   {
     Options options                 = quick_options();
@@ -146,7 +146,7 @@ namespace
     expect_same_from(small_sample(80), loading, options, {0, 2, n / 2, n - 1});
   }
 
-  // Stages of 0.005, 0.01 - 0.005, ...: equal but for rounding, and so are their steps.
+  // Stages of 0.005, 0.01 - 0.005, ... are equal except for rounding, and so are their steps.
   TEST(Resume, SpringsAtTheBeginningOfAStage)
   {
     Options options                 = quick_options();
@@ -166,9 +166,9 @@ namespace
     expect_same_from(small_sample(80), loading, options, first_steps);
   }
 
-  // A spring pulls with kt x stretch whatever the step that follows. A stage of 0.7 steps is taken in one step 0.7 times as
-  // long: the shear force on the platen goes on but for what one step adds, and is not scaled by 0.7.
-  TEST(Penalty, SpringsGoOnWhereTheStepChanges)
+  // A spring pulls with kt x stretch, whatever the length of the next step. A stage of 0.7 steps is taken in one step of 0.7
+  // times the length. The shear force on the platen must continue, apart from the change in one step, and not be scaled by 0.7.
+  TEST(Penalty, SpringsPersistIfTheStepChanges)
   {
     Options options                 = quick_options();
     options.method.method           = Method::penalty;

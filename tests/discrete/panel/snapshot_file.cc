@@ -1,4 +1,4 @@
-// diptych: what is written can be read back
+// diptych: snapshots read back as they were written, and impossible ones are refused
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 #include <filesystem>
@@ -59,8 +59,8 @@ namespace
     std::filesystem::remove(path + ".h5"), std::filesystem::remove(path + ".xdmf");
   }
 
-  // Not every file tells what a pair dissipates: the entries are missing, not zero.
-  TEST(Output, AFileThatDoesNotTellTheDissipationLeavesItEmpty)
+  // Some files do not contain the dissipation of pairs. The entries are then missing, not zero.
+  TEST(Output, AFileWithoutDissipationLeavesItEmpty)
   {
     const std::vector<Snapshot> written = short_run();
     const std::string           path    = temporary_path("earlier");
@@ -75,7 +75,7 @@ namespace
     std::filesystem::remove(path + ".h5"), std::filesystem::remove(path + ".xdmf");
   }
 
-  // ParaView takes the place of the numbers from the .xdmf: points and one value for each.
+  // ParaView finds the numbers through the .xdmf file: points, and one value for each.
   TEST(Output, XdmfShowsTheDissipationAtThePairsOfItsWindow)
   {
     const std::vector<Snapshot> written = short_run();
@@ -92,7 +92,7 @@ namespace
     std::filesystem::remove(path + ".h5"), std::filesystem::remove(path + ".xdmf");
   }
 
-  // Written as it is told, read with doubt: what no panel makes of its grains is refused, naming file, stage and entry.
+  // Snapshots that no panel can produce are written unchecked but refused on reading, with file, stage and entry.
   void expect_refused(const std::string &entry, const std::function<void(Snapshot &)> &change)
   {
     std::vector<Snapshot> snapshots = short_run();
@@ -134,27 +134,27 @@ namespace
     std::filesystem::remove(path + ".h5"), std::filesystem::remove(path + ".xdmf");
   }
 
-  // Of a frame of another code there is no step, and much that it does not tell.
-  TEST(Output, WhatAnotherCodeDoesNotTellStaysUntold)
+  // A frame of another code has no step, and many values are missing.
+  TEST(Output, ValuesMissingInAnotherCodeStayNan)
   {
     std::vector<Snapshot> snapshots = short_run();
     for (Snapshot &s : snapshots)
       s.step = s.residual = s.time = s.lower_platen_force.x() = NAN;
-    const std::string path = temporary_path("untold");
+    const std::string path = temporary_path("missing_values");
     write_snapshots(path, snapshots);
     EXPECT_TRUE(std::isnan(read_snapshots(path + ".h5")[1].step));
     std::filesystem::remove(path + ".h5"), std::filesystem::remove(path + ".xdmf");
     expect_refused("upper_y", [](Snapshot &s) { s.step = s.upper_y = NAN; });
   }
 
-  TEST(Output, AnOutlineFarFromTheGrainsIsNone)
+  TEST(Output, AnOutlineFarFromTheGrainsIsRefused)
   {
     expect_refused("outline/right", [](Snapshot &s) { s.outline.right[0].x() = 1 << 30; });
     expect_refused("outline/left", [](Snapshot &s) { s.outline.left[0].y() = -1e6; });
   }
 
-  // Whole files, checksums and all, of grains and contacts that cannot be.
-  TEST(Output, GrainsAndContactsThatCannotBeAreRefused)
+  // Valid files, with right checksums, of impossible grains and contacts.
+  TEST(Output, ImpossibleGrainsAndContactsAreRefused)
   {
     const auto refused = [](const std::string &word, const std::function<void(Snapshot &)> &change) {
       std::vector<Snapshot> written = short_run();
@@ -181,7 +181,7 @@ namespace
     refused("outline", [](Snapshot &s) { std::swap(s.outline.left, s.outline.right); });
   }
 
-  // An array that somebody else has put there carries none.
+  // An array from another program has no checksum.
   TEST(Output, AnArrayWithoutItsChecksumIsRefused)
   {
     const std::string path = temporary_path("unchecked");

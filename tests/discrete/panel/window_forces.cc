@@ -1,4 +1,4 @@
-// diptych: dissipation of single pairs over a window: closed forms, and the ledger they make up
+// diptych: dissipation of single pairs over a window: closed forms, and agreement with the ledger
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace
 
   constexpr double g = 10, mu = 0.3, v0 = 3;
 
-  // Two discs apart on a floor (body 2): the first thrown without spin, the second rolling from the start.
+  // Two separate discs on a floor (body 2): the first is thrown without spin, the second rolls from the start.
   State thrown_and_rolling()
   {
     State state = disc_on_floor({v0, 0});
@@ -32,8 +32,8 @@ namespace
     return setting;
   }
 
-  // The angular momentum m r v0 about a point of the floor is kept, so it rolls at (2/3) v0 in the end, with (3/4) m v^2 =
-  // (1/3) m v0^2 of the (1/2) m v0^2 that it had: m v0^2/6 is lost where it slides. What rolls loses nothing.
+  // The angular momentum m r v0 about a point of the floor is constant, so the disc finally rolls at (2/3) v0. It then has (3/4)
+  // m v^2 = (1/3) m v0^2 of its initial (1/2) m v0^2: sliding dissipates m v0^2/6. The rolling disc dissipates nothing.
   TEST(WindowDissipation, AThrownDiscLosesAThirdOfItsEnergyAtItsContactARollingOneNothing)
   {
     State             state   = thrown_and_rolling();
@@ -53,9 +53,9 @@ namespace
       EXPECT_NEAR(f.force.y(), mass * g, 1e-12 * mass * g);
   }
 
-  // The same on springs. When sliding ends the tangential one holds mu m g, and the energy E = (mu m g)^2/(2 kt) swings on
-  // without loss: friction takes m v0^2/6 - E. Steps add two errors: sliding starts within a step whose stretch h v0 is
-  // counted whole, at most kt (h v0)^2/8; and it ends within one, a part of E of the order of omega h, omega = sqrt(3 kt/m).
+  // The same on springs. When sliding ends, the tangential spring holds mu m g, and its energy E = (mu m g)^2/(2 kt) oscillates
+  // without loss. So friction dissipates m v0^2/6 - E. Steps add two errors. Sliding starts within a step whose stretch h v0
+  // counts fully: at most kt (h v0)^2/8. It ends within a step: a share of E of the order of omega h, omega = sqrt(3 kt/m).
   TEST(WindowDissipation, OnSpringsTheThrownDiscKeepsOnlyWhatTheTangentialSpringHolds)
   {
     const double stiffness = 1e4, kt = 0.5 * stiffness, step = 2e-5;
@@ -76,8 +76,8 @@ namespace
     EXPECT_EQ(dissipation[1], 0);
   }
 
-  // All pairs of a window lose what the ledger gained over it, all windows what it holds in the end. Some 100 steps of some 300
-  // contacts are added in another order: 3e4 terms, each rounded to 1e-16 of the sum of their magnitudes.
+  // All pairs of a window dissipate what the ledger gains over it, and all windows together its final value. About 100 steps of
+  // 300 contacts are added in another order: 3e4 terms, each rounded to 1e-16 of the sum of their magnitudes.
   void expect_windows_make_up_the_ledger(const Options &options)
   {
     const Course r = loaded(small_sample(150), short_loading(), options);
@@ -99,7 +99,7 @@ namespace
           ASSERT_NE(row, r.rows.end());
           if (options.method.method == Method::nscd)
             {
-              EXPECT_GT(sum, 0); // springs take up elastic energy, and give it back
+              EXPECT_GT(sum, 0); // springs store elastic energy and return it
             }
           EXPECT_NEAR(sum, (*row).*ledger - before, 3e-12 * (size + before));
           before = (*row).*ledger;

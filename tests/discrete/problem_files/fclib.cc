@@ -12,7 +12,7 @@ namespace
     LocalFile().write(file.path);
     const DelassusProblem reference = read_fclib_local(file.path);
     ASSERT_EQ(reference.n_contacts(), 2u);
-    // u = W r + q of r = (1, 2 | 3, 4): rows of the matrix above times r.
+    // u = W r + q for r = (1, 2 | 3, 4): rows of the matrix above times r.
     const std::vector<RelativeVelocity> u = relative_velocities(reference, {{1, 2}, {3, 4}});
     EXPECT_NEAR(u[0].normal, 2 + 1.5 + 0.8 - 1, 1e-15);
     EXPECT_NEAR(u[0].tangential, 12 + 0.9 + 1.6 + 0.5, 1e-14);
@@ -27,7 +27,7 @@ namespace
       }
   }
 
-  // p and i of a triplet file exchanged would transpose a matrix that is not symmetric.
+  // If p and i of a triplet file were swapped, a matrix that is not symmetric would be transposed.
   TEST(Fclib, TripletsHaveTheColumnInP)
   {
     const TemporaryFile file;
@@ -38,7 +38,8 @@ namespace
     EXPECT_EQ(u[0].normal, 0.5 - 1);
   }
 
-  // One contact in two velocity coordinates: the diagonal mass matrix of the first is full in the second, W and q are the same.
+  // One contact in two velocity coordinates. The mass matrix is diagonal in the first and full in the second; W and q are the
+  // same.
   TEST(Fclib, AMassMatrixThatIsNotDiagonalIsFactorised)
   {
     const TemporaryFile file;
@@ -94,8 +95,8 @@ namespace
     refused([](LocalFile &f) { f.w.x[3] = -6; }, {"/fclib_local/W", "diagonal entry 1", "-6"});
   }
 
-  // Not used in solving, but handed on with the solution.
-  TEST(Fclib, GapsThatAreNoNumbersAreRefused)
+  // The solver does not use the gaps, but they are copied to the solution.
+  TEST(Fclib, GapsThatAreNotNumbersAreRefused)
   {
     const TemporaryFile file;
     {
@@ -112,12 +113,12 @@ namespace
           writer.copy(reader, "nscd/" + name);
       writer.finish();
     }
-    const std::string said = refusal(file.path);
-    EXPECT_NE(said.find("/nscd/gap"), std::string::npos) << said;
+    const std::string message = refusal(file.path);
+    EXPECT_NE(message.find("/nscd/gap"), std::string::npos) << message;
   }
 
-  // The local form is solved, but the other goes into the file of the solution.
-  TEST(Fclib, NumbersOfTheGlobalFormAreLookedAtBesideTheLocalOne)
+  // The local form is solved, but the global form is copied to the file of the solution.
+  TEST(Fclib, NumbersOfTheGlobalFormAreAlsoChecked)
   {
     for (const std::string name : {"/fclib_global/M/x", "/fclib_global/vectors/f", "/nscd/H/x"})
       {
@@ -134,7 +135,7 @@ namespace
       }
   }
 
-  TEST(Fclib, FilesThatAreNoneAreRefused)
+  TEST(Fclib, OtherFilesAreRefused)
   {
     const TemporaryFile file;
     EXPECT_NE(refusal(file.path), "") << "missing";

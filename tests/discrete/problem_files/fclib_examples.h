@@ -25,7 +25,7 @@ namespace
     return std::string(DIPTYCH_CONTACT_PROBLEMS) + "/" + name;
   }
 
-  // A file of this test and this process, removed at the end.
+  // A file of this test and this process, removed at the end of the test.
   struct TemporaryFile
   {
     std::string path = std::filesystem::temp_directory_path() /
@@ -34,7 +34,7 @@ namespace
     ~TemporaryFile() { std::remove(path.c_str()); }
   };
 
-  // One matrix in the terms of FCLIB.
+  // One matrix in the notation of FCLIB.
   struct StoredMatrix
   {
     int                 m, n, nz;
@@ -51,7 +51,7 @@ namespace
     writer.write(name + "/p", matrix.p), writer.write(name + "/i", matrix.i), writer.write(name + "/x", matrix.x);
   }
 
-  // Two contacts; W_01 and W_10 differ in their tangential-normal entries, so that a transposed reading is found out:
+  // Two contacts. W_01 and W_10 differ in their tangential-normal entries, so that the test notices a transposed matrix:
   //       [ 2  0 | 0.5 0.2 ]
   //   W = [ 0  6 | 0.3 0.4 ]     q = (-1, 0.5, -2, 0), mu = (0.3, 0.5)
   //       [0.5 0.3 | 2   0 ]
@@ -61,7 +61,7 @@ namespace
   const StoredMatrix by_columns = {
     4, 4, -1, {0, 3, 6, 9, 12}, {0, 2, 3, 1, 2, 3, 0, 1, 2, 0, 1, 3}, {2, .5, .2, 6, .3, .4, .5, .3, 2, .2, .4, 6}};
 
-  // p: columns, i: rows; W_00 in two parts, which are added.
+  // p: columns, i: rows. W_00 is in two parts, which are added.
   const StoredMatrix triplets = {4,
                                  4,
                                  13,
@@ -91,7 +91,7 @@ namespace
     }
   };
 
-  // The message with which a file is refused; empty: it is read.
+  // Message with which a file is refused; empty if the file was read.
   std::string refusal(const std::string &path)
   {
     try

@@ -1,10 +1,10 @@
-// diptych: stored contact problems solved, in every form
+// diptych: solutions of stored contact problems, in every form
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "tests/discrete/problem_files/fclib_examples.h"
 
 namespace
 {
-  // Coulomb and Signorini of u = W r + q, scaled by the largest impulse and the largest velocity.
+  // Coulomb and Signorini for u = W r + q, scaled by the largest impulse and the largest velocity.
   void expect_complementary(const DelassusProblem &problem, const std::vector<Impulse> &r, const double tolerance)
   {
     const std::vector<RelativeVelocity> u       = relative_velocities(problem, r);
@@ -17,7 +17,7 @@ namespace
         EXPECT_GE(u[k].normal, -tolerance * fastest);
         EXPECT_LT(std::min(r[k].normal / largest, u[k].normal / fastest), tolerance);
         EXPECT_LE(std::abs(r[k].tangential), problem.friction[k] * r[k].normal * (1 + 1e-12));
-        // Where the impulse is off its bound on one side, nothing may slide against it.
+        // If the impulse is off its bound on one side, nothing may slide against it.
         const double room = (problem.friction[k] * r[k].normal + r[k].tangential) / largest;
         EXPECT_LT(std::min(room, u[k].tangential / fastest), tolerance);
         const double other_room = (problem.friction[k] * r[k].normal - r[k].tangential) / largest;
@@ -51,7 +51,8 @@ namespace
     return r;
   }
 
-  // The contacts' own blocks couple normal and tangential directions (W_nt = 0.8, W_nn = 2, W_tt = 3): still complementary.
+  // The contacts' own blocks couple normal and tangential directions (W_nt = 0.8, W_nn = 2, W_tt = 3). The solution is still
+  // complementary.
   TEST(Fclib, AContactWithCoupledDirectionsIsSolved)
   {
     const TemporaryFile file;
@@ -70,7 +71,7 @@ namespace
         }
   }
 
-  // Both descriptions of one file and its bodies are the same W and q; measured 2e-16.
+  // Both descriptions of a file and its bodies give the same W and q; measured 2e-16.
   TEST(Fclib, LocalGlobalAndBodiesOfAStoredFileAgree)
   {
     for (const std::string name : {"small.h5", "medium.h5"})
@@ -81,7 +82,7 @@ namespace
         EXPECT_LT(relative_difference(problem.local, delassus_form(*problem.bodies)), 1e-10);
         std::cout << name << ": global " << relative_difference(problem.local, read_fclib_global(stored(name))) << ", bodies "
                   << relative_difference(problem.local, delassus_form(*problem.bodies)) << "\n";
-        // The same impulses, whatever they are, have the same residual in both forms.
+        // Any impulses have the same residual in both forms.
         std::vector<Impulse> r;
         for (std::size_t k = 0; k < problem.local.n_contacts(); ++k)
           r.push_back({0.01 * double(k % 17), 0.002 * double(k % 5)});
@@ -90,8 +91,9 @@ namespace
       }
   }
 
-  // The stored solution is Siconos' at 1e-8 of its own scale. Several exact solutions may exist: it is judged, not compared.
-  TEST(Fclib, TheStoredSolutionIsOne)
+  // The stored solution is that of Siconos at 1e-8 of its scale. Several exact solutions may exist, so the test checks it by the
+  // laws.
+  TEST(Fclib, TheStoredSolutionSolvesTheProblem)
   {
     for (const std::string name : {"small.h5", "medium.h5"})
       {
@@ -121,8 +123,7 @@ namespace
       expect_complementary(problem.local, solved(problem, form, ContactSolver::psor, 1e-8), 1e-6);
   }
 
-  // What is written again, with and without the geometry that the bodies need, is the same problem to the last bits, and is
-  // solved to the same impulses.
+  // A problem written again, with and without the geometry of the bodies, is the same to the last bits and has the same solution.
   TEST(Fclib, AWrittenProblemIsReadBack)
   {
     const TemporaryFile        file;
@@ -153,7 +154,7 @@ namespace
     EXPECT_FALSE(std::filesystem::exists(file.path + ".part"));
   }
 
-  // Two discs across the edge of a free cell: its width is a body, and both forms agree on u and on the residual.
+  // Two discs across the edge of a free cell. The width is a body, and both forms agree on u and on the residual.
   TEST(Fclib, AFreeCellCouplesTheContactsAcrossItsEdge)
   {
     ContactProblem problem;
@@ -163,7 +164,7 @@ namespace
                                         {1, 0, 0, 1, 0, -1, 2, 1, 0.5, 0.5, 0, 0.2, 0.4, 1 / 1.5, 1 / 4.5}};
     const DelassusProblem      local = delassus_form(problem);
     const std::vector<Impulse> r     = {{0.7, 0.1}, {0.2, -0.05}};
-    // v = v_free + M^-1 H r by hand is what velocities() does; u + c must be the same.
+    // v = v_free + M^-1 H r is computed by velocities(). u + c must be the same.
     const std::vector<BodyVelocity>     v = velocities(problem, r);
     const std::vector<RelativeVelocity> u = relative_velocities(local, r);
     for (int k = 0; k < 2; ++k)
@@ -184,8 +185,9 @@ namespace
     EXPECT_LT(relative_difference(local, read_fclib_global(file.path)), 1e-14);
   }
 
-  // A grain with two different translational inertias is none: the file is still solved, in the local form, and says why.
-  TEST(Fclib, BodiesThatAreNoDiscsFallBackToTheLocalForm)
+  // A grain with two different inverse masses is not a disc. The file is still solved, in the local form, and the reason is
+  // given.
+  TEST(Fclib, BodiesThatAreNotDiscsFallBackToTheLocalForm)
   {
     const TemporaryFile file;
     {

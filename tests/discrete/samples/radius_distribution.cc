@@ -21,7 +21,7 @@ namespace
     return std::accumulate(values.begin(), values.end(), 0.) / double(values.size());
   }
 
-  // Mass of radii up to r / whole mass, of discs: mass ~ r^2.
+  // Mass of discs with radii up to r / whole mass (mass ~ r^2).
   double mass_fraction(const std::vector<double> &radius, const double r)
   {
     double below = 0, all = 0;
@@ -33,7 +33,7 @@ namespace
     return below / all;
   }
 
-  // A gap-graded curve: no grains between 0.4 and 0.5.
+  // A gap-graded curve without grains between 0.4 and 0.5.
   const RadiusTable gap_graded = {{0.2, 0.4, 0.5, 1.}, {0., 0.3, 0.3, 1.}};
 
   std::string complaint(const RadiusDistribution &distribution, const RadiusScale scale = RadiusScale::as_given)
@@ -75,17 +75,17 @@ namespace
     return "no error";
   }
 
-  // Midpoint quantiles of a linear curve average to its middle exactly: (0.3 + 0.7) / 2.
+  // Midpoint quantiles of a linear curve have exactly the mean of its ends: (0.3 + 0.7) / 2.
   TEST(RadiusDistribution, UniformByNumberHasTheMeanOfItsEnds)
   {
     const std::vector<double> radius = radius_quantiles(UniformByNumber{0.3, 0.7}, 1001, RadiusScale::mean_diameter_one);
     EXPECT_NEAR(mean(radius), 0.5, 1e-15 * 1001);
-    // (k + 1/2)/n of the range: the outermost lie half a spacing inside.
+    // (k + 1/2)/n of the range: the outermost radii are half a spacing inside.
     EXPECT_DOUBLE_EQ(radius.front(), 0.3 + 0.4 * 0.5 / 1001);
     EXPECT_DOUBLE_EQ(radius.back(), 0.7 - 0.4 * 0.5 / 1001);
   }
 
-  // The samples prepared before this file existed keep their bits.
+  // Samples prepared before this file existed must keep their bits.
   TEST(RadiusDistribution, UniformByNumberIsTheFormulaOfOldSamples)
   {
     const std::vector<double> radius = radius_quantiles(UniformByNumber{0.3, 0.7}, 4000);
@@ -116,8 +116,9 @@ namespace
     EXPECT_DOUBLE_EQ(radius[1], 0.5);
   }
 
-  // Constant mass density: a quarter of the range holds a quarter of the mass. Koksma again, on r^2 cut off at r (variation at
-  // most 2 r^2, over the mean of r^2) and on the whole mass (variation b^2): error at most (r^2 + b^2/2) / sum r^2.
+  // At constant mass density a quarter of the range holds a quarter of the mass. Koksma's inequality applies to r^2 cut off at r
+  // (variation at most 2 r^2, over the mean of r^2) and to the whole mass (variation b^2). The error is at most (r^2 + b^2/2) /
+  // sum r^2.
   TEST(RadiusDistribution, UniformByMassSharesTheMassEvenly)
   {
     const std::vector<double> radius = radius_quantiles(UniformByMass{0.2, 1.}, 2000);
@@ -126,14 +127,14 @@ namespace
       EXPECT_NEAR(mass_fraction(radius, 0.2 + 0.8 * share), share, 1.5 / mass);
   }
 
-  // The same bound with b = 1; it falls as 1/n.
+  // The same bound with b = 1; it decreases as 1/n.
   TEST(RadiusDistribution, AGradingCurveIsReproducedToOneOverN)
   {
     for (const int n : {200, 2000, 20000})
       {
         const std::vector<double> radius = radius_quantiles(gap_graded, n);
         const double              mass   = std::inner_product(radius.begin(), radius.end(), radius.begin(), 0.);
-        EXPECT_GT(mass, 0.05 * n); // so that the bound below is O(1/n): every r^2 is at least 0.04
+        EXPECT_GT(mass, 0.05 * n); // the bound below is O(1/n), because every r^2 is at least 0.04
         for (const auto &[r, passing] : {std::pair(0.3, 0.15), {0.4, 0.3}, {0.45, 0.3}, {0.5, 0.3}, {0.75, 0.65}, {1., 1.}})
           EXPECT_NEAR(mass_fraction(radius, r), passing, 1.5 / mass) << "n = " << n << ", r = " << r;
         for (const double r : radius)
@@ -152,7 +153,7 @@ namespace
   TEST(RadiusDistribution, AGradingCurveOfOnePieceIsUniformByMass)
   {
     EXPECT_EQ(radius_quantiles(RadiusTable{{0.2, 1.}, {0., 1.}}, 77), radius_quantiles(UniformByMass{0.2, 1.}, 77));
-    // Points on a straight curve change nothing but round-off.
+    // Points on a straight curve change only the round-off.
     const auto whole = radius_quantiles(UniformByMass{0.2, 1.}, 77),
                cut   = radius_quantiles(RadiusTable{{0.2, 0.4, 0.8, 1.}, {0., 0.25, 0.75, 1.}}, 77);
     for (int k = 0; k < 77; ++k)
@@ -183,7 +184,7 @@ namespace
     EXPECT_EQ(radius_quantiles(UniformByMass{0.25, 0.25}, 3, RadiusScale::mean_diameter_one), std::vector<double>(3, 0.5));
   }
 
-  TEST(RadiusDistribution, WhatIsNoDistributionIsRefusedByNameValueAndRange)
+  TEST(RadiusDistribution, AnInvalidDistributionIsRefusedByNameValueAndRange)
   {
     EXPECT_EQ(complaint(UniformByNumber{0., 1.}), "smallest radius 0 is out of range; allowed: more than 0");
     EXPECT_EQ(complaint(UniformByMass{0.5, 0.25}),

@@ -1,4 +1,4 @@
-// diptych: grains from files are exactly those that were written, or refused with their place
+// diptych: grains from files read back exactly, or are refused with their place
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "tests/discrete/samples/sample_file_examples.h"
 
@@ -6,7 +6,7 @@ namespace
 {
   // --- grains from CSV
 
-  TEST(GrainsFromCsv, ColumnsMayStandInAnyOrderAndAbsentOnesAreZero)
+  TEST(GrainsFromCsv, ColumnsMayHaveAnyOrderAndMissingOnesAreZero)
   {
     const GrainFile file = read("# two discs\nr,y,x,fixed\n0.5, 1, 2, 1\n\n0.25,4,-3,0\n");
     const Grains   &g    = file.grains;
@@ -84,7 +84,7 @@ namespace
     return complaint(csv, [&] { check_grains(file, box, allowed_overlap); });
   }
 
-  // Radii 1 and 0.5 at the distance 1.25 overlap by 0.25: half of the smaller radius.
+  // Radii 1 and 0.5 at a distance of 1.25 overlap by 0.25: half of the smaller radius.
   TEST(GrainCheck, OverlapIsMeasuredByTheSmallerRadius)
   {
     const std::string rows = "0,0,1,0\n9,9,1,0\n1.25,0,0.5,0\n";
@@ -102,15 +102,16 @@ namespace
               "2; allowed: an overlap of 0 to 0 (2 such pairs; this is the worst)");
   }
 
-  // Held or not: their pairs would be as many as their number squared.
-  TEST(GrainCheck, ACrowdInOnePlaceIsRefusedBeforeItsPairsAreSought)
+  // Held or not, the number of pairs would be the square of the number of grains.
+  TEST(GrainCheck, ACrowdInOnePlaceIsRefusedBeforeItsPairsAreSearched)
   {
     std::string rows;
     for (int i = 0; i < 100000; ++i)
       rows += "5,5,0.5,0\n";
-    const std::string said = check(rows, {}, 1);
-    EXPECT_NE(said.find("line 2 and line 3: 100000 grains of about one size lie in one square of the side 1"), std::string::npos)
-      << said;
+    const std::string message = check(rows, {}, 1);
+    EXPECT_NE(message.find("line 2 and line 3: 100000 grains of similar size lie in one square with sides of length 1"),
+              std::string::npos)
+      << message;
   }
 
   TEST(GrainCheck, TouchingGrainsAndWallsAreNoOverlap)
@@ -118,7 +119,7 @@ namespace
     EXPECT_EQ(check("1,1,1,0\n3,1,1,0\n", {0., 2., 0., 4.}, 0.), "no error");
   }
 
-  // A disc of radius 1 may reach 0.125 beyond each side when the allowed overlap is 0.125.
+  // A disc of radius 1 may reach 0.125 beyond each side if the allowed overlap is 0.125.
   TEST(GrainCheck, GrainsBeyondEachSideAreNamedWithTheirReach)
   {
     const SampleBox box = {0., 10., -5., 5.};
@@ -134,18 +135,18 @@ namespace
     EXPECT_EQ(check("7,5,1,0\n", {0., 10.}, 0.125), "no error"); // no side walls
   }
 
-  // A rough bottom: discs glued to the lower platen, each over half of its neighbour.
+  // A rough bottom: discs on the lower platen, each of them over half of its neighbour.
   TEST(GrainCheck, FixedGrainsMayOverlapEachOtherAndStraddleThePlaten)
   {
     const std::string bottom = "0,0,1,1\n1,0,1,1\n";
     EXPECT_EQ(check(bottom, {0., 10.}, 0.), "no error");
     EXPECT_EQ(check(bottom + "0,-1.5,1,1\n", {0., 10.}, 0.),
               ", line 4: y = -1.5 with r = 1 reaches to -2.5, beyond the lower platen at y = 0; allowed: -2 or more");
-    // A free grain in them is an error all the same: it reaches to 1.5 - 1 = 0.5 above the platen, but 0.5 into the first.
+    // A free grain among them is still an error: it reaches down to 0.5 above the platen, but 0.5 into the first disc.
     EXPECT_EQ(check(bottom + "0,1.5,1,0\n", {0., 10.}, 0.).find(", line 2 and line 4: the grains overlap by 0.5 of"), 0u);
   }
 
-  // Unit discs at 0.5 and 19.75 of a period of 20 meet across its edge: 0.75 apart, so they overlap by 1.25.
+  // Unit discs at 0.5 and 19.75 in a period of 20 meet across its edge, 0.75 apart. They overlap by 1.25.
   TEST(GrainCheck, GrainsOverlapAcrossTheEdgeOfACell)
   {
     const std::string rows = "0.5,0,1,0\n19.75,0,1,0\n";

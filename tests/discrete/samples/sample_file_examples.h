@@ -25,7 +25,7 @@ namespace
     return (std::filesystem::path(testing::TempDir()) / ("sample_file" + std::to_string(::getpid()) + name)).string();
   }
 
-  // What is said of a fault, without the file's name in front of it.
+  // Message about a fault, without the name of the file in front.
   std::string complaint(const std::string &path, const std::function<void()> &action)
   {
     try

@@ -1,4 +1,4 @@
-// diptych: the prepared sample is dense, quiet, under the pressure asked for, and free of overlaps
+// diptych: the prepared sample is dense, at rest, under the given pressure and free of overlaps
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <numeric>
 
@@ -18,13 +18,13 @@ namespace
     const SampleOptions  options = small_sample(800);
     const PreparedSample sample  = prepare_sample(options, {}, [](int, int) { return true; });
     EXPECT_TRUE(sample.report.quiet);
-    // Frictionless packings of this size distribution jam near 0.845; free sides cost a small sample a little.
+    // Frictionless packings of this size distribution jam near 0.845. Free sides reduce this a little in a small sample.
     EXPECT_GT(sample.report.solid_fraction, 0.83);
     EXPECT_LT(sample.report.solid_fraction, 0.86);
     const double mean = std::accumulate(sample.state.grains.radius.begin(), sample.state.grains.radius.end(), 0.) / 800;
     EXPECT_NEAR(mean, 0.5, 1e-12);
 
-    // The lateral action holds s_xx = P: sum of moments / area, to the sampling of a few hundred grains.
+    // The lateral action gives s_xx = P (sum of moments / area) within the sampling of a few hundred grains.
     std::vector<ContactForce> forces;
     for (std::size_t k = 0; k < sample.last_step.contacts.size(); ++k)
       {
@@ -38,7 +38,7 @@ namespace
     EXPECT_NEAR(moment / area, 1, 0.1);
   }
 
-  // Whatever the sides, sizes and friction: springs of any stiffness may be put on such a sample, and a step of any length.
+  // For all sides, sizes and friction. Such a sample can take springs of any stiffness and steps of any length.
   TEST(SamplePreparation, LeavesNoOverlap)
   {
     SampleOptions by_mass         = small_sample(300);
@@ -95,7 +95,7 @@ namespace
     EXPECT_GT(state.grains.position[2].x(), 0.5 - 2e-6);
   }
 
-  // Asked before every iteration: at the third there were two.
+  // The callback comes before every iteration. At its third call two iterations are done.
   TEST(SoftRelaxation, EndsBetweenTwoIterationsWhenAsked)
   {
     State state;
@@ -109,9 +109,9 @@ namespace
     EXPECT_EQ(asked, 3);
   }
 
-  // Whenever it is asked, the next question is the last one, and nothing is taken for quiet: in the soft discs (asked 5th), in
-  // the first steps' sweeps, and at any place of a preparation that was asked `whole` times.
-  TEST(SamplePreparation, EndsAtTheFirstQuestionThatSaysNo)
+  // The preparation stops after the first call that returns false, and never counts as at rest. The calls are in the soft discs
+  // (the 5th), in the sweeps of the first steps, and at several places of a preparation with `whole` calls.
+  TEST(SamplePreparation, EndsWhenTheCallbackReturnsFalse)
   {
     int whole = 0;
     ASSERT_TRUE(prepare_sample(small_sample(100), {}, [&](int, int) { return ++whole > 0; }).report.quiet);
@@ -120,7 +120,7 @@ namespace
         int                  asked  = 0;
         const PreparedSample sample = prepare_sample(small_sample(100), {}, [&](int, int) { return ++asked < last; });
         EXPECT_FALSE(sample.report.quiet) << last;
-        EXPECT_LE(asked, last + 3) << "each loop around the one that ended asks once more";
+        EXPECT_LE(asked, last + 3) << "each outer loop may call once more";
       }
   }
 
@@ -135,7 +135,7 @@ namespace
     return state;
   }
 
-  // The lattice fills a rectangle: the outline's area is the rectangle's, to the scallops of its edge.
+  // The lattice fills a rectangle. The outline has the area of the rectangle, except for the scallops of its edge.
   TEST(Outline, OfALatticeHasItsArea)
   {
     const Outline outline = make_outline(lattice(), 1.);
@@ -145,7 +145,7 @@ namespace
     EXPECT_EQ(outline.right.back().y(), 20);
   }
 
-  // Grains that press on a platen with no overlap touch it all the same, whatever the last bits of their places.
+  // Grains that press on a platen without overlap still touch it, whatever the last bits of their positions.
   TEST(Outline, DoesNotDependOnWhatIsBetweenAGrainAndItsPlaten)
   {
     const State   state   = lattice();

@@ -1,4 +1,4 @@
-// diptych: grains from snapshot files and time tables are exactly those that were written, or refused with their place
+// diptych: grains from snapshots and time tables read back exactly, or are refused with their place
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "tests/discrete/samples/sample_file_examples.h"
 
@@ -6,7 +6,7 @@ namespace
 {
   // --- grains from a snapshot file
 
-  // Two stages; the second with three grains between platens at -1 and 5, four contacts in an order of the solver's own.
+  // Two stages. The second has three grains between platens at -1 and 5, and four contacts in an arbitrary order.
   struct StoredFile
   {
     std::vector<double> radius = {0.5, 1., 0.75}, mass = {1., 4., 2.25}, rotation = {0.1, 0.2, 0.3}, spin = {-1., 0., 1. / 3};
@@ -75,7 +75,7 @@ namespace
     EXPECT_EQ(file.place(2), h5 + ", grain 2 (counted from 0)");
   }
 
-  // The open contact (0, 1) is left out, the others come ascending in (i, j).
+  // The open contact (0, 1) is left out. The others ascend in (i, j).
   TEST(GrainsFromSnapshots, ImpulsesComeAsTheStateKeepsThem)
   {
     StoredFile stored;
@@ -97,9 +97,9 @@ namespace
     std::filesystem::remove(h5);
   }
 
-  // Force (3, 4) on grain 0 from grain 1, which lies below it: normal (0, 1), tangent (-1, 0); in a step of 1/8 the impulses
-  // are 4/8 and -3/8.
-  TEST(GrainsFromSnapshots, WhatAPanelWroteIsUnderstood)
+  // Force (3, 4) on grain 0 from grain 1 below it: normal (0, 1), tangent (-1, 0). In a step of 1/8 the impulses are 4/8 and
+  // -3/8.
+  TEST(GrainsFromSnapshots, FilesOfAPanelAreRead)
   {
     Snapshot s;
     s.step     = 0.125;
@@ -139,7 +139,7 @@ namespace
                                         "(part of the lower or upper platen)");
   }
 
-  TEST(GrainsFromSnapshots, AStageThatIsNotThereIsNamed)
+  TEST(GrainsFromSnapshots, AMissingStageIsNamed)
   {
     EXPECT_EQ(stored_complaint({}, 2), ": holds no stage 2; allowed: 0 to 1, or -1 for the last");
     EXPECT_EQ(stored_complaint({}, -2), ": holds no stage -2; allowed: 0 to 1, or -1 for the last");
@@ -173,8 +173,9 @@ namespace
     EXPECT_EQ(stored_complaint(stored), ", dataset 'stage_0001/contacts/impulse': 3 entries; allowed: 4");
     stored         = {};
     stored.body[3] = 7; // three grains and at most four walls: bodies 0 to 6
-    EXPECT_EQ(stored_complaint(stored),
-              ", dataset 'stage_0001/contacts/body': row 1 (counted from 0) = 0, 7; allowed: 0 to 2, and more than that to 6");
+    EXPECT_EQ(
+      stored_complaint(stored),
+      ", dataset 'stage_0001/contacts/body': row 1 (counted from 0) = 0, 7; allowed: 0 to 2, and a larger number up to 6");
     stored         = {};
     stored.lower_y = 6;
     EXPECT_EQ(stored_complaint(stored), ", attribute 'upper_y' of 'stage_0001' = 5 is out of range; allowed: 6 to 1e12");
@@ -185,7 +186,7 @@ namespace
     Hdf5Writer file(h5);
     file.write("stage_0000/grains/radius", std::vector<double>{1.});
     file.finish();
-    const std::string what = complaint(h5, [&] { read_grains_hdf5(h5); }); // what stands after the path
+    const std::string what = complaint(h5, [&] { read_grains_hdf5(h5); }); // text after the path
     EXPECT_NE(what.find("stage_0000/grains/position"), std::string::npos) << what;
     std::filesystem::remove(h5);
   }

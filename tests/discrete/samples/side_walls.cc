@@ -1,4 +1,4 @@
-// diptych: where the side walls of a sample stand whose grains are given
+// diptych: positions of the side walls of a sample with given grains
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@ namespace
 {
   using namespace diptych::discrete;
 
-  // Three discs of radius 1 side by side between the platens y = 0 and y = 2, the last one fixed where a test says so.
+  // Three discs of radius 1 side by side between the platens y = 0 and y = 2. The last one may be fixed.
   Grains three_discs(const bool last_fixed)
   {
     Grains grains;
@@ -48,7 +48,7 @@ namespace
     return sample.state.walls[3].point.x();
   }
 
-  // Edges at -1 and 5, whether the outermost grain moves or not.
+  // Edges at -1 and 5, whether or not the outermost grain moves.
   TEST(SideWalls, AutoIsTheOutermostEdgeOfAnyGrain)
   {
     for (const bool fixed : {false, true})
@@ -59,7 +59,7 @@ namespace
       }
   }
 
-  TEST(SideWalls, StandWhereTheirKeysSay)
+  TEST(SideWalls, FollowTheirKeys)
   {
     SampleOptions options;
     options.left_wall = -1.5, options.right_wall = 7;
@@ -70,7 +70,7 @@ namespace
     EXPECT_EQ(sample.state.walls[1].point.y(), 2);
   }
 
-  // As between two grains: up to allowed_overlap of the radius, no more.
+  // As between two grains, up to allowed_overlap of the radius is accepted.
   TEST(SideWalls, AnOverlapIsJudgedLikeOneWithAGrain)
   {
     SampleOptions options;

@@ -14,7 +14,7 @@ namespace
 {
   using namespace diptych::tests;
 
-  // Free discs (mass 1) in a triangle pressed onto a floor: small enough that all solvers end at one solution.
+  // Free discs (mass 1) in a triangle, pressed onto a floor. This is small enough that all solvers reach the same solution.
   ContactProblem pyramid(const double friction)
   {
     ContactProblem problem;
@@ -53,7 +53,7 @@ namespace
                 EXPECT_NEAR(impulses[k].tangential, reference[k].tangential, 1e-10) << name_of(solver);
               }
           }
-        // Vertical momentum: the floor stops all three discs, 3 x 1 x 1, unless friction lets the pile spread.
+        // Vertical momentum: the floor stops all three discs, 3 x 1 x 1, unless friction allows the pile to spread.
         if (friction == 0.5)
           {
             EXPECT_NEAR(reference[0].normal + reference[1].normal, 3, 1e-9);
@@ -61,8 +61,8 @@ namespace
       }
   }
 
-  // The residual is checked every 20 sweeps, and so is whether to stop: at the third question 40 are done. One who never says so
-  // changes no bit.
+  // The solver checks the residual, and whether to stop, every 20 sweeps. At the third call it has done 40 sweeps. A callback
+  // that never stops the solve changes no bit.
   TEST(Solvers, EndBetweenTwoChecksWhenAsked)
   {
     const ContactProblem problem = pyramid(0.1);
@@ -73,12 +73,12 @@ namespace
         options.tolerance        = 0;
         options.max_sweeps       = 200;
         options.sweeps_per_check = 20;
-        std::vector<Impulse> alone(problem.contacts.size()), asked = alone, stopped = alone;
-        (void)solve(problem, options, alone);
+        std::vector<Impulse> undisturbed(problem.contacts.size()), asked = undisturbed, stopped = undisturbed;
+        (void)solve(problem, options, undisturbed);
         options.stop_requested = [] { return false; };
         (void)solve(problem, options, asked);
-        for (std::size_t k = 0; k < alone.size(); ++k)
-          EXPECT_TRUE(alone[k].normal == asked[k].normal && alone[k].tangential == asked[k].tangential);
+        for (std::size_t k = 0; k < undisturbed.size(); ++k)
+          EXPECT_TRUE(undisturbed[k].normal == asked[k].normal && undisturbed[k].tangential == asked[k].tangential);
         int questions            = 0;
         options.stop_requested   = [&] { return ++questions == 3; };
         const SolveReport report = solve(problem, options, stopped);
@@ -110,7 +110,7 @@ namespace
       }
   }
 
-  // A problem like that of a step, on a real packing, with the rows' terms made up.
+  // A problem like that of a step, on a real packing, with artificial terms of the law.
   ContactProblem packing_problem(const int grains, const double tangential_term)
   {
     const PreparedSample sample   = prepare_sample(small_sample(grains), {}, [](int, int) { return true; });
@@ -131,8 +131,8 @@ namespace
     return problem;
   }
 
-  // Four lanes at a time and one row after another are the same arithmetic in an order that does not matter, also where the
-  // problem is cut into blocks, and with a tangential restitution.
+  // Four lanes and row after row do the same arithmetic in an order that does not matter. This also holds with several blocks and
+  // with tangential restitution.
   TEST(Solvers, BatchedSweepsHaveTheBitsOfScalarOnes)
   {
     for (const double tangential_term : {0., 0.002})
@@ -195,7 +195,7 @@ namespace
     EXPECT_EQ(solve(problem, options, impulses).sweeps, 0);
   }
 
-  TEST(Solvers, SayWhenTheyDidNotConverge)
+  TEST(Solvers, ReportThatTheyDidNotConverge)
   {
     SolverOptions options;
     options.tolerance            = 1e-14;
@@ -208,8 +208,8 @@ namespace
     EXPECT_EQ(report.sweeps, 3);
   }
 
-  // On a real sheared packing (300 discs) plain and over-relaxed sweeps may end at different exact
-  // solutions; both must reach one.
+  // On a real sheared packing (300 discs) plain and over-relaxed sweeps may reach different exact solutions, but both must reach
+  // one.
   TEST(Solvers, BothConvergeOnAShearedPacking)
   {
     for (const ContactSolver solver : {ContactSolver::nsgs, ContactSolver::psor})

@@ -25,7 +25,7 @@ namespace
     return c;
   }
 
-  // Two towers of three discs (mass 1) that fall onto a floor: the first with velocity 1, the second at rest.
+  // Two towers of three discs (mass 1) on a floor: the first falls with velocity 1, the second is at rest.
   ContactProblem towers()
   {
     ContactProblem problem;
@@ -37,17 +37,17 @@ namespace
 
   TEST(StalledContacts, LieAroundTheLargestResidual)
   {
-    // At r = 0 only the lowest contact of the first tower closes: r - P(r) = 1 there and zero elsewhere. Its one disc that moves
-    // has another contact, but with a disc that has none of the residual.
+    // At r = 0 only the lowest contact of the first tower closes: r - P(r) = 1 there and zero elsewhere. Its free disc has
+    // another contact, but with a disc that has no residual.
     const ContactProblem       problem = towers();
     const std::vector<Impulse> zero(6);
     EXPECT_EQ(stalled_contacts(problem, zero, {}), std::vector<int>({0}));
-    // What was held stays, and what lies between the bodies of both comes too.
+    // Held contacts stay in the set, and the contacts between the bodies of both join it.
     EXPECT_EQ(stalled_contacts(problem, zero, {2}), std::vector<int>({0, 1, 2}));
     EXPECT_EQ(stalled_contacts(problem, zero, {5}), std::vector<int>({0, 5}));
   }
 
-  TEST(StalledContacts, AreNoneWhereTheResidualIsEverywhere)
+  TEST(StalledContacts, AreNoneIfTheResidualIsEverywhere)
   {
     ContactProblem problem; // 400 discs that fall side by side
     problem.free_velocity.assign(400, {0, -1, 0, 1});
@@ -57,9 +57,9 @@ namespace
     EXPECT_TRUE(stalled_contacts(problem, std::vector<Impulse>(400), {}).empty());
   }
 
-  TEST(StalledContacts, AreSolvedAloneWithAllOthersHeld)
+  TEST(StalledContacts, AreSolvedByThemselvesWithAllOthersHeld)
   {
-    // The floor stops the first tower: from below each contact carries what falls above it, 3, 2 and 1.
+    // The floor stops the first tower: from below, each contact carries the discs above it, 3, 2 and 1.
     const ContactProblem      problem = towers();
     const std::vector<int>    rows{0, 1, 2};
     std::vector<Impulse>      impulses(3);
@@ -76,24 +76,24 @@ namespace
   TEST(StalledContacts, HeldRowsAreNotSweptButCountInTheResidual)
   {
     const ContactProblem problem = towers();
-    ThreadTeam           alone(1);
+    ThreadTeam           one_thread(1);
     BatchedContacts      batches(problem, {0, 1, 2});
     batches.set_impulses(std::vector<Impulse>(6));
-    batches.sweep(1, 1, 10, alone);
+    batches.sweep(1, 1, 10, one_thread);
     for (const Impulse &r : batches.impulses())
       EXPECT_EQ(r.normal, 0);
-    EXPECT_EQ(batches.residual(alone), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(batches.residual(one_thread), std::numeric_limits<double>::infinity());
     batches.solve_held([&](std::vector<BodyVelocity> &v, Impulse *impulses) { sweep_alone(problem, {0, 1, 2}, v, impulses); });
-    EXPECT_LT(batches.residual(alone), 1e-6);
+    EXPECT_LT(batches.residual(one_thread), 1e-6);
     EXPECT_NEAR(batches.impulses()[0].normal, 3, 1e-6);
     batches.refresh_velocities();
-    EXPECT_LT(batches.residual(alone), 1e-6);
+    EXPECT_LT(batches.residual(one_thread), 1e-6);
   }
 
-  // 100 discs sheared at I = 1e-3 in steps of 0.02: on some of 1700 steps (3.4 % strain) all sweeps together circle for ever
-  // about a few contacts at residuals of 1e-4. With these swept by themselves few are left: 17 of 12000 over eight samples, which
-  // of them hangs on the last bits.
-  TEST(StalledContacts, FewStepsOfAShearedSampleAreLeft)
+  // 100 discs are sheared at I = 1e-3 in steps of 0.02. On some of 1700 steps (3.4 % strain) the sweeps circle about a few
+  // contacts at residuals of 1e-4. If these are swept by themselves, few such steps remain: 17 of 12000 over eight samples. Which
+  // steps remain depends on the last bits.
+  TEST(StalledContacts, FewStepsOfAShearedSampleRemainUnsolved)
   {
     SampleOptions options;
     options.grains        = 100;
@@ -117,6 +117,6 @@ namespace
         ASSERT_LT(result.solve.residual, 1e-3) << "step " << step;
       }
     EXPECT_LE(left, 8) << "of " << relieved << " that stalled";
-    EXPECT_GT(relieved, 3 * left) << "no step stalled: this test shows nothing; longest solve " << longest;
+    EXPECT_GT(relieved, 3 * left) << "no step stalled, so this test shows nothing; longest solve " << longest;
   }
 } // namespace

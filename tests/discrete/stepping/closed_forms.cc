@@ -33,7 +33,7 @@ namespace
     EXPECT_NEAR(state.grains.velocity[0].norm(), 0, 1e-14);
   }
 
-  // n discs of radius r, the topmost m_top heavy: the contact below disc k carries (n-1-k) m g + m_top g.
+  // n discs of radius r, the topmost m_top heavy. The contact below disc k carries (n-1-k) m g + m_top g.
   TEST(ClosedForm, ColumnCarriesWhatIsAboveEachContact)
   {
     for (const ContactSolver solver : {ContactSolver::nsgs, ContactSolver::psor})
@@ -59,7 +59,8 @@ namespace
       }
   }
 
-  // tan a <= 3 mu: rolls with (2/3) g sin a; else slides with g (sin a - mu cos a) and turns with 2 mu g cos a / r.
+  // For tan a <= 3 mu the disc rolls with (2/3) g sin a. Otherwise it slides with g (sin a - mu cos a) and turns with 2 mu g cos
+  // a / r.
   TEST(ClosedForm, DiscOnAnInclineRollsOrSlides)
   {
     const double g = 9.81, step = 0.001, mu = 0.2, radius = 0.5;
@@ -82,7 +83,7 @@ namespace
       }
   }
 
-  // Slips until t = v0/(3 mu g), then rolls at (2/3) v0 for ever.
+  // Slips until t = v0/(3 mu g), and then rolls at (2/3) v0.
   TEST(ClosedForm, ThrownDiscEndsRollingAtTwoThirdsOfItsSpeed)
   {
     const double g = 10, mu = 0.3, v0 = 3, step = 0.001, slip_time = v0 / (3 * mu * g);
@@ -102,7 +103,8 @@ namespace
     EXPECT_NEAR(state.grains.velocity[0].x(), 2. / 3 * v0, 1e-12);
   }
 
-  // th from the normal, e_t = 0: sliding throughout if tan th > 3 mu (1+e), then v_t'/v_t = 1 - mu (1+e)/tan th; else 2/3.
+  // Angle th from the normal, e_t = 0. For tan th > 3 mu (1+e) the disc slides throughout: v_t'/v_t = 1 - mu (1+e)/tan th;
+  // otherwise 2/3.
   TEST(ClosedForm, ObliqueImpactOnAWall)
   {
     const double step = 0.01, mu = 0.25;
@@ -121,7 +123,7 @@ namespace
         }
   }
 
-  // Walton: sticks iff |v_t|/|v_n| <= 3 mu (1+e_n)/(1+e_t), then I_t = (m/3)(1+e_t) v_t, else mu I_n = mu m (1+e_n) v_n.
+  // Walton: sticks if |v_t|/|v_n| <= 3 mu (1+e_n)/(1+e_t), then I_t = (m/3)(1+e_t) v_t, otherwise mu I_n = mu m (1+e_n) v_n.
   TEST(ClosedForm, ObliqueImpactWithTangentialRestitution)
   {
     const double step = 0.01, mu = 0.25, en = 0.8, et = 0.6;
@@ -141,7 +143,7 @@ namespace
       }
   }
 
-  // Newton's law in a touching row, all in one step: first 1 - (1+e)(n-1)/n, the others (1+e)/n of v0.
+  // Newton's law in a touching row, all in one step: the first disc keeps 1 - (1+e)(n-1)/n, the others get (1+e)/n of v0.
   TEST(ClosedForm, RowOfTouchingDiscsHitByTheFirst)
   {
     for (const int n : {2, 3, 5})
@@ -159,7 +161,7 @@ namespace
         }
   }
 
-  // Gaps larger than a step's travel: binary impacts one after another hand the whole speed on to the last disc.
+  // Gaps larger than the travel of a step: successive binary impacts pass the whole speed on to the last disc.
   TEST(ClosedForm, RowWithGapsHandsTheSpeedOnToTheLast)
   {
     const double step              = 0.01;

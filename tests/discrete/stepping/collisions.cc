@@ -1,4 +1,4 @@
-// diptych: impacts of two and of many discs, bounces, gases; what the order of the sweeps may change
+// diptych: impacts of two and many discs, bounces, gases, and effects of the sweep order
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 #include <numeric>
@@ -13,9 +13,9 @@ namespace
 {
   using namespace diptych::tests;
 
-  // Walton: with the pair's effective mass m = m1 m2/(m1 + m2) and u the relative velocity of the surfaces, I_n = m (1+e_n) |u_n|
-  // and, where |u_t|/|u_n| <= 3 mu (1+e_n)/(1+e_t), I_t = (m/3)(1+e_t) |u_t| (sticks), else mu I_n. Each disc takes the impulse
-  // at its own mass, and the couple r I_t at its own inertia m r^2/2.
+  // Walton: m = m1 m2/(m1 + m2) is the effective mass of the pair and u the relative velocity of the surfaces. Then I_n = m
+  // (1+e_n) |u_n|. The pair sticks if |u_t|/|u_n| <= 3 mu (1+e_n)/(1+e_t), with I_t = (m/3)(1+e_t) |u_t|; otherwise I_t = mu I_n.
+  // Each disc takes the impulse with its own mass and the couple r I_t with its own inertia m r^2/2.
   TEST(Collision, ObliqueImpactOfTwoUnequalDiscsIsWaltons)
   {
     const double step = 0.01, mu = 0.3;
@@ -39,16 +39,16 @@ namespace
             ASSERT_EQ(advance(state, setting).solve.status, SolveStatus::converged);
 
             const double m1 = before.mass[0], m2 = before.mass[1], m = m1 * m2 / (m1 + m2);
-            const double un     = approach.x();                          // of the second against the first, along n
-            const double ut     = approach.y() - 0.5 * 0.4 - 0.4 * -0.7; // surfaces: a spin turns both sides against the pair
-            const double in     = m * (1 + en) * -un;
+            const double un = approach.x();                          // of the second against the first, along n
+            const double ut = approach.y() - 0.5 * 0.4 - 0.4 * -0.7; // of the surfaces: a spin turns both sides against the pair
+            const double in = m * (1 + en) * -un;
             const bool   sticks = std::abs(ut) <= 3 * mu * (1 + en) / (1 + et) * std::abs(un);
             const double it     = -(ut > 0 ? 1 : -1) * (sticks ? m / 3 * (1 + et) * std::abs(ut) : mu * in);
             ++(sticks ? sticking : sliding);
             const Eigen::Vector2d impulse = in * n + it * t; // on the second
             EXPECT_NEAR((state.grains.velocity[1] - v1 - impulse / m2).norm(), 0, 1e-12) << "angle " << angle;
             EXPECT_NEAR((state.grains.velocity[0] - v0 + impulse / m1).norm(), 0, 1e-12) << "angle " << angle;
-            // The contact lies at +r n from the first and -r n from the second: both couples are -r I_t.
+            // The contact is at +r n from the first and -r n from the second disc, so both couples are -r I_t.
             EXPECT_NEAR(state.grains.spin[0], 0.4 - 0.5 * it / before.moment_of_inertia(0), 1e-12) << "angle " << angle;
             EXPECT_NEAR(state.grains.spin[1], -0.7 - 0.4 * it / before.moment_of_inertia(1), 1e-12) << "angle " << angle;
           }
@@ -56,9 +56,9 @@ namespace
     EXPECT_GT(sliding, 50);
   }
 
-  // A touching row hit by its first disc, in any direction, by both solvers: first 1 - (1+e)(n-1)/n, the others (1+e)/n of v0.
-  // Three discs and e = 1 give (-1/3, 2/3, 2/3), not (0, 0, 1): a restitution coefficient says little about several contacts at
-  // once.
+  // A touching row hit by its first disc, in any direction and with both solvers. The first disc keeps 1 - (1+e)(n-1)/n and the
+  // others get (1+e)/n of v0. Three discs and e = 1 give (-1/3, 2/3, 2/3), not (0, 0, 1): a restitution coefficient says little
+  // about several simultaneous contacts.
   TEST(Collision, TouchingRowSharesTheSpeedAmongAllButTheFirst)
   {
     for (const ContactSolver solver : {ContactSolver::nsgs, ContactSolver::psor})
@@ -88,7 +88,7 @@ namespace
   struct Bounces
   {
     std::vector<double> apex, energy; // energy: kinetic plus potential at every 1/100 of the time
-    double              rest = NAN;   // time from which on it is slower than a fall of one step
+    double              rest = NAN;   // time from which the disc is slower than a fall of one step
   };
 
   // Dropped from h0 = 1 with g = 10.
@@ -120,8 +120,8 @@ namespace
     return result;
   }
 
-  // n-th apex e^(2n) h0. Each impact comes up to a step early, at a speed up to sqrt(2 g h0) = 4.5: an error of v h (1 + e^2) or
-  // so in the first apex and the same, shrinking, in the later ones; a quarter of the step makes it a quarter in the mean.
+  // The n-th apex is e^(2n) h0. Each impact comes up to one step early, at a speed up to sqrt(2 g h0) = 4.5. This gives an error
+  // of about v h (1 + e^2) in the first apex and smaller ones later. With a quarter of the step the mean error is a quarter.
   TEST(Collision, BouncingDiscsApexesAreFirstOrderInTheStep)
   {
     const double e = 0.8;
@@ -134,8 +134,8 @@ namespace
       }
   }
 
-  // Comes to rest at sqrt(2 h0/g)(1+e)/(1-e) = 0.447 x 3 = 1.342 for e = 0.5, to a few steps: bounces that would be shorter than
-  // a step take two or so (below g h the speed goes on shrinking by e at each).
+  // Comes to rest at sqrt(2 h0/g)(1+e)/(1-e) = 0.447 x 3 = 1.342 for e = 0.5, within a few steps. Bounces shorter than a step
+  // take about two steps, because below g h the speed still decreases by e in each.
   TEST(Collision, BouncingDiscComesToRestAfterAFiniteTime)
   {
     const double e = 0.5, expected = std::sqrt(2. / 10) * (1 + e) / (1 - e);
@@ -143,8 +143,8 @@ namespace
       EXPECT_NEAR(bounce(e, step, 2.).rest, expected, 30 * step) << "step " << step;
   }
 
-  // Steps as long as a late bounce merge bounces into one: energy(t) at h and h/4 differ by much more than the order of the step
-  // where the bounces have become that short, and agree where they have not. This is the check of the paper.
+  // Steps as long as a late bounce merge several bounces. There energy(t) at h and h/4 differs by much more than the order of the
+  // step. Before, they agree. This is the check of the paper.
   TEST(Collision, StepsLongerThanABounceShowInEnergyOverTime)
   {
     const double duration = 4, e = 0.8; // at rest at 0.447 x 9 = 4.02
@@ -162,7 +162,7 @@ namespace
     EXPECT_LT(resolved, 0.02);
   }
 
-  // Dilute, so that impacts are binary: each keeps the energy to the tolerance of its solve.
+  // The gas is dilute, so impacts are binary. Each keeps the energy to the tolerance of its solve.
   TEST(Collision, FrictionlessElasticGasKeepsItsKineticEnergy)
   {
     StepSetting setting            = exact_setting(0.002);
@@ -222,7 +222,7 @@ namespace
     State  end;
   };
 
-  // Mean horizontal over vertical force on the platens in slow shear at constant height.
+  // Mean horizontal / vertical force on the platens in slow shear at constant height.
   Average sheared(State state)
   {
     StepSetting setting;
@@ -251,8 +251,8 @@ namespace
     return {mean, std::sqrt(square / 90), state};
   }
 
-  // P13: the order is the algorithm's own. Grains renumbered (another order within a layer) and the sample turned upside down
-  // (layers the other way round): the trajectories part, the averages agree within three standard errors of their difference.
+  // P13: the order belongs to the algorithm. Grains are renumbered (another order within a layer) and the sample is turned upside
+  // down (layers in reverse). The trajectories differ, but the averages agree within three standard errors of their difference.
   TEST(SweepOrder, ChangesTrajectoriesButNotAverages)
   {
     const PreparedSample sample = prepare_sample(small_sample(200), {}, [](int, int) { return true; });
@@ -269,10 +269,11 @@ namespace
     RecordProperty("second", std::to_string(second.mean) + " +- " + std::to_string(second.error));
     EXPECT_GT(moved, 1e-3);
     EXPECT_NEAR(first.mean, second.mean, 3 * std::hypot(first.error, second.error));
-    EXPECT_GT(std::abs(first.mean), 5 * first.error) << "the average must mean something";
+    EXPECT_GT(std::abs(first.mean), 5 * first.error) << "the average must be significant";
   }
 
-  // Upside down the lower platen would have to move; a sample at rest is compared instead: platen forces after the preparation.
+  // Upside down the lower platen would have to move. Instead the test compares platen forces of a sample at rest after the
+  // preparation.
   TEST(SweepOrder, UpsideDownASampleAtRestCarriesTheSameMeanForce)
   {
     const PreparedSample sample = prepare_sample(small_sample(200), {}, [](int, int) { return true; });

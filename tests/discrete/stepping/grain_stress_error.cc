@@ -1,4 +1,4 @@
-// diptych: the estimated error of grain stress against the true one
+// diptych: estimated and true error of grain stress
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <iostream>
@@ -16,9 +16,9 @@ namespace
 
   constexpr double infinity = std::numeric_limits<double>::infinity();
 
-  // Discs of radius 0.5 and 1 one above the other, overlapping by 0.1: n = (0, -1) from the upper (j) to the lower (i), arms
-  // 0.45 and 0.95. With r_n = 2, r_t = 1 the tangent is n turned by +90 degrees, (1, 0), so r = (1, -2) and
-  // M_i = 0.45 n (x) r = [[0, 0], [-0.45, 0.9]], M_j = 0.95 n (x) r = [[0, 0], [-0.95, 1.9]].
+  // Two discs of radius 0.5 and 1 on top of each other overlap by 0.1. The normal from the upper (j) to the lower (i) is n = (0,
+  // -1), the arms are 0.45 and 0.95. With r_n = 2, r_t = 1 the tangent is n turned by +90 degrees, (1, 0), so r = (1, -2) and M_i
+  // = 0.45 n (x) r = [[0, 0], [-0.45, 0.9]], M_j = 0.95 n (x) r = [[0, 0], [-0.95, 1.9]].
   TEST(ContactMoments, OfTwoDiscsByHand)
   {
     const std::vector<double>  radius   = {0.5, 1};
@@ -30,7 +30,7 @@ namespace
       EXPECT_NEAR(m[k], expected[k], 1e-15);
   }
 
-  // A platen has no moment of its own; an open contact has none at all.
+  // A platen has no moment, and an open contact contributes none.
   TEST(ContactMoments, OfAPlatenAndOfAnOpenContact)
   {
     const std::vector<Contact> contacts = {{0, 1, 0., {0, 1}, {0, 0}, 0}, {0, 2, 0.2, {1, 0}, {0, 0}, 0}};
@@ -44,7 +44,7 @@ namespace
     EXPECT_EQ(relative_difference({1, 0}, {0, 0}), infinity);
   }
 
-  // Moments of one number, sample after sample.
+  // Moments that consist of one number, sample after sample.
   GrainStressError observed(const std::vector<double> &values)
   {
     GrainStressError error;
@@ -63,7 +63,7 @@ namespace
     EXPECT_EQ(taken, (std::vector<long>{100, 200, 400, 800, 1600}));
   }
 
-  // Changes 0.08, 0.04, 0.02 halve: q = 0.5 counts as 0.7, so that E = 4 x 0.02 x 0.7 / 0.3 where the true rest is 0.02.
+  // The changes 0.08, 0.04, 0.02 halve: q = 0.5 counts as 0.7, so E = 4 x 0.02 x 0.7 / 0.3, while the true rest is 0.02.
   TEST(GrainStressError, SumsTheRestOfAGeometricSeries)
   {
     const GrainStressError error = observed({0.84, 0.92, 0.96, 0.98, 0.99, 0.995, 0.9975, 1});
@@ -73,17 +73,17 @@ namespace
     EXPECT_NEAR(three.estimate(), 4 * 0.02 * 0.7 / 0.3, 1e-12);
   }
 
-  TEST(GrainStressError, IsUnknownWithTooFewSamplesAndWhereTheChangesDoNotShrink)
+  TEST(GrainStressError, IsUnknownWithTooFewSamplesAndIfTheChangesDoNotShrink)
   {
     EXPECT_EQ(observed({}).estimate(), infinity);
     EXPECT_EQ(observed({2, 1.5}).estimate(), infinity);
     EXPECT_EQ(observed({2, 1.5, 1.2}).estimate(), infinity);
     EXPECT_EQ(observed({1.03, 1.02, 1.01, 1}).estimate(), infinity) << "equal changes";
-    EXPECT_EQ(observed({1.31, 1.01, 1.005, 1}).estimate(), infinity) << "one that shrank and one that did not";
+    EXPECT_EQ(observed({1.31, 1.01, 1.005, 1}).estimate(), infinity) << "one change that shrank and one that did not";
     EXPECT_EQ(observed({1, 1, 1, 1}).estimate(), 0) << "nothing moves";
   }
 
-  // The contact problem of the next step of a loading, made as the time stepping makes it.
+  // The contact problem of the next step of a loading, as the time stepping makes it.
   struct StoredStep
   {
     State                state; // at mid-step
@@ -112,7 +112,7 @@ namespace
     return step;
   }
 
-  // Steps of a sample of 300 discs sheared at inertial number 1e-3 with h = 0.02, 0.2 % of strain apart.
+  // Steps of a sample of 300 discs, sheared at inertial number 1e-3 with h = 0.02. They are 0.2 % of strain apart.
   std::vector<StoredStep> sheared_steps(const int seed, const int n_steps)
   {
     PreparedSample sample  = prepare_sample(small_sample(300, seed), {}, [](int, int) { return true; });
@@ -125,7 +125,7 @@ namespace
     setting.lateral            = EndGrains{};
     setting.solver.tolerance   = 1e-4;
     setting.solver.max_sweeps  = 4000;
-    setting.accept_unconverged = true; // some steps of so few grains hang; the next problem is as good
+    setting.accept_unconverged = true; // some steps of so few grains do not converge; the next problem serves as well
     StepCache               cache;
     std::vector<StoredStep> steps;
     for (int k = 1; k <= 100 * n_steps; ++k)
@@ -137,7 +137,7 @@ namespace
     return steps;
   }
 
-  // One sampled solve and how far it is from a solution at 1e-9.
+  // One sampled solve and its distance from a solution at 1e-9.
   struct Trial
   {
     SolveReport     report;
@@ -156,9 +156,9 @@ namespace
   Trial trial_of(const StoredStep &step, const std::vector<double> &truth, const SampleRequest &request)
   {
     Trial                trial;
-    ThreadTeam           alone(1);
+    ThreadTeam           one_thread(1);
     std::vector<Impulse> r = step.first;
-    trial.report           = solve_sampled(step.sampled(), SolverOptions{}, request, alone, r, trial.accuracy);
+    trial.report           = solve_sampled(step.sampled(), SolverOptions{}, request, one_thread, r, trial.accuracy);
     trial.true_error       = relative_difference(step.moments(r), truth);
     return trial;
   }
@@ -166,8 +166,8 @@ namespace
   struct Statistics
   {
     int                 n_problems = 0, n_solved = 0, n_trials = 0, n_reached = 0;
-    int                 n_right = 0; // called accurate, and so they were
-    std::vector<double> ratio;       // true error / estimate, where there is one
+    int                 n_right = 0; // solves that were correctly called accurate
+    std::vector<double> ratio;       // true error / estimate, if there is an estimate
   };
 
   Statistics measured(const std::vector<double> &wanted)
@@ -199,7 +199,7 @@ namespace
     return s;
   }
 
-  // The measured distribution stands in the output and in benchmarks/contact_solver.
+  // The measured distribution is in the output and in benchmarks/contact_solver.
   TEST(GrainStressError, EstimateAgainstTheTruthOnShearedSamples)
   {
     const Statistics s = measured({0.1, 0.05, 0.02});
@@ -210,7 +210,7 @@ namespace
               << " solves with an estimate, " << s.n_reached << " called as accurate as wanted, " << s.n_right
               << " rightly; true error / estimate: median " << quantile(0.5) << ", 90 % " << quantile(0.9) << ", largest "
               << s.ratio.back() << "\n";
-    // Now and then the sweeps come to rest near a state that is no solution and leave it much later.
+    // Occasionally the sweeps pause near a state that is not a solution and leave it much later.
     EXPECT_GE(s.n_right, 0.85 * s.n_reached);
     EXPECT_LE(quantile(0.5), 0.5);
   }
@@ -219,28 +219,28 @@ namespace
   {
     const StoredStep step = sheared_steps(1, 1).front();
     const Trial      t    = trial_of(step, step.moments(step.first), request_of(1e-6, 400));
-    EXPECT_EQ(t.report.status, SolveStatus::converged) << "the tolerance of the step is met all the same";
+    EXPECT_EQ(t.report.status, SolveStatus::converged) << "the step still meets its tolerance";
     EXPECT_LE(t.report.residual, SolverOptions{}.tolerance);
     EXPECT_GE(t.report.sweeps, 400);
     EXPECT_FALSE(t.accuracy.reached);
     EXPECT_GT(t.accuracy.stress_error, 1e-6);
   }
 
-  TEST(SolveSampled, ATooSmallBudgetOfTheStepIsNoConvergence)
+  TEST(SolveSampled, ATooSmallBudgetOfTheStepPreventsConvergence)
   {
     const StoredStep     step = sheared_steps(1, 1).front();
     SolverOptions        solver;
     SampledAccuracy      accuracy;
-    ThreadTeam           alone(1);
+    ThreadTeam           one_thread(1);
     std::vector<Impulse> r(step.contacts.size());
     solver.max_sweeps        = 40;
-    const SolveReport report = solve_sampled(step.sampled(), solver, request_of(0.02, 40), alone, r, accuracy);
+    const SolveReport report = solve_sampled(step.sampled(), solver, request_of(0.02, 40), one_thread, r, accuracy);
     EXPECT_EQ(report.status, SolveStatus::max_sweeps_reached);
     EXPECT_GT(report.residual, solver.tolerance);
     EXPECT_FALSE(accuracy.reached);
   }
 
-  // Fewer than 1e-9 is asked for: the step is not converged before its own tolerance.
+  // The tolerance is below 1e-9: the step has not converged before it meets its own tolerance.
   TEST(SolveSampled, ATighterToleranceThanTheReferenceHolds)
   {
     SolverOptions solver;
@@ -255,9 +255,9 @@ namespace
     const StoredStep     step = next_step(state, setting);
     std::vector<Impulse> r(step.contacts.size());
     SampledAccuracy      accuracy;
-    ThreadTeam           alone(1);
+    ThreadTeam           one_thread(1);
     solver.sweeps_per_check  = 1;
-    const SolveReport report = solve_sampled(step.sampled(), solver, request_of(0.02, 100000), alone, r, accuracy);
+    const SolveReport report = solve_sampled(step.sampled(), solver, request_of(0.02, 100000), one_thread, r, accuracy);
     EXPECT_EQ(report.status, SolveStatus::converged);
     EXPECT_LE(report.residual, solver.tolerance);
   }
@@ -270,7 +270,7 @@ namespace
     request.options.reference_sweeps = 100000;
     const Trial vain                 = trial_of(step, step.moments(step.first), request);
     EXPECT_FALSE(vain.accuracy.reached);
-    EXPECT_TRUE(std::isnan(vain.accuracy.true_error)) << "nothing is measured where the accuracy was not reached";
+    EXPECT_TRUE(std::isnan(vain.accuracy.true_error)) << "nothing is measured if the accuracy was not reached";
 
     request.options.snapshot_accuracy   = std::numeric_limits<double>::infinity();
     request.options.snapshot_max_sweeps = 2000;

@@ -13,8 +13,8 @@ namespace
 
   const double layer = std::sqrt(3.) / 2; // height of a layer, d = 1
 
-  // Rows of `columns` discs (d = 1) `spacing` apart, every second one shifted by half a spacing so that the rows touch each
-  // other, in a cell that is `columns` spacings wide, between platens.
+  // Rows of `columns` discs (d = 1) at distance `spacing`, between platens. Every second row is shifted by half a spacing so that
+  // the rows touch each other. The cell is `columns` spacings wide.
   State lattice(const int columns, const int rows, const double spacing = 1)
   {
     const double b = std::sqrt(1 - 0.25 * spacing * spacing);
@@ -38,10 +38,10 @@ namespace
     return setting;
   }
 
-  // Rows stretched to a spacing w > 1 do not touch: m x rows discs, as many contacts 2 m rows as equations. The force of a
-  // contact runs on along its line, is reflected by the platens and comes back to where it started: all lines are one where
-  // rows - 1 and m have no common divisor, and then the only solution is uniform, N cos a = F/(2 m), sin a = w/2, with
-  // F/m at the platens. Every disc within carries s_yy = F/L and s_xx = s_yy tan^2 a (4 half contacts, cell w x b).
+  // Rows stretched to a spacing w > 1 do not touch within a row: m x rows discs with 2 m rows contacts, as many as equations. The
+  // force of a contact continues along its line, is reflected by the platens and returns to its start. If rows - 1 and m have no
+  // common divisor, all lines are one. The only solution is then uniform, N cos a = F/(2 m), sin a = w/2, with F/m at the
+  // platens. Every inner disc has s_yy = F/L and s_xx = s_yy tan^2 a (4 half contacts, cell w x b).
   TEST(Lattice, UnderAPlatenForceIsStressedUniformly)
   {
     const int    m = 7, rows = 9;
@@ -79,8 +79,8 @@ namespace
     EXPECT_NEAR(result.wall_force[1].y(), -force, 1e-10);
   }
 
-  // Touching rows have three contacts a disc: the forces of rigid discs are then not unique and the solver's own choice, but what
-  // statics determines holds: each layer transmits F, s_yy = F/L, and s_xx = P where the width is free.
+  // Touching rows have three contacts per disc. The forces of rigid discs are then not unique, and the solver chooses them. But
+  // statics determines the following: each layer transmits F, s_yy = F/L, and s_xx = P if the width is free.
   TEST(Lattice, WithTouchingRowsHoldsWhatStaticsDetermines)
   {
     const int    m = 8, rows = 9;
@@ -110,8 +110,8 @@ namespace
     EXPECT_NEAR(state.cell->velocity, 0, 1e-11);
   }
 
-  // Area of disc per cell of the lattice: (pi/4) / (sqrt 3 / 2) = pi/(2 sqrt 3) = 0.9069. Of the outline's height the rows'
-  // layers are all but 1 - layer.
+  // Area of disc per cell of the lattice: (pi/4) / (sqrt 3 / 2) = pi/(2 sqrt 3) = 0.9069. The layers of the rows fill the height
+  // of the outline except 1 - layer.
   TEST(Lattice, HasTheSolidFractionOfTheDensestPacking)
   {
     const int    m = 8, rows = 10;
@@ -123,17 +123,17 @@ namespace
     EXPECT_NEAR(fraction, 0.9069, 5e-5);
   }
 
-  // Rowe's lattice: rows across the major stress s1, so that a disc wedges between the two below it. A free width under P and
-  // n rows: P H is carried by n - 1 layers of inclined contacts alone (the rows open), each with a horizontal force
-  // P H/(n-1), H = 1 + (n-1) layer; the vertical one, F/(2 m), is tan(60 + phi_mu) times that. So at failure
+  // Rowe's lattice: rows across the major stress s1, so that a disc wedges between the two below it. With a free width under P
+  // and n rows, n - 1 layers of inclined contacts carry P H, because the rows open. Each layer carries a horizontal force P
+  // H/(n-1), where H = 1 + (n-1) layer. The vertical force, F/(2 m), is tan(60 + phi_mu) times that. So at failure
   //   F/(m P) = tan(60 + phi_mu) (sqrt 3 + 2/(n-1)),   sqrt 3 = tan 60.
   double rowe(const double friction, const int rows)
   {
     return std::tan(M_PI / 3 + std::atan(friction)) * (std::tan(M_PI / 3) + 2. / (rows - 1));
   }
 
-  // Driven: platen, width and rows start on the mechanism of the lattice, where b^2 + (w/2)^2 = 1 (layer b, spacing w = 1), so
-  // db = -dw w/(4 b). Inertia takes off terms of the order of (dw/dt)^2, 2e-3 at most. Returns F/(m P).
+  // The lattice is driven: platen, width and rows start on its mechanism, where b^2 + (w/2)^2 = 1 (layer b, spacing w = 1), so db
+  // = -dw w/(4 b). Inertia reduces the ratio by terms of the order of (dw/dt)^2, at most 2e-3. Returns F/(m P).
   double stress_ratio_of_driven_lattice(const double friction, const int columns, const int rows)
   {
     const double spread = 1e-2, sink = -spread / (4 * layer); // dw/dt, db/dt
@@ -156,9 +156,9 @@ namespace
     return -result.wall_force[1].y() / columns;
   }
 
-  // The solution in which all inclined contacts slide. It is not the only one: with friction there are others of lower resistance
-  // in which some discs turn and roll on one side (the over-relaxed solver ends in those: 5.2 to 6.0 at 3 rows and mu = 0.1).
-  // Plain sweeps from the mechanism at rest in spin stay on Rowe's.
+  // In this solution all inclined contacts slide. With friction there are others of lower resistance, in which some discs roll on
+  // one side. The over-relaxed solver ends in those: 5.2 to 6.0 at 3 rows and mu = 0.1. Plain sweeps that start without spin from
+  // the mechanism stay on Rowe's solution.
   TEST(Lattice, FailsAtRowesStressRatio)
   {
     for (const double friction : {0., 0.1, 0.4})
@@ -177,9 +177,9 @@ namespace
     EXPECT_NEAR(rowe(0.4, 1000000), 12.0, 0.05);
   }
 
-  // From rest under a platen force. Without friction the limit is sharp: 1 % below it nothing moves, 1 % above it the platen
-  // sinks and the width opens. With friction 0.1 the lattice stands at least where the frictionless one does and flows above
-  // Rowe's limit; between them some solutions stand and some roll. (At 0.4 the sweeps do not converge above the limit.)
+  // From rest under a platen force. Without friction the limit is sharp: 1 % below it nothing moves, and 1 % above it the platen
+  // sinks and the width opens. With friction 0.1 the lattice holds at least up to the frictionless limit, and it flows above
+  // Rowe's limit. In between, some solutions hold and some roll. (At 0.4 the sweeps do not converge above the limit.)
   TEST(Lattice, StandsBelowItsLimitAndFlowsAboveIt)
   {
     const int m = 6, rows = 9;
@@ -188,7 +188,7 @@ namespace
         {
           State       state        = lattice(m, rows);
           StepSetting setting      = lattice_setting(friction);
-          setting.solver.tolerance = above ? 1e-6 : 1e-10; // to see it flow is enough
+          setting.solver.tolerance = above ? 1e-6 : 1e-10; // enough to see the flow
           const double ratio       = above ? 1.01 * rowe(friction, rows) : 0.99 * rowe(0, rows);
           state.cell->pressure     = 1;
           state.walls[1].drive_y   = AppliedForce{{{0.}, {-m * ratio}}};

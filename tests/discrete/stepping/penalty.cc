@@ -1,11 +1,12 @@
-// diptych: explicit smooth contacts: single discs in closed form, and the step at which a packing blows up
+// diptych: explicit smooth contacts: single discs in closed form
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "tests/discrete/stepping/penalty_examples.h"
 
 namespace
 {
-  // m_eff x'' = -kn x: half a period pi sqrt(m_eff/kn), m_eff = m/2, and the speed reversed. The leapfrog keeps an energy
-  // that differs from the true one by (omega h)^2/4 of it at most, omega h = sqrt(2) fraction: the speed by fraction^2/4.
+  // m_eff x'' = -kn x gives half a period pi sqrt(m_eff/kn), m_eff = m/2, and the reversed speed. The energy of the leapfrog
+  // differs from the true one by a share of at most (omega h)^2/4, where omega h = sqrt(2) fraction. The speed differs by
+  // fraction^2/4.
   TEST(Penalty, HeadOnCollisionWithoutDampingLastsHalfAPeriodAndKeepsTheSpeed)
   {
     const double stiffness = 1e5, half_period = M_PI * std::sqrt(0.5 * (M_PI / 4) / stiffness);
@@ -18,9 +19,9 @@ namespace
       }
   }
 
-  // A dashpot that may pull until the overlap is gone has e = exp(-pi beta/sqrt(1-beta^2)). Grains do not pull: contact ends
-  // where f_n = 0, i.e. x'' = 0, at omega_d t = pi - 2a with beta = sin a, and e = exp(-(pi - 2a) tan a) (Schwager and
-  // Poeschel 2007). The dashpot's velocity lags by half a step: first order.
+  // A dashpot that may pull until the overlap has vanished gives e = exp(-pi beta/sqrt(1-beta^2)). Grains do not pull, so contact
+  // ends at f_n = 0, i.e. x'' = 0. This is at omega_d t = pi - 2a with beta = sin a, and e = exp(-(pi - 2a) tan a) (Schwager and
+  // Poeschel 2007). The velocity of the dashpot lags by half a step, so the error is of first order.
   TEST(Penalty, HeadOnCollisionWithADashpotHasItsClosedRestitution)
   {
     for (const double beta : {0.1, 0.2, 0.5})
@@ -48,8 +49,9 @@ namespace
     EXPECT_NEAR(result.impulses[0].normal, weight * penalty.step, 1e-10 * weight);
   }
 
-  // tan a <= 3 mu: rolls with (2/3) g sin a; else slides with g (sin a - mu cos a), turning with 2 mu g cos a / r. The
-  // tangential spring swings about its rest force m g sin(a)/3 with omega^2 = kt (1/m + 2/m), at most 2 g sin(a)/omega in speed.
+  // For tan a <= 3 mu the disc rolls with (2/3) g sin a. Otherwise it slides with g (sin a - mu cos a) and turns with 2 mu g cos
+  // a / r. The tangential spring oscillates about its rest force m g sin(a)/3 with omega^2 = kt (1/m + 2/m), by at most 2 g
+  // sin(a)/omega in speed.
   TEST(Penalty, DiscOnAnInclineRollsOrSlidesUpToTheSwingOfItsSpring)
   {
     const double g = 9.81, mu = 0.2, radius = 0.5, stiffness = 1e7;
@@ -74,7 +76,7 @@ namespace
       }
   }
 
-  // Sum of kn overlap^2 / 2 at the positions of the end of the step.
+  // Sum of kn overlap^2 / 2 at the positions at the end of the step.
   double elastic_energy(const State &state, const double stiffness)
   {
     double energy = 0;
@@ -83,7 +85,7 @@ namespace
     return energy;
   }
 
-  // Radii 0.35 to 0.49 on a square grid, thrown about in a box.
+  // Radii 0.35 to 0.49 on a square grid, with random velocities in a box.
   State gas_in_a_box()
   {
     State                                  state;
@@ -113,7 +115,7 @@ namespace
     EXPECT_GT(contacts, 20 * 50) << "at least twenty collisions of fifty steps each";
   }
 
-  // Everything at once: friction, dashpots, gravity, a fixed grain that moves, a platen free under pressure, another driven.
+  // A scene with friction, dashpots, gravity, a moving fixed grain, a platen free under pressure and a driven platen.
   State busy_scene()
   {
     State state              = gas_in_a_box();
@@ -136,7 +138,7 @@ namespace
   }
 
   // Momentum: sum m dv = h F + impulses of walls and fixed grains. Energy: kinetic change = external work - friction - impact
-  // (dashpots and elastic energy). Both hold step by step whatever the step.
+  // (dashpots and elastic energy). Both hold in each step, for any step length.
   TEST(Penalty, MomentumAndEnergyLedgersCloseToRoundOff)
   {
     State   state    = busy_scene();
@@ -147,7 +149,7 @@ namespace
         const StepResult    result = penalty.advance(state);
         const StepEnergies &e      = result.energies;
         ASSERT_EQ(result.solve.status, SolveStatus::converged);
-        double impulse_sum = 0; // may be as small as a touch, against momenta of order 10
+        double impulse_sum = 0; // may be very small beside momenta of order 10
         for (const Impulse &r : result.impulses)
           impulse_sum += std::hypot(r.normal, r.tangential);
         ASSERT_LT(result.momentum_residual * impulse_sum, 1e-13);
@@ -160,7 +162,7 @@ namespace
     EXPECT_EQ(state.grains.spin[5], 1);
   }
 
-  // Springs live in the State and the pairs are a cache: nothing else is remembered.
+  // Springs are part of the State and the pairs are a cache, so nothing else needs to be stored.
   TEST(Penalty, RunResumedFromItsStateGoesOnWithTheSameBits)
   {
     State   straight = busy_scene();
@@ -180,7 +182,7 @@ namespace
     EXPECT_EQ(straight.walls[1].point, resumed.walls[1].point);
   }
 
-  // Pressure x length goes through the column into the floor; each spring is shortened by what it carries / kn.
+  // The column transmits pressure x length to the floor. Each spring is compressed by its force / kn.
   TEST(Penalty, PlatenUnderPressureIsCarriedByTheColumnBelowIt)
   {
     const double stiffness = 1e4, pressure = 2, length = 1.5;
@@ -198,7 +200,7 @@ namespace
     EXPECT_NEAR(state.walls[1].point.y(), 3 - 4 * pressure * length / stiffness, 1e-9);
   }
 
-  // A row around the cell carries pressure x height in each of its n springs: the width is n (d - P H / kn) at rest.
+  // A row around the cell carries pressure x height in each of its n springs. At rest the width is n (d - P H / kn).
   TEST(Penalty, RowAroundACellOfFreeWidthCarriesItsPressure)
   {
     const double stiffness = 1e4, pressure = 2, height = 1.5;

@@ -1,4 +1,4 @@
-// diptych: explicit smooth contacts for tests
+// diptych: examples of explicit smooth contacts for tests
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -19,7 +19,7 @@ namespace
 
   constexpr double kt_over_kn = 0.5; // penalty.h
 
-  // Pressure 1, so that PenaltyOptions::stiffness is kn itself.
+  // With pressure 1, PenaltyOptions::stiffness is kn.
   struct Penalty
   {
     double         step;

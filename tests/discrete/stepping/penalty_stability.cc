@@ -4,8 +4,8 @@
 
 namespace
 {
-  // n x n touching discs in a hexagonal lattice shrunk by `strain`, the outermost ring fixed: six equal forces on each grain
-  // inside, so the lattice is in equilibrium.
+  // n x n touching discs in a hexagonal lattice shrunk by `strain`, the outermost ring fixed. Each inner grain has six equal
+  // forces, so the lattice is in equilibrium.
   State hexagonal_patch(const int n, const double strain)
   {
     State        state;
@@ -19,7 +19,7 @@ namespace
     return state;
   }
 
-  // Discs with radii uniform in [0.35, 0.65] d, relaxed in a square box until the overlaps carry each other.
+  // Discs with radii uniform in [0.35, 0.65] d, relaxed in a square box until the overlaps are in equilibrium.
   State relaxed_polydisperse_box(const int n, const double solid_fraction, const unsigned seed)
   {
     State                                  state;
@@ -43,8 +43,9 @@ namespace
     return state;
   }
 
-  // Highest frequency of the network of closed contacts: K = sum kn b_n b_n^T + kt b_t b_t^T over (x, y, s = r theta) of each
-  // grain, u_n = b_n.v and u_t = b_t.v of ContactRow, masses (m, m, m/2). The prestress changes K by overlap/diameter only.
+  // Highest frequency of the network of closed contacts. K = sum kn b_n b_n^T + kt b_t b_t^T over (x, y, s = r theta) of each
+  // grain, with u_n = b_n.v and u_t = b_t.v of ContactRow and masses (m, m, m/2). The prestress changes K only by
+  // overlap/diameter.
   double highest_frequency(const State &state, const double kn, const double kt)
   {
     const Grains   &g = state.grains;
@@ -70,7 +71,7 @@ namespace
     return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
   }
 
-  // Largest kinetic energy within n_steps after a slight push, relative to the push; infinity where the run blew up.
+  // Largest kinetic energy within n_steps after a small push, relative to the push; infinity after a blow-up.
   double growth(State state, const double step, const double stiffness, const double friction, const int n_steps)
   {
     std::mt19937                           random(1);
@@ -95,8 +96,8 @@ namespace
     return largest;
   }
 
-  // Leapfrog is stable for h < 2/omega_max. Below, with omega h = 1.9, the kinetic energy of a mode is at most
-  // 1/(1 - (omega h/2)^2) = 10 times its start; above, at 2.1, it grows by 1.88^2 = 3.5 a step.
+  // Leapfrog is stable for h < 2/omega_max. Below, with omega h = 1.9, the kinetic energy of a mode is at most 1/(1 - (omega
+  // h/2)^2) = 10 times its start. Above, at 2.1, it grows by 1.88^2 = 3.5 per step.
   TEST(Penalty, HexagonalPatchBlowsUpAtTheStepOfItsHighestFrequency)
   {
     const double stiffness = 1e3, mass = M_PI / 4;
@@ -107,7 +108,7 @@ namespace
         const double critical = 2 / highest_frequency(state, stiffness, sticking ? kt_over_kn * stiffness : 0.);
         EXPECT_LT(growth(state, 0.95 * critical, stiffness, friction, 4000), 20) << "friction " << friction;
         EXPECT_GT(growth(state, 1.05 * critical, stiffness, friction, 40), 1e6) << "friction " << friction;
-        // Infinite lattice, frictionless: two of three bond directions in antiphase, omega^2 = 4 kn/m x 3/2.
+        // Infinite lattice, frictionless: two of three bond directions in antiphase give omega^2 = 4 kn/m x 3/2.
         if (!sticking)
           {
             EXPECT_NEAR(critical / std::sqrt(mass / stiffness), 2 / std::sqrt(6.), 0.02);
@@ -127,7 +128,7 @@ namespace
         const StepResult result = penalty.advance(state);
         if (result.solve.status == SolveStatus::converged)
           continue;
-        EXPECT_EQ(result.solve.status, SolveStatus::blown_up); // nothing was swept
+        EXPECT_EQ(result.solve.status, SolveStatus::blown_up); // without sweeps
         EXPECT_TRUE(std::isinf(result.solve.residual));
         EXPECT_EQ(state.grains.position, before.grains.position);
         EXPECT_EQ(state.grains.velocity, before.grains.velocity);
@@ -139,8 +140,8 @@ namespace
     FAIL() << "a step of three times sqrt(m/kn) must blow up";
   }
 
-  // VALIDATION, dense samples of 1000 discs: 1.027 sqrt(m_min/kn) frictionless, 0.769 sticking. With 200 discs the few
-  // neighbours of the smallest one decide: single boxes scatter by 5 %, so means over three seeds are held to 5 %.
+  // VALIDATION with dense samples of 1000 discs: 1.027 sqrt(m_min/kn) frictionless, 0.769 sticking. With 200 discs the few
+  // neighbours of the smallest disc decide and single boxes scatter by 5 %. So means over three seeds must agree within 5 %.
   TEST(Penalty, PolydisperseSampleBlowsUpAtTheStepOfItsHighestFrequency)
   {
     const double stiffness = 1e3;

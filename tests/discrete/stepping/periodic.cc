@@ -21,7 +21,7 @@ namespace
     return state;
   }
 
-  // A loose gas of discs of unequal size, some of which sit many widths away from the cell.
+  // A loose gas of discs of unequal size, some of them many widths away from the cell.
   State gas(const double width, const double height, const int n = 40)
   {
     State                                  state = empty_cell(width, height);
@@ -37,7 +37,8 @@ namespace
     return state;
   }
 
-  // Sum over contacts of the branch (image of j to i, or wall foot to i) times force: area x stress without spin and inertia.
+  // Sum over contacts of branch (to the image of j, or to the foot on the wall) times force: area x stress without spin and
+  // inertia.
   double moment_xx(const StepResult &result, const State &mid, const double step)
   {
     double sum = 0;
@@ -52,8 +53,8 @@ namespace
     return sum;
   }
 
-  // n touching discs of diameter 1 fill the width n. Pressure P on the height H: every contact, the one across the edge
-  // included, carries P H in the very first step, and s_xx = n x 1 x P H / (n H) = P.
+  // n touching discs of diameter 1 fill the width n. With pressure P on the height H every contact, also that across the edge,
+  // carries P H in the very first step, and s_xx = n x 1 x P H / (n H) = P.
   TEST(Periodic, ARowAcrossTheEdgeCarriesThePressureInEveryContact)
   {
     for (const int n : {6, 11})
@@ -73,7 +74,7 @@ namespace
       }
   }
 
-  // The image of a body moves with the width: it comes to meet its neighbour and pushes it along.
+  // The image of a body moves with the width. It meets its neighbour and pushes it along.
   TEST(Periodic, ADrivenWidthMovesImagesByWholeWidths)
   {
     const double step = 0.01, speed = -0.1;
@@ -85,13 +86,13 @@ namespace
     state.grains.fixed[0] = 1;
     for (int k = 0; k < 100; ++k)
       ASSERT_EQ(advance(state, setting).solve.status, SolveStatus::converged);
-    // The image of the fixed disc has come from 5 to 4.9 and pushed the other to 3.9; it moves on with the image.
+    // The image of the fixed disc has moved from 5 to 4.9 and pushed the other to 3.9, which moves on with the image.
     EXPECT_NEAR(state.cell->width, 4.9, 1e-13);
     EXPECT_NEAR(state.grains.position[1].x(), 3.9, 1e-12);
     EXPECT_NEAR(state.grains.velocity[1].x(), speed, 1e-13);
   }
 
-  // Sum f_x b_x over contacts = sum_i m_i a_i x_i - W x sum image f_x (each image lies `image` widths away), and the width obeys
+  // Sum f_x b_x over contacts = sum_i m_i a_i x_i - W x sum image f_x, because each image is `image` widths away. The width obeys
   // M W'' = -sum image f_x - P H. So area x s_xx = P H W + M W'' W + sum m a x holds in every step of any motion.
   TEST(Periodic, StressOfAFreeWidthIsThePressureUpToInertia)
   {
@@ -120,7 +121,7 @@ namespace
     EXPECT_GT(largest, pressure * height * 4) << "the discs must have been pressed together";
   }
 
-  // At rest the inertia of the test above is gone: s_xx = P.
+  // At rest the inertia terms of the test above vanish: s_xx = P.
   TEST(Periodic, StressOfAPackingAtRestIsThePressure)
   {
     SampleOptions options         = small_sample(100);
@@ -135,7 +136,7 @@ namespace
     EXPECT_NEAR(moment_xx(sample.last_step, sample.state, sample.step) / area, pressure, 1e-4 * pressure);
   }
 
-  // Contacts across the edge hand momentum over like others; the width is a body (free) or an agent that does work (driven).
+  // Contacts across the edge transfer momentum like others. A free width is a body; a driven width does work.
   TEST(Periodic, LedgersCloseWithFreeAndWithDrivenWidth)
   {
     for (const bool free : {true, false})
@@ -143,7 +144,7 @@ namespace
         {
           StepSetting setting      = exact_setting(0.02);
           setting.law              = {0.4, 0.5, e, 0.5 * e, 0.};
-          setting.solver.tolerance = 1e-9; // a lone touch has an impulse of round-off size
+          setting.solver.tolerance = 1e-9; // a single weak contact has an impulse of round-off size
           State state              = gas(9, 6);
           if (free)
             state.cell->pressure = 1.5, state.cell->mass = 20;
@@ -155,7 +156,7 @@ namespace
               const StepResult    result = advance(state, setting);
               const StepEnergies &s      = result.energies;
               ASSERT_EQ(result.solve.status, SolveStatus::converged);
-              double impulse_sum = 0; // may be as small as a touch, against momenta of order 10
+              double impulse_sum = 0; // may be very small beside momenta of order 10
               for (const Impulse &r : result.impulses)
                 impulse_sum += std::hypot(r.normal, r.tangential);
               ASSERT_LT(result.momentum_residual * impulse_sum, 1e-13);
@@ -168,7 +169,7 @@ namespace
         }
   }
 
-  // Only differences of abscissae count, whole widths apart do not: the same path to round-off, which motion lets grow.
+  // Only differences of abscissae count, and whole widths do not. The path is the same to round-off, which the motion amplifies.
   TEST(Periodic, TranslationsAndWholeWidthsChangeNothing)
   {
     const double width = 9;
@@ -213,8 +214,8 @@ namespace
       }
   }
 
-  // Six discs in a width of 5.9 overlap by 0.1/6 each: only the width can take that out, where it is free.
-  TEST(Periodic, PenetrationsAreTakenOutByAFreeWidth)
+  // Six discs in a width of 5.9 overlap by 0.1/6 each. Only a free width can remove this overlap.
+  TEST(Periodic, PenetrationsAreRemovedByAFreeWidth)
   {
     StepSetting setting  = exact_setting(0.02);
     State       state    = empty_cell(5.9, 1.5);
@@ -228,7 +229,7 @@ namespace
     EXPECT_NEAR(state.cell->width, 6, 6e-3);
   }
 
-  // A grain that met two images of another, or itself, would need two contacts with it.
+  // A grain that met two images of another grain, or its own image, would need two contacts with it.
   TEST(Periodic, ACellTooNarrowIsRefused)
   {
     StepSetting setting = exact_setting(0.01);

@@ -1,4 +1,4 @@
-// diptych: grains that are part of a platen, fixed or free under a force
+// diptych: grains that are part of a fixed or a free platen
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 
@@ -10,7 +10,7 @@ namespace
 {
   using namespace diptych::tests;
 
-  // Platens at y = 0 and 10, the upper one of mass `mass` free along y and moved along x at `speed`.
+  // Platens at y = 0 and 10. The upper one has the mass `mass`, is free along y and moves along x at `speed`.
   State between_platens(const double mass, const double force, const double speed = 0)
   {
     State state;
@@ -21,7 +21,7 @@ namespace
     return state;
   }
 
-  // A grain of a platen of mass M meets a disc head on: (M V + m v)/(M + m) for both. Either number may be the lower one.
+  // A grain of a platen of mass M meets a disc head on: both get (M V + m v)/(M + m). Either number may be the lower one.
   TEST(PlatenGrains, MeetADiscWithThePlatensMass)
   {
     for (const bool platen_first : {true, false})
@@ -37,7 +37,7 @@ namespace
         carry_platen_grains(state);
         EXPECT_EQ(state.grains.velocity[glued].y(), platen_speed);
         StepSetting setting = exact_setting(step);
-        // From where they touch at mid-step.
+        // They start so that they touch at mid-step.
         state.grains.position[disc].y() -= 0.5 * step * disc_speed;
         state.grains.position[glued].y() -= 0.5 * step * platen_speed;
         const StepResult result = advance(state, setting);
@@ -48,16 +48,16 @@ namespace
         EXPECT_NEAR(result.wall_force[1].y() * step, m * (common - disc_speed), 1e-13) << "force of the platen on the sample";
         EXPECT_LT(result.momentum_residual, 1e-14);
         const StepEnergies &e = result.energies;
-        EXPECT_NEAR(e.kinetic_change, 0 - e.impact_dissipation, 1e-14) << "the grain's own mass takes no part";
+        EXPECT_NEAR(e.kinetic_change, 0 - e.impact_dissipation, 1e-14) << "the mass of the grain does not count";
       }
   }
 
-  // A disc in the saddle of two grains of the lower platen, under one grain of the upper one, which is pressed with F: the lower
-  // contacts carry F / (2 cos b) each, with sin b = a/(R + r), the upper one and both platens F.
+  // A disc rests on two grains of the lower platen, below one grain of the upper platen, which is pressed with F. The lower
+  // contacts carry F / (2 cos b) each, with sin b = a/(R + r). The upper contact and both platens carry F.
   TEST(PlatenGrains, PressADiscIntoASaddle)
   {
     const double a = 0.8, R = 0.6, r = 0.5, force = 3, step = 0.01, cosine = std::sqrt(1 - a * a / (R + r) / (R + r));
-    const double rise = (R + r) * cosine, round_off = 1e-10; // of a gap, 1e-16, makes the force M gap/h^2
+    const double rise = (R + r) * cosine, round_off = 1e-10; // an error of 1e-16 of a gap gives the force M gap/h^2
     for (const ContactSolver solver : {ContactSolver::nsgs, ContactSolver::psor})
       {
         State state = between_platens(20., force);
@@ -73,7 +73,7 @@ namespace
           {
             const StepResult result = advance(state, setting);
             ASSERT_EQ(result.solve.status, SolveStatus::converged);
-            ASSERT_EQ(result.contacts.size(), 3u) << "grains of platens meet nothing but free grains";
+            ASSERT_EQ(result.contacts.size(), 3u) << "grains of platens meet only free grains";
             for (std::size_t c = 0; c < 3; ++c)
               EXPECT_NEAR(result.impulses[c].normal / step, result.contacts[c].i == 1 ? force : force / (2 * cosine), round_off);
             EXPECT_NEAR(result.wall_force[0].y(), force, round_off);
@@ -84,8 +84,8 @@ namespace
       }
   }
 
-  // A sheared periodic sample between rough platens, the upper one free: energy and momentum close at every step, grains of a
-  // platen keep their places on it, and it takes shear force without any friction of the platens or grains.
+  // A sheared periodic sample between rough platens, the upper one free. Energy and momentum balance in every step. Grains of a
+  // platen keep their places on it, and the sample carries shear force without friction of platens or grains.
   TEST(PlatenGrains, ShearASampleWithClosedLedgers)
   {
     SampleOptions sample = small_sample(150);
@@ -113,8 +113,8 @@ namespace
         stress += row.stress.row(1).transpose();
         force -= 0.5 * (row.upper_force - row.lower_force) / course.snapshots[0].cell_width;
       }
-    EXPECT_GT(shear, 0.05 * course.snapshots[0].cell_width) << "smooth frictionless platens would carry none";
-    // Height x force over the area is force over width but for what the grains' inertia carries.
+    EXPECT_GT(shear, 0.05 * course.snapshots[0].cell_width) << "smooth frictionless platens would carry no shear force";
+    // Height x force / area equals force / width, except for the inertia of the grains.
     EXPECT_NEAR(stress.y() / force.y(), 1, 0.02);
     EXPECT_NEAR(stress.x() / force.x(), 1, 0.04);
     const Snapshot &first = course.snapshots.front(), &last = course.snapshots.back();

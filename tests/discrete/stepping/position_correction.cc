@@ -1,4 +1,4 @@
-// diptych: penetrations are taken out with the contacts' friction on; where the solution of a step starts
+// diptych: removal of penetrations with friction, and the first guess of a step
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 
@@ -14,7 +14,7 @@ namespace
 {
   using namespace diptych::tests;
 
-  // Bodies at rest, nothing pushes: what a step would hand to the correction. Impulses by the pair's first grain and body.
+  // Bodies at rest without forces, as a step would pass them to the correction. Impulses by the pair's first grain and body.
   struct AtRest
   {
     State                     state;
@@ -35,7 +35,7 @@ namespace
       impulses.resize(contacts.size());
     }
 
-    // The problem's free velocities are those that the impulses bring to rest.
+    // The impulses bring the free velocities of the problem to rest.
     void load(const int i, const int j, const Impulse &r)
     {
       for (std::size_t k = 0; k < contacts.size(); ++k)
@@ -48,8 +48,8 @@ namespace
 
     void correct(const double enough = 1e-9)
     {
-      ThreadTeam alone(1);
-      correct_positions(state, {problem, contacts, impulses, v_new, setting.step}, enough, alone);
+      ThreadTeam one_thread(1);
+      correct_positions(state, {problem, contacts, impulses, v_new, setting.step}, enough, one_thread);
     }
   };
 
@@ -82,7 +82,7 @@ namespace
     EXPECT_EQ(g.spin[1], before.spin[1]);
   }
 
-  TEST(PositionCorrection, LeavesWhatIsSmallEnough)
+  TEST(PositionCorrection, LeavesSmallPenetrations)
   {
     AtRest       pair(overlapping_pair(1e-4));
     const Grains before = pair.state.grains;
@@ -103,7 +103,7 @@ namespace
     EXPECT_NEAR(pressed.state.grains.position[0].y(), 0.505, 1e-15);
 
     State ring = overlapping_pair(-2);
-    ring.cell  = PeriodicCell{2.9 + 0.9 - 0.01, 0, 1., ring.grains.mass[0]}; // the second touches the first's image
+    ring.cell  = PeriodicCell{2.9 + 0.9 - 0.01, 0, 1., ring.grains.mass[0]}; // the second disc touches the image of the first
     AtRest       across(ring);
     const double width = across.state.cell->width;
     across.correct();
@@ -118,8 +118,8 @@ namespace
     EXPECT_NEAR(gap_between(against.state, 0, 1), 0, 1e-15);
   }
 
-  // A disc on a floor that is pushed sideways by an overlapping neighbour of the same size: with a load and enough friction on
-  // the floor it rolls there without sliding, without friction it slides without turning.
+  // A disc on a floor is pushed sideways by an overlapping neighbour of the same size. With a load and enough friction on the
+  // floor it rolls without sliding. Without friction it slides without turning.
   TEST(PositionCorrection, ALoadedContactHoldsWithItsFriction)
   {
     for (const double friction : {0., 1e3})
@@ -130,7 +130,7 @@ namespace
         AtRest pushed(state, friction);
         for (ContactRow &row : pushed.problem.contacts)
           if (row.j == 1)
-            row.friction = 0; // so that the floor alone turns it
+            row.friction = 0; // so that only the floor turns it
         pushed.load(0, 2, {1., 0.});
         pushed.correct();
         const double moved = pushed.state.grains.position[0].x(), turned = pushed.state.grains.rotation[0];
@@ -139,9 +139,9 @@ namespace
       }
   }
 
-  // Two discs stacked on a floor. The weights grew in the last step, and go on to do so: the guess is right where nothing was
-  // swept.
-  TEST(WarmStart, RunsAheadWhereForcesGrowSteadily)
+  // Two discs stacked on a floor. Their weights grew in the last step and continue to grow, so the guess is right without any
+  // sweep.
+  TEST(WarmStart, RunsAheadIfForcesGrowSteadily)
   {
     State state = disc_on_floor({0, 0});
     add_grain(state.grains, {0, 1.5}, 0.5, 1.);
@@ -161,7 +161,7 @@ namespace
       EXPECT_NEAR(guess[k].normal, weight(1 + growth)[k].normal, 1e-15);
   }
 
-  TEST(WarmStart, StaysWhereForcesDoAndWithinTheCone)
+  TEST(WarmStart, StaysIfForcesDoAndWithinTheCone)
   {
     AtRest       resting(disc_on_floor({0, 0}), 0.5);
     const double m = resting.state.grains.mass[0], step = resting.setting.step;
@@ -169,9 +169,9 @@ namespace
     resting.problem.free_velocity[0].y = -step;
     std::vector<Impulse> guess{{m * step, 0}};
     extrapolate(resting.problem, {{0.3 * m * step, 0}}, guess);
-    EXPECT_NEAR(guess[0].normal, m * step, 1e-15) << "the law is obeyed: nothing to add";
+    EXPECT_NEAR(guess[0].normal, m * step, 1e-15) << "the law holds already";
 
-    resting.problem.free_velocity[0].x = 10 * step; // wants to be held
+    resting.problem.free_velocity[0].x = 10 * step; // needs friction to stay
     guess                              = {{m * step, 0.4 * m * step}};
     extrapolate(resting.problem, {{0, 0.2 * m * step}}, guess);
     EXPECT_LE(std::abs(guess[0].tangential), 0.5 * guess[0].normal);

@@ -1,4 +1,4 @@
-// diptych: step = auto, and what becomes of a run whose steps are long
+// diptych: step = auto, and runs with long steps
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 
@@ -11,8 +11,8 @@ namespace
 {
   using namespace diptych::tests;
 
-  // Two discs of density 4 and diameter 2 = d at rest between platens at rest, under the stress s = 9: the unit of time is
-  // d sqrt(rho/s) = 4/3.
+  // Two discs of density 4 and diameter 2 = d at rest between platens at rest, under the stress s = 9. The unit of time is d
+  // sqrt(rho/s) = 4/3.
   struct RuleScene
   {
     State       state;
@@ -43,14 +43,14 @@ namespace
     RuleScene s;
     EXPECT_EQ(s.choose(9, 0).bound, "forces");
     EXPECT_NEAR(s.choose(9, 0).step, 5 * 4. / 3, 1e-14);
-    s.setting.lateral  = EndGrains{}; // flung inward: 1 instead of 5, and the pressure counts even where nothing touches
+    s.setting.lateral  = EndGrains{}; // accelerated inward: 1 instead of 5, and the pressure counts even without contacts
     s.setting.pressure = 9;
     EXPECT_NEAR(s.choose(9, 0).step, 4. / 3, 1e-14);
     EXPECT_NEAR(s.choose(0, 0).step, 4. / 3, 1e-14);
     EXPECT_NEAR(s.choose(36, 0).step, 2. / 3, 1e-14) << "a stress above the pressure counts";
   }
 
-  // What is said of a run before there are grains is what the rule gives them at rest.
+  // The estimate of a run before there are grains is the choice of the rule for grains at rest.
   TEST(StepRule, ASampleAtRestHasItsStepBeforeThereAreGrains)
   {
     RuleScene    s;
@@ -71,7 +71,7 @@ namespace
     EXPECT_NEAR(s.choose(9, 0).step, 0.2 / (3 * std::sqrt(8.)), 1e-14);
     s.state.walls[1].velocity = {6, 8};
     EXPECT_NEAR(s.choose(9, 0).step, 0.02, 1e-14);
-    EXPECT_NEAR(s.choose(0, 0).step, 0.02, 1e-14) << "also where nothing is pressed";
+    EXPECT_NEAR(s.choose(0, 0).step, 0.02, 1e-14) << "also without pressure";
   }
 
   TEST(StepRule, FallingGrainsAreBoundByGravity)
@@ -82,7 +82,7 @@ namespace
     EXPECT_NEAR(s.choose(0, 0).step, 0.3 * std::sqrt(0.4), 1e-14);
   }
 
-  // In units of time of d sqrt(rho/s) = 4/3: (0.2 + 0.8 h) tolerance h / I = 1.25 accuracy.
+  // With times in units of d sqrt(rho/s) = 4/3: (0.2 + 0.8 h) tolerance h / I = 1.25 accuracy.
   TEST(StepRule, SlowLoadingIsBoundByTheSolversNoise)
   {
     RuleScene    s;
@@ -96,7 +96,7 @@ namespace
     EXPECT_EQ(s.choose(9, 1e-5).bound, "strength") << "a tighter solve allows longer steps";
   }
 
-  TEST(StepRule, WhatLongStepsAddToTheStrengthBindsThem)
+  TEST(StepRule, TheErrorOfTheStrengthBoundsLongSteps)
   {
     RuleScene s;
     s.accuracy.tolerance.reset();
@@ -104,7 +104,7 @@ namespace
     EXPECT_NEAR(s.choose(9, 1e-2).step, 0.02 / (0.05 * 3 / 4 + 55 * 1e-2), 1e-14);
     s.accuracy.accuracy = 0.01;
     EXPECT_NEAR(s.choose(9, 1e-2).step, 0.01 / (0.05 * 3 / 4 + 55 * 1e-2), 1e-14);
-    EXPECT_NEAR(s.choose(0, 1e-2).step, 0.01 / (55 * 1e-2), 1e-14) << "nothing is pressed: the strain alone";
+    EXPECT_NEAR(s.choose(0, 1e-2).step, 0.01 / (55 * 1e-2), 1e-14) << "without pressure only the strain counts";
     s.accuracy.accuracy = 0.3;
     EXPECT_NEAR(s.choose(9, 1e-3).step, 0.4 * 4 / 3, 1e-14) << "beyond it the rule fails";
     s.setting.step = 0.1;
@@ -114,14 +114,14 @@ namespace
   TEST(StepRule, ToleranceAutoFollowsStepAndStrainRate)
   {
     RuleScene s;
-    EXPECT_EQ(s.tolerance(9, 1e-3), 1e-4) << "what the user asked for";
+    EXPECT_EQ(s.tolerance(9, 1e-3), 1e-4) << "the given tolerance";
     s.accuracy.tolerance.reset();
     s.setting.step = 0.5;
     const double h = 0.5 * 3 / 4, number = 1e-3 * 4 / 3;
     EXPECT_NEAR(s.tolerance(9, 1e-3), 1.25 * 0.02 * number / (h * (0.2 + 0.8 * h)), 1e-18);
-    EXPECT_EQ(s.tolerance(9, 0), 2e-5) << "nothing strains";
-    EXPECT_EQ(s.tolerance(0, 1e-3), 2e-5) << "nothing is pressed";
-    s.setting.step = s.choose(9, 1e-5).step; // the longest that the sweeps can serve
+    EXPECT_EQ(s.tolerance(9, 0), 2e-5) << "without strain";
+    EXPECT_EQ(s.tolerance(0, 1e-3), 2e-5) << "without pressure";
+    s.setting.step = s.choose(9, 1e-5).step; // the longest step that the sweeps can serve
     EXPECT_EQ(s.choose(9, 1e-5).bound, "solver");
     EXPECT_NEAR(s.tolerance(9, 1e-5), 2e-5, 1e-17);
   }
@@ -139,7 +139,7 @@ namespace
     EXPECT_NEAR(expected_errors(s.state, s.setting, {9, 1e-3, s.accuracy}).dilation, 1.25 * 0.02 * std::pow(4., 0.75), 1e-14);
   }
 
-  TEST(StepRule, SettingsOfTheUserAreToldWhatTheyCost)
+  TEST(StepRule, TheErrorsOfGivenSettingsAreReported)
   {
     RuleScene s;
     s.setting.step              = 0.5;
@@ -151,13 +151,13 @@ namespace
     EXPECT_EQ(expected_errors(s.state, s.setting, {9, 0, s.accuracy}).strength, 0);
   }
 
-  TEST(StepRule, WhereNothingMovesOrPressesNoStepFollows)
+  TEST(StepRule, WithoutMotionAndPressureThereIsNoBound)
   {
     EXPECT_TRUE(std::isinf(RuleScene().choose(0, 0).step));
     EXPECT_EQ(RuleScene().choose(0, 0).bound, "none");
   }
 
-  // No strain of more than 2.5e-4 a step; end grains 1 in units of 1.
+  // At most 2.5e-4 of strain per step; the bound for end grains is 1 in units of 1.
   TEST(StepRule, ARunWithStepAutoReachesItsStagesAndNamesItsBound)
   {
     Options options   = quick_options();
@@ -172,7 +172,7 @@ namespace
     EXPECT_LE(r.report.step, 1);
   }
 
-  // Mode time with walls at rest and no pressure: there is nothing to choose from.
+  // Mode time with walls at rest and without pressure leaves nothing to choose a step from.
   TEST(StepRule, StepAutoWithoutAnyScaleIsRefused)
   {
     SampleOptions sample    = small_sample(20);
@@ -185,10 +185,11 @@ namespace
     EXPECT_THROW((void)loaded(sample, loading, options), std::invalid_argument);
   }
 
-  // P3: steps x1 to x100 at the same loading between rigid sides. An unstable scheme would heat the sample without bound; here
-  // the kinetic energy stays of the order of the affine field's (the penalty method heats from its critical step on: loading.cc).
-  // Ten times the step changes the mean strength within its scatter. A hundred times, 0.5 % of strain a step, it is wrong:
-  // positions then change too much for contacts found once a step (penetrations of 0.1 d), but nothing blows up.
+  // P3: steps from 1 to 100 times as long at the same loading between rigid sides. An unstable scheme would heat the sample
+  // without bound. Here the kinetic energy stays of the order of that of the affine field. (The penalty method heats from its
+  // critical step on: loading.cc.) Ten times the step changes the mean strength within its scatter. With a hundred times, 0.5 %
+  // of strain per step, the strength is wrong: positions change too much for one detection per step (penetrations of 0.1 d). But
+  // nothing blows up.
   TEST(StepRule, StepsOneToAHundredTimesAsLongAreStable)
   {
     double first = 0;

@@ -1,4 +1,4 @@
-// diptych: walls that are driven or free, fixed grains, friction by pair, gravity
+// diptych: driven and free walls, fixed grains, friction by pair, gravity
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 
@@ -18,7 +18,7 @@ namespace
     return {};
   }
 
-  // A column of n touching discs (d = 1) on a floor, a platen `gap` above it that is free vertically under a force.
+  // A column of n touching discs (d = 1) on a floor. A platen at a distance `gap` above it is free vertically under a force.
   State column_under_platen(const int n, const double gap, const TimeTable &downward, const double mass)
   {
     State state;
@@ -33,8 +33,8 @@ namespace
     return state;
   }
 
-  // v = -(F/M) t until the platen meets the column; then it rests, and over the whole time the impulses balance: that of the
-  // platen on the sample is -(F T - M |v|) with v = 0 at the end, that of the floor the opposite.
+  // v = -(F/M) t until the platen meets the column; then it rests. Over the whole time the impulses balance: the impulse of the
+  // platen on the sample is -(F T - M |v|) with v = 0 at the end, and that of the floor is the opposite.
   TEST(Walls, FreePlatenFallsWithForceOverMassAndIsStoppedByAColumn)
   {
     const double force = 3, mass = 5, step = 0.01, gap = 0.2;
@@ -59,8 +59,8 @@ namespace
     EXPECT_NEAR(floor, force * n_steps * step, 1e-12);
   }
 
-  // No servo and no lag: every contact of the column and the floor carry F of the middle of the step, from the first step on
-  // and also where F jumps from 1 to 3.
+  // No servo and no lag: every contact of the column and the floor carry F of the middle of the step. This holds from the first
+  // step on and also when F jumps from 1 to 3.
   TEST(Walls, FreePlatenAtRestTransmitsItsForceInTheSameStep)
   {
     for (const ContactSolver solver : {ContactSolver::nsgs, ContactSolver::psor})
@@ -84,7 +84,7 @@ namespace
       }
   }
 
-  // F = P x height where the height is that of the middle of the step, h0 + V (t + h/2); likewise P x width on a platen.
+  // F = P x height with the height in the middle of the step, h0 + V (t + h/2). The same holds for P x width on a platen.
   TEST(Walls, PressureActsOnThePresentHeightAndWidth)
   {
     const double step = 0.05, speed = 0.3, pressure = 2;
@@ -109,9 +109,9 @@ namespace
       }
   }
 
-  // Discs that overlap by 0.02 between a fixed wall and one that is free under a force can only part if the free wall gives way:
-  // the row is 3 wide, the walls stand 2.94 apart.
-  TEST(Walls, PenetrationsAreTakenOutWhereAFreeWallMustGiveWay)
+  // Discs between a fixed wall and a wall that is free under a force overlap by 0.02. They can separate only if the free wall
+  // gives way: the row is 3 wide and the walls are 2.94 apart.
+  TEST(Walls, PenetrationsAreRemovedIfAFreeWallMustGiveWay)
   {
     StepSetting setting = exact_setting(0.02);
     State       state;
@@ -134,8 +134,8 @@ namespace
     return table;
   }
 
-  // Floor at A sin wt. The disc feels g - A w^2 sin wt: with A w^2 < g it never leaves and the force is m (g + dv/h); with
-  // A w^2 = 2 g it takes off at sin wt = 1/2, to one step.
+  // Floor at A sin wt. The disc feels g - A w^2 sin wt. With A w^2 < g it never leaves, and the force is m (g + dv/h). With A w^2
+  // = 2 g it takes off at sin wt = 1/2, within one step.
   TEST(Walls, DiscOnAShakenFloorTakesOffWhereTheFloorFallsFasterThanItself)
   {
     const double g = 10, frequency = 20, step = 1e-3;
@@ -173,7 +173,7 @@ namespace
       }
   }
 
-  // A disc of radius r at rest on two fixed ones of radius R, 2 a apart, sin b = a/(R + r): N = m g / (2 cos b) each.
+  // A disc of radius r at rest on two fixed discs of radius R, 2 a apart, with sin b = a/(R + r): N = m g / (2 cos b) each.
   TEST(FixedGrains, CarryADiscInTheirSaddle)
   {
     const double a = 0.8, R = 0.6, r = 0.5, g = 9.81, step = 0.01, cosine = std::sqrt(1 - a * a / (R + r) / (R + r));
@@ -190,12 +190,12 @@ namespace
     EXPECT_NEAR(impulse_between(result, 1, 2).normal / step, normal, 1e-12 * normal);
     EXPECT_NEAR(state.grains.velocity[2].norm(), 0, 1e-13);
     EXPECT_EQ(state.grains.position[0], Eigen::Vector2d(-a, 0));
-    EXPECT_LT(result.momentum_residual, 1e-15) << "what holds the fixed grains gives the impulses back";
+    EXPECT_LT(result.momentum_residual, 1e-15) << "the support of the fixed grains returns the impulses";
   }
 
-  // A disc starts at rest at angle th0 on a fixed one: (1 + k) v^2/2 = g l (cos th0 - cos th), l = R + r, and leaves where
-  // v^2/l = g cos th: cos th = 2 cos th0/(3 + k); k = 1/2 rolling (2/7 x 2 = 4/7), 0 sliding without friction (2/3). First order
-  // in h.
+  // A disc starts at rest at the angle th0 on a fixed disc: (1 + k) v^2/2 = g l (cos th0 - cos th), l = R + r. It leaves at v^2/l
+  // = g cos th, i.e. cos th = 2 cos th0/(3 + k). k = 1/2 for rolling (2/7 x 2 = 4/7) and 0 for sliding without friction (2/3).
+  // The error is of first order in h.
   TEST(FixedGrains, ADiscRollingOverOneLeavesWhereItsWeightNoLongerHoldsIt)
   {
     for (const bool rough : {false, true})
@@ -203,7 +203,7 @@ namespace
         {
           const double R = 1, r = 0.5, start = 0.3;
           StepSetting  setting     = exact_setting(step);
-          setting.solver.tolerance = 1e-6; // impulses come near zero where it leaves: round-off of m v
+          setting.solver.tolerance = 1e-6; // impulses approach zero where it leaves, i.e. round-off of m v
           setting.time.gravity_y   = -10;
           setting.law.friction     = rough ? 1000. : 0.;
           State state;
@@ -225,7 +225,7 @@ namespace
         }
   }
 
-  // A rain on fixed grains, one of which moves and spins: it keeps on its way, and the ledgers close step by step.
+  // Grains fall on fixed grains, one of which moves and spins. It keeps its motion, and the ledgers close in every step.
   TEST(FixedGrains, KeepTheirMotionAndTheLedgers)
   {
     StepSetting setting      = exact_setting(0.01);
@@ -260,7 +260,7 @@ namespace
     EXPECT_NE(work, 0);
   }
 
-  // tan(slope) = 3 > 3 mu for all: each slides, and r_t = mu r_n with the coefficient of its own pair.
+  // tan(slope) = 3 > 3 mu for all pairs. Each disc slides, and r_t = mu r_n with the coefficient of its pair.
   TEST(Friction, IsThatOfThePair)
   {
     const double friction[3] = {0.1, 0.2, 0.3}; // grain on grain, platen, side wall
@@ -284,8 +284,8 @@ namespace
       }
   }
 
-  // Platen moving sideways at V and pressed down by F on a disc on a smooth floor: mu F drives the disc until its upper surface
-  // keeps up, v + r omega = 3 J/m = V, so v = V/3 from t = m V/(3 mu F) on, and r omega = 2 V/3.
+  // A platen moves sideways at V and is pressed down by F on a disc on a smooth floor. mu F drives the disc until its upper
+  // surface keeps up, v + r omega = 3 J/m = V. So v = V/3 from t = m V/(3 mu F) on, and r omega = 2 V/3.
   TEST(Friction, APressedPlatenTakesADiscAlongAtAThirdOfItsSpeed)
   {
     const double step = 1e-3, mu = 0.5, force = 2, speed = 0.6;
@@ -305,7 +305,7 @@ namespace
     EXPECT_NEAR(state.walls[1].velocity.x(), speed, 1e-15);
   }
 
-  // One free component of an oblique wall would couple normal and tangential parts of its contacts.
+  // One free component of an oblique wall would couple the normal and tangential parts of its contacts.
   TEST(Walls, ObliqueWallWithOneFreeComponentIsRefused)
   {
     State state;
@@ -317,14 +317,15 @@ namespace
     state.walls[0].mass = 0;
     EXPECT_THROW(validate_walls(state), std::invalid_argument);
     state.walls[0].mass    = 1;
-    state.walls[0].drive_x = AppliedPressure{1.}; // there is no height
+    state.walls[0].drive_x = AppliedPressure{1.}; // without a height
     EXPECT_THROW(validate_walls(state), std::invalid_argument);
     state.walls[0].normal  = {1, 0};
     state.walls[0].drive_x = AppliedPressure{1., 2.};
     EXPECT_NO_THROW(validate_walls(state));
   }
 
-  // A wall free in both components is a body like another: v' = v - (1+e) m_eff/m (u.n) n, V' = V + (1+e) m_eff/M (u.n) n.
+  // A wall that is free in both components is like any other body: v' = v - (1+e) m_eff/m (u.n) n, V' = V + (1+e) m_eff/M (u.n)
+  // n.
   TEST(Walls, ObliqueFreeWallReboundsLikeABodyOfItsMass)
   {
     const double          step = 0.01, M = 2.5, e = 0.7;
@@ -343,7 +344,7 @@ namespace
     EXPECT_NEAR((state.walls[0].velocity + push / M * n).norm(), 0, 1e-14);
   }
 
-  // q = g t^2/2 exactly (the midpoint rule is exact for it); in a corner each wall carries its component of the weight.
+  // q = g t^2/2 exactly, because the midpoint rule is exact for it. In a corner each wall carries its component of the weight.
   TEST(Gravity, ActsInAnyDirection)
   {
     for (const double angle : {0.3, 1.1, 2.5, 4.0, 5.5})
