@@ -1,4 +1,4 @@
-// diptych: everything that a scene says of the continuum panel, checked
+// diptych: checks of the continuum options of a scene
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/options.h"
 
@@ -70,11 +70,11 @@ namespace diptych::continuum
         told.push_back({key, text.str()});
     };
     const double E = o.material.elastic.youngs_modulus;
-    tell(E < softest, "youngs_modulus", E, "is below 50: the sample is squeezed by percents before it yields");
-    tell(E > stiffest, "youngs_modulus", E, "is above 1e6: is it an absolute modulus?");
+    tell(E < softest, "youngs_modulus", E, "is below 50: elastic strain reaches several percent before the sample yields");
+    tell(E > stiffest, "youngs_modulus", E, "is above 1e6: was it given as an absolute modulus?");
     if (!traits(o.law).is_plastic)
       return told;
-    const std::string why = "is above 1: cohesion carries more than the pressure does; is it an absolute one?";
+    const std::string why = "is above 1: cohesion then exceeds the pressure; was it given as an absolute stress?";
     if (o.material.hardening == HardeningKind::table)
       for (const double cohesion : o.material.table_cohesion)
         tell(cohesion > most_cohesive, "table_cohesion", cohesion, why);
