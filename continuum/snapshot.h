@@ -11,8 +11,8 @@
 
 namespace diptych::continuum
 {
-  // Outline of the sample between two platens. Both sides run upward. Their first points lie on the lower platen and their last
-  // points on the upper one, so the bottom edge is left.front()-right.front(). [length]
+  // Outline of the sample between two platens. Both sides run upward. Their first points lie on the lower platen, their last
+  // points on the upper one. The bottom edge is therefore left.front()-right.front(). [length]
   struct Outline
   {
     std::vector<Eigen::Vector2d> left, right;

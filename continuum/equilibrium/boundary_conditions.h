@@ -38,8 +38,8 @@ namespace diptych::continuum
   class BoundaryConditions
   {
   public:
-    // Adds the dofs of other processes that ties need to `mesh`. Throws std::invalid_argument if mesh or platens do not allow
-    // the loading: periodic sides that do not match, or a free width between rough platens.
+    // Adds the dofs of other processes that ties need to `mesh`. Throws std::invalid_argument for periodic sides that do not
+    // match, and for a free width between rough platens.
     BoundaryConditions(Discretisation    &mesh,
                        const Loading     &loading,
                        const PlatenGrip  &grip,

@@ -169,7 +169,7 @@ namespace diptych::continuum
   }
 
   // Side pressure acts along the sides of the shape for equilibrium. In small strain this is the initial shape, and the total
-  // pressure follows the height. The moved sides would be wrong there: where a band leaves the sample, the side folds over once
+  // pressure follows the height. The moved sides would be wrong there. Where a band leaves the sample, a side folds over once
   // the jump exceeds an element, and the pressure would pull. On rigid walls and with a free period the pressure acts through
   // the ties of the nodes, so nodes on a platen get none.
   std::vector<double> BoundaryValueProblem::loads(const double to) const

@@ -109,7 +109,7 @@ namespace diptych::continuum
     const CommittedState &committed() const { return state; }
     const std::vector<MaterialUpdate> &last_update() const { return trial; } // of the last evaluate()
     const std::vector<double>         &last_flow() const { return flow; } // growth of the hardening variable in the accepted step
-    // Whether the accepted step weakened a point whose plastic flow contracts, one each.
+    // Per point: whether the accepted step weakened it while its plastic flow contracted.
     const std::vector<char> &last_instability() const { return unstable; }
     double                   progress() const { return state.progress; }
     const Eigen::Vector2d   &platen_force(bool upper) const { return state.platen_force[upper]; } // on the sample

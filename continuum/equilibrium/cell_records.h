@@ -8,8 +8,8 @@
 
 namespace diptych::continuum
 {
-  // One row of numbers: the cell's refinement level, its nodal values of displacement and last increment (in the order of
-  // Cell::dofs), then the state of every point. Records do not depend on how cells are distributed over processes.
+  // One row of numbers per cell: its refinement level, its nodal values of displacement and last increment in the order of
+  // Cell::dofs, and the state of every point. Records do not depend on how cells are distributed over processes.
   using CellRecord = std::vector<double>;
 
   std::size_t record_length(const ReferenceElement &reference);

@@ -20,7 +20,7 @@ namespace diptych::continuum
   };
 
   // The elements of this process that one refinement divided, as deal.II's CellId in text. deal.II numbers elements by the
-  // history of their divisions, so bitwise equal results need the same history.
+  // history of their divisions. Bitwise equal results therefore need the same history.
   using DividedCells = std::vector<std::string>;
   using Divisions    = std::vector<DividedCells>;
 

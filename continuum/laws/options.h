@@ -185,8 +185,8 @@ namespace diptych::continuum
   std::vector<UnusedKey> unused_keys(LawKind law, const LawOptions &options);
 
   // Both throw std::invalid_argument, which states key, value and range. They do not check keys that `hardening` does not use.
-  // They also reject contradictions: a dilatancy angle above the friction angle anywhere (plastic work could become negative),
-  // a residual value above the peak value, or neither friction nor cohesion.
+  // They also reject contradictions. A dilatancy angle must not exceed the friction angle, because plastic work could become
+  // negative. A residual value must not exceed the peak value. Friction and cohesion must not both be zero.
   void validate(const ElasticOptions &options);
   void validate(const LawOptions &options);
 } // namespace diptych::continuum

@@ -72,7 +72,7 @@ namespace diptych::continuum
     // The same for solid_fraction_start = auto, with one number per cell [-].
     void set_initial_solid_fraction(const std::vector<double> &solid_fraction);
 
-    // To be called once. prepare() finds equilibrium at rest. resume() continues from a checkpoint on any number of processes;
+    // To be called once. prepare() finds equilibrium at rest. resume() continues from a checkpoint on any number of processes:
     // it uses that of the first process and throws std::invalid_argument if it belongs to another mesh.
     [[nodiscard]] Status prepare();
     void                 resume(const Checkpoint &checkpoint);

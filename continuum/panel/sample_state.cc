@@ -122,8 +122,8 @@ namespace diptych::continuum
       return state;
     }
 
-    // A node of a snapshot. The key identifies it on all processes: the ids of the two mesh nodes that it lies between (twice
-    // the same if it is a mesh node). A third number marks the centre of a four-node element.
+    // A node of a snapshot. The key identifies it on all processes by the ids of the two mesh nodes between which it lies. A
+    // mesh node has its own id twice. A third number marks the centre of a four-node element.
     struct NodeEntry
     {
       std::array<double, 3> key;

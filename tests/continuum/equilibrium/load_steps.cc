@@ -23,7 +23,7 @@ namespace
       }
   }
 
-  // A stop at the first, second or third check leaves the committed state unchanged, bit for bit; the second check lies between
+  // A stop at the first, second or third check leaves the committed state unchanged, bit for bit. The second check lies between
   // two iterations of one step. A further call continues with the bits and counts of a run that was never stopped.
   TEST(LoadSteps, AStoppedStepLeavesNoTrace)
   {

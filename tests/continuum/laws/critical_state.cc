@@ -33,8 +33,8 @@ namespace
       }
   }
 
-  // At the peak of eta the sine of the dilatancy angle is A nu_c ln(nu/nu_c) / beta, which is A (nu - nu_c) / beta to first
-  // order.
+  // At the peak of eta the sine of the dilatancy angle is A nu_c ln(nu/nu_c) / beta. To first order this is A (nu - nu_c) /
+  // beta.
   TEST(CriticalState, DilatancyAtThePeakFollowsTheDensity)
   {
     const Hardening hardening(critical(0.86, 0.1));
