@@ -90,7 +90,7 @@ namespace
     ASSERT_GT(calls, int(whole.rows.size()) + 2) << "more than one check per step";
     for (const int last : {2, calls / 2, calls / 2 + 1, calls / 2 + 2, calls - 1})
       {
-        SCOPED_TRACE("at question " + std::to_string(last) + " of " + std::to_string(calls));
+        SCOPED_TRACE("at check " + std::to_string(last) + " of " + std::to_string(calls));
         int    n = 0;
         Wishes stopped;
         stopped.stop_requested = [&](const std::size_t n_rows) { return n_rows > 0 && ++n >= last; };
