@@ -1,4 +1,4 @@
-// diptych: what a scene may choose from, as enums
+// diptych: names of the enums that a scene can set
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace diptych::continuum
 {
-  // An enum that a scene may set has a function choices(E) beside it: the one table of its names, in the order in which they are
-  // told. Readers and writers of scenes find it by argument-dependent lookup; nothing else compares texts.
+  // Each enum that a scene can set has a function choices(E) beside it. That table lists its names in the order in which they
+  // are printed. Readers and writers of scenes find it by argument-dependent lookup and compare texts nowhere else.
   template <class E> std::string name_of(const E value)
   {
     for (const auto &[choice, name] : choices(value))
@@ -19,7 +19,7 @@ namespace diptych::continuum
     return "unknown";
   }
 
-  // The value of that name; none where the enum has no such name.
+  // The value with this name; empty if the enum has no such name.
   template <class E> std::optional<E> value_of(const std::string &name)
   {
     for (const auto &[choice, its_name] : choices(E()))

@@ -1,4 +1,4 @@
-// diptych: what is done to the continuum's sample
+// diptych: loading of the continuum sample
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/loading.h"
 
@@ -34,16 +34,16 @@ namespace diptych::continuum
 
   void validate(const Loading &loading)
   {
-    require(loading.pressure >= 0, "pressure = ", loading.pressure, " must not be negative");
-    require(loading.body_force.allFinite(), "body_force must be finite");
-    require(!loading.stages.empty(), "stages: at least one is needed");
+    require(loading.pressure >= 0, "pressure = ", loading.pressure, " is negative: give 0 or more");
+    require(loading.body_force.allFinite(), "body_force has an entry that is not finite");
+    require(!loading.stages.empty(), "stages is empty: give at least one value of the progress");
     for (std::size_t i = 0; i < loading.stages.size(); ++i)
       require(loading.stages[i] >= 0 && (i == 0 || loading.stages[i] > loading.stages[i - 1]), "stages: ", loading.stages[i],
-              " is not ascending from 0 on");
+              " is out of order: the values must ascend from 0 or more");
     for (const auto &platen : loading.platens)
       for (const auto &drive : platen)
-        require(!drive.is_force || drive.value, "a platen that moves freely needs its force");
+        require(!drive.is_force || drive.value, "a platen whose component is free needs a force");
     require(!(loading.platens[0][1].is_force && loading.platens[1][1].is_force),
-            "both platens move freely in the vertical: one must be held");
+            "both platens are free in the vertical: prescribe the motion of one of them");
   }
 } // namespace diptych::continuum

@@ -1,4 +1,4 @@
-// diptych: what is done to the continuum's sample
+// diptych: loading of the continuum sample
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -14,11 +14,11 @@
 
 namespace diptych::continuum
 {
-  // What the progress of a loading is.
+  // The loading variable, called progress.
   enum class Walk
   {
     axial_strain, // descent of the upper platen / initial height
-    shear_strain, // its travel to the right / initial height
+    shear_strain, // travel of the upper platen to the right / initial height
     time
   };
   constexpr auto choices(Walk)
@@ -27,29 +27,29 @@ namespace diptych::continuum
                       std::pair{Walk::time, "time"}};
   }
 
-  // "2.5 % axial strain", "1 % shear strain", "time 3": for messages.
+  // Text for messages, such as "2.5 % axial strain", "1 % shear strain" or "time 3".
   std::string text_of(Walk walk, double progress);
 
-  // The loading is a function of one progress. One component of a platen's motion:
+  // One component of a platen's motion, a function of the progress.
   struct Drive
   {
-    bool                          is_force = false; // the platen moves freely in this component and carries the value as a force
+    bool                          is_force = false; // the component is free and carries the value as a force
     std::function<double(double)> value;            // progress -> displacement since the start [length], or force on the platen
   };
 
-  // A pressure on both sides that acts horizontally per unit of current height, as Moreau's containing action on the grains.
+  // A pressure on both sides. It acts horizontally per unit of current height, like Moreau's containing action on the grains.
   struct SidePressure
   {};
-  // Rigid smooth side walls: the left one stands still, the right one carries pressure x current height or is moved.
+  // Rigid smooth side walls. The left one is fixed. The right one carries pressure x current height or has a given motion.
   struct RigidSides
   {
-    std::function<double(double)> widening = {}; // progress -> displacement of the right wall, outwards [length]; none: pressure
+    std::function<double(double)> widening = {}; // progress -> outward displacement of the right wall [length]; empty: pressure
   };
-  // The right side moves as the left one plus a change of the width, which is free under pressure x current height or given.
-  // The sides must carry equally many element edges at equal heights. A free width needs smooth platens.
+  // The right side moves like the left one plus the change of width. The width is given, or free under pressure x current
+  // height. Both sides must have equally many element edges at equal heights. A free width needs smooth platens.
   struct PeriodicSides
   {
-    std::optional<double> widening = 0.; // of the width per unit progress [length]
+    std::optional<double> widening = 0.; // change of width per unit progress [length]; empty: free
   };
   struct FreeSides
   {};
@@ -57,20 +57,20 @@ namespace diptych::continuum
 
   struct Loading
   {
-    double                              pressure = 1;  // lateral; also the isotropic initial stress [pressure]
-    std::function<double(double)>       side_pressure; // progress -> lateral pressure, where it is not constant [pressure]
-    std::array<std::array<Drive, 2>, 2> platens;       // [lower, upper][x, y]; no function: at rest. Smooth platens leave x alone
+    double                              pressure = 1;  // lateral pressure, also the isotropic initial stress [pressure]
+    std::function<double(double)>       side_pressure; // progress -> lateral pressure [pressure]; empty: constant
+    std::array<std::array<Drive, 2>, 2> platens;       // [lower, upper][x, y]; empty: at rest. Smooth platens leave x free
     LateralCondition                    lateral;
     Eigen::Vector2d                     body_force = Eigen::Vector2d::Zero(); // weight per initial area [pressure / length]
-    std::vector<double>                 stages; // values of the progress at which the panel halts, ascending; last: the end
+    std::vector<double>                 stages; // values of the progress, ascending; the last one ends the loading
     Walk                                walk              = Walk::axial_strain;
-    double                              time_per_progress = 1; // where the walk is a strain: 1 / strain rate
+    double                              time_per_progress = 1; // 1 / strain rate if the progress is a strain
   };
 
-  // The upper platen moves by `travel` [length] per unit progress, the lower one is at rest. The progress is the descent / height
-  // where it descends, else the travel / height.
+  // The upper platen moves by `travel` [length] per unit progress; the lower one is at rest. If the platen descends, the
+  // progress is descent / height, otherwise travel / height.
   Loading straight_loading(double pressure, const Eigen::Vector2d &travel, std::vector<double> stages);
 
-  // Throws std::invalid_argument naming the value and what is allowed.
+  // Throws std::invalid_argument, which states the value and what is allowed.
   void validate(const Loading &loading);
 } // namespace diptych::continuum

@@ -1,4 +1,4 @@
-// diptych: everything that a scene says of the continuum panel, checked
+// diptych: checks of the continuum options of a scene
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/options.h"
 
@@ -62,24 +62,24 @@ namespace diptych::continuum
   std::vector<DoubtfulValue> doubtful_values(const Options &o)
   {
     constexpr double           softest = 50, stiffest = 1e6, most_cohesive = 1;
-    std::vector<DoubtfulValue> told;
-    const auto                 tell = [&](const bool doubtful, const char *key, const double value, const std::string &why) {
+    std::vector<DoubtfulValue> found;
+    const auto                 add_if = [&](const bool doubtful, const char *key, const double value, const std::string &why) {
       std::ostringstream text;
       text << " = " << value << " (in units of loading/pressure) " << why;
       if (doubtful)
-        told.push_back({key, text.str()});
+        found.push_back({key, text.str()});
     };
     const double E = o.material.elastic.youngs_modulus;
-    tell(E < softest, "youngs_modulus", E, "is below 50: the sample is squeezed by percents before it yields");
-    tell(E > stiffest, "youngs_modulus", E, "is above 1e6: is it an absolute modulus?");
+    add_if(E < softest, "youngs_modulus", E, "is below 50: elastic strain reaches several percent before the sample yields");
+    add_if(E > stiffest, "youngs_modulus", E, "is above 1e6: was it given as an absolute modulus?");
     if (!traits(o.law).is_plastic)
-      return told;
-    const std::string why = "is above 1: cohesion carries more than the pressure does; is it an absolute one?";
+      return found;
+    const std::string why = "is above 1: cohesion then exceeds the pressure; was it given as an absolute stress?";
     if (o.material.hardening == HardeningKind::table)
       for (const double cohesion : o.material.table_cohesion)
-        tell(cohesion > most_cohesive, "table_cohesion", cohesion, why);
+        add_if(cohesion > most_cohesive, "table_cohesion", cohesion, why);
     else
-      tell(o.material.cohesion > most_cohesive, "cohesion", o.material.cohesion, why);
-    return told;
+      add_if(o.material.cohesion > most_cohesive, "cohesion", o.material.cohesion, why);
+    return found;
   }
 } // namespace diptych::continuum

@@ -1,4 +1,4 @@
-// diptych: everything that a scene says of the continuum panel
+// diptych: options of the continuum panel in a scene
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -25,7 +25,7 @@ namespace diptych::continuum
 
   enum class Kinematics
   {
-    updated, // nodes move and stress turns with the material after every step
+    updated, // nodes move and stress rotates with the material after every step
     small_strain
   };
   constexpr auto choices(Kinematics)
@@ -36,7 +36,7 @@ namespace diptych::continuum
   enum class Platens
   {
     rough, // both components of the displacement follow the platen
-    smooth // the vertical one alone
+    smooth // only the vertical component follows the platen
   };
   constexpr auto choices(Platens)
   {
@@ -46,7 +46,7 @@ namespace diptych::continuum
   enum class PlatenRotation
   {
     free, // no couple
-    held  // at zero
+    held  // rotation is zero
   };
   constexpr auto choices(PlatenRotation)
   {
@@ -75,7 +75,7 @@ namespace diptych::continuum
 
   enum class LinearChoice
   {
-    automatic, // by size
+    automatic, // depends on the number of unknowns
     direct,    // UMFPACK on one process, MUMPS on several
     amg        // ML with GMRES
   };
@@ -85,14 +85,14 @@ namespace diptych::continuum
                       std::pair{LinearChoice::amg, "amg"}};
   }
 
-  // Where a mesh comes from: "outline", "rectangle", else the path of a file.
+  // Source of the mesh: "outline", "rectangle", or else the path of a file.
   struct MeshOption
   {
     enum class Kind
     {
-      outline,   // of the prepared grain sample
-      rectangle, // of rectangle_width and rectangle_height
-      file       // .msh or .geo
+      outline,   // outline of the prepared grain sample
+      rectangle, // rectangle_width x rectangle_height
+      file       // file .msh or .geo
     };
     Kind        kind = Kind::outline;
     std::string file;
@@ -105,7 +105,7 @@ namespace diptych::continuum
   };
   std::string text_of(const MeshOption &option);
 
-  // Stresses and lengths of the law count in Units, other lengths as their units say.
+  // Stresses and lengths of the law count in Units (laws/options.h). All other lengths have the unit stated below.
   struct Options
   {
     LawKind        law                   = LawKind::cosserat_mohr_coulomb;
@@ -136,62 +136,65 @@ namespace diptych::continuum
     LawOptions     material;
   };
 
-  // Lists the panel's own keys first, then those of the law; all names are distinct.
+  // Lists the panel's own keys first, then those of the law. All names are distinct.
   template <class Visitor> void visit_parameters(Options &o, Visitor &&visitor)
   {
     visitor("law", o.law, "-",
-            "constitutive law; the two with Cosserat rotations have an internal length, the band of a local law that softens is "
-            "set by the mesh");
+            "constitutive law; the two Cosserat laws have an internal length, with any other softening law the mesh sets the "
+            "band's thickness");
     visitor("element", o.element, "-",
-            "displacement: biquadratic with 3x3 points, or bilinear with mean dilation; auto: q2. Cosserat laws need q2 and take "
-            "bilinear rotations");
-    visitor("geometry", o.geometry, "-", "nodes move and stress turns with the material after every step, or small strain");
-    visitor("platens", o.platens, "-", "rough: both components follow the platen; smooth: only the vertical");
+            "q2: biquadratic displacement with 3x3 points; q1_bbar: bilinear with mean dilation; auto: q2. Cosserat laws need q2 "
+            "and use bilinear rotations");
+    visitor("geometry", o.geometry, "-",
+            "updated: nodes move and stress rotates with the material after every step; small_strain: neither");
+    visitor("platens", o.platens, "-", "rough: both displacement components follow the platen; smooth: only the vertical one");
     visitor("platen_rotation", o.platen_rotation, "-",
-            "Cosserat laws: rotations at the platens are free (no couple) or held at zero");
+            "Cosserat laws: free: no couple acts on the rotations at the platens; held: these rotations are zero");
     visitor("initial_stress", o.initial_stress, "-",
-            "the pressure everywhere, or the prepared grain sample's stress cell by cell, then brought to equilibrium");
-    visitor(
-      "mesh", o.mesh, "-",
-      "outline: of the prepared grain sample; rectangle: of rectangle_width and rectangle_height; else a .msh file with the "
-      "physical lines lower_platen, upper_platen, left_side, right_side (and free)");
-    visitor("rectangle_width", o.rectangle_width, "length", {0., 1e12}, "mesh = rectangle: its width");
-    visitor("rectangle_height", o.rectangle_height, "length", {0., 1e12}, "mesh = rectangle: its height");
+            "isotropic: the pressure everywhere; mapped: the stress of the prepared grain sample, cell by cell, then brought to "
+            "equilibrium");
+    visitor("mesh", o.mesh, "-",
+            "outline: outline of the prepared grain sample; rectangle: rectangle_width x rectangle_height; otherwise the path of "
+            "a .msh file with the physical lines lower_platen, upper_platen, left_side, right_side (and free)");
+    visitor("rectangle_width", o.rectangle_width, "length", {0., 1e12}, "mesh = rectangle: width of the sample");
+    visitor("rectangle_height", o.rectangle_height, "length", {0., 1e12}, "mesh = rectangle: height of the sample");
     visitor("platen_width", o.platen_width, "length", {0., 1e12},
-            "mesh = rectangle: of the upper platen, a strip in the middle of the upper edge; 0: the whole edge");
+            "mesh = rectangle: width of the upper platen in the middle of the upper edge; 0: the whole edge");
     visitor("element_size", o.element_size, "mean diameters", {0.01, 1e3},
-            "edge length of an element; at most the internal length for a band that the mesh does not set");
+            "edge length of an element; for a band that does not depend on the mesh, use at most the internal length");
     visitor("refinement", o.refinement, "-",
-            "adaptive: elements are larger by 2^refinement_levels at first and divided where plastic strain gathers");
-    visitor("refinement_levels", o.refinement_levels, "-", {1, 6}, "adaptive: divisions down to element_size");
+            "adaptive: elements start 2^refinement_levels times larger and are divided where plastic strain concentrates");
+    visitor("refinement_levels", o.refinement_levels, "-", {1, 6}, "adaptive: number of divisions down to element_size");
     visitor("refinement_threshold", o.refinement_threshold, "-", {1e-6, 1.},
-            "adaptive: an element is divided whose plastic strain in a step exceeds this share of the largest");
+            "adaptive: an element is divided if its plastic strain in a step exceeds this share of the largest one");
     visitor("linear_solver", o.linear_solver, "-",
             "direct: UMFPACK on one process, MUMPS on several; amg: ML with GMRES; auto: by size");
     visitor("initial_step", o.initial_step, "strain (mode time: time)", {1e-9, 1e6}, "first load step");
     visitor("max_step", o.max_step, "strain (mode time: time)", {1e-9, 1e6}, "largest load step");
     visitor("min_step", o.min_step, "strain (mode time: time)", {1e-12, 1e6},
-            "smallest load step; below it the run stops and says how far it got");
-    visitor("tolerance", o.tolerance, "-", {1e-12, 1e-1}, "unbalanced nodal force relative to the reaction forces");
+            "smallest load step; if a smaller one would be needed, the run stops and reports the progress reached");
+    visitor("tolerance", o.tolerance, "-", {1e-12, 1e-1}, "largest unbalanced nodal force, relative to the reaction forces");
     visitor("max_newton_iterations", o.max_newton_iterations, "-", {1, 1000}, "Newton iterations before a step is halved");
-    visitor(
-      "weak_spot_strain", o.weak_spot_strain, "-", {0., 10.},
-      "hardening variable at the start in the middle of a weak spot, for samples that would else stay homogeneous; 0: none");
-    visitor("weak_spot_radius", o.weak_spot_radius, "mean diameters", {1e-6, 1e6}, "of the weak spot, a Gaussian's deviation");
-    visitor("weak_spot_x", o.weak_spot_x, "widths", {0., 1.}, "place of the weak spot");
-    visitor("weak_spot_y", o.weak_spot_y, "heights", {0., 1.}, "place of the weak spot");
+    visitor("weak_spot_strain", o.weak_spot_strain, "-", {0., 10.},
+            "initial hardening variable in the middle of a weak spot, for samples that would otherwise stay homogeneous; 0: no "
+            "weak spot");
+    visitor("weak_spot_radius", o.weak_spot_radius, "mean diameters", {1e-6, 1e6},
+            "radius of the weak spot (standard deviation of a Gaussian)");
+    visitor("weak_spot_x", o.weak_spot_x, "widths", {0., 1.}, "horizontal position of the weak spot");
+    visitor("weak_spot_y", o.weak_spot_y, "heights", {0., 1.}, "vertical position of the weak spot");
     visitor("checkpoint_minutes", o.checkpoint_minutes, "min", {0., 1e6},
             "wall-clock time between checkpoints; 0: after every step");
     visit_parameters(o.material, visitor);
   }
 
-  // Throws std::invalid_argument naming key, value and what is allowed.
+  // Throws std::invalid_argument, which states the key, its value and what is allowed.
   void validate(const Options &options);
 
-  // Keys that nothing reads as the options stand.
+  // Keys that these options leave without effect.
   std::vector<UnusedKey> unused_keys(const Options &options);
 
-  // Pointed out, not refused: moduli and cohesions that no granular sample has. `words` go on behind the key.
+  // A value that is allowed but implausible for a granular sample, such as a very high modulus. The panel warns of it. `words`
+  // is the text after the key.
   struct DoubtfulValue
   {
     std::string key, words; // "youngs_modulus", " = 49 (in units of ...) is below 50: ..."

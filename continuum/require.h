@@ -7,7 +7,7 @@
 
 namespace diptych::continuum
 {
-  // Throws std::invalid_argument with the text put together from its parts, unless `holds`.
+  // Throws std::invalid_argument with the concatenated `parts` as its text, unless `holds` is true.
   template <class... Text> void require(const bool holds, const Text &...text)
   {
     if (holds)

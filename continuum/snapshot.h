@@ -1,4 +1,4 @@
-// diptych: what the continuum panel hands over at one instant
+// diptych: state of the continuum panel at one instant
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -11,15 +11,15 @@
 
 namespace diptych::continuum
 {
-  // Outline of the sample between two platens. Both sides run upward; their first points lie on the lower platen and
-  // their last points on the upper one, so that the bottom edge is left.front()-right.front(). [length]
+  // Outline of the sample between two platens. Both sides run upward. Their first points lie on the lower platen, their last
+  // points on the upper one. The bottom edge is therefore left.front()-right.front(). [length]
   struct Outline
   {
     std::vector<Eigen::Vector2d> left, right;
   };
 
-  // Means over one cell, by area. Tensors are positive in compression: row 0 = (xx, xy, 0), row 1 = (yx, yy, 0), row 2 =
-  // (0, 0, zz); row = component of the force, column = normal of the face (a Cosserat stress is not symmetric).
+  // Area means over one cell. Tensors are positive in compression: row 0 = (xx, xy, 0), row 1 = (yx, yy, 0), row 2 = (0, 0,
+  // zz). The row is the component of the force, the column the normal of the face. A Cosserat stress is not symmetric.
   struct CellState
   {
     Eigen::Matrix3d stress                    = Eigen::Matrix3d::Zero(); // [pressure]
@@ -30,17 +30,17 @@ namespace diptych::continuum
     double          equivalent_plastic_strain = 0;                       // integral of d(eps_1 - eps_3) plastic [-]
     double          dissipation               = 0;                       // plastic work per area since the start [pressure]
     double          overstress                = 0; // part of the yield function that viscosity carries [pressure]
-    double          share_zz_not_intermediate = 0; // share of its points where sigma_zz is an outer principal stress
+    double          share_zz_not_intermediate = 0; // share of the points where sigma_zz is an outer principal stress
     double          acoustic_determinant      = 1; // least det(n C n) over all n and points, relative to the elastic one
-    double          localisation_angle        = 0; // of the line that could form, from the horizontal [degrees], (-90, 90]
-    double          friction_angle            = 0; // that the law has mobilised or has left [degrees]; elastic: 0
+    double          localisation_angle        = 0; // of the band that could form, from the horizontal [degrees], (-90, 90]
+    double          friction_angle            = 0; // mobilised or remaining friction of the law [degrees]; elastic: 0
     double          solid_fraction            = 0; // hardening = critical_state [-]; else 0
   };
 
-  // One instant of the continuum panel, plain values. Nodes are all support points of the displacement.
+  // One instant of the continuum panel as plain values. The nodes are all support points of the displacement.
   struct Snapshot
   {
-    double progress     = 0; // of what the loading walks along
+    double progress     = 0; // loading variable
     double axial_strain = 0; // descent of the upper platen / initial height
     double shear_strain = 0; // its travel to the right / initial height
     double time         = 0; // since the start
@@ -51,8 +51,8 @@ namespace diptych::continuum
     std::vector<double>          rotation;     // Cosserat: omega, anticlockwise since the start [radians], n_nodes; else empty
     std::vector<double>          weight;       // lumped area of a node (sums to the current area)
 
-    // Node indices of a cell: four corners counter-clockwise, then the midpoints of edges 0-1, 1-2, 2-3, 3-0, then the centre
-    // (VTK's biquadratic quad). Four-node elements get such nodes, too: by interpolation.
+    // Node indices of a cell: four corners counter-clockwise, then the midpoints of edges 0-1, 1-2, 2-3, 3-0, then the centre,
+    // as in VTK's biquadratic quad. Nine nodes are interpolated for four-node elements, too.
     std::vector<std::array<unsigned int, 9>> cells;
     std::vector<CellState>                   cell_state; // n_cells
 

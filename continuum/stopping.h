@@ -1,4 +1,4 @@
-// diptych: what is asked between the phases of what takes long
+// diptych: requests to stop a long computation between its phases
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,11 +8,11 @@
 
 namespace diptych::continuum
 {
-  // True: somebody asked to stop. Collective: on several processes all ask at the same places and get the same answer. Empty:
-  // nobody asks.
+  // Returns true if a stop was requested. The call is collective: all processes ask at the same places and get the same answer.
+  // An empty function means that no stop can be requested.
   using StopRequest = std::function<bool()>;
 
-  // Before there is anything to go on from.
+  // The run was stopped before any state existed from which it could be resumed.
   struct SetUpStopped : std::runtime_error
   {
     using std::runtime_error::runtime_error;

@@ -1,4 +1,4 @@
-// diptych: unknowns, nodes and edges of a quadrilateral mesh that may be spread over processes and refined
+// diptych: unknowns, nodes and edges of a quadrilateral mesh that may be distributed and refined
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/elements/discretisation.h"
 
@@ -18,7 +18,7 @@ namespace diptych::continuum
 
   namespace
   {
-    // Nodes on the cell's four edges (left, right, lower, upper): lower or left end, upper or right end, middle.
+    // Nodes on the four edges of a cell (left, right, lower, upper): lower or left end, upper or right end, midpoint.
     constexpr unsigned int edge_nodes[4][3] = {{0, 2, 4}, {1, 3, 5}, {0, 1, 6}, {2, 3, 7}};
 
     FESystem<2> make_element(const ElementKind kind)
@@ -31,7 +31,7 @@ namespace diptych::continuum
       });
     }
 
-    // As deal.II's reader of mesh files makes a triangulation.
+    // Creates the triangulation as deal.II's reader of mesh files does.
     void create(const QuadMesh &mesh, Triangulation<2> &triangulation)
     {
       std::vector<Point<2>> vertices;
@@ -67,7 +67,7 @@ namespace diptych::continuum
         dof_handler(triangulation)
   {
     create(mesh, triangulation);
-    leave_if(stop_requested, "the unknowns");
+    leave_if(stop_requested, "numbering the unknowns");
     distribute(stop_requested);
     measure();
   }
@@ -75,14 +75,14 @@ namespace diptych::continuum
   void Discretisation::distribute(const StopRequest &stop_requested)
   {
     dof_handler.distribute_dofs(element);
-    leave_if(stop_requested, "the nodes");
+    leave_if(stop_requested, "numbering the nodes");
     owned = dof_handler.locally_owned_dofs();
     DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
     cells.clear();
     nodes.clear();
     edges.clear();
     number_nodes();
-    leave_if(stop_requested, "the edges");
+    leave_if(stop_requested, "collecting the edges");
     number_locally();
     collect_edges();
   }
@@ -112,7 +112,7 @@ namespace diptych::continuum
   void Discretisation::number_nodes()
   {
     std::vector<types::global_dof_index>            dofs(reference.n_dofs);
-    std::map<types::global_dof_index, unsigned int> node_of_dof; // keyed by the x component
+    std::map<types::global_dof_index, unsigned int> node_of_dof; // key: dof of the x component
     const Mapping<2>                               &mapping = get_default_linear_mapping(triangulation);
     for (const auto &active : dof_handler.active_cell_iterators())
       if (active->is_locally_owned())
@@ -153,7 +153,7 @@ namespace diptych::continuum
                 if (reference.n_nodes > 4)
                   edge.nodes[2] = cell->nodes[n[2]];
                 const Eigen::Vector2d along = nodes[edge.nodes[1]].initial - nodes[edge.nodes[0]].initial;
-                // gmsh's cells lie in any direction.
+                // Cells from gmsh have any orientation.
                 if (std::abs(along.y()) > std::abs(along.x()) ? along.y() < 0 : along.x() < 0)
                   std::swap(edge.nodes[0], edge.nodes[1]);
                 edges.push_back(edge);
@@ -187,7 +187,7 @@ namespace diptych::continuum
                                                    const std::vector<double>                          &displacement,
                                                    const std::function<bool(const Eigen::Vector2d &)> &is_there) const
   {
-    std::vector<double> mine; // dof x, dof y, dof of rotation or -1, x, y: exact in a double up to 2^53
+    std::vector<double> mine; // dof x, dof y, dof of rotation or -1, x, y; a double holds dofs exactly up to 2^53
     for (const auto &edge : edges)
       if (edge.id == id)
         for (unsigned int k = 0; k < (reference.n_nodes > 4 ? 3u : 2u); ++k)

@@ -1,4 +1,4 @@
-// diptych: unknowns, nodes and edges of a quadrilateral mesh that may be spread over processes and refined
+// diptych: unknowns, nodes and edges of a quadrilateral mesh that may be distributed and refined
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -19,8 +19,8 @@
 
 namespace diptych::continuum
 {
-  // One locally owned cell. Its dofs are ordered 2 * node + component, then the rotations of the four corners; nodes as in
-  // ReferenceElement. `local`: index among the locally relevant dofs, where vectors of this process have their entries.
+  // One locally owned cell. Its dofs are ordered 2 * node + component, followed by the rotations of the four corners. Nodes are
+  // numbered as in ReferenceElement. `local` is the index among the locally relevant dofs, the order of this process's vectors.
   struct Cell
   {
     std::array<unsigned int, max_nodes>                   nodes;
@@ -38,24 +38,25 @@ namespace diptych::continuum
   struct Node
   {
     Eigen::Vector2d                                initial; // position [length]
-    std::array<dealii::types::global_dof_index, 2> dofs;    // of its displacement; the first tells nodes apart on all processes
-    dealii::types::global_dof_index                rotation = dealii::numbers::invalid_dof_index; // dof, where the node has one
-    std::array<unsigned int, 2>                    local{}; // of its displacement among the relevant dofs
+    std::array<dealii::types::global_dof_index, 2> dofs;    // of displacement; the first identifies the node
+    dealii::types::global_dof_index                rotation = dealii::numbers::invalid_dof_index; // dof, if any
+    std::array<unsigned int, 2>                    local{}; // the same dofs, as indices among the relevant ones
     unsigned int                                   local_rotation = 0;
   };
 
   class Discretisation
   {
   public:
-    // Of a mesh that check() has accepted, spread over the processes of `communicator`. Throws SetUpStopped between its phases.
+    // Distributes a mesh that check() has accepted over the processes of `communicator`. Throws SetUpStopped between its
+    // phases.
     Discretisation(const QuadMesh &mesh, ElementKind kind, MPI_Comm communicator, const StopRequest &stop_requested = {});
 
     MPI_Comm communicator() const { return triangulation.get_communicator(); }
 
-    // New unknowns, nodes and edges for the mesh as it now is: after a refinement.
+    // Renumbers unknowns, nodes and edges for the present mesh, after a refinement.
     void distribute(const StopRequest &stop_requested = {});
 
-    // Adds dofs of other processes that this one reads; local indices change.
+    // Adds dofs of other processes that this one reads. Local indices change.
     void add_relevant(const std::vector<dealii::types::global_dof_index> &dofs);
 
     dealii::parallel::distributed::Triangulation<2> triangulation;
@@ -66,16 +67,16 @@ namespace diptych::continuum
     dealii::IndexSet                                owned, relevant;
 
     std::vector<Cell>         cells; // in the order of deal.II's locally owned active cells
-    std::vector<Node>         nodes; // of those cells
+    std::vector<Node>         nodes; // nodes of those cells
     std::vector<BoundaryEdge> edges;
 
-    // Of the unloaded sample: lower left corner and extents of the box around it.
+    // Bounding box of the unloaded sample: lower left corner and extents.
     Eigen::Vector2d origin = Eigen::Vector2d::Zero(), extent = Eigen::Vector2d::Zero();
 
-    // All nodes of a boundary, of every process, ascending by their dofs. Collective.
+    // All nodes of a boundary on every process, in ascending order of their dofs. Collective.
     std::vector<Node> boundary_nodes(unsigned int id) const;
 
-    // Those of them that a displacement (relevant dofs) has brought to where `is_there(position)` holds. Collective.
+    // Those of them whose displaced position satisfies `is_there`. `displacement` is given on the relevant dofs. Collective.
     std::vector<Node> boundary_nodes(unsigned int                                        id,
                                      const std::vector<double>                          &displacement,
                                      const std::function<bool(const Eigen::Vector2d &)> &is_there) const;
@@ -87,10 +88,10 @@ namespace diptych::continuum
     void measure();
   };
 
-  // Positions of all nodes at a displacement given on the relevant dofs [length].
+  // Positions of all nodes, for a displacement on the relevant dofs [length].
   std::vector<Eigen::Vector2d> positions(const Discretisation &mesh, const std::vector<double> &displacement);
 
-  // What assembly reads of one cell at one geometry: gradients of the shape functions [1/length] and areas of the points.
+  // Data of one point at one geometry: gradients of the shape functions [1/length] and the area of the point.
   struct PointGeometry
   {
     std::array<dealii::Tensor<1, 2>, max_nodes> gradient;
@@ -106,8 +107,8 @@ namespace diptych::continuum
   struct Geometry
   {
     std::vector<CellGeometry> cells;
-    double                    area       = 0;    // of this process's cells [length^2]
-    bool                      is_regular = true; // no element is turned over anywhere on this process
+    double                    area       = 0;    // area of this process's cells [length^2]
+    bool                      is_regular = true; // no element of this process is inverted
   };
   Geometry geometry_at(const Discretisation &mesh, const std::vector<Eigen::Vector2d> &node_position);
 } // namespace diptych::continuum

@@ -14,7 +14,8 @@ namespace diptych::continuum
   template <class Element> constexpr unsigned int row_length = (Element::n_dofs + 3) / 4 * 4;
   template <class Element> using ElementMatrix               = std::array<double, Element::n_dofs * row_length<Element>>;
 
-  // Mean dilation adds d . u to both normal strains, d = (mean gradient - gradient)/2, so that e_xx + e_yy is the element's mean.
+  // Mean dilation adds d . u to both normal strains, d = (mean gradient - gradient)/2, so that e_xx + e_yy is the element's
+  // mean.
   inline dealii::Tensor<1, 2> dilation_excess(const CellGeometry &cell, const unsigned int q, const unsigned int node)
   {
     return 0.5 * (cell.mean_gradient[node] - cell.points[q].gradient[node]);
@@ -86,7 +87,7 @@ namespace diptych::continuum
                                               2 * reference.rotation_shape[q][corner] * skew;
   }
 
-  // K += B^T D B area. Both products use that a node's B has at most four entries a column.
+  // K += B^T D B area. Both products use that each column of B has at most four non-zero entries.
   template <class Element>
   void add_stiffness(const ReferenceElement &reference,
                      const CellGeometry     &cell,

@@ -1,4 +1,4 @@
-// diptych: vectors over all processes and their entries on this one
+// diptych: distributed vectors and their entries on this process
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/elements/nodal_vectors.h"
 

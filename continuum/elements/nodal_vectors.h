@@ -1,4 +1,4 @@
-// diptych: vectors over all processes and their entries on this one
+// diptych: distributed vectors and their entries on this process
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -19,12 +19,12 @@ namespace diptych::continuum
   // Entries of all dofs that this process reads, in the order of Discretisation::relevant. Collective.
   std::vector<double> relevant_values(const Discretisation &mesh, const DistributedVector &vector);
 
-  // Its inverse.
+  // Inverse of relevant_values().
   DistributedVector owned_values(const Discretisation &mesh, const std::vector<double> &relevant);
 
-  // Sum over the processes of what each has for its relevant dofs. Collective.
+  // Sums the contributions of all processes to the relevant dofs. Collective.
   DistributedVector assembled(const Discretisation &mesh, const std::vector<double> &relevant);
 
-  // Forces on dofs that follow others go to those; on prescribed ones they vanish.
+  // Moves forces from constrained dofs to their masters and sets those on prescribed dofs to zero.
   void condense(const Discretisation &mesh, const dealii::AffineConstraints<double> &constraints, std::vector<double> &relevant);
 } // namespace diptych::continuum

@@ -1,4 +1,4 @@
-// diptych: the elements of the continuum panel on the unit square
+// diptych: elements of the continuum panel on the unit square
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/elements/reference_element.h"
 

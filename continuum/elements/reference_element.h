@@ -1,4 +1,4 @@
-// diptych: the elements of the continuum panel on the unit square
+// diptych: elements of the continuum panel on the unit square
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace diptych::continuum
 {
-  // Counts known at compile time, so that the loops over them unroll. Every element is isoparametric: the nodes of the
-  // displacement carry the shape, too. `mean_dilation`: the volumetric strain is the mean over the element (B-bar).
+  // Compile-time counts, so that loops over them unroll. Every element is isoparametric: the nodes of the displacement also
+  // carry the shape. With `mean_dilation` the volumetric strain is the mean over the element (B-bar).
   struct Q2
   {
     static constexpr unsigned int n_nodes = 9, n_rotations = 0, n_points = 9, n_dofs = 18, degree = 2;
@@ -37,7 +37,7 @@ namespace diptych::continuum
     q2_cosserat
   };
 
-  // Calls action(Element()) with the type that belongs to `kind`.
+  // Calls action(Element()) with the type that corresponds to `kind`.
   template <class Action> decltype(auto) with_element(const ElementKind kind, Action &&action)
   {
     switch (kind)
@@ -51,23 +51,23 @@ namespace diptych::continuum
       }
   }
 
-  // Shape functions at the Gauss points of the unit square, nodes in deal.II's order of FE_Q (corners in lexicographic order,
-  // then the middles of the left, right, lower and upper edge, then the centre).
+  // Shape functions at the Gauss points of the unit square. Nodes have the order of deal.II's FE_Q: corners in lexicographic
+  // order, then the midpoints of the left, right, lower and upper edge, then the centre.
   struct ReferenceElement
   {
     explicit ReferenceElement(ElementKind kind);
 
     unsigned int                                   n_nodes, n_rotations, n_points, n_dofs;
     std::vector<dealii::Point<2>>                  nodes, points;
-    std::vector<double>                            weights;           // of the points; sum 1
+    std::vector<double>                            weights;           // weights of the points; sum 1
     std::vector<std::vector<double>>               shape;             // [point][node]
-    std::vector<std::vector<dealii::Tensor<1, 2>>> gradient;          // [point][node], by unit coordinates
+    std::vector<std::vector<dealii::Tensor<1, 2>>> gradient;          // [point][node], derivative by the unit coordinates
     std::vector<std::vector<double>>               rotation_shape;    // [point][corner]
     std::vector<std::vector<dealii::Tensor<1, 2>>> rotation_gradient; // [point][corner]
   };
 
-  // Values of the Lagrange polynomials through the nodes of FE_Q(degree) at a point of the unit square, and through the
-  // degree + 1 squared Gauss points in the order of the element's points.
+  // Values of Lagrange polynomials at a point of the unit square. The first function uses the nodes of FE_Q(degree), the second
+  // the (degree + 1)^2 Gauss points in the order of the element's points.
   std::vector<double> nodal_interpolation(unsigned int degree, const dealii::Point<2> &at);
   std::vector<double> gauss_interpolation(unsigned int degree, const dealii::Point<2> &at);
 } // namespace diptych::continuum

@@ -1,4 +1,4 @@
-// diptych: what platens and sides ask of the unknowns, and with what they load them
+// diptych: constraints and loads from platens and sides
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/equilibrium/boundary_conditions.h"
 
@@ -39,7 +39,7 @@ namespace diptych::continuum
         for (const auto &node : mesh.boundary_nodes(side, displacement, [&](const Eigen::Vector2d &p) {
                return upper ? p.y() >= planes[1].now - tolerance : p.y() <= planes[0].now + tolerance;
              }))
-          if (std::abs(node.initial.y() - planes[upper].initial) > tolerance) // else it is the platen's own end
+          if (std::abs(node.initial.y() - planes[upper].initial) > tolerance) // otherwise it is an end of the platen
             contact[upper].push_back(node);
     return contact;
   }
@@ -78,7 +78,7 @@ namespace diptych::continuum
     governed.insert(std::upper_bound(governed.begin(), governed.end(), rule.dof), rule.dof);
   }
 
-  // All follow the first one.
+  // All dofs follow the first one.
   void BoundaryConditions::move_together(const std::vector<types::global_dof_index> &dofs)
   {
     for (std::size_t k = 1; k < dofs.size(); ++k)
@@ -111,7 +111,8 @@ namespace diptych::continuum
           add_rule({node.rotation, {}});
   }
 
-  // A smooth sample could slide as a rigid body: the lower platen's node nearest to its middle is held.
+  // A sample between smooth platens could slide as a rigid body. This fixes the node of the lower platen that is nearest to its
+  // middle.
   void BoundaryConditions::pin_sideways()
   {
     double left = huge, right = -huge;
@@ -146,7 +147,7 @@ namespace diptych::continuum
       move_together(right);
   }
 
-  // Right node = left node + change of the width. A free width is the first pair's distance, which every other pair takes over.
+  // Right node = left node + change of the width. A free width is the distance of the first pair; all other pairs follow it.
   void BoundaryConditions::add_periodic_sides(const Discretisation &mesh, const PeriodicSides &sides, const bool rough)
   {
     auto       left = mesh.boundary_nodes(left_side), right = mesh.boundary_nodes(right_side);
@@ -157,9 +158,9 @@ namespace diptych::continuum
     for (std::size_t k = 0; match && k < left.size(); ++k)
       match = std::abs(left[k].initial.y() - right[k].initial.y()) < 1e-6 * initial_height;
     if (!match)
-      throw std::invalid_argument("lateral = periodic: the mesh's left and right side do not match node by node");
+      throw std::invalid_argument("lateral = periodic: the left and right sides of the mesh do not match node by node");
     if (!sides.widening && rough)
-      throw std::invalid_argument("lateral = periodic with a free width: rough platens do not stretch; platens = smooth does");
+      throw std::invalid_argument("lateral = periodic with a free width: rough platens cannot stretch; set platens = smooth");
     if (sides.widening)
       widening = [rate = *sides.widening](const double progress) { return rate * progress; };
     for (std::size_t k = 0; k < left.size(); ++k)
@@ -181,7 +182,7 @@ namespace diptych::continuum
   void BoundaryConditions::build(Discretisation &mesh)
   {
     std::vector<types::global_dof_index> masters;
-    // On every process: a side node that joins a tied platen later must not change the numbering of what is already kept.
+    // On every process: a side node that later joins a tied platen must not change the numbering of existing vectors.
     for (const auto &rule : rules)
       for (const auto &[master, weight] : rule.masters)
         masters.push_back(master);

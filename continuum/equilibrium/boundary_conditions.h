@@ -1,4 +1,4 @@
-// diptych: what platens and sides ask of the unknowns, and with what they load them
+// diptych: constraints and loads from platens and sides
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -13,15 +13,16 @@
 
 namespace diptych::continuum
 {
-  // How platens hold the sample.
+  // Contact between platens and sample.
   struct PlatenGrip
   {
-    bool rough          = true;  // both components of the displacement follow the platen; else the vertical one
-    bool holds_rotation = false; // Cosserat rotations on it vanish
+    bool rough          = true;  // both displacement components follow the platen; otherwise only the vertical one
+    bool holds_rotation = false; // Cosserat rotations on the platen are zero
   };
 
-  // Nodes of free sides that have come level with a platen. Platens are wider than the sample: what is squeezed out beside one
-  // rolls onto its plane and moves with it from then on. Else it would be extruded past the platen like paste.
+  // Nodes of free sides that have reached the level of a platen. Platens are wider than the sample: material squeezed out
+  // beside a platen rolls onto its plane and moves with it from then on. Otherwise it would be extruded past the platen like
+  // paste.
   using SideContact = std::array<std::vector<Node>, 2>; // lower, upper platen
   struct PlatenPlane
   {
@@ -31,42 +32,43 @@ namespace diptych::continuum
                            const std::vector<double>        &displacement,
                            const std::array<PlatenPlane, 2> &planes);
 
-  // Constraints on displacement and rotation. A platen or rigid wall prescribes components of its nodes, or ties them together
-  // where it moves freely under a force, which then acts on the first of them. Between platen and side the platen's word counts.
+  // Constraints on displacement and rotation. A platen or rigid wall prescribes displacement components of its nodes. If it
+  // moves freely under a force, its nodes are tied to the first of them, which carries the force. Where platen and side meet,
+  // the condition of the platen applies.
   class BoundaryConditions
   {
   public:
-    // Adds to `mesh` the dofs of other processes that ties need. Throws std::invalid_argument for a loading that the mesh or
-    // its platens do not allow (periodic sides that do not match, a free width between rough platens).
+    // Adds the dofs of other processes that ties need to `mesh`. Throws std::invalid_argument for periodic sides that do not
+    // match, and for a free width between rough platens.
     BoundaryConditions(Discretisation    &mesh,
                        const Loading     &loading,
                        const PlatenGrip  &grip,
                        const SideContact &side_contact = {});
-    BoundaryConditions(const BoundaryConditions &)            = delete; // rules point to this object's functions
+    BoundaryConditions(const BoundaryConditions &)            = delete; // rules point to functions of this object
     BoundaryConditions &operator=(const BoundaryConditions &) = delete;
 
-    // Constraints of a correction (prescribed components: zero), hanging nodes included.
+    // Constraints of a correction, including hanging nodes. Prescribed components are zero.
     const dealii::AffineConstraints<double> &correction() const { return homogeneous; }
 
-    // Constraints of the increment of displacement while the loading goes from one progress to another.
+    // Constraints of the displacement increment between two values of the progress.
     dealii::AffineConstraints<double> increment(double from, double to) const;
 
-    // Distance of the platens at a progress, where their vertical motion is prescribed; else `present`. [length]
+    // Distance of the platens at a progress if their vertical motion is prescribed, otherwise `present`. [length]
     double height(double progress, double present) const;
 
-    // Forces on platens that move freely, as {dof, value}. Each process gets all.
+    // Forces on freely moving platens, as {dof, value}. Every process gets all of them.
     std::vector<std::pair<dealii::types::global_dof_index, double>> applied_forces(double progress) const;
 
-    // Nodes of the lower and of the upper platen, of all processes, those in side contact included.
+    // Nodes of the lower and the upper platen on all processes, including those in side contact.
     const std::array<std::vector<Node>, 2> &platens() const { return platen_nodes; }
 
   private:
-    // The displacement of a dof, or its excess over its master's, as a function of the progress.
+    // The displacement of a dof, or its excess over that of its master, as a function of the progress.
     struct Rule
     {
       dealii::types::global_dof_index                                 dof;
       std::vector<std::pair<dealii::types::global_dof_index, double>> masters;
-      const std::function<double(double)>                            *value = nullptr; // none: 0
+      const std::function<double(double)>                            *value = nullptr; // empty: 0
     };
 
     void drive_platen(unsigned int platen, bool rough);
@@ -84,9 +86,10 @@ namespace diptych::continuum
     std::function<double(double)>                                          widening; // of rigid or periodic sides
     std::array<std::vector<Node>, 2>                                       platen_nodes;
     std::vector<Rule>                                                      rules;
-    std::vector<dealii::types::global_dof_index>                           governed; // dofs that rules or ties speak of, sorted
+    std::vector<dealii::types::global_dof_index>                           governed; // dofs with a rule or a tie, sorted
     std::vector<std::pair<dealii::types::global_dof_index, const Drive *>> forced;   // first dof of a tied platen
-    // Closing substitutes masters that are constrained themselves: a hanging node beside a platen would forget that it moves.
+    // Closing a constraint object substitutes constrained masters. A hanging node beside a platen would then lose the platen's
+    // motion.
     dealii::AffineConstraints<double> unresolved, homogeneous;
   };
 } // namespace diptych::continuum

@@ -1,4 +1,4 @@
-// diptych: equilibrium of the sample, residual and consistent tangent on trial states
+// diptych: equilibrium of the sample: residual and consistent tangent on trial states
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/equilibrium/boundary_value_problem.h"
 
@@ -56,9 +56,9 @@ namespace diptych::continuum
         material(make_law(options.law, options.material, units)),
         mesh(quads, element_kind(options), communicator, stop_requested)
   {
-    leave_if(stop_requested, "the boundary conditions");
+    leave_if(stop_requested, "setting up the boundary conditions");
     rebuild(stop_requested);
-    leave_if(stop_requested, "the state at rest");
+    leave_if(stop_requested, "setting the state at rest");
     area_at_start = Utilities::MPI::sum(current.area, mesh.communicator());
     set_at_rest(mesh, options, units, loading.pressure, state.points);
     begin_step(0);
@@ -69,7 +69,7 @@ namespace diptych::continuum
   void BoundaryValueProblem::rebuild(const StopRequest &stop_requested)
   {
     set_conditions({}, stop_requested);
-    leave_if(stop_requested, "the points");
+    leave_if(stop_requested, "setting up the points");
     const std::size_t n_points = mesh.cells.size() * mesh.reference.n_points;
     trial.assign(n_points, {});
     trial_increment.assign(mesh.relevant.n_elements(), 0.);
@@ -90,13 +90,13 @@ namespace diptych::continuum
     in_side_contact = contact;
     conditions      = std::make_unique<BoundaryConditions>(
       mesh, loading, PlatenGrip{options.platens == Platens::rough, options.platen_rotation == PlatenRotation::held}, contact);
-    leave_if(stop_requested, "the sparsity pattern");
+    leave_if(stop_requested, "building the sparsity pattern");
     tangent.reinit(mesh, conditions->correction(), stop_requested);
     ++structure_version;
   }
 
-  // States the problem on the shape that the committed displacement gives. Nodes of free sides that have come to a platen's
-  // plane belong to it from now on.
+  // Moves the shape to the committed displacement. Nodes of free sides that have reached the plane of a platen belong to it
+  // from now on.
   void BoundaryValueProblem::move_nodes()
   {
     (moves() ? current : moved) = geometry_at(mesh, positions(mesh, state.displacement));
@@ -168,10 +168,10 @@ namespace diptych::continuum
     return travel;
   }
 
-  // Side pressure acts along the sides of the shape that equilibrium is stated on. In small strain that is the initial one, and
-  // the total follows the height; along the moved sides it would be wrong there: where a band leaves the sample the side folds
-  // over as soon as the jump exceeds an element, and the pressure would pull. On rigid walls and a free period it acts through
-  // the ties of their nodes, so that nodes which a platen holds get none.
+  // Side pressure acts along the sides of the shape for equilibrium. In small strain this is the initial shape, and the total
+  // pressure follows the height. The moved sides would be wrong there. Where a band leaves the sample, a side folds over once
+  // the jump exceeds an element, and the pressure would pull. On rigid walls and with a free period the pressure acts through
+  // the ties of the nodes, so nodes on a platen get none.
   std::vector<double> BoundaryValueProblem::loads(const double to) const
   {
     std::vector<double> force = weight;
@@ -293,8 +293,8 @@ namespace diptych::continuum
   const TrilinosWrappers::SparseMatrix &BoundaryValueProblem::assemble_tangent()
   {
     const Stopwatch watch{phase.assembly};
-    // A point at the apex has hardly any stiffness, and a patch of them would make the matrix singular. A thousandth of
-    // the elastic one changes the way of the iterations, not where they end.
+    // A point at the apex has hardly any stiffness, and a patch of such points would make the matrix singular. Adding a
+    // thousandth of the elastic tangent changes the iterations, but not their limit.
     const Tangent floor = 1e-3 * std::visit([](const auto &law) { return law.elastic_tangent(); }, material);
     tangent.clear();
     with_element(mesh.kind, [&](const auto chosen) {
@@ -374,7 +374,7 @@ namespace diptych::continuum
     return force;
   }
 
-  // Where nothing is loaded yet, a billionth of the elastic modulus on the sample's width stands in.
+  // If nothing is loaded yet, the scale is a billionth of the elastic modulus times the width of the sample.
   double BoundaryValueProblem::platen_scale() const
   {
     double sum = 0;

@@ -1,4 +1,4 @@
-// diptych: equilibrium of the sample, residual and consistent tangent on trial states
+// diptych: equilibrium of the sample: residual and consistent tangent on trial states
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -20,20 +20,20 @@ namespace diptych::continuum
   struct Imbalance
   {
     double       residual = 0; // free components
-    double       scale    = 0; // forces of the platens on their nodes: what the residual is small against
-    unsigned int n_failed = 0; // material points whose law gave up
+    double       scale    = 0; // platen forces on their nodes, the reference for the residual
+    unsigned int n_failed = 0; // material points at which the law failed
 
     double relative() const { return residual > 0 ? residual / scale : 0.; }
   };
 
-  // CPU time by phase [s], of this process.
+  // CPU time by phase on this process [s].
   struct PhaseSeconds
   {
     double points = 0, assembly = 0, geometry = 0;
   };
 
-  // What equilibrium starts from at the end of an accepted step. Vectors of displacement and rotation have an entry for each
-  // locally relevant dof, those of points one for each point of each cell of this process.
+  // State at the end of an accepted step. Displacement and rotation have one entry per locally relevant dof, the points one per
+  // point of each cell of this process.
   struct CommittedState
   {
     double                         progress = 0;
@@ -44,7 +44,7 @@ namespace diptych::continuum
   };
 
   // sum over cells of int B^T sigma dA = side pressure + weight + reactions, on the initial shape or on that of the last
-  // accepted step. The committed state changes only in commit(); everything else works on one trial state, which any later
+  // accepted step. Only commit() changes the committed state. All other functions work on one trial state, which the next
   // evaluate() overwrites.
   class BoundaryValueProblem
   {
@@ -54,62 +54,62 @@ namespace diptych::continuum
                          const Loading     &loading,
                          const Options     &options,
                          MPI_Comm           communicator   = MPI_COMM_WORLD,
-                         const StopRequest &stop_requested = {}); // between phases: throws SetUpStopped
+                         const StopRequest &stop_requested = {}); // throws SetUpStopped between phases
 
-    // In the place of the isotropic stress, one tensor per cell of this process, compression positive.
+    // Replaces the isotropic initial stress: one tensor per cell of this process, compression positive.
     void set_initial_stress(const std::vector<Eigen::Matrix2d> &stress);
 
-    // Of a critical-state law, one number per cell of this process.
+    // For a critical-state law: one number per cell of this process.
     void set_initial_solid_fraction(const std::vector<double> &solid_fraction);
 
     DistributedVector zero_vector() const;
 
-    // Loads and platen motion of the step from the committed progress to `to`. `share` < 1 mixes the loads with those that the
-    // state at the last reset_balance() carries by itself, which lets it find equilibrium gradually.
+    // Sets loads and platen motion of the step from the committed progress to `to`. `share` < 1 mixes the loads with those that
+    // balance the state at the last reset_balance(), so that equilibrium can be found gradually.
     void begin_step(double to, double share = 1);
 
-    // Makes an increment move platens and ties as the step says.
+    // Changes an increment so that it satisfies the platen motion and the ties of the step.
     void impose(DistributedVector &increment) const;
 
-    // Trial state: committed + increment, the law called at every point.
+    // Trial state: committed state + increment. Calls the law at every point.
     Imbalance evaluate(const DistributedVector &increment);
 
-    // Right-hand side -(residual + K * increment) with the tangents of the last evaluate(): first predictor.
+    // Right-hand side -(residual + K * increment) with the tangents of the last evaluate(), for the first predictor.
     DistributedVector linearised_residual(const DistributedVector &increment) const;
 
     // -(residual) of the trial state, zero on constrained components.
     const DistributedVector &negative_residual() const { return rhs; }
 
-    // Consistent tangent of the trial state, in which prescribed components vanish.
+    // Consistent tangent of the trial state. Prescribed components are eliminated.
     const dealii::TrilinosWrappers::SparseMatrix &assemble_tangent();
-    const dealii::TrilinosWrappers::SparseMatrix &tangent_matrix() const { return tangent.matrix(); } // as it was left
+    const dealii::TrilinosWrappers::SparseMatrix &tangent_matrix() const { return tangent.matrix(); } // as last assembled
     const dealii::AffineConstraints<double>      &correction_constraints() const { return conditions->correction(); }
 
-    // Whether the trial state turns an element over. Collective.
+    // Whether the trial state inverts an element. Collective.
     bool is_folded() const;
 
-    // The trial state becomes the committed one: plastic flow is booked, stress turns with the material, nodes move.
+    // Makes the trial state the committed one: adds plastic flow, rotates stress with the material and moves the nodes.
     void commit();
 
-    // The present state's own internal forces become the loads of share 0.
+    // Makes the internal forces of the present state the loads of share 0.
     void reset_balance();
 
-    // After a change of the mesh: new unknowns, then the state carried over by the caller.
+    // For a change of the mesh: rebuild() creates new unknowns, adopt() takes the state that the caller transferred.
     void rebuild(const StopRequest &stop_requested = {});
     void adopt(CommittedState state);
 
-    // Grows whenever the unknowns or their constraints change: matrices have another pattern then.
+    // Increases whenever unknowns or constraints change, that is, when matrices get a new pattern.
     int version() const { return structure_version; }
 
     const Discretisation &discretisation() const { return mesh; }
     Discretisation       &discretisation() { return mesh; }
-    const Geometry       &geometry() const { return current; }                         // on which equilibrium is stated
-    const Geometry       &moved_geometry() const { return moves() ? current : moved; } // of the committed displacement
+    const Geometry       &geometry() const { return current; }                         // shape for equilibrium
+    const Geometry       &moved_geometry() const { return moves() ? current : moved; } // shape after the committed displacement
     const Law            &law() const { return material; }
     const CommittedState &committed() const { return state; }
     const std::vector<MaterialUpdate> &last_update() const { return trial; } // of the last evaluate()
     const std::vector<double>         &last_flow() const { return flow; } // growth of the hardening variable in the accepted step
-    // Whether the accepted step weakened a point whose plastic flow contracts, one each.
+    // Per point: whether the accepted step weakened it while its plastic flow contracted.
     const std::vector<char> &last_instability() const { return unstable; }
     double                   progress() const { return state.progress; }
     const Eigen::Vector2d   &platen_force(bool upper) const { return state.platen_force[upper]; } // on the sample
@@ -119,7 +119,7 @@ namespace diptych::continuum
     void                     go_on_counting(const PhaseSeconds &before) { phase = before; }
 
     std::vector<double> relevant_values(const DistributedVector &vector) const;
-    DistributedVector   owned_values(const std::vector<double> &relevant) const; // its inverse
+    DistributedVector   owned_values(const std::vector<double> &relevant) const; // inverse of relevant_values()
 
   private:
     void                                   set_conditions(const SideContact &contact, const StopRequest &stop_requested = {});
@@ -142,15 +142,15 @@ namespace diptych::continuum
     SideContact                         in_side_contact;
     int                                 structure_version = 0;
     dealii::AffineConstraints<double>   step_constraints;
-    Geometry                            current; // shape on which equilibrium is stated
-    Geometry                            moved;   // in small strain: that of the committed displacement
+    Geometry                            current; // shape for equilibrium
+    Geometry                            moved;   // small strain: shape after the committed displacement
     TangentMatrix                       tangent;
 
     CommittedState              state;
     double                      step_end = 0;
     std::vector<MaterialUpdate> trial;
-    std::vector<double>         trial_increment, external, balanced_force, weight; // relevant dofs; forces: this process's part
-    DistributedVector           applied;          // forces on free platens and walls, in the present step
+    std::vector<double>         trial_increment, external, balanced_force, weight; // relevant dofs; forces: part of this process
+    DistributedVector           applied;          // forces on free platens and walls in the present step
     DistributedVector           nodal_force, rhs; // internal - external, uncondensed; negative residual
     std::vector<double>         flow;             // per point
     std::vector<char>           unstable;         // per point

@@ -1,4 +1,4 @@
-// diptych: the state of the sample cell by cell, as refinement and checkpoints carry it
+// diptych: state of the sample per cell, for refinement and checkpoints
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/equilibrium/cell_records.h"
 
@@ -51,7 +51,8 @@ namespace diptych::continuum
       return sum;
     }
 
-    // What makes the children's values of the parent's, at their nodes and points; [child x node or point][parent's ...].
+    // Weights that give the children's values at nodes and points from those of the parent: [child x node or point][parent's
+    // ...].
     struct ChildWeights
     {
       std::vector<std::vector<double>> nodes, corners, points;
@@ -73,8 +74,8 @@ namespace diptych::continuum
       }
     };
 
-    // The polynomial through the parent's points, drawn towards its mean just so far that no child's point leaves the range of
-    // the parent's: the integral over the parent stays. Returns how much of the deviation is kept.
+    // The polynomial through the parent's points is drawn towards its mean until no point of a child leaves the range of the
+    // parent's points. This keeps the integral over the parent. Returns the share of the deviation that remains.
     double kept_deviation(const ChildWeights &children, const double mean, const double *values, const std::size_t stride)
     {
       double low = values[0], high = values[0], kept = 1;
@@ -94,7 +95,7 @@ namespace diptych::continuum
       return kept;
     }
 
-    // The record that a child takes over from its parent's.
+    // The record of a child, interpolated from that of its parent.
     CellRecord child_record(const ReferenceElement &reference,
                             const ChildWeights     &children,
                             const CellRecord       &parent,
@@ -113,7 +114,7 @@ namespace diptych::continuum
             record[rotations + corner] = interpolated(children.corners[child * reference.n_nodes + corner], &parent[rotations],
                                                       1);
         }
-      // Stress as the polynomial has it, hardening variable and the record of the past held within their range.
+      // Stress follows the polynomial; the hardening variable and the record of the past stay within their range.
       const std::size_t states = 1 + 2 * reference.n_dofs;
       for (unsigned int k = 0; k < n_state; ++k)
         {

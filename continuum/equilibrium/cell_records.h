@@ -1,4 +1,4 @@
-// diptych: the state of the sample cell by cell, as refinement and checkpoints carry it
+// diptych: state of the sample per cell, for refinement and checkpoints
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,13 +8,13 @@
 
 namespace diptych::continuum
 {
-  // One row of numbers: the cell's level of refinement, its nodal values of displacement and of the last increment (in the
-  // order of Cell::dofs), then every point's state. Independent of how cells are spread over processes.
+  // One row of numbers per cell: its refinement level, its nodal values of displacement and last increment in the order of
+  // Cell::dofs, and the state of every point. Records do not depend on how cells are distributed over processes.
   using CellRecord = std::vector<double>;
 
   std::size_t record_length(const ReferenceElement &reference);
 
-  // One record per locally owned cell. `last_increment` on the relevant dofs.
+  // One record per locally owned cell. `last_increment` is given on the relevant dofs.
   std::vector<CellRecord> make_records(const BoundaryValueProblem &problem, const std::vector<double> &last_increment);
 
   struct RestoredState
@@ -23,8 +23,8 @@ namespace diptych::continuum
     std::vector<double> last_increment; // relevant dofs
   };
 
-  // The records of the present cells, or of their parents where the level tells so: then displacement is interpolated by the
-  // parent's shape functions, and the points by the polynomial through the parent's points, held within their range. Stress
-  // and hardening variable are carried; plastic strain only as a record of the past.
+  // Reads the records of the present cells, or of their parents if the level of a record is lower. Displacement of a child is
+  // interpolated by the parent's shape functions. Point values follow the polynomial through the parent's points, limited to
+  // their range. Stress and hardening variable enter the computation; plastic strain is only a record of the past.
   RestoredState read_records(const BoundaryValueProblem &problem, const std::vector<CellRecord> &records, double progress);
 } // namespace diptych::continuum

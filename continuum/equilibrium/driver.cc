@@ -11,10 +11,10 @@ namespace diptych::continuum
 {
   namespace
   {
-    constexpr int    easy   = 6; // Newton iterations up to which the next step may be longer
+    constexpr int    easy   = 6; // with at most this many Newton iterations the next step may be longer
     constexpr double growth = 1.5;
 
-    // Translations along x and y and the rotation about the origin, Cosserat rotations included, at the present shape.
+    // Translations along x and y and the rotation about the origin, with Cosserat rotations, at the present shape.
     RigidModes rigid_modes(const BoundaryValueProblem &problem)
     {
       const auto                      &mesh = problem.discretisation();
@@ -61,7 +61,7 @@ namespace diptych::continuum
     follow_structure();
   }
 
-  // The solver's analysis of the matrix belongs to one set of unknowns and constraints.
+  // The analysis of the matrix is valid only for one set of unknowns and constraints.
   void LoadDriver::follow_structure()
   {
     if (version == problem.version())
@@ -79,12 +79,12 @@ namespace diptych::continuum
     if (!report.converged && !report.stopped)
       {
         ++now.count.cut_backs;
-        solver.forget(); // factors of a state that never was
+        solver.forget(); // these factors belong to a rejected state
       }
     return report;
   }
 
-  // As it was before the step.
+  // Restores the state before the step.
   std::string LoadDriver::give_up(DriverState before)
   {
     stopped = true;
@@ -102,7 +102,7 @@ namespace diptych::continuum
   {
     const double                  progress = problem.progress();
     const DriverState             before   = now;
-    std::optional<CommittedState> start; // where part of the loads was committed
+    std::optional<CommittedState> start; // set if a part of the loads was committed
     double                        share = 0, d_share = 1;
     stopped = false;
     follow_structure();
@@ -138,7 +138,7 @@ namespace diptych::continuum
     return {};
   }
 
-  // The last increment, scaled. It already holds the band's pattern of loading and unloading, which a tangent at the
+  // Scales the last increment. It already contains the band's pattern of loading and unloading, which a tangent at the
   // beginning of the step does not. The first step has only the tangent.
   DistributedVector LoadDriver::predict(const double to)
   {
@@ -172,7 +172,7 @@ namespace diptych::continuum
         ++now.count.refinements;
         now.divisions.push_back(*divided);
         restart(now);
-        if (const auto why = find_equilibrium({}); !why.empty()) // the step is accepted, and the walk stands on the new mesh only
+        if (const auto why = find_equilibrium({}); !why.empty()) // the accepted step exists only on the new mesh, so no stop here
           return why;
       }
     return {};
@@ -187,7 +187,7 @@ namespace diptych::continuum
       solver.remember();
     while (true)
       {
-        // Equal steps to the stage: a short last one would be a bad base for the next extrapolation.
+        // Divides the way to the stage into equal steps, because a short last step is a poor basis for the next extrapolation.
         const double remaining = progress - problem.progress();
         const double n_steps   = std::ceil(remaining / now.step * (1 - 1e-9));
         const double size      = remaining / n_steps;

@@ -19,36 +19,36 @@ namespace diptych::continuum
     int steps = 0, cut_backs = 0, newton_iterations = 0, refinements = 0;
   };
 
-  // What a walk that goes on later must know.
+  // State of the driver that a restart needs.
   struct DriverState
   {
     StepCounts          count;
-    double              step      = 0;  // wanted length of the next one [progress]
-    double              last_step = 0;  // accepted; 0: none yet
-    std::vector<double> last_increment; // accepted; relevant dofs
-    Divisions           divisions;      // the mesh's history
+    double              step      = 0;  // intended length of the next step [progress]
+    double              last_step = 0;  // last accepted length; 0: none yet
+    std::vector<double> last_increment; // last accepted one; relevant dofs
+    Divisions           divisions;      // history of the mesh
   };
 
-  // Walks the problem along its load path. A step that does not converge is halved and leaves no trace; after an easy
-  // one the next is longer. One that is stopped between two Newton iterations leaves problem, driver and solver as they were
-  // before it, to the last bit.
+  // Drives the problem along its loading path. A step that does not converge is halved and leaves no trace. After an easy step
+  // the next one is longer. If a step is stopped between two Newton iterations, problem, driver and solver return to their
+  // previous state, bit for bit.
   class LoadDriver
   {
   public:
     LoadDriver(BoundaryValueProblem &problem, const Options &options, StopRequest stop_requested = {});
 
-    // Equilibrium at rest from a state that is not quite in it: immediate for a rectangle under its own pressure, some steps
-    // where the outline is wavy and the load is not normal to it, or the stress was mapped, or the mesh refined. Empty text,
-    // or why it was not found.
+    // Finds equilibrium at rest. This is immediate for a rectangle under its own pressure. It takes some steps if the outline
+    // is wavy, the stress was mapped or the mesh was refined. Returns an empty text, or the reason for failure.
     [[nodiscard]] std::string equilibrate();
 
-    // One accepted step towards `progress`, which the last one of a stage meets exactly. Empty text, or why the run cannot go on.
+    // Makes one accepted step towards `progress`; the last step of a stage ends there exactly. Returns an empty text, or the
+    // reason why the run cannot continue.
     [[nodiscard]] std::string step_towards(double progress);
 
-    // Whether the last of the two gave its text because it was stopped on request.
+    // Whether the last of these two calls returned early because of a request to stop.
     bool was_stopped() const { return stopped; }
 
-    // To be called when the problem's mesh has changed.
+    // Must be called after the mesh of the problem has changed.
     void restart(DriverState new_state);
 
     const DriverState  &state() const { return now; }
@@ -70,6 +70,6 @@ namespace diptych::continuum
     LinearSolver          solver;
     DriverState           now;
     bool                  stopped = false;
-    int                   version = 0; // of the problem's structure that the solver knows
+    int                   version = 0; // structure version for which the solver was set up
   };
 } // namespace diptych::continuum

@@ -1,4 +1,4 @@
-// diptych: material points before any load
+// diptych: material points before loading
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/equilibrium/initial_points.h"
 
@@ -48,7 +48,7 @@ namespace diptych::continuum
         point.stress[xx]  = -cell(0, 0);
         point.stress[yy]  = -cell(1, 1);
         point.stress[xy]  = -(cell(0, 1) + cell(1, 0)) / 2;
-        point.stress_zz   = -(cell(0, 0) + cell(1, 1)) / 2; // discs have none: the mean of the plane
+        point.stress_zz   = -(cell(0, 0) + cell(1, 1)) / 2; // discs have none: mean of the in-plane stresses
       }
   }
 

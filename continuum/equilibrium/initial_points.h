@@ -1,4 +1,4 @@
-// diptych: material points before any load
+// diptych: material points before loading
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -12,14 +12,15 @@
 
 namespace diptych::continuum
 {
-  // Isotropic `pressure`, with the weak spot's hardening variable, at every point of this process's cells, cell by cell.
+  // Sets the isotropic `pressure` and the hardening variable of the weak spot at every point of this process, cell by cell.
   void set_at_rest(const Discretisation       &mesh,
                    const Options              &options,
                    const Units                &units,
                    double                      pressure,
                    std::vector<MaterialState> &points);
 
-  // One entry a cell, `n_points` points each: stress, positive in compression; solid fraction of a critical-state law.
+  // Both take one entry per cell of `n_points` points: the stress, positive in compression, or the solid fraction of a
+  // critical-state law.
   void set_stress(const std::vector<Eigen::Matrix2d> &of_cells, std::size_t n_points, std::vector<MaterialState> &points);
   void set_solid_fraction(const std::vector<double>  &of_cells,
                           std::size_t                 n_points,

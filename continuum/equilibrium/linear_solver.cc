@@ -1,4 +1,4 @@
-// diptych: linear solves with a preconditioner that is kept while it still serves
+// diptych: linear solves with a preconditioner that is reused while it is effective
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/equilibrium/linear_solver.h"
 
@@ -18,8 +18,9 @@ namespace diptych::continuum
 
   namespace
   {
-    constexpr double reduction = 1e-2; // of the residual, all that a Newton iteration needs
-    // Iterations allowed, and those from which on a new preconditioner pays: a multigrid hierarchy never comes down to few.
+    constexpr double reduction = 1e-2; // of the residual; a Newton iteration needs no more
+    // Number of allowed iterations, and the number above which a new preconditioner pays. A multigrid hierarchy always needs
+    // many.
     struct Patience
     {
       unsigned int longest, comfortable;
@@ -67,7 +68,7 @@ namespace diptych::continuum
         umfpack.forget_pattern();
         forget();
         waiting = std::move(before.replaced);
-        if (!waiting->factorised.empty()) // else nothing is kept, and the next solve() factorises afresh
+        if (!waiting->factorised.empty()) // otherwise nothing is kept and the next solve() factorises
           waiting->is_stale = before.is_stale;
       }
     else
@@ -131,8 +132,8 @@ namespace diptych::continuum
   {
     forget();
     if (!is_on_one_process(pattern) || method == LinearMethod::mumps)
-      return true;                                         // nothing was promised
-    bool fits = kept.is_stale || !kept.factorised.empty(); // what is not stale preconditions the next solve
+      return true;                                         // nothing to restore
+    bool fits = kept.is_stale || !kept.factorised.empty(); // if not stale, it preconditions the next solve
     if (fits && method == LinearMethod::umfpack && !(kept.analysed.empty() && kept.factorised.empty()))
       fits = umfpack.take_up(pattern, kept.analysed, kept.factorised);
     if (fits && method == LinearMethod::amg && !kept.factorised.empty())
@@ -169,7 +170,7 @@ namespace diptych::continuum
     const auto start = std::clock();
     bool       done  = false;
     if (waiting)
-      (void)take_up(KeptPreconditioner(*waiting), matrix); // it fitted before; else it is made afresh
+      (void)take_up(KeptPreconditioner(*waiting), matrix); // it fitted before; otherwise it is rebuilt
     is_fresh = is_stale;
     if (!is_stale || factorise(matrix))
       done = solve_iteratively(matrix, x, rhs);
@@ -238,7 +239,7 @@ namespace diptych::continuum
     return true;
   }
 
-  // deal.II's interface takes constant modes per component only; the rotation of the whole is handed to ML directly.
+  // deal.II's interface accepts only modes that are constant per component. The rotation of the sample goes to ML directly.
   bool LinearSolver::build_amg(const TrilinosWrappers::SparseMatrix &matrix)
   {
     TrilinosWrappers::PreconditionAMG::AdditionalData settings;

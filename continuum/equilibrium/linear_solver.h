@@ -1,4 +1,4 @@
-// diptych: linear solves with a preconditioner that is kept while it still serves
+// diptych: linear solves with a preconditioner that is reused while it is effective
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace diptych::continuum
 {
-  // Motions of the whole sample that cost no energy: columns of the near null space, for AMG.
+  // Motions of the whole sample without energy: the near null space for AMG.
   using RigidModes = std::vector<dealii::TrilinosWrappers::MPI::Vector>;
 
   enum class LinearMethod
@@ -27,21 +27,21 @@ namespace diptych::continuum
     amg // ML's smoothed aggregation
   };
 
-  // automatic takes AMG from `n_unknowns` = 400000 on (at 200000 direct took 22 s, AMG 45).
+  // `automatic` selects AMG from `n_unknowns` = 400000 on. At 200000 the direct solver took 22 s, AMG 45 s.
   LinearMethod linear_method(LinearChoice choice, std::size_t n_unknowns, MPI_Comm communicator);
 
-  // What of a solver outlives a checkpoint: the matrices behind its preconditioner, as values in the order of the tangent's
-  // pattern. On several processes nothing is kept: the next solve() factorises afresh.
+  // State of a solver for a checkpoint: the matrices behind its preconditioner, as values in the order of the tangent's
+  // pattern. On several processes nothing is kept, and the next solve() factorises again.
   struct KeptPreconditioner
   {
     bool                             is_stale = true;
-    std::vector<double>              analysed, factorised; // UMFPACK; AMG keeps the second alone
+    std::vector<double>              analysed, factorised; // UMFPACK; AMG keeps only the second
     std::vector<std::vector<double>> rigid_modes;          // AMG
   };
 
   // The factors (or the multigrid hierarchy) of an earlier tangent precondition GMRES on the present one, from the right.
-  // Newton needs a relative 1e-2 only. When that took more than a few iterations, the next tangent is factorised anew; when it
-  // was not reached, the present one is.
+  // Newton's method needs only a relative 1e-2. If GMRES took more than a few iterations, the next tangent is factorised. If
+  // GMRES failed, the present one is.
   class LinearSolver
   {
   public:
@@ -49,28 +49,28 @@ namespace diptych::continuum
 
     explicit LinearSolver(LinearMethod method);
 
-    // For a mesh that changed.
+    // To be called after a change of the mesh.
     void restart(LinearMethod method, RigidModes modes);
 
-    // Solves matrix * x = rhs; x is overwritten. False: no solution could be found.
+    // Solves matrix * x = rhs; x is overwritten. False: no solution was found.
     [[nodiscard]] bool solve(const dealii::TrilinosWrappers::SparseMatrix &matrix, Vector &x, const Vector &rhs);
 
-    // The next solve() factorises afresh.
+    // Makes the next solve() factorise again.
     void forget();
 
     KeptPreconditioner kept() const;
 
-    // A step may be given up because somebody asked to stop, and must then leave no trace: put_back() makes the preconditioner
-    // and the counts what they were at remember(), forget_memory() ends that. Matrices are copied only where they are replaced;
-    // the preconditioner is made of them again when it is next needed.
+    // A step that is stopped on request must leave no trace. put_back() restores the preconditioner and the counts of the last
+    // remember(); forget_memory() ends that. A matrix is copied only when it is replaced. The preconditioner is rebuilt from
+    // these copies when it is next needed.
     void remember();
     void put_back();
     void forget_memory() { memory.reset(); }
 
-    // To be called after restart(). `pattern`: a matrix of the present structure. False: the matrices do not fit it.
+    // To be called after restart(). `pattern` is a matrix of the present structure. False: the kept matrices do not fit it.
     [[nodiscard]] bool take_up(const KeptPreconditioner &kept, const dealii::TrilinosWrappers::SparseMatrix &pattern);
 
-    // From what an interrupted run had counted.
+    // Continues the counts of an interrupted run.
     void go_on_counting(int iterations, int factorisations, double cpu_s)
     {
       n_iterations     = iterations;
@@ -82,7 +82,7 @@ namespace diptych::continuum
     int    factorisations() const { return n_factorisations; }
     double cpu_s() const { return seconds; }
 
-    // The preconditioner as deal.II's solvers want it.
+    // The preconditioner in the form that deal.II's solvers expect.
     void vmult(Vector &x, const Vector &b) const;
 
   private:
@@ -91,7 +91,7 @@ namespace diptych::continuum
       bool                              is_stale;
       int                               n_iterations, n_factorisations;
       double                            seconds;
-      std::optional<KeptPreconditioner> replaced; // since then
+      std::optional<KeptPreconditioner> replaced; // matrices replaced since then
     };
 
     void keep_what_is_replaced();
@@ -103,7 +103,7 @@ namespace diptych::continuum
     RigidModes            rigid_modes;
     Umfpack               umfpack;
     dealii::SolverControl direct_control;
-    // What MUMPS and ML go on reading, while the problem assembles anew or changes its structure. Outlives both.
+    // MUMPS and ML continue to read this matrix while the problem assembles or changes its structure. It must outlive both.
     std::unique_ptr<dealii::TrilinosWrappers::SparseMatrix>    factorised;
     std::unique_ptr<dealii::TrilinosWrappers::SolverDirect>    mumps;
     std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> amg;
@@ -111,6 +111,6 @@ namespace diptych::continuum
     int                                                        n_iterations = 0, n_factorisations = 0;
     double                                                     seconds = 0;
     std::optional<Memory>                                      memory;
-    std::optional<KeptPreconditioner>                          waiting; // to be made of these matrices by the next solve()
+    std::optional<KeptPreconditioner>                          waiting; // matrices for the preconditioner of the next solve()
   };
 } // namespace diptych::continuum

@@ -26,7 +26,7 @@ namespace diptych::continuum
     }
   } // namespace
 
-  // Two Gauss points are exact: the integrand is cubic in the edge's own coordinate.
+  // Two Gauss points are exact, because the integrand is cubic in the coordinate along the edge.
   void add_side_pressure(const Discretisation               &mesh,
                          const std::vector<Eigen::Vector2d> &node_position,
                          const double                        pressure,

@@ -10,7 +10,7 @@
 
 namespace diptych::continuum
 {
-  // Each adds to `force`, one entry per locally relevant dof, the part of this process's edges or cells.
+  // Each function adds the part of this process's edges or cells to `force`, which has one entry per locally relevant dof.
 
   // f_a = +-p int N_a dy along both sides at the given shape: horizontal, per unit of height, inwards.
   void add_side_pressure(const Discretisation               &mesh,
@@ -18,7 +18,7 @@ namespace diptych::continuum
                          double                              pressure,
                          std::vector<double>                &force);
 
-  // f_a = int N_a b dA over the shape of `geometry`: the initial one for a weight, because mass is kept.
+  // f_a = int N_a b dA over the shape of `geometry`. For a weight this is the initial shape, because mass is conserved.
   void add_body_force(const Discretisation  &mesh,
                       const Geometry        &geometry,
                       const Eigen::Vector2d &body_force,

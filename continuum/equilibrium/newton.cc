@@ -14,7 +14,7 @@ namespace diptych::continuum
       return imbalance.n_failed == 0 && std::isfinite(imbalance.residual);
     }
 
-    // Adds `correction` whole, or the half or quarter of it that leaves the least residual where the whole makes it grow.
+    // Adds all of `correction`. If that increases the residual, adds the half or quarter that leaves the smallest one.
     Imbalance add_with_line_search(BoundaryValueProblem    &problem,
                                    const DistributedVector &correction,
                                    const double             before,
@@ -65,10 +65,10 @@ namespace diptych::continuum
           {
             report.converged = !problem.is_folded();
             if (!report.converged)
-              report.message = "an element turns over";
+              report.message = "an element is inverted";
           }
         else if (imbalance.residual > 100 * best)
-          report.message = "the residual grew a hundredfold";
+          report.message = "the residual grew by a factor of 100";
         else if (report.iterations == options.max_iterations)
           report.message = std::to_string(report.iterations) + " Newton iterations left a relative residual of " +
                            std::to_string(report.residual);

@@ -11,10 +11,10 @@ namespace diptych::continuum
 {
   struct NewtonOptions
   {
-    double tolerance      = 1e-5; // relative to the reactions
+    double tolerance      = 1e-5; // relative to the reaction forces
     int    max_iterations = 20;
 
-    StopRequest stop_requested = {}; // asked before every linear solve
+    StopRequest stop_requested = {}; // called before every linear solve
   };
 
   struct NewtonReport
@@ -22,12 +22,12 @@ namespace diptych::continuum
     bool        converged  = false;
     bool        stopped    = false; // on request
     int         iterations = 0;
-    double      residual   = 0; // relative, at the end
-    std::string message;        // why it gave up
+    double      residual   = 0; // relative residual at the end
+    std::string message;        // reason for failure
   };
 
-  // Brings the trial state to equilibrium from the first guess `increment`, which already moves the platens as it
-  // should, and leaves the solution there. Commits nothing.
+  // Brings the trial state to equilibrium, starting from the first guess `increment`, which must already contain the platen
+  // motion. Stores the solution in `increment` and commits nothing.
   [[nodiscard]] NewtonReport solve_step(BoundaryValueProblem &problem,
                                         LinearSolver         &solver,
                                         const NewtonOptions  &options,

@@ -1,4 +1,4 @@
-// diptych: what is done at elements and their points: gathering, scattering, turning
+// diptych: operations on elements and points: gather, scatter, rotate
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -24,7 +24,7 @@ namespace diptych::continuum
       values[cell.local[i]] += force[i];
   }
 
-  // Stress and couple stress turned by the angle that the material turned by; the skew part does not depend on the frame.
+  // Rotates stress and couple stress by the rotation of the material. The skew part does not depend on the frame.
   inline void turn(MaterialState &point, const double angle)
   {
     const double c = std::cos(angle), s = std::sin(angle);
@@ -39,7 +39,7 @@ namespace diptych::continuum
     t[curvature_y] = s * mx + c * my;
   }
 
-  // Half the curl of the increment: anticlockwise.
+  // Half the curl of the increment, anticlockwise.
   template <class Element> double spin_at(const PointGeometry &point, const ElementVector<Element> &u)
   {
     double spin = 0;

@@ -1,4 +1,4 @@
-// diptych: smaller elements where plastic strain gathers
+// diptych: mesh refinement where plastic strain concentrates
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/equilibrium/refinement.h"
 
@@ -16,7 +16,8 @@ namespace diptych::continuum
 
   namespace
   {
-    // Flags the cells above the threshold and those that share a vertex with one of them. Whether any process flagged one.
+    // Flags the cells above the threshold and all cells that share a vertex with one of them. Returns whether any process
+    // flagged a cell.
     bool flag_cells(BoundaryValueProblem &problem, const RefinementRule &rule, const std::vector<double> &increments)
     {
       auto        &mesh    = problem.discretisation();
@@ -29,7 +30,7 @@ namespace diptych::continuum
       for (const auto &cell : mesh.triangulation.active_cell_iterators())
         if (cell->is_locally_owned())
           in_band[cell->active_cell_index()] = increments[c++] > rule.threshold * largest;
-      // The ring of neighbours goes on across the borders of processes.
+      // The ring of neighbours continues across the borders of processes.
       using CellIterator = Triangulation<2>::active_cell_iterator;
       GridTools::exchange_cell_data_to_ghosts<bool, Triangulation<2>>(
         mesh.triangulation,

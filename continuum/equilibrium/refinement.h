@@ -1,4 +1,4 @@
-// diptych: smaller elements where plastic strain gathers
+// diptych: mesh refinement where plastic strain concentrates
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -10,27 +10,28 @@
 
 namespace diptych::continuum
 {
-  // Plastic strain of every cell of this process in the last accepted step: the mean over its points.
+  // Plastic strain in the last accepted step for every cell of this process: the mean over its points.
   std::vector<double> plastic_increments(const BoundaryValueProblem &problem);
 
   struct RefinementRule
   {
-    int    levels    = 1;   // an element is divided so often at most
-    double threshold = 0.2; // share of the largest increment above which an element is divided
+    int    levels    = 1;   // largest number of divisions of an element
+    double threshold = 0.2; // an element is divided above this share of the largest increment
   };
 
   // The elements of this process that one refinement divided, as deal.II's CellId in text. deal.II numbers elements by the
-  // history of their divisions: the same history, the same bits.
+  // history of their divisions. Bitwise equal results therefore need the same history.
   using DividedCells = std::vector<std::string>;
   using Divisions    = std::vector<DividedCells>;
 
-  // Divides elements, with one ring of neighbours, carries the state over and states it on the new mesh, where it is not quite
-  // in equilibrium. `last_increment`: relevant dofs, before and after. Nothing where the mesh does not change. Collective.
+  // Divides elements with one ring of neighbours and transfers the state to the new mesh, where it is not exactly in
+  // equilibrium. `last_increment` is given on the relevant dofs, before and after. Returns nothing if the mesh does not change.
+  // Collective.
   [[nodiscard]] std::optional<DividedCells> refine(BoundaryValueProblem      &problem,
                                                    const RefinementRule      &rule,
                                                    const std::vector<double> &increments,
                                                    std::vector<double>       &last_increment);
 
-  // Divides a fresh mesh as another one was, of whose divisions every process has all. Collective.
+  // Repeats the divisions of another mesh on a fresh one. Every process must have all divisions. Collective.
   void divide_again(Discretisation &mesh, const Divisions &divisions);
 } // namespace diptych::continuum

@@ -1,4 +1,4 @@
-// diptych: CPU time of a part of the program
+// diptych: CPU time of a scope
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace diptych::continuum
 {
-  // Adds the CPU time of its life to a counter.
+  // Adds the CPU time of its lifetime to a counter.
   struct Stopwatch
   {
     double      &seconds;

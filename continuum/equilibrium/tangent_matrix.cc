@@ -24,16 +24,16 @@ namespace diptych::continuum
     TrilinosWrappers::SparsityPattern pattern(mesh.owned, mesh.owned, mesh.relevant, mesh.communicator());
     DoFTools::make_sparsity_pattern(mesh.dof_handler, pattern, constraints, false,
                                     Utilities::MPI::this_mpi_process(mesh.communicator()));
-    leave_if(stop_requested, "the sparsity pattern is packed");
+    leave_if(stop_requested, "compressing the sparsity pattern");
     pattern.compress();
-    leave_if(stop_requested, "the matrix");
+    leave_if(stop_requested, "allocating the matrix");
     sparse.reinit(pattern);
-    leave_if(stop_requested, "the places in the matrix");
-    const bool alone = Utilities::MPI::n_mpi_processes(mesh.communicator()) == 1;
-    general.assign(mesh.cells.size(), !alone);
+    leave_if(stop_requested, "looking up positions in the matrix");
+    const bool one_process = Utilities::MPI::n_mpi_processes(mesh.communicator()) == 1;
+    general.assign(mesh.cells.size(), !one_process);
     places.clear();
     unit_diagonal.clear();
-    if (alone)
+    if (one_process)
       look_up_places();
   }
 
@@ -54,7 +54,8 @@ namespace diptych::continuum
       if (constraints->is_constrained(dof))
         unit_diagonal.push_back(place(dof, dof));
 
-    // A dof is itself, gone (prescribed), or one other dof with weight 1 (tied); else its element takes the general way.
+    // A dof maps to itself, to nothing (prescribed), or to one other dof with weight 1 (tied). In all other cases its element
+    // takes the general way.
     const auto n_dofs = mesh->reference.n_dofs;
     places.assign(mesh->cells.size() * n_dofs * n_dofs, -1);
     std::vector<types::global_dof_index> target(n_dofs);
@@ -93,7 +94,7 @@ namespace diptych::continuum
     constraints->distribute_local_to_global(full, dofs, sparse);
   }
 
-  // Rows of constrained dofs hold a diagonal of the others' size only, so that their solution is zero.
+  // Rows of constrained dofs contain only a diagonal of the size of the other entries, so their solution is zero.
   void TangentMatrix::finish()
   {
     sparse.compress(VectorOperation::add);

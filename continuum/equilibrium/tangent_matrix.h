@@ -12,9 +12,9 @@
 
 namespace diptych::continuum
 {
-  // Element matrices go straight to their places in the compressed rows, which are looked up once per mesh: a tangent takes half
-  // the time of the general way through constraints (benchmarks/continuum_cost, h = 2 and 1), which is left for elements with
-  // hanging nodes or several masters, and for matrices that are spread over processes.
+  // Adds element matrices directly to the compressed rows, whose positions are looked up once per mesh. A tangent then takes
+  // half the time of the general way through constraints (benchmarks/continuum_cost, h = 2 and 1). The general way remains for
+  // elements with hanging nodes or several masters, and for distributed matrices.
   class TangentMatrix
   {
   public:
@@ -25,7 +25,7 @@ namespace diptych::continuum
 
     void                          clear();
     template <class Element> void add(std::size_t cell, const ElementMatrix<Element> &K);
-    void                          finish(); // to be called before the matrix is read
+    void                          finish(); // must be called before the matrix is read
 
     const dealii::TrilinosWrappers::SparseMatrix &matrix() const { return sparse; }
 
@@ -37,11 +37,11 @@ namespace diptych::continuum
     const Discretisation                    *mesh        = nullptr;
     const dealii::AffineConstraints<double> *constraints = nullptr;
     dealii::TrilinosWrappers::SparseMatrix   sparse;
-    double                                  *values    = nullptr; // of all rows, on one process
+    double                                  *values    = nullptr; // values of all rows, on one process
     int                                     *row_start = nullptr, *columns = nullptr;
-    std::vector<int>                         places;        // n_dofs^2 per cell; -1: drops out; empty on several processes
-    std::vector<bool>                        general;       // per cell: has to go through the constraints
-    std::vector<int>                         unit_diagonal; // places of the constrained dofs
+    std::vector<int>                         places;        // n_dofs^2 per cell; -1: entry is dropped; empty on several processes
+    std::vector<bool>                        general;       // per cell: uses the general way
+    std::vector<int>                         unit_diagonal; // positions of the constrained dofs
   };
 
   template <class Element> void TangentMatrix::add(const std::size_t cell, const ElementMatrix<Element> &K)

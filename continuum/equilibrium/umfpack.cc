@@ -12,9 +12,9 @@ namespace diptych::continuum
 {
   namespace
   {
-    // OpenBLAS would share out the small dense blocks of the factors over all cores: a third more CPU time (33000 unknowns, two
-    // cores), no gain, and bits that depend on the number of threads. Other BLAS libraries do not have the function and do not
-    // need it.
+    // OpenBLAS would distribute the small dense blocks of the factors over all cores. This takes a third more CPU time (33000
+    // unknowns, two cores) without gain, and the bits depend on the number of threads. Other BLAS libraries do not have this
+    // function and do not need it.
     void use_one_blas_thread()
     {
       if (void *function = dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))
@@ -54,7 +54,7 @@ namespace diptych::continuum
     analysed_values.clear();
   }
 
-  // Compressed rows are the compressed columns of the transpose, which is therefore what UMFPACK factorises; solve() asks for
+  // Compressed rows are the compressed columns of the transpose. UMFPACK therefore factorises the transpose, and solve() uses
   // the transposed system.
   void Umfpack::take_pattern(const dealii::TrilinosWrappers::SparseMatrix &matrix)
   {
@@ -68,7 +68,7 @@ namespace diptych::continuum
     values.assign(value, value + n_entries);
   }
 
-  // The analysis looks at the values, too.
+  // The analysis also depends on the values.
   bool Umfpack::analyse()
   {
     const int n      = int(row_start.size()) - 1;
@@ -88,7 +88,7 @@ namespace diptych::continuum
     const int status = umfpack_di_numeric(row_start.data(), columns.data(), values.data(), symbolic.get(), &handle,
                                           control.data(), nullptr);
     numeric.reset(handle);
-    if (status != UMFPACK_OK) // a warning of singularity leaves factors behind that must not be used
+    if (status != UMFPACK_OK) // after a warning of singularity the factors must not be used
       forget_factors();
     return numeric != nullptr;
   }

@@ -10,8 +10,8 @@
 
 namespace diptych::continuum
 {
-  // UMFPACK (Davis, ACM TOMS 30, 2004) through its own interface: the symbolic analysis is kept while the pattern stays, and
-  // solve() does no iterative refinement, which deal.II's class always does.
+  // UMFPACK (Davis, ACM TOMS 30, 2004) through its own interface. It keeps the symbolic analysis while the pattern does not
+  // change. Its solve() does no iterative refinement, which deal.II's class always does.
   class Umfpack
   {
   public:
@@ -19,19 +19,19 @@ namespace diptych::continuum
 
     Umfpack();
 
-    // Of a matrix on one process. False: it is singular, or memory ran out.
+    // Factorises a matrix on one process. False: the matrix is singular, or memory ran out.
     [[nodiscard]] bool factorise(const dealii::TrilinosWrappers::SparseMatrix &matrix);
     void               solve(Vector &x, const Vector &b) const;
 
-    // Values of the matrices that the analysis and the factors were made of; empty where there are none. Analysis and factors
-    // made of them again have the same bits.
+    // Values of the matrices behind the analysis and the factors, empty if there are none. An analysis and factors rebuilt from
+    // them have the same bits.
     const std::vector<double> &analysed() const { return analysed_values; }
     const std::vector<double> &factorised() const { return values; }
     [[nodiscard]] bool         take_up(const dealii::TrilinosWrappers::SparseMatrix &pattern,
                                        const std::vector<double>                    &analysed,
                                        const std::vector<double>                    &factorised);
 
-    void forget_pattern(); // the next matrix has another one
+    void forget_pattern(); // the next matrix has a new one
     void forget_factors();
     bool has_factors() const { return numeric != nullptr; }
 
@@ -41,7 +41,7 @@ namespace diptych::continuum
     [[nodiscard]] bool make_factors();
 
     std::vector<double>                     control;
-    std::vector<int>                        row_start, columns; // of the matrix that was factorised: solving reads them again
+    std::vector<int>                        row_start, columns; // of the factorised matrix; solve() needs them again
     std::vector<double>                     values, analysed_values;
     std::unique_ptr<void, void (*)(void *)> symbolic, numeric;
   };

@@ -1,4 +1,4 @@
-// diptych: the constitutive laws a scene can choose from
+// diptych: the constitutive laws that a scene can choose
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/laws/any_law.h"
 

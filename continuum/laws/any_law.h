@@ -1,4 +1,4 @@
-// diptych: the constitutive laws a scene can choose from
+// diptych: the constitutive laws that a scene can choose
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -14,6 +14,6 @@ namespace diptych::continuum
 {
   using Law = std::variant<LinearElastic, MohrCoulomb, DruckerPrager, CosseratMohrCoulomb, CosseratDruckerPrager>;
 
-  // Throws std::invalid_argument as validate(options) does.
+  // Throws std::invalid_argument under the same conditions as validate(options).
   Law make_law(LawKind law, const LawOptions &options, const Units &units = {});
 } // namespace diptych::continuum

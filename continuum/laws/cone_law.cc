@@ -1,4 +1,4 @@
-// diptych: laws whose return mapping is radial, onto a cone over the pressure
+// diptych: laws with a radial return mapping onto a cone over the pressure
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/laws/cone_law.h"
 
@@ -8,7 +8,7 @@ namespace diptych::continuum
 {
   namespace
   {
-    // Places in the deviatoric vector.
+    // Entries of the deviatoric vector.
     enum
     {
       difference,
@@ -29,7 +29,7 @@ namespace diptych::continuum
         couple_scale(is_cosserat ? std::sqrt(2.) * in_units(options, units).internal_length : 0),
         elastic(continuum::elastic_tangent(moduli_))
   {
-    // Column by column: the stress conjugate to each unit vector of g, times itself.
+    // Sum over the unit vectors of g: the outer product of the conjugate stress with itself.
     for (unsigned int k = 0; k < Deviatoric::dimension; ++k)
       {
         Deviatoric unit;
@@ -62,7 +62,7 @@ namespace diptych::continuum
 
   Stress ConeLaw::conjugate(const Deviatoric &q) const
   {
-    // Mohr-Coulomb's g has no third entry.
+    // The g of Mohr-Coulomb has no third entry.
     const double lateral = cone.shape == ConeShape::drucker_prager ? -q[out_of_plane] / sqrt3 : 0;
     Stress       s;
     s[xx]          = lateral + q[difference];
@@ -127,7 +127,7 @@ namespace diptych::continuum
     return answer;
   }
 
-  // sigma = q . dg/de - s 1 + skew part with q = t n. By dt0 = G n.dg, ds0 = -B tr(de) and dn = G (dg - n n.dg)/t0,
+  // sigma = q . dg/de - s 1 + skew part, with q = t n. From dt0 = G n.dg, ds0 = -B tr(de) and dn = G (dg - n n.dg)/t0 follow
   //   dq = n (t_t dt0 + t_s ds0) + (t/t0) G (dg - n n.dg),   ds = s_t dt0 + s_s ds0.
   MaterialUpdate ConeLaw::plastic_answer(const Trial &trial, const ConeReturn &end) const
   {

@@ -1,4 +1,4 @@
-// diptych: laws whose return mapping is radial, onto a cone over the pressure
+// diptych: laws with a radial return mapping onto a cone over the pressure
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -7,20 +7,22 @@
 
 namespace diptych::continuum
 {
-  // Stress as pressure s and a deviatoric vector q whose elastic increment is G g, g the strain conjugate to it:
+  // The stress is split into the pressure s and a deviatoric vector q. The elastic increment of q is G g, where g is the strain
+  // conjugate to q:
   //   q = ((s_xx - s_yy)/2, s_xy, (sqrt3/2) s_zz', m_x/(sqrt2 l), m_y/(sqrt2 l)),
   //   g = (e_xx - e_yy, gamma_xy, -tr(e)/sqrt3, sqrt2 l kappa_x, sqrt2 l kappa_y).
-  // The third entry belongs to Drucker-Prager, the last two to Cosserat laws; else they are zero. The elastic pressure
-  // increment is -B tr(e): B = K + G/3 and s = -(s_xx + s_yy)/2 for Mohr-Coulomb, B = K and s = -I1/3 for Drucker-Prager.
-  // The skew stress is elastic and no part of the yield function, the couple stress is through m.m/(2 l^2).
+  // Only Drucker-Prager uses the third entry, only Cosserat laws use the last two; unused entries are zero. The elastic
+  // pressure increment is -B tr(e). Mohr-Coulomb has B = K + G/3 and s = -(s_xx + s_yy)/2, Drucker-Prager has B = K and s =
+  // -I1/3. The couple stress enters the yield function through m.m/(2 l^2). The skew stress is elastic and does not enter it.
   class ConeLaw
   {
   public:
-    // Members as in LinearElastic. The constructor throws std::invalid_argument as validate(options) does.
+    // Members as in LinearElastic. The constructor throws std::invalid_argument under the same conditions as validate(options).
     ConeLaw(const LawOptions &options, ConeShape shape, bool is_cosserat, const Units &units);
 
-    // Implicit: F = |q| - s f - g0 = overstress with f, g0 and dilation d at the END of the step; the hardening variable grows
-    // by the multiplier lambda, |q| falls by G lambda, s rises by B lambda d. Perzyna: overstress = (viscosity/d_time) lambda.
+    // Implicit: F = |q| - s f - g0 = overstress with f, g0 and dilation d at the END of the step. Over the step the hardening
+    // variable grows by the multiplier lambda, |q| falls by G lambda and s rises by B lambda d. Perzyna: overstress =
+    // (viscosity/d_time) lambda.
     MaterialUpdate update(const MaterialState &s0, const Strain &d_strain, double d_time) const;
     double         yield_function(const MaterialState &state) const;
     double         shear_strength(const MaterialState &state) const;
@@ -32,7 +34,7 @@ namespace diptych::continuum
   protected:
     using Deviatoric = dealii::Tensor<1, 5>;
 
-    // Elastic predictor. `direction` is the unit vector of q, zero where q is.
+    // Elastic predictor. `direction` is the unit vector of q, or zero if q is zero.
     struct Trial
     {
       MaterialState state;

@@ -1,4 +1,4 @@
-// diptych: the scalar return to a cone that hardens, the kernel of all plastic laws
+// diptych: scalar return to a hardening cone, the kernel of all plastic laws
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/laws/cone_return.h"
 
@@ -16,7 +16,7 @@ namespace diptych::continuum
     {
       Cone   cone;
       double shear, shear_dot, pressure, pressure_dot;
-      double yield, yield_dot; // F with its viscous part
+      double yield, yield_dot; // F including its viscous part
     };
 
     class Path
@@ -57,8 +57,9 @@ namespace diptych::continuum
       bool   converged = false;
     };
 
-    // Root of a function {value, derivative}(lambda) that is positive at zero and not at `high`: Newton's step where it stays
-    // inside the bracket and the last one halved the residual, else bisection, which a kink of the table can ask for.
+    // Finds the root of a function {value, derivative}(lambda) that is positive at zero and not positive at `high`. Takes
+    // Newton's step if it stays inside the bracket and the last one halved the residual. Otherwise it bisects, which a kink of
+    // the table can require.
     template <class Function> Root bracketed_newton(const Function &function, double high, const double tolerance)
     {
       const double width = high;
@@ -77,7 +78,7 @@ namespace diptych::continuum
       return {};
     }
 
-    // Where t(lambda) = 0. The dilation lies between minus and plus one, and the loss between its values there.
+    // Finds t(lambda) = 0. The dilation lies between -1 and 1, so the loss lies between its values there.
     Root tip_multiplier(const Path &points, const ReturnPath &path, const double tolerance)
     {
       if (path.shear_loss_by_dilation == 0)
@@ -91,7 +92,7 @@ namespace diptych::continuum
         high, tolerance);
     }
 
-    // dF = 0 with dF/dt0 = 1 and dF/ds0 = -slope at a fixed lambda.
+    // From dF = 0 with dF/dt0 = 1 and dF/ds0 = -slope at a fixed lambda.
     ConeReturn flank(const PathPoint &p, const double lambda)
     {
       ConeReturn r;
@@ -107,7 +108,7 @@ namespace diptych::continuum
       return r;
     }
 
-    // t = 0 for any trial near this one, so that lambda depends on t0 alone.
+    // t = 0 for every trial stress near this one, so lambda depends on t0 only.
     ConeReturn tip(const PathPoint &p, const double lambda, const double viscous_modulus)
     {
       ConeReturn   r;
@@ -133,7 +134,7 @@ namespace diptych::continuum
     failed.verdict = Verdict::failed;
     const Path      points(cone, start_state, path, viscous_modulus);
     const PathPoint start = points.at(0);
-    // The scale is the trial stress: an absolute tolerance would be met at once in a nearly unloaded corner.
+    // The scale is the trial stress. A nearly unloaded corner would meet an absolute tolerance at once.
     const double tolerance = 1e-13 * (path.shear + std::abs(path.pressure) + start.cone.intercept);
     const Root   top       = tip_multiplier(points, path, tolerance);
     if (!std::isfinite(tolerance) || !(start.yield > 0) || !top.converged)
@@ -155,8 +156,8 @@ namespace diptych::continuum
         if (!root.converged || !(p.yield_dot < 0))
           return failed;
         answer = flank(p, root.lambda);
-        // Less than a tenth of the elastic slope left: the point is close to snapping back by itself. Where that holds at the
-        // start only, it may have done so.
+        // If less than a tenth of the elastic slope remains, the point is close to snapping back. If so little remains only at
+        // the start, it may already have snapped back.
         if (std::min(-p.yield_dot, -start.yield_dot) < 0.1 * reference_modulus)
           answer.verdict = Verdict::unreliable;
       }

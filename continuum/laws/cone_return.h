@@ -1,4 +1,4 @@
-// diptych: the scalar return to a cone that hardens, the kernel of all plastic laws
+// diptych: scalar return to a hardening cone, the kernel of all plastic laws
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace diptych::continuum
 {
-  // Plastic flow by the multiplier lambda from a trial state, d = dilation of the cone over lambda:
+  // Path of plastic flow from a trial state, a function of the multiplier lambda. With d, the dilation of the cone over lambda:
   //   t(lambda) = shear    - (shear_loss    + shear_loss_by_dilation    d) lambda,
   //   s(lambda) = pressure + (pressure_gain + pressure_gain_by_dilation d) lambda.
   // A radial return has shear_loss = G, pressure_gain_by_dilation = B and nothing else. All in [pressure].
@@ -29,12 +29,12 @@ namespace diptych::continuum
     Verdict verdict    = Verdict::reliable;
   };
 
-  // Solves F(lambda) = t - s slope - intercept - viscous_modulus lambda = 0 with the cone after lambda by a Newton
-  // iteration kept inside a bracket, to 1e-13 of the trial stress. F must be positive at lambda = 0. Where F is still
-  // positive when t has shrunk to zero, the tip of the cone answers: t = 0, s = -(intercept + viscous_modulus lambda)/slope,
-  // where opening adds nothing to lambda, so that answers are continuous.
-  // Verdict: unreliable where -dF/dlambda < 0.1 `reference_modulus` at the root or at lambda = 0; failed where no root was found
-  // or F(0) <= 0.
+  // Solves F(lambda) = t - s slope - intercept - viscous_modulus lambda = 0 with the cone at the end of the step. Newton's
+  // iteration stays inside a bracket and converges to 1e-13 of the trial stress. F must be positive at lambda = 0. If F is
+  // still positive when t has shrunk to zero, the stress returns to the tip of the cone: t = 0, s = -(intercept +
+  // viscous_modulus lambda)/slope. Opening at the tip adds nothing to lambda, so the answer is continuous in the trial stress.
+  // The verdict is `unreliable` if -dF/dlambda < 0.1 `reference_modulus` at the root or at lambda = 0. It is `failed` if no
+  // root was found or F(0) <= 0.
   ConeReturn return_to_cone(const YieldCone      &cone,
                             const HardeningState &start_state,
                             const ReturnPath     &path,

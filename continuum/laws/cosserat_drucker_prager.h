@@ -1,4 +1,4 @@
-// diptych: Drucker-Prager plasticity with Cosserat rotations, thus an internal length
+// diptych: Drucker-Prager plasticity with Cosserat rotations and hence an internal length
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -6,8 +6,8 @@
 
 namespace diptych::continuum
 {
-  // As DruckerPrager, with the couple stress in the yield function: J2 + m.m/(2 l^2) in place of J2. The plastic curvature takes
-  // part in the hardening variable.
+  // As DruckerPrager, but the couple stress enters the yield function: J2 + m.m/(2 l^2) in place of J2. The plastic curvature
+  // contributes to the hardening variable.
   class CosseratDruckerPrager : public ConeLaw
   {
   public:

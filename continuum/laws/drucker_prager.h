@@ -6,10 +6,10 @@
 
 namespace diptych::continuum
 {
-  // F = sqrt(J2) + alpha I1 - k with alpha, k and the dilatancy matched to plane-strain flow (yield_cone.h): there it has the
-  // strength of the Mohr-Coulomb law whatever its dilatancy. sigma_zz flows plastically. The hardening variable grows by the
-  // multiplier: the norm of the plastic part of g (ConeLaw), which in plane-strain flow is d(eps_1 - eps_3) plastic times
-  // sqrt(1 + sin^2(psi)/3), 0.7 % above it at psi = 12 degrees.
+  // F = sqrt(J2) + alpha I1 - k with alpha, k and the dilatancy matched to plane-strain flow (yield_cone.h). In such flow it
+  // has the strength of the Mohr-Coulomb law for any dilatancy. sigma_zz flows plastically. The hardening variable grows by the
+  // multiplier, the norm of the plastic part of g (ConeLaw). In plane-strain flow this is the plastic d(eps_1 - eps_3) times
+  // sqrt(1 + sin^2(psi)/3), which is 0.7 % larger at psi = 12 degrees.
   class DruckerPrager : public ConeLaw
   {
   public:

@@ -11,15 +11,15 @@ namespace diptych::continuum
   struct ElasticModuli
   {
     double shear      = 0; // G [pressure]
-    double bulk       = 0; // K, of three dimensions [pressure]
+    double bulk       = 0; // K, three-dimensional [pressure]
     double plane_bulk = 0; // K + G/3 [pressure]
     double lateral    = 0; // K - 2 G/3, d sigma_zz / d tr(strain) [pressure]
     double couple     = 0; // M = 2 G l^2: m = M curvature [pressure * length^2]; zero for a classical law
     double skew       = 0; // Gc: a = Gc * relative rotation [pressure]; zero for a classical law
   };
 
-  // `options` as stresses and lengths (in_units). de Borst, Eng. Comput. 8 (1991) for the Cosserat part. The energy of the
-  // relative rotation chi is Gc chi^2 / 2.
+  // Reads `options` as stresses and lengths (in_units). The Cosserat part follows de Borst, Eng. Comput. 8 (1991). The relative
+  // rotation chi has the energy Gc chi^2 / 2.
   ElasticModuli elastic_moduli(const LawOptions &options, bool is_cosserat);
   Tangent       elastic_tangent(const ElasticModuli &moduli);
 } // namespace diptych::continuum

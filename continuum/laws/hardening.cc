@@ -1,4 +1,4 @@
-// diptych: how friction, dilatancy and cohesion change with plastic strain
+// diptych: friction, dilatancy and cohesion as functions of plastic strain
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/laws/hardening.h"
 
@@ -12,7 +12,7 @@ namespace diptych::continuum
   {
     constexpr double one_degree = 3.14159265358979323846 / 180;
 
-    // The angle of a sine and its rate, cut off short of upright.
+    // The angle of a sine and its rate. The sine is cut off at 0.95, because the rate diverges at 1.
     std::array<double, 2> angle(const double sine, const double sine_rate)
     {
       constexpr double most   = 0.95;
@@ -73,7 +73,7 @@ namespace diptych::continuum
             critical_state.start_possible + critical_state.by_density * state.densification};
   }
 
-  // sin phi = eta, sin psi = (eta - eta_c)/beta, cut off short of upright.
+  // sin phi = eta and sin psi = (eta - eta_c)/beta, both cut off at 0.95.
   Strength Hardening::critical(const HardeningState &state) const
   {
     const Excess e         = excess(state);
@@ -95,7 +95,7 @@ namespace diptych::continuum
     Strength             s   = at(end);
     if (!critical_state.is_on)
       return s;
-    constexpr double short_step = 1e-6; // below it the densification of a step is round-off; its middle does to 1e-9
+    constexpr double short_step = 1e-6; // in a shorter step the densification is round-off; the midpoint value is exact to 1e-9
     double           mean = 0, rate = 0;
     if (multiplier > short_step)
       {
@@ -114,8 +114,9 @@ namespace diptych::continuum
     return s;
   }
 
-  // y = eta - eta_c and z = eta_p - eta_c obey y' = (z - y)/g, z' = -w y with w = A nu_c / beta: with a = 1/(2 g) and q^2 = a^2 -
-  // w/g the matrix exponential is e^(-a l) (cosh(q l) 1 + sinh(q l)/q (M + a 1)), of cosine and sine where q^2 < 0.
+  // y = eta - eta_c and z = eta_p - eta_c obey y' = (z - y)/g and z' = -w y with w = A nu_c / beta. M is the matrix of this
+  // system, a = 1/(2 g) and q^2 = a^2 - w/g. The matrix exponential is e^(-a l) (cosh(q l) 1 + sinh(q l)/q (M + a 1)). If q^2 <
+  // 0, cosine and sine replace cosh and sinh.
   HardeningState Hardening::after(const HardeningState &state, const double multiplier) const
   {
     HardeningState end = state;
@@ -126,7 +127,7 @@ namespace diptych::continuum
     const double l = multiplier, g = critical_state.mobilisation_strain, a = 0.5 / g;
     const double w = critical_state.by_density / critical_state.dilatancy_ratio, square = a * a - w / g;
     const double q = std::sqrt(std::abs(square)), ql = q * l;
-    // Both with the decay, which may be strong where cosh is large.
+    // Both include the decay, which may be strong where cosh is large.
     double even = std::exp(-a * l), odd = l * even;
     if (ql > 1e-6 && square > 0)
       {

@@ -1,4 +1,4 @@
-// diptych: how friction, dilatancy and cohesion change with plastic strain
+// diptych: friction, dilatancy and cohesion as functions of plastic strain
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace diptych::continuum
 {
-  // Strength at one value of the hardening variable; a `_rate` is the derivative by it.
+  // Strength at one value of the hardening variable. A `_rate` is the derivative by that variable.
   struct Strength
   {
     double friction = 0, friction_rate = 0;   // phi [radians]
@@ -17,44 +17,44 @@ namespace diptych::continuum
     double cohesion = 0, cohesion_rate = 0;   // c [pressure]
   };
 
-  // What strength depends on; the rest of a MaterialState takes no part.
+  // The part of a MaterialState on which the strength depends.
   struct HardeningState
   {
     double equivalent_plastic_strain = 0;
-    double stress_ratio_gain = 0, densification = 0; // critical state: since the start
+    double stress_ratio_gain = 0, densification = 0; // critical state: change since the start
   };
   inline HardeningState hardening_state(const MaterialState &state)
   {
     return {state.equivalent_plastic_strain, state.stress_ratio_gain, state.densification};
   }
 
-  // hardening = critical_state (after Taylor 1948; Roux and Radjai 1998): the mobilised stress ratio eta = t/s tends to what the
-  // solid fraction nu allows, and dilation follows what it exceeds the critical one by. By the plastic shear strain g
-  // (compression positive, d eps_v plastic):
+  // hardening = critical_state (after Taylor 1948; Roux and Radjai 1998). The mobilised stress ratio eta = t/s tends to a limit
+  // eta_p that depends on the solid fraction nu. The dilatancy is proportional to the excess of eta over its critical value
+  // eta_c. With the plastic shear strain g and the plastic volume strain eps_v, positive in compression:
   //   d eta / dg = (eta_p(nu) - eta) / g_r,   eta_p = eta_c + A nu_c ln(nu / nu_c),
   //   d eps_v / dg = -sin psi = -(eta - eta_c) / beta,   d ln nu = d eps_v.
-  // With the logarithm, which is nu - nu_c to first order, both equations are linear and are solved exactly, so that steps of any
-  // length give the same; the flow of a step has the mean dilation over it, so that they conserve mass (but at the cone's tip,
-  // where the volume opens and nothing shears).
+  // The logarithm equals nu - nu_c to first order and makes both equations linear. They are solved exactly, so the result does
+  // not depend on the length of the steps. The flow of a step uses the mean dilation over that step and thereby conserves mass.
+  // The only exception is the tip of the cone, where the volume opens without shear.
   class Hardening
   {
   public:
-    // Throws std::invalid_argument as validate(options) does.
+    // Throws std::invalid_argument under the same conditions as validate(options).
     explicit Hardening(const LawOptions &options, const Units &units = {});
 
-    // At a state, with an equivalent plastic strain >= 0. At a point of the table the rate is that of the interval which begins
-    // there.
+    // Strength at a state with an equivalent plastic strain >= 0. At a point of the table the rate is that of the following
+    // interval.
     Strength at(const HardeningState &state) const;
     Strength at(const double equivalent_plastic_strain) const { return at(HardeningState{equivalent_plastic_strain}); }
 
-    // Of a critical state; 0 where the solid fraction is none of the law's business.
+    // Solid fraction of a critical-state law; 0 for any other.
     double solid_fraction(const HardeningState &state) const;
 
     // The state after plastic shear strain `multiplier` >= 0.
     HardeningState after(const HardeningState &state, double multiplier) const;
 
-    // Of a step: strength at its end; of a critical state with the mean dilatancy over it, so that volume and solid fraction stay
-    // together. Rates are derivatives by the multiplier.
+    // Strength at the end of a step. For critical_state the dilatancy is its mean over the step, so that volume and solid
+    // fraction stay consistent. Rates are derivatives by the multiplier.
     Strength over(const HardeningState &start, double multiplier) const;
 
   private:
@@ -65,9 +65,9 @@ namespace diptych::continuum
     Strength decayed(double equivalent_plastic_strain) const;
     Strength interpolated(double equivalent_plastic_strain) const;
     Strength critical(const HardeningState &state) const;
-    double   dilation(const HardeningState &state) const; // sin psi of a critical state
+    double   dilation(const HardeningState &state) const; // sin psi for critical_state
 
-    // What eta and eta_p have above eta_c.
+    // Excess of eta and of eta_p over eta_c.
     struct Excess
     {
       double mobilised, possible;
@@ -83,9 +83,9 @@ namespace diptych::continuum
     };
     Critical critical_state;
 
-    Point              peak, residual; // strain: none
+    Point              peak, residual; // their strain is not used
     double             softening_strain = 0;
-    double             unmobilised = 0, mobilisation_strain = 1; // what friction lacks at the start [radians]; by 1/e
+    double             unmobilised = 0, mobilisation_strain = 1; // deficit of friction at the start [radians]; its decay
     std::vector<Point> table;                                    // empty: exponential or mobilisation; one point: constant
   };
 } // namespace diptych::continuum

@@ -1,4 +1,4 @@
-// diptych: what every constitutive law takes and gives
+// diptych: input and output of every constitutive law
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace diptych::continuum
 {
-  // Strain and stress of a point in plane strain, mechanics sign (tension positive), as work-conjugate vectors. A classical
-  // law reads and fills the first three components, a Cosserat law all six.
+  // Strain and stress of a point in plane strain as work-conjugate vectors, tension positive. A classical law reads and fills
+  // the first three components, a Cosserat law all six.
   //   strain: e_xx, e_yy, gamma_xy = 2 e_xy, relative rotation chi = (du_y/dx - du_x/dy) - 2 omega, d omega/dx, d omega/dy
   //   stress: s_xx, s_yy, symmetric part of s_xy, skew part a, couple stresses m_x, m_y [pressure * length]
   // With row = component of the force and column = normal of the face, s_xy = symmetric - a and s_yx = symmetric + a.
@@ -29,7 +29,7 @@ namespace diptych::continuum
   using Stress  = dealii::Tensor<1, n_components>;
   using Tangent = dealii::Tensor<2, n_components>; // d stress / d strain increment; zero beyond the law's components
 
-  // Which branch of the law answered. `edge`: two yield planes, sigma_zz being an outer principal stress.
+  // The branch of the law that gave the answer. `edge`: two yield planes are active, sigma_zz is an outer principal stress.
   enum class Regime
   {
     elastic,
@@ -38,7 +38,7 @@ namespace diptych::continuum
     apex
   };
 
-  // Plastic strain of a point; shear is the engineering one, 2 e_xy.
+  // Plastic strain of a point. The shear is the engineering one, 2 e_xy.
   struct PlasticStrain
   {
     double xx = 0, yy = 0, zz = 0, xy = 0;
@@ -49,12 +49,12 @@ namespace diptych::continuum
   {
     Stress        stress;
     double        stress_zz                 = 0; // [pressure]
-    double        equivalent_plastic_strain = 0; // hardening variable: integral of d(eps_1 - eps_3) plastic [-]
-    double        stress_ratio_gain         = 0; // critical state: mobilised t/s less that of the start [-]
-    double        densification             = 0; // critical state: ln(solid fraction / that of the start), by plastic strain [-]
+    double        equivalent_plastic_strain = 0; // hardening variable: integral of the plastic d(eps_1 - eps_3) [-]
+    double        stress_ratio_gain         = 0; // critical state: increase of the mobilised t/s since the start [-]
+    double        densification             = 0; // critical state: ln(solid fraction / initial one), from plastic strain [-]
     double        overstress                = 0; // excess of the yield function that viscosity carries [pressure]
-    PlasticStrain plastic_strain;                // kept by add_plastic_flow(), not by update()
-    double        dissipation = 0;               // plastic work per initial area [pressure]; by add_plastic_flow()
+    PlasticStrain plastic_strain;                // updated by add_plastic_flow(), not by update()
+    double        dissipation = 0;               // plastic work per initial area [pressure]; from add_plastic_flow()
   };
 
   // Answer of a law to a strain increment.

@@ -7,26 +7,27 @@
 
 namespace diptych::continuum
 {
-  // Every law has these members with these meanings; see also Law in any_law.h.
+  // Every law has these members with the same meaning (Law in any_law.h).
   class LinearElastic
   {
   public:
     static constexpr bool is_cosserat = false;
 
-    // Throws std::invalid_argument where the elastic options are out of range; reads no others.
+    // Throws std::invalid_argument if an elastic option is out of range. Does not read the other options.
     explicit LinearElastic(const LawOptions &options, const Units &units = {});
 
-    // End state of the strain increment `d_strain` (tension positive) from the committed state `s0`, with the consistent
-    // tangent. `d_time` is the axial strain of the step; only viscosity asks for it, zero means rate independent.
+    // Returns the end state of the strain increment `d_strain` (tension positive) from the committed state `s0`, with the
+    // consistent tangent. `d_time` is the length of the step along the loading. Only viscosity uses it; zero means rate
+    // independent.
     MaterialUpdate update(const MaterialState &s0, const Strain &d_strain, double d_time) const;
 
-    // Yield function of a state without its viscous part [pressure]: positive outside the elastic range.
+    // Yield function of a state without its viscous part [pressure]. It is positive outside the elastic range.
     double yield_function(const MaterialState &state) const;
 
-    // Radius of the yield surface at the state's pressure and hardening variable [pressure]; here infinite.
+    // Radius of the yield surface at the state's pressure and hardening variable [pressure]; infinite here.
     double shear_strength(const MaterialState &state) const;
 
-    // How strength changes with the state; none where there is none.
+    // Hardening of the law; nullptr if it has no strength.
     const Hardening *hardening() const { return nullptr; }
 
     const ElasticModuli &moduli() const { return moduli_; }

@@ -1,4 +1,4 @@
-// diptych: loss of ellipticity of a tangent: where and in which direction a band can begin
+// diptych: loss of ellipticity of a tangent, the onset of a band and its direction
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/laws/localisation.h"
 
@@ -25,8 +25,8 @@ namespace diptych::continuum
       double p, q, r;
     };
 
-    // With a stress vector (xx, yy, xy) the traction is N^T stress, N = [cos 0; 0 sin; sin cos], and the strain of a jump g is
-    // N g: Q = N^T D N.
+    // With the stress vector (xx, yy, xy) the traction is N^T stress, N = [cos 0; 0 sin; sin cos]. The strain of a jump g is N
+    // g, so Q = N^T D N.
     std::array<Quadratic, 4> acoustic_tensor(const Tangent &d)
     {
       return {Quadratic{d[xx][xx], d[xx][xy] + d[xy][xx], d[xy][xy]}, Quadratic{d[xx][xy], d[xx][yy] + d[xy][xy], d[xy][yy]},
@@ -56,7 +56,7 @@ namespace diptych::continuum
 
     constexpr unsigned int n_directions = 16;
     constexpr double       spacing      = 2 * pi / n_directions;
-    // No direction of the scan lies on an axis: there the two minima of an aligned coaxial state merge at a maximum.
+    // No direction of the scan lies on an axis, because there the two minima of an aligned coaxial state merge at a maximum.
     constexpr double offset = 0.1;
 
     struct Directions
@@ -82,7 +82,7 @@ namespace diptych::continuum
       return values;
     }
 
-    // The minimum near `phi`: Newton's method on f' = 0, downhill by a fixed step where f is not convex.
+    // Finds the minimum near `phi` by Newton's method on f' = 0. Where f is not convex, it takes a fixed step downhill.
     Direction refined(const Harmonics &f, double phi)
     {
       double value = 0;
@@ -94,14 +94,14 @@ namespace diptych::continuum
           value                  = f.mean + f.c1 * c1 + f.s1 * s1 + f.c2 * c2 + f.s2 * s2;
           const double step      = curvature > 0 ? std::clamp(-slope / curvature, -spacing / 2, spacing / 2)
                                                  : -std::copysign(spacing / 4, slope);
-          if (std::abs(step) < 1e-5) // after the step the angle is exact to 1e-10 and the value to rounding
+          if (std::abs(step) < 1e-5) // this step makes the angle exact to 1e-10 and the value exact to round-off
             return {phi + step, value + slope * step / 2};
           phi += step;
         }
       return {phi, value};
     }
 
-    // Angle of the line perpendicular to n = (cos phi/2, sin phi/2); phi is at most a little outside [0, 2 pi].
+    // Angle of the line perpendicular to n = (cos phi/2, sin phi/2). phi is at most slightly outside [0, 2 pi].
     double line_angle(const double phi)
     {
       const double angle = phi / 2 * 180 / pi - 90;
@@ -114,11 +114,11 @@ namespace diptych::continuum
     const double     scale = 1 / (elastic[xx][xx] * elastic[xy][xy]); // isotropic: det Q = (lambda + 2 mu) mu
     const Harmonics  d     = determinant(tangent);
     const Harmonics  f{d.mean * scale, d.c1 * scale, d.s1 * scale, d.c2 * scale, d.s2 * scale};
-    constexpr double same = 1e-9; // of determinants
+    constexpr double same = 1e-9; // tolerance of equal determinants
     if (!(std::abs(f.c1) + std::abs(f.s1) + std::abs(f.c2) + std::abs(f.s2) > same))
       return {f.mean, 0.};
 
-    // f has at most two minima, each in a dip of the scan; the search starts at the parabola's vertex.
+    // f has at most two minima, each in a dip of the scan. The search starts at the vertex of the parabola.
     const auto   values = scan(f);
     Localisation least{std::numeric_limits<double>::infinity(), 0.};
     for (unsigned int k = 0; k < n_directions; ++k)

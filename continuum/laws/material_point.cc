@@ -1,4 +1,4 @@
-// diptych: one homogeneous point driven along the biaxial path
+// diptych: one homogeneous point along the biaxial path
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/laws/material_point.h"
 
@@ -15,7 +15,7 @@ namespace diptych::continuum
   {
     constexpr double degree = 3.14159265358979323846 / 180;
 
-    // Logarithmic strain so far, tension positive, with the state that belongs to it.
+    // Logarithmic strain since the start, tension positive, and the corresponding state.
     struct Point
     {
       MaterialState state;
@@ -29,7 +29,8 @@ namespace diptych::continuum
       MaterialPointStatus status = MaterialPointStatus::finished;
     };
 
-    // sigma_xx(d e_xx) = -pressure. A step of Newton that does not bring the stress nearer, or that the law refuses, is halved.
+    // Solves sigma_xx(d e_xx) = -pressure. Newton's step is halved if it does not reduce the error of the stress or if the law
+    // fails.
     template <class AnyLaw>
     LateralSolution solve_lateral(const AnyLaw        &law,
                                   const MaterialState &s0,
@@ -97,7 +98,7 @@ namespace diptych::continuum
           const double last = d_strain[yy];
           d_strain[yy]      = std::log1p(-end) - point.axial;
           if (last != 0)
-            d_strain[xx] *= d_strain[yy] / last; // the last step is shorter, and far too much of it ends at the tip
+            d_strain[xx] *= d_strain[yy] / last; // scaled, as too large a guess in a shorter last step ends at the tip
           const auto solution = solve_lateral(law, point.state, d_strain, d_time, path.pressure);
           report.status       = solution.status;
           if (report.status != MaterialPointStatus::finished)

@@ -1,4 +1,4 @@
-// diptych: the state of one homogeneous point after a step
+// diptych: state of one homogeneous point after a step
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace diptych::continuum
 {
-  // State after a step. Strain and stress positive in compression. Strain is finite as in a panel with updated geometry: the
-  // law's increments are logarithmic, the columns refer to the initial shape.
+  // State after a step, positive in compression. Strains are finite as in a panel with updated geometry: the increments of the
+  // law are logarithmic, the columns refer to the initial shape.
   struct MaterialPointRow
   {
     double  axial_strain              = 0; // 1 - h/h0 [-]
@@ -20,14 +20,14 @@ namespace diptych::continuum
     double  szz                       = 0; // out of the plane
     double  stress_ratio              = 0; // t/s in the plane
     double  mobilised_friction_angle  = 0; // asin(t/s) [degrees]
-    double  dilatancy_angle           = 0; // asin(-d eps_v / d gamma) of the step's whole strain [degrees]; first row: zero
+    double  dilatancy_angle           = 0; // asin(-d eps_v / d gamma) of the step's total strain [degrees]; first row: zero
     double  equivalent_plastic_strain = 0; // hardening variable [-]
     double  overstress_share          = 0; // viscous overstress / shear strength [-]
     double  dissipation               = 0; // plastic work per initial area since the start [pressure]
     Verdict verdict                   = Verdict::reliable;
   };
 
-  // Every entry of a row in the order of material_point.csv: visit(name of the column, value, unit, meaning).
+  // Calls visit(column name, value, unit, meaning) for every entry of a row, in the order of material_point.csv.
   template <class Row, class Visit, std::enable_if_t<std::is_same_v<std::remove_const_t<Row>, MaterialPointRow>, int> = 0>
   void visit_columns(Row &r, Visit &&visit)
   {

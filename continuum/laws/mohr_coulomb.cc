@@ -29,7 +29,7 @@ namespace diptych::continuum
       return outer(std::hypot((s[xx] - s[yy]) / 2, s[xy]), -(s[xx] + s[yy]) / 2, state.stress_zz);
     }
 
-    // Places of the in-plane major, the in-plane minor stress and sigma_zz among the sorted three.
+    // Positions of the in-plane major stress, the in-plane minor stress and sigma_zz among the sorted three.
     struct Places
     {
       unsigned int major, minor, zz;
@@ -87,9 +87,10 @@ namespace diptych::continuum
     return answer;
   }
 
-  // In-plane shear and pressure and their derivatives: a trial shear moves the in-plane trial stresses apart, a trial pressure
-  // lowers both, and sigma_zz by lateral/plane_bulk of that. Trial stresses equal in the plane end equal (sigma_zz is an outer
-  // stress then, and the plane, the edge or the apex keeps the order), so that ending shear / trial shear = 0 is the limit.
+  // Computes the in-plane shear and pressure with their derivatives. A trial shear separates the in-plane trial stresses. A
+  // trial pressure lowers both, and sigma_zz by lateral/plane_bulk of that. If the in-plane trial stresses are equal, sigma_zz
+  // is an outer stress, and plane, edge or apex keep the order. The final in-plane stresses are then equal too, so final shear
+  // / trial shear = 0 is the limit.
   ConeReturn MohrCoulomb::plane_part(const Trial &trial, const PrincipalReturn &principal) const
   {
     const Places    p = places(trial.shear, trial.pressure, trial.state.stress_zz);

@@ -7,10 +7,11 @@
 
 namespace diptych::continuum
 {
-  // F = t - s sin(phi) - c cos(phi), t and s of the two outer principal stresses, g = t - s sin(psi). Where sigma_zz is
-  // intermediate after it, the in-plane return is exact: sigma_zz is elastic there. Else the return is done in principal
-  // space, on the plane of the outer two stresses, on an edge where two planes meet, or at the apex.
-  // The hardening variable grows by the multiplier, which is d(eps_1 - eps_3) plastic, on an edge by the sum of both.
+  // F = t - s sin(phi) - c cos(phi), t and s of the two outer principal stresses, g = t - s sin(psi). If sigma_zz is the
+  // intermediate stress after the in-plane return, that return is exact, because sigma_zz then is elastic. Otherwise the stress
+  // returns in principal space to the plane of the outer two stresses, to an edge between two planes, or to the apex. The
+  // hardening variable grows by the multiplier, which is the plastic d(eps_1 - eps_3); on an edge by the sum of both
+  // multipliers.
   class MohrCoulomb : public ConeLaw
   {
   public:
@@ -20,10 +21,10 @@ namespace diptych::continuum
         : ConeLaw(options, ConeShape::mohr_coulomb, is_cosserat, units)
     {}
 
-    // Regime::edge where two planes answer; Regime::plastic where one does, be it in the plane of deformation or not.
+    // Regime::edge if two yield planes are active, Regime::plastic if one is, in the plane of deformation or not.
     MaterialUpdate update(const MaterialState &s0, const Strain &d_strain, double d_time) const;
 
-    // Of the outer two of all three principal stresses.
+    // Both refer to the outer two of all three principal stresses.
     double yield_function(const MaterialState &state) const;
     double shear_strength(const MaterialState &state) const;
 

@@ -1,4 +1,4 @@
-// diptych: parameters of the constitutive laws, checked
+// diptych: checks of the parameters of the constitutive laws
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/laws/options.h"
 
@@ -11,7 +11,7 @@ namespace diptych::continuum
 {
   namespace
   {
-    // The comparison is false for what is not a number.
+    // The comparison is also false for NaN.
     void require_range(const std::string &key, const double value, const double low, const double high)
     {
       require(value >= low && value <= high, key, " = ", value, " must lie in [", low, ", ", high, "]");
@@ -35,7 +35,7 @@ namespace diptych::continuum
                    o.dilatancy_angle_peak, o.cohesion);
     }
 
-    // All values decay alike, so that the two ends decide for all between.
+    // All values decay with the same factor, so checking both ends is sufficient.
     void check_residual(const LawOptions &o)
     {
       const double cohesion = o.cohesion_residual.value_or(o.cohesion);
@@ -52,7 +52,8 @@ namespace diptych::continuum
                    o.friction_angle_residual, o.dilatancy_angle_residual, cohesion);
     }
 
-    // phi - psi is a + b exp(-k/k_s) - c exp(-k/k_m), which has one stationary point at most: that and both ends decide.
+    // phi - psi is a + b exp(-k/k_s) - c exp(-k/k_m), which has at most one stationary point. Checking that point and both ends
+    // is sufficient.
     void check_mobilisation(const LawOptions &o)
     {
       require_range("friction_angle_start", o.friction_angle_start, 0, steepest);
@@ -75,7 +76,7 @@ namespace diptych::continuum
                    o.dilatancy_angle_residual + (o.dilatancy_angle_peak - o.dilatancy_angle_residual) * softened, 1);
     }
 
-    // The densest and most mobilised state is that of the start, or what its density allows.
+    // The densest and most mobilised state is either the initial one or the one that the initial density allows.
     void check_critical_state(const LawOptions &o)
     {
       require_range("critical_stress_ratio", o.critical_stress_ratio, 0.01, 0.9);
@@ -94,11 +95,11 @@ namespace diptych::continuum
           const double sine = (ratio - o.critical_stress_ratio) / o.dilatancy_ratio;
           require(sine <= std::max(ratio, 0.), "solid_fraction_start = ", start, ", stress_ratio_start = ", o.stress_ratio_start,
                   ": at t/s = ", ratio, " the sine of the dilatancy angle, ", sine,
-                  ", must not exceed it (plastic work would be negative); dilatancy_ratio or critical_stress_ratio is too small");
+                  ", exceeds t/s, so plastic work would be negative; increase dilatancy_ratio or critical_stress_ratio");
         }
     }
 
-    // Linear between the points, so that the points decide.
+    // Values are linear between the points, so checking the points is sufficient.
     void check_table(const LawOptions &o)
     {
       const std::size_t n = o.table_strain.size();

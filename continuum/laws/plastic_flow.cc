@@ -30,7 +30,7 @@ namespace diptych::continuum
 
   bool weakens_contracting(const ElasticModuli &moduli, const MaterialState &s0, const Strain &d_strain, const MaterialState &s1)
   {
-    constexpr double none = 1e-9; // of the elastic work of such a strain: perfect plasticity has 0
+    constexpr double none = 1e-9; // relative to the elastic work of this strain; perfect plasticity has 0
     double           work = 0, size = 0;
     for (const Component k : {xx, yy, xy})
       {

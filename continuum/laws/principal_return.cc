@@ -9,10 +9,10 @@ namespace diptych::continuum
 {
   namespace
   {
-    // Where several principal stresses are one, the return sees their mean.
+    // Where several principal stresses coincide, the return uses their mean.
     enum class Branch
     {
-      plane,      // sigma_1 > sigma_2 > sigma_3: the plane of the outer two
+      plane,      // sigma_1 > sigma_2 > sigma_3: plane of the outer two
       right_edge, // sigma_2 = sigma_3: planes (1, 3) and (1, 2)
       left_edge   // sigma_1 = sigma_2: planes (1, 3) and (2, 3)
     };
@@ -40,11 +40,12 @@ namespace diptych::continuum
       return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     }
 
-    // Flow of plane (i, j): d eps_i = (1 + sin psi)/2, d eps_j = -(1 - sin psi)/2 times its multiplier. On an edge both
-    // multipliers, of sum lambda, share one or the other; the group's mean strain depends on lambda alone. With D = sin psi,
-    //   right: eps_1 - eps_23 = (3 + D)/4 lambda, left: eps_12 - eps_3 = (3 - D)/4 lambda, volume: D lambda,
-    // so that t = (major - minor)/2 falls by G times that, I1/3 by K D lambda, and the mean of major and minor is I1/3 + t/3 on
-    // the right edge, I1/3 - t/3 on the left one.
+    // Flow of plane (i, j): d eps_i = (1 + sin psi)/2, d eps_j = -(1 - sin psi)/2, times its multiplier. On an edge the two
+    // multipliers with the sum lambda share one principal direction. The mean strain of the two coinciding stresses depends on
+    // lambda only. With D = sin psi,
+    //   right: eps_1 - eps_23 = (3 + D)/4 lambda, left: eps_12 - eps_3 = (3 - D)/4 lambda, volume: D lambda.
+    // Hence t = (major - minor)/2 falls by G times that, and I1/3 falls by K D lambda. The mean of major and minor is I1/3 +
+    // t/3 on the right edge and I1/3 - t/3 on the left one.
     ReturnPath path_of(const Branch branch, const ElasticModuli &moduli, const Principal &trial)
     {
       const Weights w     = weights(branch);
@@ -66,7 +67,7 @@ namespace diptych::continuum
       return path;
     }
 
-    // Derivatives by the trial stresses through t0 = (major - minor)/2 and s0 = -(major + minor)/2.
+    // Derivatives by the trial stresses, through t0 = (major - minor)/2 and s0 = -(major + minor)/2.
     Principal gradient(const Weights &w, const double by_shear, const double by_pressure)
     {
       Principal g;
@@ -107,7 +108,7 @@ namespace diptych::continuum
       }
     };
 
-    // sigma_2 keeps its place between the others and follows the elastic volume strain, -D lambda.
+    // sigma_2 stays between the others and follows the elastic volume strain, -D lambda.
     std::optional<PrincipalReturn> return_to_plane(const Problem &problem)
     {
       const ConeReturn r = problem.solve(Branch::plane);
@@ -124,8 +125,8 @@ namespace diptych::continuum
       return answer;
     }
 
-    // The two multipliers differ by what brings the group's trial stresses together, (difference)/(G (1 -+ sin psi)); the
-    // smaller one must not be negative, but for round-off.
+    // The difference of the two multipliers makes the trial stresses of the group equal: (difference)/(G (1 -+ sin psi)). Apart
+    // from round-off the smaller multiplier must not be negative.
     std::optional<PrincipalReturn> return_to_edge(const Problem &problem, const Branch branch)
     {
       const ConeReturn r = problem.solve(branch);

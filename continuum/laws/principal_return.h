@@ -9,7 +9,7 @@
 
 namespace diptych::continuum
 {
-  // Principal stresses sorted, tension positive: [0] >= [1] >= [2].
+  // Sorted principal stresses, tension positive: [0] >= [1] >= [2].
   using Principal = std::array<double, 3>;
 
   struct PrincipalReturn
@@ -21,11 +21,12 @@ namespace diptych::continuum
     Verdict                  verdict = Verdict::reliable;
   };
 
-  // Return of a trial outside the yield surface to the plane of the outer two stresses, else to the edge with
-  // stress[1] = stress[2] or that with stress[0] = stress[1], else to the apex. All yield planes share one hardening variable,
-  // which grows by the sum of their multipliers, and one viscous overstress, viscous_modulus times that sum. Opening at the apex
-  // does not harden. Method: de Souza Neto, Peric, Owen, Computational Methods for Plasticity (2008), chapter 8; since the two
-  // multipliers of an edge differ by what makes two trial stresses meet, only their sum is left to be solved for.
+  // Returns a trial stress from outside the yield surface to the plane of the two outer stresses. If that fails, the stress
+  // returns to the edge with stress[1] = stress[2], the edge with stress[0] = stress[1], or the apex. All yield planes share
+  // one hardening variable, which grows by the sum of their multipliers. They share one viscous overstress, viscous_modulus
+  // times that sum. Opening at the apex does not harden. Method: de Souza Neto, Peric, Owen, Computational Methods for
+  // Plasticity (2008), chapter 8. The difference of the two multipliers of an edge follows from the condition that two trial
+  // stresses become equal. Only the sum remains to be solved for.
   PrincipalReturn return_in_principal_space(const YieldCone      &cone,
                                             const ElasticModuli  &moduli,
                                             const HardeningState &start,

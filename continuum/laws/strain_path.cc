@@ -1,4 +1,4 @@
-// diptych: one homogeneous point driven along prescribed strains
+// diptych: one homogeneous point along prescribed strains
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/laws/strain_path.h"
 
@@ -20,13 +20,13 @@ namespace diptych::continuum
 
     void validate(const StrainPath &path)
     {
-      demand_tensor(path.stress, "stress at the start");
+      demand_tensor(path.stress, "the initial stress");
       if (path.strain.empty())
-        throw std::invalid_argument("strain_path must hold a strain at least");
+        throw std::invalid_argument("strain_path is empty: give at least one strain");
       for (std::size_t k = 0; k < path.strain.size(); ++k)
         demand_tensor(path.strain[k], "strain_path[" + std::to_string(k) + "]");
       if (!path.time.empty() && path.time.size() != path.strain.size())
-        throw std::invalid_argument("time must have one entry a strain (" + std::to_string(path.strain.size()) + "), it has " +
+        throw std::invalid_argument("time must have one entry per strain, " + std::to_string(path.strain.size()) + ", but has " +
                                     std::to_string(path.time.size()));
     }
 

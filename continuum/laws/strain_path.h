@@ -1,4 +1,4 @@
-// diptych: one homogeneous point driven along prescribed strains
+// diptych: one homogeneous point along prescribed strains
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -12,14 +12,14 @@
 
 namespace diptych::continuum
 {
-  // Strain and stress positive in compression, plane strain. Strains are total, and their increments are handed to the law as
-  // they are: logarithmic ones make a finite deformation. Cosserat laws: no relative rotation, no curvature.
+  // Plane strain; strain and stress are positive in compression. Strains are total. The law receives their increments
+  // unchanged, so logarithmic strains describe a finite deformation. Cosserat laws see no relative rotation and no curvature.
   struct StrainPath
   {
     Eigen::Matrix2d              stress    = Eigen::Matrix2d::Zero(); // at the start, symmetric [pressure]
     double                       stress_zz = 0;                       // at the start [pressure]
-    std::vector<Eigen::Matrix2d> strain;                              // symmetric, the first one is that of the start
-    std::vector<double>          time;                                // as many, for viscosity alone; empty: rate independent
+    std::vector<Eigen::Matrix2d> strain;                              // symmetric; the first is that of the start
+    std::vector<double>          time; // one per strain, only used for viscosity; empty: rate independent
   };
 
   struct StrainPathRow
@@ -31,9 +31,9 @@ namespace diptych::continuum
     Verdict         verdict                   = Verdict::reliable;
   };
 
-  // The start, then one row a strain; shorter than the path where the law failed.
-  // Throws std::invalid_argument as make_law() does, and naming the entry of the path that is not finite or not symmetric, or
-  // the number of times where it is wrong.
+  // Returns the start, then one row per strain. The list is shorter than the path if the law failed. Throws
+  // std::invalid_argument under the same conditions as make_law(). It also rejects an entry of the path that is not finite or
+  // not symmetric, and a wrong number of times.
   std::vector<StrainPathRow> drive_strain_path(LawKind           law,
                                                const LawOptions &options,
                                                const Units      &units,

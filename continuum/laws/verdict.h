@@ -1,4 +1,4 @@
-// diptych: how far a law's answer can be trusted
+// diptych: reliability of a law's answer
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -6,8 +6,8 @@
 
 namespace diptych::continuum
 {
-  // How far a law's answer can be trusted. `failed`: stress and tangent are meaningless, the step must be cut.
-  // `unreliable`: the return converged, but softening was so fast that the answer may not be the only one.
+  // Reliability of a law's answer. `failed`: stress and tangent are meaningless and the step must be cut. `unreliable`: the
+  // return converged, but softening is so fast that the answer may not be unique.
   enum class Verdict
   {
     reliable,

@@ -17,7 +17,7 @@ namespace diptych::continuum
             std::cos(strength.dilatancy) * strength.dilatancy_rate};
   }
 
-  // With S = sin phi, D = sin psi: 3 beta = sqrt3 D / w and sqrt(1 - 3 beta^2) = sqrt3 / w where w = sqrt(3 + D^2), hence
+  // With S = sin phi, D = sin psi and w = sqrt(3 + D^2): 3 beta = sqrt3 D / w and sqrt(1 - 3 beta^2) = sqrt3 / w, hence
   //   3 alpha = sqrt3 w S / (3 + S D),  k = c cos phi (1 - S D/(3 + S D)) w/sqrt3 = sqrt3 w c cos phi / (3 + S D).
   Cone drucker_prager_cone(const Strength &strength)
   {

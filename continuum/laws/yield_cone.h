@@ -6,7 +6,7 @@
 
 namespace diptych::continuum
 {
-  // F = |q| - s slope - intercept, s the pressure (positive in compression) and q a deviatoric vector; the plastic volume
+  // F = |q| - s slope - intercept, with the pressure s (positive in compression) and a deviatoric vector q. The plastic volume
   // strain is `dilation` times the plastic multiplier. A `_rate` is the derivative by the hardening variable.
   struct Cone
   {
@@ -24,8 +24,8 @@ namespace diptych::continuum
   // slope = sin phi, intercept = c cos phi, dilation = sin psi.
   Cone mohr_coulomb_cone(const Strength &strength);
 
-  // slope = 3 alpha, intercept = k, dilation = 3 beta of F = sqrt(J2) + alpha I1 - k and G = sqrt(J2) + beta I1, matched to
-  // phi, psi and c in plane-strain flow, for any psi:
+  // slope = 3 alpha, intercept = k, dilation = 3 beta of F = sqrt(J2) + alpha I1 - k and G = sqrt(J2) + beta I1. They are
+  // matched to phi, psi and c in plane-strain flow, for any psi:
   //   beta  = sin psi / sqrt(9 + 3 sin^2 psi),  alpha = sin phi / (3 (sqrt(1 - 3 beta^2) + beta sin phi)),
   //   k     = c cos phi (1 - 3 alpha beta) / sqrt(1 - 3 beta^2).
   Cone drucker_prager_cone(const Strength &strength);
@@ -37,7 +37,7 @@ namespace diptych::continuum
 
     Cone at(const double equivalent_plastic_strain) const { return at(HardeningState{equivalent_plastic_strain}); }
     Cone at(const HardeningState &state) const { return of(hardening.at(state)); }
-    // At the end of a step, with the dilation over it.
+    // The cone at the end of a step, with the mean dilation over that step.
     Cone over(const HardeningState &start, const double multiplier) const
     {
       Cone       c    = at(hardening.after(start, multiplier));

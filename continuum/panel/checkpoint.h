@@ -1,4 +1,4 @@
-// diptych: what the continuum panel goes on from
+// diptych: checkpoint of the continuum panel
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -12,15 +12,15 @@
 
 namespace diptych::continuum
 {
-  // Plain values, independent of the number of processes but for the preconditioner.
+  // Plain values. Except for the preconditioner they do not depend on the number of processes.
   struct Checkpoint
   {
-    std::vector<std::string>              cells;     // deal.II's CellId as text of every active cell, sorted
-    std::vector<std::vector<std::string>> divisions; // those that each refinement divided, in the order of time
+    std::vector<std::string>              cells;     // CellId of every active cell as text (deal.II), sorted
+    std::vector<std::vector<std::string>> divisions; // cells divided by each refinement, in order of time
     int                                   values_per_cell = 0;
     std::vector<double> values; // cells.size() x values_per_cell, row by row: nodal values and point states of one cell
 
-    int                            stage    = 0; // how many are reached
+    int                            stage    = 0; // number of stages reached
     double                         progress = 0, step = 0, last_step = 0;
     std::array<Eigen::Vector2d, 2> platen_force{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}; // on the sample
     std::optional<double>          localisation_progress;
@@ -28,14 +28,14 @@ namespace diptych::continuum
     int    steps = 0, cut_backs = 0, newton_iterations = 0, refinements = 0, linear_iterations = 0, factorisations = 0;
     double point_cpu_s = 0, assembly_cpu_s = 0, geometry_cpu_s = 0, solve_cpu_s = 0;
 
-    // Matrices behind the preconditioner, without which the linear solves would go other ways: values in the order of the
-    // tangent's pattern. Empty where the panel ran on several processes.
+    // Matrices behind the preconditioner, as values in the order of the tangent's pattern. Without them the linear solves would
+    // take other iterations. Empty if the panel ran on several processes.
     bool                             preconditioner_is_stale = true;
     std::vector<double>              analysed_matrix, factorised_matrix;
     std::vector<std::vector<double>> rigid_modes;
   };
 
-  // Every entry: visit(name, member).
+  // Calls visit(name, member) for every entry.
   template <class AnyCheckpoint, class Visit> void visit_entries(AnyCheckpoint &c, Visit &&visit)
   {
     visit("cells", c.cells), visit("divisions", c.divisions);

@@ -27,7 +27,7 @@ namespace diptych::continuum
       return mesh;
     }
 
-    // Both platens are level, the upper one above, and the left side is left of the right one.
+    // Checks that both platens are level, the upper one above the lower one, and the left side left of the right one.
     void check_places(const Discretisation &mesh)
     {
       std::array<Eigen::Vector2d, 5> mean;
@@ -48,7 +48,7 @@ namespace diptych::continuum
     }
   } // namespace
 
-  // A sample under way.
+  // A sample during its loading.
   class Panel::Course
   {
   public:
@@ -77,7 +77,7 @@ namespace diptych::continuum
       std::vector<double> numbers;
       for (const auto &tensor : stress)
         numbers.insert(numbers.end(), tensor.data(), tensor.data() + 4);
-      numbers = of_my_cells(numbers, 4, "initial stress");
+      numbers = local_part(numbers, 4, "initial stress");
       std::vector<Eigen::Matrix2d> of_mine;
       for (std::size_t c = 0; c < numbers.size(); c += 4)
         of_mine.push_back(Eigen::Map<const Eigen::Matrix2d>(&numbers[c]));
@@ -87,28 +87,28 @@ namespace diptych::continuum
 
     void set_initial_solid_fraction(const std::vector<double> &solid_fraction)
     {
-      problem_.set_initial_solid_fraction(of_my_cells(solid_fraction, 1, "initial solid fraction"));
+      problem_.set_initial_solid_fraction(local_part(solid_fraction, 1, "initial solid fraction"));
       has_solid_fraction_ = true;
     }
 
     void prepare()
     {
       require(options_.initial_stress == InitialStress::isotropic || has_stress_,
-              "initial_stress = mapped: there is no stress to map");
+              "initial_stress = mapped: no stress was given to map");
       require(options_.material.hardening != HardeningKind::critical_state || !traits(options_.law).is_plastic ||
                 options_.material.solid_fraction_start || has_solid_fraction_,
-              "solid_fraction_start = auto: there is no solid fraction to map");
+              "solid_fraction_start = auto: no solid fraction was given to map");
       if (report.status == Status::stopped_by_user)
         report = resumed(report);
       if (const auto why = driver_.equilibrate(); !why.empty())
         return end_early(why);
       is_at_rest_ = true;
-      tell_row();
+      report_row();
     }
 
     void load_to_stage(const int wanted)
     {
-      require(wanted <= int(loading_.stages.size()), "stage ", wanted, " of ", loading_.stages.size());
+      require(wanted <= int(loading_.stages.size()), "stage ", wanted, " does not exist; last stage: ", loading_.stages.size());
       if (report.status == Status::stopped_by_user && !is_at_rest_)
         prepare();
       else if (report.status == Status::stopped_by_user)
@@ -146,8 +146,8 @@ namespace diptych::continuum
     Snapshot snapshot() const { return make_snapshot(problem_, loading_); }
 
   private:
-    // Of the first process's numbers, `width` for each cell of all processes one after the other as the snapshot lists them.
-    std::vector<double> of_my_cells(const std::vector<double> &given, const std::size_t width, const char *what) const
+    // Returns this process's part of the first process's numbers: `width` per cell, in the order of the cells in the snapshot.
+    std::vector<double> local_part(const std::vector<double> &given, const std::size_t width, const char *what) const
     {
       const std::vector<double> numbers = dealii::Utilities::MPI::broadcast(communicator_, given);
       const unsigned int        mine    = problem_.discretisation().cells.size();
@@ -175,7 +175,7 @@ namespace diptych::continuum
 
     static Report resumed(Report report)
     {
-      report.status = Status::finished; // and now it is to go on
+      report.status = Status::finished; // the run continues now
       report.message.clear();
       return report;
     }
@@ -188,7 +188,7 @@ namespace diptych::continuum
         return note_stop();
       if (const auto why = driver_.step_towards(end); !why.empty())
         return end_early(why);
-      tell_row();
+      report_row();
     }
 
     void note_stop()
@@ -206,7 +206,7 @@ namespace diptych::continuum
       describe();
     }
 
-    void tell_row()
+    void report_row()
     {
       const auto row = make_history_row(problem_, driver_, loading_);
       if (row.step > 0 && !report.localisation_progress && row.least_acoustic_determinant <= 0)
@@ -223,7 +223,7 @@ namespace diptych::continuum
         hooks_.on_progress("continuum", row.progress / loading_.stages.back());
     }
 
-    // Where the panel stands and what it took.
+    // Updates the position on the loading path and the counts.
     void describe()
     {
       const Progress now       = progress_of(problem_, loading_);
@@ -245,7 +245,7 @@ namespace diptych::continuum
     LoadDriver           driver_;
     bool                 has_stress_         = false;
     bool                 has_solid_fraction_ = false;
-    bool                 is_at_rest_         = false; // or was, before the loading
+    bool                 is_at_rest_         = false; // true once equilibrium at rest was found
   };
 
   Panel::Panel(const QuadMesh &mesh,

@@ -29,31 +29,32 @@ namespace diptych::continuum
   struct Report
   {
     Status                status       = Status::finished;
-    double                progress     = 0;                   // reached, of what the loading walks along
+    double                progress     = 0;                   // loading variable reached
     double                axial_strain = 0, shear_strain = 0; // reached
     std::string           message;                            // empty when finished
     unsigned int          n_cells = 0, n_unknowns = 0;
     int                   steps = 0, cut_backs = 0, newton_iterations = 0;
-    std::optional<double> localisation_progress;  // at which the acoustic tensor first had a negative determinant
-    double                localisation_angle = 0; // of the line that could form there [degrees from the horizontal]
+    std::optional<double> localisation_progress;  // at the first negative determinant of the acoustic tensor
+    double                localisation_angle = 0; // of the band that could form there [degrees from the horizontal]
   };
 
-  // All optional. On several processes stop_requested and before_step are asked of all of them, the others of the first alone.
+  // All hooks are optional. On several processes stop_requested and before_step are called on all of them, the others only on
+  // the first.
   struct Hooks
   {
-    std::function<bool()> stop_requested; // asked between phases of the set-up, before every step and linear solve
-    std::function<void()> before_step;    // where a checkpoint may be taken
+    std::function<bool()> stop_requested; // called between set-up phases, before every step and before every linear solve
+    std::function<void()> before_step;    // a checkpoint may be taken here
     std::function<void(const std::string &phase, double fraction)> on_progress;
-    std::function<void(const HistoryRow &)> on_row; // of every accepted step and of the state at rest (step 0)
+    std::function<void(const HistoryRow &)> on_row; // for every accepted step and the state at rest (step 0)
   };
 
-  // One sample, from rest to the end of its loading. Any number of panels may live in one process. MPI must have been initialised
-  // (dealii::Utilities::MPI::MPI_InitFinalize); all functions are collective over the communicator, with the same arguments.
+  // One sample, from rest to the end of its loading. A process may hold any number of panels. MPI must be initialised
+  // (dealii::Utilities::MPI::MPI_InitFinalize). All functions are collective over the communicator and take the same arguments.
   class Panel
   {
   public:
-    // `units`: what keys of `options` count in. Throws std::invalid_argument on a mesh, a loading or options that are wrong or
-    // contradict each other, SetUpStopped (stopping.h) where hooks.stop_requested says so.
+    // `units` are the units of the options' keys. Throws std::invalid_argument if mesh, loading or options are wrong or
+    // contradict each other. Throws SetUpStopped (stopping.h) if hooks.stop_requested returns true.
     Panel(const QuadMesh &mesh,
           const Units    &units,
           const Loading  &loading,
@@ -64,31 +65,30 @@ namespace diptych::continuum
     Panel(Panel &&) noexcept;
     Panel &operator=(Panel &&) noexcept;
 
-    // Before prepare(), in the place of the isotropic stress: one tensor for each cell of snapshot(), positive in compression
-    // [pressure]. The first process's is taken.
+    // To be called before prepare(). Replaces the isotropic stress by one tensor per cell of snapshot(), positive in
+    // compression [pressure]. The panel uses the tensors of the first process.
     void set_initial_stress(const std::vector<Eigen::Matrix2d> &stress);
 
-    // The same for solid_fraction_start = auto: one number for each cell [-].
+    // The same for solid_fraction_start = auto, with one number per cell [-].
     void set_initial_solid_fraction(const std::vector<double> &solid_fraction);
 
-    // Once: finds equilibrium at rest, or takes up a loading where it was left, on any number of processes: the first
-    // one's is taken. Throws std::invalid_argument for a checkpoint of another mesh.
+    // To be called once. prepare() finds equilibrium at rest. resume() continues from a checkpoint on any number of processes:
+    // it uses that of the first process and throws std::invalid_argument if it belongs to another mesh.
     [[nodiscard]] Status prepare();
     void                 resume(const Checkpoint &checkpoint);
 
-    // Loads up to stage 1, 2, ... number of stages. A step that does not converge is halved; where that does not help, the panel
-    // stays where it is and the report says why. One that is stopped on request between two Newton iterations leaves it as it was
-    // before that step; asked again, the panel goes on from there, to the bits of one that was not stopped.
+    // Loads up to stage 1, 2, ... number of stages. A step that does not converge is halved. If that does not help, the panel
+    // keeps its last accepted state and the report gives the reason. A stop on request between two Newton iterations restores
+    // the state before that step. A later call continues with the same bits as an uninterrupted panel.
     [[nodiscard]] Status advance_to(int stage);
 
-    // Of the last accepted step. Complete on the first process only.
+    // State of the last accepted step. Complete only on the first process.
     Snapshot snapshot() const;
 
-    // On one process a panel that goes on from it gives the same bits as one that was never interrupted. Complete on the first
-    // process only.
+    // On one process a panel resumed from it gives the same bits as an uninterrupted one. Complete only on the first process.
     Checkpoint    checkpoint() const;
     const Report &report() const;
-    int           stage() const; // how many are reached
+    int           stage() const; // number of stages reached
 
   private:
     class Course;

@@ -1,4 +1,4 @@
-// diptych: the walk of a problem along its load path, put down and taken up again
+// diptych: checkpoint and restart of a problem on its loading path
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/panel/problem_checkpoint.h"
 
@@ -25,7 +25,7 @@ namespace diptych::continuum
       return ids;
     }
 
-    // A cell's record, then determinant and angle of its points.
+    // The record of a cell, then determinant and angle of its points.
     std::size_t values_per_cell(const ReferenceElement &reference)
     {
       return record_length(reference) + 2 * reference.n_points;
@@ -48,7 +48,7 @@ namespace diptych::continuum
       return values;
     }
 
-    // What all processes divided, refinement by refinement.
+    // Divisions by all processes, refinement by refinement.
     Divisions all_divisions(const Divisions &mine, const MPI_Comm communicator)
     {
       Divisions all(mine.size());
@@ -130,14 +130,14 @@ namespace diptych::continuum
     const std::size_t length = values_per_cell(mesh.reference);
     require(c.values_per_cell == int(length) && mesh.triangulation.n_global_active_cells() == c.cells.size() &&
               c.values.size() == c.cells.size() * length,
-            "the checkpoint's cells are not those of this mesh");
+            "the checkpoint belongs to another mesh: number or size of its cells differ");
     problem.rebuild();
     std::vector<CellRecord>   records;
     std::vector<Localisation> localisation;
     for (const auto &id : owned_cells(mesh))
       {
         const auto found = std::lower_bound(c.cells.begin(), c.cells.end(), id);
-        require(found != c.cells.end() && *found == id, "the checkpoint's cells are not those of this mesh: it has no ", id);
+        require(found != c.cells.end() && *found == id, "the checkpoint belongs to another mesh: it has no cell ", id);
         const double *row = &c.values[std::size_t(found - c.cells.begin()) * length], *end = row + length;
         records.emplace_back(row, row + record_length(mesh.reference));
         for (row += record_length(mesh.reference); row < end; row += 2)
@@ -159,7 +159,7 @@ namespace diptych::continuum
     auto &solver = driver.linear_solver();
     require(solver.take_up({c.preconditioner_is_stale, c.analysed_matrix, c.factorised_matrix, c.rigid_modes},
                            problem.tangent_matrix()),
-            "the checkpoint's matrices are not those of this mesh and loading");
+            "the matrices of the checkpoint belong to another mesh or loading");
     solver.go_on_counting(c.linear_iterations, c.factorisations, c.solve_cpu_s);
   }
 } // namespace diptych::continuum

@@ -1,4 +1,4 @@
-// diptych: what the continuum panel shows of its state, positive in compression
+// diptych: state of the continuum panel for output, positive in compression
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/panel/sample_state.h"
 
@@ -17,7 +17,7 @@ namespace diptych::continuum
 
   namespace
   {
-    // Row: component of the force, column: normal of the face. A Cosserat stress has a skew part.
+    // Row: component of the force; column: normal of the face. A Cosserat stress has a skew part.
     Eigen::Matrix3d compression_positive(const MaterialState &point)
     {
       const auto     &s    = point.stress;
@@ -78,7 +78,7 @@ namespace diptych::continuum
       return shape;
     }
 
-    // Means over one cell by current area.
+    // Means over one cell, weighted by current area.
     CellState cell_state(const BoundaryValueProblem &problem, const Shape &shape, const std::size_t c)
     {
       const auto      &mesh      = problem.discretisation();
@@ -122,8 +122,8 @@ namespace diptych::continuum
       return state;
     }
 
-    // A node of a snapshot. Two nodes of the mesh that it lies between tell it apart on all processes (twice the same, where
-    // it is one itself); a third number does for the centre of a four-node element.
+    // A node of a snapshot. The key identifies it on all processes by the ids of the two mesh nodes between which it lies. A
+    // mesh node has its own id twice. A third number marks the centre of a four-node element.
     struct NodeEntry
     {
       std::array<double, 3> key;
@@ -168,12 +168,12 @@ namespace diptych::continuum
       return s;
     }
 
-    // deal.II's order of FE_Q(2) -> corners counter-clockwise, middles of the edges, centre.
+    // Maps deal.II's order of FE_Q(2) to corners counter-clockwise, midpoints of the edges, centre.
     constexpr unsigned int vtk_order[9] = {0, 1, 3, 2, 6, 5, 7, 4, 8};
-    // The corners that each of FE_Q(2)'s nodes lies between.
+    // The corners between which each node of FE_Q(2) lies.
     constexpr unsigned int between[9][2] = {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {0, 2}, {1, 3}, {0, 1}, {2, 3}, {0, 3}};
 
-    // The nine nodes of a cell in deal.II's order; those that a four-node element lacks by interpolation.
+    // The nine nodes of a cell in deal.II's order. Nodes that a four-node element lacks are interpolated.
     std::array<NodeEntry, 9> cell_nodes(const BoundaryValueProblem &problem, const Shape &shape, const std::size_t c)
     {
       const auto              &mesh  = problem.discretisation();
@@ -253,18 +253,18 @@ namespace diptych::continuum
         matrix.data()[k] = sum(matrix.data()[k], communicator);
     }
 
-    // Sets the four numbers of a snapshot or row that say how far it is.
-    template <class Told> void tell_progress(const BoundaryValueProblem &problem, const Loading &loading, Told &told)
+    // Sets the progress of a snapshot or a row.
+    template <class Target> void set_progress(const BoundaryValueProblem &problem, const Loading &loading, Target &target)
     {
-      const Progress now = progress_of(problem, loading);
-      told.progress      = now.progress;
-      told.axial_strain  = now.axial_strain;
-      told.shear_strain  = now.shear_strain;
-      told.time          = now.time;
-      told.walk          = loading.walk;
+      const Progress now  = progress_of(problem, loading);
+      target.progress     = now.progress;
+      target.axial_strain = now.axial_strain;
+      target.shear_strain = now.shear_strain;
+      target.time         = now.time;
+      target.walk         = loading.walk;
     }
 
-    // Sums over the points of all processes that a row of the history shows.
+    // Adds the sums over the points of all processes to a row of the history.
     void add_point_sums(const BoundaryValueProblem &problem, HistoryRow &row)
     {
       const auto &mesh     = problem.discretisation();
@@ -324,7 +324,7 @@ namespace diptych::continuum
     const Eigen::Vector2d travel = problem.platen_travel(true) / problem.discretisation().extent.y();
     Progress              now{problem.progress(), -travel.y(), travel.x(), problem.progress() * loading.time_per_progress};
     if (loading.walk == Walk::axial_strain)
-      now.axial_strain = now.progress; // as prescribed, without round-off
+      now.axial_strain = now.progress; // the prescribed value has no round-off
     if (loading.walk == Walk::shear_strain)
       now.shear_strain = now.progress;
     if (loading.walk == Walk::time)
@@ -344,7 +344,7 @@ namespace diptych::continuum
         append(mine, cell_state(problem, shape, c));
       }
     Snapshot snapshot;
-    tell_progress(problem, loading, snapshot);
+    set_progress(problem, loading, snapshot);
     std::map<std::array<double, 3>, unsigned int> node_of_key;
     for (const auto &part : dealii::Utilities::MPI::gather(mesh.communicator(), mine))
       for (std::size_t at = 0; at < part.size(); at += 9 * entry_length + n_state)
@@ -361,7 +361,7 @@ namespace diptych::continuum
     const auto &count = driver.state().count;
     HistoryRow  row;
     row.step = count.steps;
-    tell_progress(problem, loading, row);
+    set_progress(problem, loading, row);
     add_point_sums(problem, row);
     add_localisation(problem, row);
     row.stress_ratio       = stress_ratio(row.mean_stress);

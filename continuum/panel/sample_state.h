@@ -1,4 +1,4 @@
-// diptych: what the continuum panel shows of its state, positive in compression
+// diptych: state of the continuum panel for output, positive in compression
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -9,14 +9,14 @@
 
 namespace diptych::continuum
 {
-  // How far the loading is, in every sense that it has. Collective.
+  // Progress of the loading in all its measures. Collective.
   struct Progress
   {
     double progress = 0, axial_strain = 0, shear_strain = 0, time = 0;
   };
   Progress progress_of(const BoundaryValueProblem &problem, const Loading &loading);
 
-  // The one place where the sign is turned. Both are collective; the first process gets all, the others nothing of use.
+  // Only these two functions convert the sign. Both are collective; only the result on the first process is valid.
   Snapshot   make_snapshot(const BoundaryValueProblem &problem, const Loading &loading);
   HistoryRow make_history_row(const BoundaryValueProblem &problem, const LoadDriver &driver, const Loading &loading);
 } // namespace diptych::continuum

@@ -1,4 +1,4 @@
-// diptych: samples, loadings and whole courses that the tests of the continuum panel share
+// diptych: samples, loadings and runs that the tests of the continuum panel share
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -33,7 +33,7 @@ namespace diptych::continuum::tests
     return outline;
   }
 
-  // Perfect plasticity: nothing hardens or softens.
+  // Perfect plasticity: no hardening and no softening.
   inline Options perfectly_plastic(const LawKind law, const double friction, const double dilatancy, const double cohesion)
   {
     Options options;
@@ -59,29 +59,29 @@ namespace diptych::continuum::tests
     return options;
   }
 
-  // All accepted steps of one length.
+  // All accepted steps have the same length.
   inline Options with_steps(Options options, const double step)
   {
     options.initial_step = options.max_step = step;
     return options;
   }
 
-  // What may be asked of a course beside its scene.
+  // Optional requests to a run.
   struct Wishes
   {
     std::function<std::vector<Eigen::Matrix2d>(const Snapshot &)> initial_stress; // of the cells
-    std::function<bool(std::size_t n_rows)>                       stop_requested; // on the first process: after n_rows were told
+    std::function<bool(std::size_t n_rows)>                       stop_requested; // called on the first process
     const Checkpoint                                             *resume       = nullptr;
     MPI_Comm                                                      communicator = MPI_COMM_WORLD;
   };
 
-  // What a panel told on its way, and how it ended. A snapshot of every stage, and one of an early end.
+  // Result of a run of one panel: its rows, a snapshot of every stage reached and one of an early end.
   struct Course
   {
     Report                  report;
     std::vector<Snapshot>   snapshots;
     std::vector<HistoryRow> rows;
-    Checkpoint              checkpoint; // of the end
+    Checkpoint              checkpoint; // at the end
 
     const HistoryRow &end() const { return rows.back(); }
   };
@@ -111,7 +111,7 @@ namespace diptych::continuum::tests
     return result;
   }
 
-  // A course that must come to its end.
+  // A run that must reach its end.
   inline Course finished(const QuadMesh &mesh, const Loading &loading, const Options &options)
   {
     Course result = course(mesh, loading, options);

@@ -1,4 +1,4 @@
-// diptych: the continuum panel's tests, on one process or several
+// diptych: main function of the continuum panel's tests, on one process or several
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/mpi.h>
 
@@ -9,8 +9,8 @@
 
 namespace
 {
-  // What MPI asks for when it starts is not looked at, and the rest before it ends: then it closes its plugins, and what they
-  // kept belongs to nobody.
+  // The leak checker ignores what MPI allocates at its start and checks the rest before MPI ends. MPI then closes its plugins,
+  // and their memory would be reported as lost.
   int run_between(int &argc, char **&argv)
   {
 #ifdef __SANITIZE_ADDRESS__

@@ -1,4 +1,4 @@
-// diptych: boundary-value problems taken apart: increments, refined meshes, columns of the tangent
+// diptych: parts of boundary-value problems for tests: increments, refined meshes, fields
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -12,7 +12,8 @@
 
 namespace diptych::continuum::tests
 {
-  // Divides the cells whose lower left corner lies within `radius` of `at`, and what refine() divides around them.
+  // Divides the cells whose lower left corner lies within `radius` of `at`, and the cells around them that refine() also
+  // divides.
   inline void refine_around(BoundaryValueProblem &problem, const Eigen::Vector2d &at, const double radius)
   {
     const auto         &mesh = problem.discretisation();
@@ -23,7 +24,7 @@ namespace diptych::continuum::tests
     ASSERT_TRUE(refine(problem, {1, 0.5}, wish, last));
   }
 
-  // Steps up to `progress`. Empty text, or why it was not reached.
+  // Steps up to `progress`. Returns an empty text, or the reason why it was not reached.
   inline std::string advance(const BoundaryValueProblem &problem, LoadDriver &driver, const double progress)
   {
     while (problem.progress() < progress)
@@ -32,7 +33,7 @@ namespace diptych::continuum::tests
     return {};
   }
 
-  // Every component between -size and size; the generator is seeded.
+  // Every component lies between -size and size. The generator is seeded.
   inline DistributedVector random_increment(const BoundaryValueProblem &problem, const double size, const unsigned int seed)
   {
     std::mt19937 random(seed);
@@ -43,7 +44,7 @@ namespace diptych::continuum::tests
     return increment;
   }
 
-  // Displacement A x, and its rotation.
+  // Displacement A x and its rotation.
   inline DistributedVector linear_field(const BoundaryValueProblem &problem, const Eigen::Matrix2d &A)
   {
     auto field = problem.zero_vector();
@@ -59,8 +60,8 @@ namespace diptych::continuum::tests
     return field;
   }
 
-  // A structured mesh of n x m cells whose inner vertices are pushed about by a tenth or two of a cell; the outline is the
-  // rectangle [0, n] x [0, m], its sides match.
+  // A structured mesh of n x m cells. Inner vertices are displaced by up to 0.2 of a cell. The outline is the rectangle [0, n]
+  // x [0, m]; its sides match.
   inline QuadMesh distorted_mesh(const unsigned int n, const unsigned int m)
   {
     QuadMesh   mesh;

@@ -1,4 +1,4 @@
-// diptych: kernels of the elements and what a problem makes of them: work, patches, rotation
+// diptych: element kernels and their use in a problem: virtual work, patch test, rotation of stress
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <set>
 #include <type_traits>
@@ -47,8 +47,8 @@ namespace
     return cell.points[p].area * (stress * strain_at<Element>(reference, cell, p, u));
   }
 
-  // Virtual work: f . u = sum of stress . strain(u) area, for every stress and every u, on a distorted element; a classical
-  // element has no couple stress to work with.
+  // Virtual work: f . u = sum of stress . strain(u) area, for every stress and every u, on a distorted element. A classical
+  // element has no work of couple stress.
   TEST(Element, NodalForcesDoTheWorkOfTheStress)
   {
     const QuadMesh file = distorted_mesh(3, 3);
@@ -79,7 +79,7 @@ namespace
       }
   }
 
-  // K u = B^T (D (B u)) for every, also unsymmetric, D.
+  // K u = B^T (D (B u)) for every D, symmetric or not.
   TEST(Element, StiffnessIsThatOfItsOwnKernels)
   {
     const QuadMesh file = distorted_mesh(3, 3);
@@ -117,7 +117,7 @@ namespace
       }
   }
 
-  // Mean dilation: the four points of an element have one volume strain, whatever the displacement, and shear of their own.
+  // Mean dilation: for any displacement the four points of an element have the same volume strain, but different shear.
   TEST(Element, MeanDilationIsOneVolumeStrainPerElement)
   {
     using Element             = Q1MeanDilation;
@@ -148,8 +148,8 @@ namespace
     return options;
   }
 
-  // Patch test: a linear displacement on distorted elements, with hanging nodes, too, gives its constant stress at every point
-  // and no force on any inner node.
+  // Patch test: a linear displacement on distorted elements, also with hanging nodes. It gives its constant stress at every
+  // point and no force on any inner node.
   TEST(Element, LinearDisplacementIsReproducedOnDistortedElements)
   {
     const QuadMesh  file = distorted_mesh(5, 4);
@@ -194,8 +194,8 @@ namespace
         }
   }
 
-  // A quarter turn in steps of one degree, with hardly any stiffness: the stress comes out turned, xx and yy exchanged, couple
-  // stress turned as a vector. The spin of a step is sin 1 degree: the angle falls short by 90 (d - sin d) = 8.0e-5.
+  // A quarter turn in steps of one degree, with hardly any stiffness. Afterwards xx and yy are exchanged, and the couple stress
+  // is rotated as a vector. The spin of a step is sin 1 degree, so the total angle is too small by 90 (d - sin d) = 8.0e-5.
   TEST(Element, StressTurnsWithTheMaterial)
   {
     const QuadMesh file                     = distorted_mesh(2, 2);

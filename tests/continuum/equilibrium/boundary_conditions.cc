@@ -1,4 +1,4 @@
-// diptych: what platens and sides carry, and how they move
+// diptych: forces and motion of platens and sides
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <tuple>
@@ -14,7 +14,7 @@ namespace
   using namespace diptych::continuum;
   using namespace diptych::continuum::tests;
 
-  // Nodes of a snapshot whose initial place fulfils a condition, ascending by height and place.
+  // Nodes of a snapshot whose initial position satisfies a condition, sorted by height, then horizontal position.
   template <class Condition> std::vector<std::size_t> nodes_where(const Snapshot &s, const Condition &condition)
   {
     std::vector<std::size_t> nodes;
@@ -32,7 +32,7 @@ namespace
     return nodes_where(s, [x](const Eigen::Vector2d &p) { return std::abs(p.x() - x) < 1e-9; });
   }
 
-  // A weak spot, so that fields are not homogeneous.
+  // The weak spot makes the fields inhomogeneous.
   Options with_weak_spot(Options options)
   {
     options.material.softening_strain = 0.05;
@@ -41,7 +41,7 @@ namespace
     return options;
   }
 
-  // int p dy along both sides: pressure x height on each, inwards, whatever their shape; nothing vertical.
+  // int p dy along both sides: pressure x height on each side, inwards, for any shape; no vertical force.
   TEST(BoundaryConditions, SidePressureActsHorizontallyPerUnitOfHeight)
   {
     const QuadMesh mesh_file = outline_mesh(wavy_outline(14, 20, 31, 0.5), 2.);
@@ -50,7 +50,7 @@ namespace
         const Discretisation mesh(mesh_file, kind, MPI_COMM_WORLD);
         auto                 position = positions(mesh, std::vector<double>(mesh.relevant.n_elements(), 0.));
         for (auto &x : position)
-          x += Eigen::Vector2d(0.3 * std::sin(x.y()), 0.02 * x.y() * (20 - x.y())); // bulges, the ends stay
+          x += Eigen::Vector2d(0.3 * std::sin(x.y()), 0.02 * x.y() * (20 - x.y())); // bulges; the ends stay in place
         std::vector<double> force(mesh.relevant.n_elements(), 0.);
         add_side_pressure(mesh, position, 3., force);
         double left = 0, right = 0, vertical = 0;
@@ -65,7 +65,7 @@ namespace
       }
   }
 
-  // A rectangle under its own isotropic pressure is at rest, whatever holds it.
+  // A rectangle under its own isotropic pressure is at rest under all boundary conditions.
   TEST(BoundaryConditions, ARectangleUnderItsPressureIsAtRest)
   {
     const QuadMesh mesh    = rectangle(12, 16, 2.);
@@ -94,8 +94,8 @@ namespace
           }
   }
 
-  // A platen's corner nodes are its own, and the wall's part of the pressure on them is theirs: mean s_xx is the pressure between
-  // rough platens, too.
+  // The corner nodes of a platen belong to it, including the wall's part of the pressure on them. Mean s_xx is the pressure
+  // also between rough platens.
   TEST(BoundaryConditions, RigidWallBetweenRoughPlatensCarriesThePressure)
   {
     const QuadMesh mesh    = rectangle(12, 16, 2.);
@@ -105,7 +105,8 @@ namespace
     EXPECT_NEAR(c.end().mean_stress(0, 0), 1, 1e-6);
   }
 
-  // The pressure acts horizontally, equal on both sides, also where they are wavy: the platens balance each other.
+  // The pressure acts horizontally and equally on both sides, also on wavy ones. The platen forces therefore balance each
+  // other.
   TEST(BoundaryConditions, PlatensBalanceEachOther)
   {
     const QuadMesh mesh = outline_mesh(wavy_outline(14, 20, 11, 0.15), 2.);
@@ -119,7 +120,7 @@ namespace
       }
   }
 
-  // Weight 0.1 per area, 4 x 6: the lower platen carries 2.4 more than the upper one, before and while it is pressed down.
+  // Weight 0.1 per area, 4 x 6: the lower platen carries 2.4 more than the upper one, before and during compression.
   TEST(BoundaryConditions, LowerPlatenCarriesTheWeight)
   {
     const QuadMesh mesh    = rectangle(4, 6, 1.);
@@ -144,12 +145,13 @@ namespace
     loading.lateral        = FreeSides();
     const Course c         = finished(mesh, loading, with(elastic(), Platens::smooth, Kinematics::small_strain));
     EXPECT_NEAR(c.end().mean_stress(0, 0), 0, 1e-4);
-    // Relaxing s_xx from 1 to 0 at fixed height takes nu/(1 - nu) = 0.25 from s_yy; then E/(1 - nu^2) x 1e-3 = 0.520833.
+    // Relaxing s_xx from 1 to 0 at fixed height reduces s_yy by nu/(1 - nu) = 0.25. Then E/(1 - nu^2) x 1e-3 = 0.520833 is
+    // added.
     EXPECT_NEAR(c.end().mean_stress(1, 1), 0.75 + 0.520833, 1e-4);
   }
 
-  // A rigid smooth wall under pressure x height moves as one, and what it carries is the mean of s_xx, homogeneous or not. In
-  // small strain: P (1 - eps) on the initial height.
+  // A rigid smooth wall under pressure x height moves as one. The mean of s_xx balances it, also if the field is inhomogeneous.
+  // In small strain it is P (1 - eps), on the initial height.
   TEST(BoundaryConditions, RigidWallUnderPressure)
   {
     const QuadMesh mesh    = rectangle(12, 16, 2.);
@@ -171,7 +173,7 @@ namespace
         least   = std::min(least, s.displacement[k].x());
         largest = std::max(largest, s.displacement[k].x());
       }
-    EXPECT_GT(largest - least, 1e-3) << "the field is not homogeneous";
+    EXPECT_GT(largest - least, 1e-3) << "the field is inhomogeneous";
   }
 
   // The same on the moved shape: mean s_xx = P.
@@ -184,7 +186,7 @@ namespace
     EXPECT_NEAR(c.end().mean_stress(0, 0), 1, 2e-3);
   }
 
-  // Walls driven apart: elastic, e_y = eps compressive, e_x = -w eps/W: with M = E (1 - nu)/((1 + nu)(1 - 2 nu)) = 555.556 and
+  // Walls moved apart: elastic, e_y = eps compressive, e_x = -w eps/W. With M = E (1 - nu)/((1 + nu)(1 - 2 nu)) = 555.556 and
   // lambda = M nu/(1 - nu) = 138.889: d s_xx = lambda e_y + M e_x, d s_yy = M e_y + lambda e_x.
   TEST(BoundaryConditions, RigidWallsDrivenApart)
   {
@@ -196,7 +198,8 @@ namespace
     EXPECT_NEAR((c.end().mean_stress(1, 1) - 1) / 1e-4, 555.556 - 0.5 * 138.889, 0.01);
   }
 
-  // Periodic sides of fixed width, elastic: no lateral strain, d s_xx = K0 d s_yy, K0 = nu/(1 - nu) = 0.25, d s_yy = 555.556 eps.
+  // Periodic sides of fixed width, elastic: no lateral strain, d s_xx = K0 d s_yy, K0 = nu/(1 - nu) = 0.25, d s_yy = 555.556
+  // eps.
   TEST(BoundaryConditions, PeriodicSidesOfFixedWidthGiveK0)
   {
     const QuadMesh mesh    = rectangle(4, 6, 2.);
@@ -210,7 +213,7 @@ namespace
       }
   }
 
-  // Periodic sides of free width: every pair is apart by the same, and mean s_xx is the pressure, 0.99 at 1 % in small strain.
+  // Periodic sides of free width: all pairs have the same distance. Mean s_xx is the pressure, 0.99 at 1 % in small strain.
   TEST(BoundaryConditions, PeriodicSidesOfFreeWidthCarryThePressure)
   {
     const QuadMesh mesh    = rectangle(12, 16, 2.);
@@ -239,7 +242,7 @@ namespace
       EXPECT_NEAR(cell.stress(0, 0), 1, 1e-4) << "nothing disturbs the state at rest";
   }
 
-  // What leaves on one side comes back on the other, rotations of the grains included.
+  // Material that leaves on one side returns on the other, with the same rotation.
   TEST(BoundaryConditions, PeriodicSidesRotateAlike)
   {
     const QuadMesh mesh    = rectangle(12, 12, 2.);
@@ -261,9 +264,9 @@ namespace
     EXPECT_GT(largest, 1e-3);
   }
 
-  // Plane shear: the upper platen is driven sideways and rises or sinks freely under its force. Mean s_yy = force/width
-  // throughout, while the sample dilates: as no strain along the flow is left, psi = 10 lifts the platen by tan 10 per shear once
-  // the stresses have settled.
+  // Plane shear: the upper platen is driven sideways and moves freely in the vertical under its force. Mean s_yy = force/width
+  // throughout, while the sample dilates. Once the stresses have settled, no strain remains along the flow. Then psi = 10 lifts
+  // the platen by tan 10 per shear.
   TEST(BoundaryConditions, PlatenUnderAForceKeepsTheNormalStress)
   {
     const QuadMesh mesh    = rectangle(8, 8, 2.);
@@ -283,7 +286,7 @@ namespace
         const auto height = [&](const Snapshot &s) {
           const auto upper = nodes_where(s, [](const Eigen::Vector2d &p) { return p.y() > 8 - 1e-9; });
           for (const auto k : upper)
-            EXPECT_NEAR(s.displacement[k].y(), s.displacement[upper[0]].y(), 1e-9) << "it moves as one";
+            EXPECT_NEAR(s.displacement[k].y(), s.displacement[upper[0]].y(), 1e-9) << "the platen moves as one";
           return s.position[upper[0]].y();
         };
         const double rise = height(c.snapshots[1]) - height(c.snapshots[0]);
@@ -291,7 +294,7 @@ namespace
       }
   }
 
-  // Drives may be any function of the progress: the platen goes up and down again, elastic: back where it was.
+  // Drives may be any function of the progress. An elastic platen that goes up and down again returns to its start.
   TEST(BoundaryConditions, PlatensFollowTheirFunctions)
   {
     const QuadMesh mesh         = rectangle(4, 6, 2.);
@@ -306,7 +309,7 @@ namespace
     EXPECT_NEAR(c.snapshots[1].mean_stress(1, 1), 1, 1e-4);
   }
 
-  // 45 degrees to 20 % strain on a coarse mesh: what is squeezed out beside a platen rolls onto its plane and goes with it.
+  // 45 degrees to 20 % strain on a coarse mesh: material squeezed out beside a platen rolls onto its plane and moves with it.
   TEST(SideContact, NothingIsExtrudedPastAPlaten)
   {
     const QuadMesh mesh                      = rectangle(60, 60, 4.);
@@ -342,7 +345,7 @@ namespace
           }
       }
     EXPECT_GT(n_captured, 0);
-    // Nodes in contact carry their part of the platen's force: the platens still balance each other.
+    // Nodes in contact carry a part of the platen's force, so the platen forces still balance each other.
     EXPECT_NEAR((c.end().lower_platen_force + c.end().upper_platen_force).norm(), 0, 2e-3 * c.end().upper_platen_force.norm());
   }
 } // namespace

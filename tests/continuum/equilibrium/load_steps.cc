@@ -1,4 +1,4 @@
-// diptych: load steps: cut back, refused, and without a trace where they fail
+// diptych: load steps: halving, failure and stop without a trace
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
 
@@ -23,53 +23,53 @@ namespace
       }
   }
 
-  // Stopped at its k-th question, the second between two iterations of one step, the committed state is what it was to the last
-  // bit; asked again, the walk goes on with the bits and the counts of one that was never stopped.
+  // A stop at the first, second or third check leaves the committed state unchanged, bit for bit. The second check lies between
+  // two iterations of one step. A further call continues with the bits and counts of a run that was never stopped.
   TEST(LoadSteps, AStoppedStepLeavesNoTrace)
   {
     const QuadMesh mesh    = rectangle(14, 20, 4.);
     const Loading  loading = straight_loading(1, {20, -20}, {1});
     for (const LinearChoice choice : {LinearChoice::direct, LinearChoice::amg})
       {
-        Options options                = with_steps({}, 1e-3);
-        options.law                    = LawKind::mohr_coulomb;
-        options.linear_solver          = choice;
-        int                  questions = 0;
-        bool                 stops     = false;
+        Options options            = with_steps({}, 1e-3);
+        options.law                = LawKind::mohr_coulomb;
+        options.linear_solver      = choice;
+        int                  calls = 0;
+        bool                 stops = false;
         BoundaryValueProblem stopped(mesh, Units(), loading, options), alone(mesh, Units(), loading, options);
-        LoadDriver           walk(stopped, options, [&] { return stops && --questions == 0; }), walk_alone(alone, options);
-        EXPECT_EQ(walk.equilibrate(), "");
-        EXPECT_EQ(walk_alone.equilibrate(), "");
+        LoadDriver           driver(stopped, options, [&] { return stops && --calls == 0; }), driver_alone(alone, options);
+        EXPECT_EQ(driver.equilibrate(), "");
+        EXPECT_EQ(driver_alone.equilibrate(), "");
         int n_stopped = 0;
         for (int step = 0; step < 6; ++step)
           {
             const CommittedState before = stopped.committed();
-            const StepCounts     count  = walk.state().count;
-            questions = 1 + step % 3, stops = true;
-            const std::string why = walk.step_towards(1);
-            if (walk.was_stopped())
+            const StepCounts     count  = driver.state().count;
+            calls = 1 + step % 3, stops = true;
+            const std::string why = driver.step_towards(1);
+            if (driver.was_stopped())
               {
                 ++n_stopped;
                 EXPECT_EQ(why, "stopped on request");
                 expect_same(stopped.committed(), before);
-                EXPECT_EQ(walk.state().count.newton_iterations, count.newton_iterations);
+                EXPECT_EQ(driver.state().count.newton_iterations, count.newton_iterations);
                 stops = false;
-                EXPECT_EQ(walk.step_towards(1), "");
+                EXPECT_EQ(driver.step_towards(1), "");
               }
-            EXPECT_FALSE(walk.was_stopped());
-            EXPECT_EQ(walk_alone.step_towards(1), "");
+            EXPECT_FALSE(driver.was_stopped());
+            EXPECT_EQ(driver_alone.step_towards(1), "");
             expect_same(stopped.committed(), alone.committed());
             EXPECT_EQ(stopped.platen_force(true), alone.platen_force(true));
-            EXPECT_EQ(walk.state().count.newton_iterations, walk_alone.state().count.newton_iterations);
-            EXPECT_EQ(walk.linear_solver().linear_iterations(), walk_alone.linear_solver().linear_iterations());
-            EXPECT_EQ(walk.linear_solver().factorisations(), walk_alone.linear_solver().factorisations());
+            EXPECT_EQ(driver.state().count.newton_iterations, driver_alone.state().count.newton_iterations);
+            EXPECT_EQ(driver.linear_solver().linear_iterations(), driver_alone.linear_solver().linear_iterations());
+            EXPECT_EQ(driver.linear_solver().factorisations(), driver_alone.linear_solver().factorisations());
           }
         EXPECT_GT(n_stopped, 1);
       }
   }
 
-  // Two problems go the same way; one of them fails a far too long step in between. Its state is untouched by that to the last
-  // bit, and the way after it is the other's.
+  // Two problems follow the same path. One of them fails a far too long step in between. Its state keeps its bits, and its
+  // further path is that of the other.
   TEST(LoadSteps, AFailedStepLeavesNoTrace)
   {
     const QuadMesh mesh    = rectangle(14, 20, 4.);
@@ -105,7 +105,7 @@ namespace
       }
   }
 
-  // Where the first three steps towards 0.128 end.
+  // End points of the first three steps towards 0.128.
   std::vector<double> first_steps(const BoundaryValueProblem &problem, LoadDriver &driver)
   {
     std::vector<double> ends;
@@ -117,9 +117,9 @@ namespace
     return ends;
   }
 
-  // A first step that is far too long is halved until it does; from there on the way is that of a run which began with the
-  // length that did.
-  TEST(LoadSteps, ARunThatBeginsTooBoldlyIsTheOneWithShorterSteps)
+  // A first step that is far too long is halved until it converges. From there on the path is that of a run that began with
+  // this length.
+  TEST(LoadSteps, ATooLongFirstStepIsHalvedUntilItConverges)
   {
     const QuadMesh mesh        = rectangle(14, 20, 4.);
     Options        bold        = with({}, Platens::rough, Kinematics::updated);
@@ -143,9 +143,8 @@ namespace
     EXPECT_NEAR((one.platen_force(true) - other.platen_force(true)).norm(), 0, 1e-6 * other.platen_force(true).norm());
   }
 
-  // Elastic, one step down through the lower platen: equilibrium on the old shape exists, but every element would lie upside
-  // down.
-  TEST(LoadSteps, ElementsThatTurnOverAreRefused)
+  // Elastic, one step down through the lower platen. Equilibrium on the old shape exists, but every element would be inverted.
+  TEST(LoadSteps, InvertedElementsAreRefused)
   {
     const QuadMesh mesh = rectangle(4, 6, 2.);
     for (const Kinematics geometry : {Kinematics::updated, Kinematics::small_strain})
@@ -162,7 +161,7 @@ namespace
             const NewtonReport report = solve_step(problem, solver, {1e-5, 20}, increment);
             EXPECT_EQ(report.converged, to < 1) << report.message;
             EXPECT_EQ(problem.is_folded(), to > 1);
-            EXPECT_EQ(report.message.find("turns over") != std::string::npos, to > 1) << report.message;
+            EXPECT_EQ(report.message.find("inverted") != std::string::npos, to > 1) << report.message;
           }
       }
     Options options      = with(elastic(), Platens::smooth, Kinematics::updated);
@@ -171,14 +170,14 @@ namespace
     const Course c                          = course(mesh, straight_loading(1, {0, -6}, {1.2}), options);
     EXPECT_EQ(c.report.status, Status::not_converged);
     EXPECT_LT(c.report.axial_strain, 1);
-    EXPECT_GT(c.report.axial_strain, 0.5) << "half of it did";
+    EXPECT_GT(c.report.axial_strain, 0.5) << "half of the step converged";
     EXPECT_GT(c.report.cut_backs, 0);
     for (const CellState &cell : c.snapshots.back().cell_state)
       EXPECT_GT(cell.area, 0);
   }
 
-  // Steps grow by a half after easy ones, never beyond max_step, and share what is left to a stage equally.
-  TEST(LoadSteps, GrowAndShareTheWayToAStage)
+  // After an easy step the next one is longer by half, never beyond max_step. The rest of a stage is divided equally.
+  TEST(LoadSteps, GrowAndDivideTheWayToAStage)
   {
     const QuadMesh mesh    = rectangle(4, 6, 2.);
     Options        options = with(elastic(), Platens::smooth, Kinematics::updated);
@@ -199,7 +198,7 @@ namespace
             EXPECT_LT(sizes[k], 1.5 * sizes[k - 1] * (1 + 1e-6));
           }
       }
-    // 0.005 from the first stage to the second in steps of at most 0.004: two of 0.0025.
+    // From the first to the second stage, 0.005 in steps of at most 0.004: two steps of 0.0025.
     EXPECT_NEAR(sizes[sizes.size() - 1], 2.5e-3, 1e-12);
     EXPECT_NEAR(sizes[sizes.size() - 2], 2.5e-3, 1e-12);
   }

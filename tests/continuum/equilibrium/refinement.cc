@@ -1,4 +1,4 @@
-// diptych: refinement where plastic strain gathers: what it keeps, and what it gives
+// diptych: mesh refinement where plastic strain concentrates: conserved quantities and results
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/dofs/dof_tools.h>
 
@@ -23,7 +23,7 @@ namespace
     return options;
   }
 
-  // Largest distance of a hanging node from the edge that it hangs on, in the present shape.
+  // Largest distance of a hanging node from its edge, in the present shape.
   double largest_gap(const BoundaryValueProblem &problem, unsigned int &n_hanging)
   {
     const auto                       &mesh = problem.discretisation();
@@ -73,7 +73,7 @@ namespace
       }
   }
 
-  // A node that hangs beside a platen moves with it as far as its edge does.
+  // A hanging node beside a platen moves with it, by the same travel as its edge.
   TEST(Refinement, HangingNodesBesideAPlatenFollowIt)
   {
     const QuadMesh       mesh = rectangle(12, 12, 3.);
@@ -89,10 +89,10 @@ namespace
     EXPECT_GT(n_hanging, 4u);
   }
 
-  // Refined at the onset of plastic flow, as a course does, or in the midst of a band that is there already: the area and the
-  // mean stress stay; the carried stress is nearly in equilibrium, at the onset by what an elastic sample would miss, too (the
-  // coarse mesh knows no equilibrium of the new nodes: 6 % to 11 % elastic), and finds it again. Hanging nodes lie on their edges
-  // at once, after that, and after further steps.
+  // Refinement at the onset of plastic flow, as in a run, or within an existing band. Area and mean stress are kept. The
+  // transferred stress is nearly in equilibrium. At the onset its error is that of an elastic sample (6 % to 11 %), because the
+  // coarse mesh has no equilibrium at the new nodes. Then equilibrium is found again. Hanging nodes lie on their edges at once,
+  // afterwards, and after further steps.
   TEST(Refinement, CarriesTheStateAndFindsEquilibriumAgain)
   {
     const QuadMesh mesh = rectangle(24, 24, 2.);
@@ -115,7 +115,7 @@ namespace
           driver.restart(state);
           const HistoryRow after = make_history_row(problem, driver, loading);
           EXPECT_GT(after.n_cells, before.n_cells);
-          EXPECT_LT(after.n_cells, 4 * before.n_cells) << "elements away from the band stay as they are";
+          EXPECT_LT(after.n_cells, 4 * before.n_cells) << "elements away from the band are not divided";
           EXPECT_NEAR(after.volumetric_strain, before.volumetric_strain, 1e-6);
           EXPECT_NEAR((after.mean_stress - before.mean_stress).norm(), 0, 1e-6 * before.mean_stress.norm()) << name;
           EXPECT_EQ(after.axial_strain, before.axial_strain);
@@ -125,7 +125,7 @@ namespace
 
           problem.begin_step(problem.progress());
           const double unbalance = problem.evaluate(problem.zero_vector()).relative();
-          EXPECT_GT(unbalance, 1e-4) << "transfer is not exact";
+          EXPECT_GT(unbalance, 1e-4) << "the transfer is not exact";
           if (onset == 0.002)
             {
               EXPECT_LT(unbalance, 0.15) << name;
@@ -142,7 +142,7 @@ namespace
         }
   }
 
-  // On the shape that equilibrium is stated on.
+  // On the shape for equilibrium.
   double plastic_work(const BoundaryValueProblem &problem)
   {
     const unsigned int n_points = problem.discretisation().reference.n_points;
@@ -152,8 +152,8 @@ namespace
     return work;
   }
 
-  // Plastic work that was done is not undone or done again by dividing elements: the polynomial through an element's points has
-  // the same integral on its four parts, exactly where the element is a parallelogram, as here on the initial shape.
+  // Dividing elements does not change the plastic work done so far. The polynomial through the points of an element has the
+  // same integral on its four parts. This is exact for parallelograms, such as the elements of the initial shape here.
   TEST(Refinement, KeepsTheDissipation)
   {
     const QuadMesh mesh = rectangle(24, 24, 2.);
@@ -177,7 +177,7 @@ namespace
         }
   }
 
-  // An adaptive course that may divide once against uniform meshes of both sizes: nearer to the fine one, with fewer elements.
+  // An adaptive run with one division against uniform meshes of both sizes: it is nearer to the fine one, with fewer elements.
   TEST(Refinement, AdaptiveCourseIsNearlyTheFineOne)
   {
     const QuadMesh coarse = rectangle(24, 24, 4.), fine = rectangle(24, 24, 2.);
@@ -206,7 +206,7 @@ namespace
         }
   }
 
-  TEST(Refinement, AnElasticSampleStaysAsItIs)
+  TEST(Refinement, DoesNotDivideAnElasticSample)
   {
     const QuadMesh mesh    = rectangle(8, 8, 2.);
     Options        options = elastic();

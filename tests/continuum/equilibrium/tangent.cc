@@ -1,4 +1,4 @@
-// diptych: the tangent of the whole problem against differences of its residual, and its two ways of assembly
+// diptych: tangent of the whole problem against differences of its residual, and its two ways of assembly
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <type_traits>
 
@@ -45,7 +45,7 @@ namespace
     int    n_plastic = 0, n_elastic = 0, n_columns = 0;
   };
 
-  // `size` of the random displacements: such that some points yield and none comes to the apex.
+  // `size` of the random displacements makes some points yield, but brings none to the apex.
   Comparison compare(BoundaryValueProblem &problem, const double size)
   {
     problem.begin_step(1e-3);
@@ -59,7 +59,7 @@ namespace
         n_apex += update.regime == Regime::apex;
         ++(update.regime == Regime::elastic ? result.n_elastic : result.n_plastic);
       }
-    EXPECT_EQ(n_apex, 0) << "there the tangent carries a floor on purpose";
+    EXPECT_EQ(n_apex, 0) << "at the apex the tangent has an intended extra stiffness";
     const auto        &K           = problem.assemble_tangent();
     const auto        &constraints = problem.correction_constraints();
     const unsigned int n           = problem.discretisation().dof_handler.n_dofs();
@@ -90,7 +90,7 @@ namespace
     return result;
   }
 
-  TEST(Tangent, OfTheProblemAgreesWithDifferencesOfTheResidual)
+  TEST(Tangent, ProblemTangentAgreesWithDifferencesOfTheResidual)
   {
     const QuadMesh file = distorted_mesh(3, 3);
     for (const auto &[law, element] : {std::pair<LawKind, Displacement>{LawKind::linear_elastic, Displacement::q2},
@@ -104,7 +104,7 @@ namespace
         {
           if (element == Displacement::q2 && law != LawKind::mohr_coulomb && law != LawKind::cosserat_mohr_coulomb &&
               scene.hanging)
-            continue; // what hangs does not depend on the law
+            continue; // hanging nodes do not depend on the law
           Options options = with({}, scene.platens, Kinematics::updated);
           options.law     = law;
           options.element = element;
@@ -121,7 +121,7 @@ namespace
         }
   }
 
-  // Random element matrices, each element its own: the fast places and the way through the constraints fill the same matrix.
+  // Each element has its own random matrix. Direct addition and the way through the constraints fill the same matrix.
   TEST(Tangent, FastAndGeneralAssemblyFillTheSameMatrix)
   {
     const QuadMesh file = distorted_mesh(3, 3);

@@ -1,4 +1,4 @@
-// diptych: elements and laws in a problem of their own, away from platens and sides: a thick cylinder under inner pressure
+// diptych: elements and laws in a problem without platens and sides: a thick cylinder under inner pressure
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <type_traits>
 
@@ -16,8 +16,8 @@ namespace
   using namespace diptych::continuum;
   using namespace diptych::continuum::tests;
 
-  // Quarter of a cylinder in small strain, weightless and free of stress. Every node of the inner arc moves outwards by the same;
-  // the cuts are planes of symmetry, the outer arc is free.
+  // Quarter of a cylinder in small strain, without weight and initial stress. All nodes of the inner arc move outwards by the
+  // same amount. The cuts are planes of symmetry, the outer arc is free.
   class Cylinder
   {
   public:
@@ -37,7 +37,7 @@ namespace
         is_held[node.dofs[0]] = is_held[node.dofs[1]] = true;
     }
 
-    // Widens the hole by one step; the pressure on it, from the nodal forces over the arc's length.
+    // Widens the hole by one step. Returns the pressure on it, from the nodal forces over the length of the arc.
     double widen(const double step)
     {
       Eigen::VectorXd u = Eigen::VectorXd::Zero(is_held.size());
@@ -117,10 +117,11 @@ namespace
     Eigen::SparseMatrix<double> stiffness;
   };
 
-  // A widened hole makes s_r the major and s_theta the minor stress. With q = s + c cot phi the strength is q_r = Kp q_theta, and
-  // equilibrium, d s_r/dr = -(s_r - s_theta)/r, reads d q_r/dr = -(1 - 1/Kp) q_r/r: q_r ~ r^-(1 - 1/Kp). No outer pressure:
-  // q_r(b) = c cot phi, so p = c cot phi ((b/a)^(1 - 1/Kp) - 1) = 1.7320508 (2^(2/3) - 1) = 1.017408 for phi = 30, c = 1. The
-  // elastic solution comes before: p = 2 G (u/a) (1 - a^2/b^2)/(1 + (1 - 2 nu) a^2/b^2) = 416.67 x 0.75/1.15 u, u = 1e-4.
+  // Widening the hole makes s_r the major and s_theta the minor stress. With q = s + c cot phi the strength is q_r = Kp
+  // q_theta. Equilibrium, d s_r/dr = -(s_r - s_theta)/r, then reads d q_r/dr = -(1 - 1/Kp) q_r/r: q_r ~ r^-(1 - 1/Kp). Without
+  // outer pressure q_r(b) = c cot phi, so p = c cot phi ((b/a)^(1 - 1/Kp) - 1). For phi = 30, c = 1 this is 1.7320508 (2^(2/3)
+  // - 1) = 1.017408. The elastic solution before is p = 2 G (u/a) (1 - a^2/b^2)/(1 + (1 - 2 nu) a^2/b^2) = 416.67 x 0.75/1.15
+  // u, u = 1e-4.
   TEST(Validation, ThickCylinderCarriesItsPlasticPressure)
   {
     const QuadMesh mesh = read_mesh(DIPTYCH_SOURCE_DIR "/meshes/thick_cylinder.geo");
@@ -136,7 +137,7 @@ namespace
               pressure = cylinder.widen(2e-3);
             }
           EXPECT_NEAR(pressure, 1.017408, 0.005 * 1.017408);
-          EXPECT_NEAR(pressure, before, 1e-3) << "all of it flows";
+          EXPECT_NEAR(pressure, before, 1e-3) << "the whole cylinder flows";
         }
   }
 } // namespace

@@ -1,4 +1,4 @@
-// diptych: the law that knows the solid fraction
+// diptych: hardening = critical_state at single points
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 #include <map>
@@ -33,8 +33,9 @@ namespace
       }
   }
 
-  // At the peak of eta the sine of the dilatancy angle is A nu_c ln(nu/nu_c) / beta = A (nu - nu_c) / beta to first order.
-  TEST(CriticalState, DilatesAtItsPeakByItsDensity)
+  // At the peak of eta the sine of the dilatancy angle is A nu_c ln(nu/nu_c) / beta. To first order this is A (nu - nu_c) /
+  // beta.
+  TEST(CriticalState, DilatancyAtThePeakFollowsTheDensity)
   {
     const Hardening hardening(critical(0.86, 0.1));
     double          low = 0, high = 0.5; // where d eta / dg changes sign
@@ -50,14 +51,14 @@ namespace
     EXPECT_NEAR(sine / (5.5 * (solid_fraction - 0.82) / 0.55), 1, 0.02);
   }
 
-  // d eta/dg = (eta_p - eta)/g_r and d ln nu/dg = -sin psi along the path, of overdamped and of oscillating mobilisation; steps
-  // of any length give the same.
+  // d eta/dg = (eta_p - eta)/g_r and d ln nu/dg = -sin psi along the path, for overdamped and for oscillating mobilisation. The
+  // result does not depend on the length of the steps.
   TEST(CriticalState, SolvesItsEquations)
   {
     for (const double strain : {0.02, 0.2, 0.03048780487804878})
       {
         LawOptions o          = critical(0.85, 0.05);
-        o.mobilisation_strain = strain; // the last: both roots alike, to the digits that a double has
+        o.mobilisation_strain = strain; // for the last value both roots are equal to double precision
         const Hardening hardening(o);
         HardeningState  walked;
         for (int k = 0; k < 50; ++k)
@@ -77,9 +78,9 @@ namespace
       }
   }
 
-  // What a step's flow adds to the volume is what it takes from the solid fraction, whatever its length; the rate is the
-  // derivative.
-  TEST(CriticalState, KeepsVolumeAndSolidFractionTogether)
+  // The volume added by the flow of a step equals the volume removed from the solid fraction, for any step length. The rate is
+  // the derivative.
+  TEST(CriticalState, ConservesMass)
   {
     for (const double start : {0.1, 0.35})
       for (const double step : {3e-8, 5e-7, 2e-6, 1e-4, 3e-3, 0.05})
@@ -97,8 +98,8 @@ namespace
   }
 
   // At constant volume loose grains lose pressure, then strength (Castro 1969): d sigma : d eps < 0 while the flow contracts.
-  // Where the sides give way under constant pressure the same grains harden all the way, and dense ones do so at constant volume.
-  TEST(CriticalState, WeakensWhereItContractsAndNothingGivesWay)
+  // At constant lateral pressure the same grains only harden. Dense grains also harden at constant volume.
+  TEST(CriticalState, WeakensWhereContractionIsPrevented)
   {
     for (const LawKind name : {LawKind::mohr_coulomb, LawKind::cosserat_mohr_coulomb, LawKind::drucker_prager})
       {

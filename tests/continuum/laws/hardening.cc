@@ -1,4 +1,4 @@
-// diptych: strength against plastic strain, and which parameters are refused
+// diptych: strength as a function of plastic strain, and refused parameters
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 #include <functional>
@@ -14,7 +14,7 @@ namespace
   using namespace diptych::continuum;
   using namespace diptych::continuum::tests;
 
-  // Derivatives of strength and of both cones by central differences, inside the table's intervals and beyond its end.
+  // Derivatives of strength and of both cones by central differences, inside the intervals of the table and beyond its end.
   TEST(Hardening, RatesAreDerivatives)
   {
     for (const auto &[name, options] : hardenings())
@@ -31,7 +31,7 @@ namespace
           }
   }
 
-  // Table 15 -> 30 -> 22 degrees at 0, 0.02, 0.1: half way 22.5; at 0.06 26; beyond 22. Exponential at kappa_s: 13.5 + 7/e.
+  // Table 15 -> 30 -> 22 degrees at 0, 0.02, 0.1: halfway 22.5; at 0.06 26; beyond 22. Exponential at kappa_s: 13.5 + 7/e.
   TEST(Hardening, FollowsTableAndDecay)
   {
     const Hardening table(hardenings()["table"]), decay(LawOptions{}), constant_(constant(20.5, 12, 0.1));
@@ -42,8 +42,9 @@ namespace
     EXPECT_NEAR(table.at(0.06).cohesion, 0.05, 1e-12);
     EXPECT_NEAR(table.at(7).friction / degree, 22, 1e-12);
     EXPECT_NEAR(decay.at(0.075).friction / degree, 13.5 + 7 * std::exp(-1), 1e-12);
-    EXPECT_NEAR(decay.at(5).cohesion, 0.01, 1e-15) << "no residual means constant";
-    // 13.5 + 7 exp(-k/0.05) - 7.5 exp(-k/0.01): 13 at the start, the exponential's later; dilatancy the exponential's everywhere.
+    EXPECT_NEAR(decay.at(5).cohesion, 0.01, 1e-15) << "without a residual value cohesion is constant";
+    // 13.5 + 7 exp(-k/0.05) - 7.5 exp(-k/0.01) is 13 at the start and later that of `exponential`. Dilatancy is always that of
+    // `exponential`.
     const Hardening rising(hardenings()["mobilisation"]), falling(hardenings()["exponential"]);
     EXPECT_NEAR(rising.at(0).friction / degree, 13, 1e-12);
     EXPECT_NEAR(rising.at(0.01).friction / degree, 13.5 + 7 * std::exp(-0.2) - 7.5 * std::exp(-1), 1e-12);
@@ -52,7 +53,7 @@ namespace
     EXPECT_NEAR(constant_.at(9).friction / degree, 20.5, 1e-12);
   }
 
-  // Softens to below its dilatancy before it is mobilised.
+  // Softens to below its dilatancy before friction is mobilised.
   void slow_mobilisation(LawOptions &o)
   {
     o                          = hardenings()["mobilisation"];
@@ -114,6 +115,6 @@ namespace
       }
     EXPECT_NO_THROW(validate(constant(0, 0, 1)));
     EXPECT_NO_THROW(validate(constant(30, 30, 0)));
-    EXPECT_NO_THROW(validate(constant(10, 0, 0.1))) << "residual values are not looked at";
+    EXPECT_NO_THROW(validate(constant(10, 0, 0.1))) << "residual values are not checked";
   }
 } // namespace

@@ -21,7 +21,7 @@ namespace diptych::continuum::tests
     return std::sin(degrees * degree);
   }
 
-  // Mechanics sign; the couple stresses and the skew stress are zero.
+  // Tension positive; couple stresses and skew stress are zero.
   inline MaterialState state_of(const double sxx, const double syy, const double szz, const double kappa = 0)
   {
     MaterialState state;
@@ -49,8 +49,7 @@ namespace diptych::continuum::tests
     return o;
   }
 
-  // Every kind of hardening; strong enough cohesion that random strains meet every regime.
-  // A critical-state law with t/s of `start` mobilised at the start.
+  // A critical-state law with a mobilised t/s of `start` at the start.
   inline LawOptions critical(const double solid_fraction, const double start)
   {
     LawOptions o;
@@ -61,6 +60,7 @@ namespace diptych::continuum::tests
     return o;
   }
 
+  // Every kind of hardening, with enough cohesion that random strains reach every regime.
   inline std::map<std::string, LawOptions> hardenings()
   {
     std::map<std::string, LawOptions> all;
@@ -121,7 +121,7 @@ namespace diptych::continuum::tests
     return std::visit([&](const auto &one) { return one.yield_function(state); }, law);
   }
 
-  // Directions spread over all six components, each scaled to the given size; the generator is seeded.
+  // Random directions in all six components, scaled to the given size. The generator is seeded.
   inline std::vector<Strain> random_strains(const int n, const double size)
   {
     std::mt19937        random(11);
@@ -135,7 +135,8 @@ namespace diptych::continuum::tests
     return strains;
   }
 
-  // Largest difference of tangent and central differences, in units of E; none where a neighbour is in another regime.
+  // Largest difference between tangent and central differences, in units of E. Empty if a neighbouring state is in another
+  // regime.
   inline std::optional<double> tangent_error(const Law &law, const MaterialState &s0, const Strain &e)
   {
     const MaterialUpdate answer = update(law, s0, e);

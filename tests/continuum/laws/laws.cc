@@ -1,4 +1,4 @@
-// diptych: what every constitutive law must do, on single points
+// diptych: requirements on every constitutive law, at single points
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 #include <map>
@@ -15,7 +15,7 @@ namespace
   using namespace diptych::continuum;
   using namespace diptych::continuum::tests;
 
-  // Start states and strain sizes that together lead into every regime: isotropic, softened, stretched, sigma_zz outer.
+  // Start states and strain sizes that reach every regime: isotropic, softened, stretched, sigma_zz as an outer stress.
   struct Start
   {
     MaterialState state;
@@ -60,7 +60,7 @@ namespace
         }
   }
 
-  // F of the end state is what viscosity carries: zero without it, else (viscosity/d_time) times the growth of kappa.
+  // F of the end state is the viscous part: zero without viscosity, otherwise (viscosity/d_time) times the growth of kappa.
   TEST(Laws, PlasticStatesLieOnTheYieldSurfaceOfTheEnd)
   {
     for (const auto &[hardening, options] : hardenings())
@@ -85,7 +85,7 @@ namespace
         }
   }
 
-  // Turning by an angle: a tensor with its double angle, the curvature as a vector, the relative rotation not at all.
+  // Rotation by an angle. A tensor turns by the double angle, the curvature as a vector, and the relative rotation stays.
   Stress turned(const Stress &a, const double angle, const double shear_factor)
   {
     const double c = std::cos(angle), s = std::sin(angle), xy_ = a[xy] / shear_factor;
@@ -99,7 +99,7 @@ namespace
     return b;
   }
 
-  TEST(Laws, KnowNoDirection)
+  TEST(Laws, DoNotDependOnTheAxes)
   {
     const LawOptions options = hardenings()["exponential"];
     for (const LawKind name : all_laws())
@@ -126,7 +126,7 @@ namespace
     return std::max(in_plane, major + minor);
   }
 
-  // Paths of fifty steps of random direction, with a pull that comes and goes, through every regime; cohesionless too.
+  // Paths of fifty random steps with intermittent tension, through every regime, also without cohesion.
   TEST(Laws, DissipationIsNeverNegative)
   {
     auto all            = hardenings();
@@ -148,7 +148,7 @@ namespace
               MaterialUpdate answer = update(law, state, e);
               ASSERT_NE(answer.verdict, Verdict::failed) << name_of(name) << ", " << hardening;
               add_plastic_flow(moduli_of(law), state, e, answer.state);
-              // What contracts does negative work in tension, which cohesion alone can carry.
+              // Contraction does negative work in tension, which only cohesion can carry.
               if (hardening.find("critical state") == std::string::npos || largest_in_tension(answer.state) < 0)
                 {
                   EXPECT_GE(answer.state.dissipation - state.dissipation, -1e-13) << name_of(name) << ", " << hardening;
@@ -162,7 +162,7 @@ namespace
         }
   }
 
-  // sigma : d eps splits into stored and plastic work: in a closed elastic loop none is plastic, in an elastic step none either.
+  // sigma : d eps is the sum of stored and plastic work. Neither a closed elastic loop nor an elastic step has plastic work.
   TEST(Laws, ElasticStepsLeaveNoPlasticStrain)
   {
     for (const LawKind name : all_laws())
@@ -182,8 +182,8 @@ namespace
       }
   }
 
-  // d eps_v / d lambda = sin psi for Mohr-Coulomb, lambda = d(eps_1 - eps_3). Drucker-Prager: 3 beta with
-  // beta = sin psi/sqrt(9 + 3 sin^2 psi), psi = 12 degrees: 0.207912/3.021534 = 0.0688099, 3 beta = 0.206430.
+  // d eps_v / d lambda = sin psi for Mohr-Coulomb, lambda = d(eps_1 - eps_3). For Drucker-Prager it is 3 beta with beta = sin
+  // psi/sqrt(9 + 3 sin^2 psi); psi = 12 degrees: 0.207912/3.021534 = 0.0688099, 3 beta = 0.206430.
   TEST(Laws, DilateByTheirAngle)
   {
     for (const LawKind name : plastic_laws)
@@ -205,8 +205,8 @@ namespace
       }
   }
 
-  // Stretched beyond the cone the stress is its tip: Mohr-Coulomb s = -c cot(phi) = -0.1 * 2.674621 for phi = 20.5. The matched
-  // Drucker-Prager cone has k/(3 alpha) = c cos phi/sin phi, the same. Skew stress stays: 0.5 G * 0.002, G = 500/2.4.
+  // Beyond the cone the stress is that of the tip. Mohr-Coulomb: s = -c cot(phi) = -0.1 * 2.674621 for phi = 20.5. The matched
+  // Drucker-Prager cone has the same value k/(3 alpha) = c cos phi/sin phi. The skew stress remains 0.5 G * 0.002, G = 500/2.4.
   TEST(Laws, ReturnToTheApexUnderTension)
   {
     for (const LawKind name : plastic_laws)
@@ -222,14 +222,14 @@ namespace
         EXPECT_NEAR(end.state.stress[curvature_x], 0, 1e-12);
         const bool cosserat = traits(name).is_cosserat;
         EXPECT_NEAR(end.state.stress[relative_rotation], cosserat ? 0.5 * 500 / 2.4 * 0.002 : 0, 1e-12);
-        if (name != LawKind::cosserat_mohr_coulomb) // which never looks at sigma_zz
+        if (name != LawKind::cosserat_mohr_coulomb) // ignores sigma_zz
           {
             EXPECT_NEAR(end.state.stress_zz, 0.2674621, 1e-7);
           }
       }
   }
 
-  // phi = 0: t = c, whatever the pressure; no apex, however far stretched. Drucker-Prager: sqrt(J2) = k = c for psi = 0.
+  // phi = 0: t = c for any pressure and no apex for any stretch. Drucker-Prager: sqrt(J2) = k = c for psi = 0.
   TEST(Laws, TrescaIsTheLimitWithoutFriction)
   {
     for (const LawKind name : plastic_laws)
@@ -248,7 +248,7 @@ namespace
         }
   }
 
-  // A step held still lets the overstress relax: F = (viscosity/d_time) lambda falls as lambda eats it. Rate 0 means none.
+  // In a step without strain the overstress relaxes: F = (viscosity/d_time) lambda. Zero d_time means rate independent.
   TEST(Laws, OverstressRelaxesAndNeedsTime)
   {
     LawOptions options = constant(20.5, 12, 0.1);
@@ -270,7 +270,7 @@ namespace
       }
   }
 
-  TEST(Laws, LeaveTheCommittedStateAloneAndRefuseWhatIsNoNumber)
+  TEST(Laws, KeepTheCommittedStateAndFailOnNaN)
   {
     for (const LawKind name : all_laws())
       {
@@ -284,8 +284,8 @@ namespace
       }
   }
 
-  // -dF/dlambda = G + s cos(phi) dphi/dkappa with phi from 40 to 10 degrees over 0.003: dphi/dkappa = -174.5, G = 208.3, so that
-  // at kappa = 0 it is 141 for s = 0.5, 8 for s = 1.5 and -59 for s = 2, where the point snaps back by itself.
+  // -dF/dlambda = G + s cos(phi) dphi/dkappa, with phi from 40 to 10 degrees over 0.003: dphi/dkappa = -174.5, G = 208.3. At
+  // kappa = 0 it is 141 for s = 0.5, 8 for s = 1.5 and -59 for s = 2. In the last case the point snaps back.
   TEST(Laws, SnapBackIsNeverCalledReliable)
   {
     LawOptions options              = constant(40, 0, 0.01);
@@ -295,7 +295,7 @@ namespace
     for (const LawKind name : {LawKind::mohr_coulomb, LawKind::cosserat_mohr_coulomb})
       {
         const Law law = make_law(name, options);
-        // t at yield is s sin(40) + 0.01 cos(40); the strain goes a millionth beyond it.
+        // t at yield is s sin(40) + 0.01 cos(40). The strain exceeds it by a millionth.
         const auto just_beyond = [&](const double s) {
           const double difference = (s * sine(40) + 0.01 * sine(50)) / moduli_of(law).shear * (1 + 1e-6);
           return update(law, state_of(-s, -s, -s), strain_of(difference / 2, -difference / 2));
@@ -307,8 +307,8 @@ namespace
       }
   }
 
-  // What the rest of the program is told of a law is what the law does: a Cosserat law resists rotation, an elastic one nothing.
-  TEST(Laws, DoWhatTheirTraitsSay)
+  // The traits agree with the behaviour: only a Cosserat law resists relative rotation, only a plastic law yields.
+  TEST(Laws, MatchTheirTraits)
   {
     Strain rotation{}, shear = strain_of(0, 0, 1);
     rotation[relative_rotation] = 1;
@@ -321,8 +321,8 @@ namespace
       }
   }
 
-  // At a pressure P and a mean diameter d a law whose parameters count in them is the law of P = d = 1, times P.
-  TEST(Laws, CountInPressureAndDiameter)
+  // A law with parameters in units of a pressure P and a mean diameter d is the law of P = d = 1, times P.
+  TEST(Laws, ScaleWithPressureAndDiameter)
   {
     const Units si{1e4, 1e-3};
     LawOptions  options = constant(25, 5, 0.1);
@@ -343,7 +343,7 @@ namespace
       }
   }
 
-  // Without relative rotation and curvature Cosserat laws are the classical ones; Mohr-Coulomb where sigma_zz is intermediate.
+  // Without rotation and curvature a Cosserat law is the classical one, for Mohr-Coulomb if sigma_zz is intermediate.
   TEST(Cosserat, WithoutRotationsIsTheClassicalLaw)
   {
     const LawOptions options = hardenings()["exponential"];
@@ -361,9 +361,9 @@ namespace
         }
   }
 
-  // Bending alone: |m|/(sqrt2 l) grows to s sin(phi) + c cos(phi), s = 1, phi = 30, c = 0.1, psi = 0: 0.5 + 0.0866025. The
-  // skew stress stays elastic, a = Gc chi, however large. For psi = 0 and sigma_zz = s_zz' = 0 Drucker-Prager has 3 alpha = sin
-  // phi.
+  // Pure bending: |m|/(sqrt2 l) grows to s sin(phi) + c cos(phi). With s = 1, phi = 30, c = 0.1, psi = 0 this is 0.5 +
+  // 0.0866025. The skew stress stays elastic, a = Gc chi, at any size. For psi = 0 and sigma_zz = s_zz' = 0 Drucker-Prager has
+  // 3 alpha = sin phi.
   TEST(Cosserat, CoupleStressYieldsAndSkewStressDoesNot)
   {
     for (const LawKind name : {LawKind::cosserat_mohr_coulomb, LawKind::cosserat_drucker_prager})

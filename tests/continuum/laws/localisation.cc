@@ -1,4 +1,4 @@
-// diptych: loss of ellipticity against the closed form of in-plane Mohr-Coulomb and against brute force
+// diptych: loss of ellipticity against the closed form of in-plane Mohr-Coulomb and against a search over directions
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 #include <limits>
@@ -35,14 +35,14 @@ namespace
     return d;
   }
 
-  // Derivative of t - s sin(angle) by (s_xx, s_yy, s_xy), tension positive, where the larger (less compressive) principal
-  // stress points at `direction` from the x axis: t has the derivative (cos 2d, -cos 2d, 2 sin 2d)/2, s = -(s_xx + s_yy)/2.
+  // Derivative of t - s sin(angle) by (s_xx, s_yy, s_xy), tension positive. The less compressive principal stress points at
+  // `direction` from the x axis. t has the derivative (cos 2d, -cos 2d, 2 sin 2d)/2, and s = -(s_xx + s_yy)/2.
   Eigen::Vector3d gradient(const double sine, const double direction)
   {
     return {(std::cos(2 * direction) + sine) / 2, (-std::cos(2 * direction) + sine) / 2, std::sin(2 * direction)};
   }
 
-  // C_ep = C - (C P)(F C)/(H + F C P); phi, psi in degrees, H the hardening modulus -dF/d lambda.
+  // C_ep = C - (C P)(F C)/(H + F C P). phi and psi in degrees; H is the hardening modulus -dF/d lambda.
   Eigen::Matrix3d plastic_matrix(const double phi, const double psi, const double hardening, const double direction)
   {
     const Eigen::Matrix3d c = elastic_matrix();
@@ -61,12 +61,14 @@ namespace
     return std::abs(std::remainder(a - b, 180.));
   }
 
-  // Closed form (Rudnicki & Rice 1975 in two dimensions). With n at theta from the less compressive principal stress,
-  // x = cos 2 theta, Q_e = G 1 + kappa n n and C:P = kappa sin psi 1 + G diag(1, -1), the plastic acoustic tensor is singular at
+  // Closed form (Rudnicki & Rice 1975 in two dimensions). n lies at theta from the less compressive principal stress; x = cos 2
+  // theta. The elastic acoustic tensor is Q_e = G 1 + kappa n n, and C:P = kappa sin psi 1 + G diag(1, -1). The plastic one is
+  // singular at
   //   H(x) = kappa G/(kappa + G) (x - sin phi)(sin psi - x),  largest at x = (sin phi + sin psi)/2:
-  //   H_critical = kappa G/(kappa + G) ((sin phi - sin psi)/2)^2,
-  // and for any H: det Q / det Q_e = (H - H(x))/(H + G + kappa sin phi sin psi). The line, perpendicular to n, lies at the angle
-  // b from the less compressive (minor) principal stress direction with sin(2 b - 90) = x: b = 45 + (phi + psi)/4 nearly.
+  //   H_critical = kappa G/(kappa + G) ((sin phi - sin psi)/2)^2.
+  // For any H: det Q / det Q_e = (H - H(x))/(H + G + kappa sin phi sin psi). The line is perpendicular to n. It lies at the
+  // angle b from the direction of the less compressive (minor) principal stress with sin(2 b - 90) = x; approximately b = 45 +
+  // (phi + psi)/4.
   struct ClosedForm
   {
     double sum, critical, denominator, line; // line [degrees]
@@ -105,15 +107,16 @@ namespace
       {
         const ClosedForm   exact(phi, psi);
         const Localisation l = of(plastic_matrix(phi, psi, exact.critical, 0.));
-        // Less compression along x; of the lines at +b and -b the larger angle.
+        // Less compression along x. Of the lines at +b and -b the function returns the larger angle.
         EXPECT_NEAR(l.angle_deg, exact.line, 1e-5);
         EXPECT_NEAR(l.angle_deg, 45 + (phi + psi) / 4, 0.5); // sin is concave: 0.35 degrees at 40 and 10
-        // Along y: the lines stand at 90 - b and b - 90.
+        // Less compression along y: the lines lie at 90 - b and b - 90.
         EXPECT_NEAR(of(plastic_matrix(phi, psi, 0., M_PI / 2)).angle_deg, 90 - exact.line, 1e-5);
       }
   }
 
-  // The two lines of a coaxial state lie at `direction` + b and `direction` - b; the larger angle in (-90, 90] is taken.
+  // The two lines of a coaxial state lie at `direction` + b and `direction` - b. The function returns the larger angle in (-90,
+  // 90].
   TEST(Localisation, TurnsWithTheState)
   {
     const ClosedForm exact(38, 8);
@@ -127,7 +130,7 @@ namespace
       }
   }
 
-  // An isotropic tangent that is half the elastic one has a quarter of its determinant.
+  // An isotropic tangent of half the elastic one has a quarter of its determinant.
   TEST(Localisation, ElasticTangentHasTheDeterminantOneAndNoDirection)
   {
     EXPECT_NEAR(of(elastic_matrix()).determinant, 1, 1e-14);
@@ -135,7 +138,8 @@ namespace
     EXPECT_NEAR(of(elastic_matrix() / 2).determinant, 0.25, 1e-14);
   }
 
-  // A symmetric positive definite tangent is strongly elliptic (Hill): associated flow with hardening never localises.
+  // A symmetric positive definite tangent is strongly elliptic (Hill). Associated flow with hardening therefore never
+  // localises.
   TEST(Localisation, AssociatedFlowWithHardeningNeverLocalises)
   {
     for (double phi = 0; phi <= 50; phi += 5)
@@ -146,7 +150,7 @@ namespace
       }
   }
 
-  // det of Q_jk = n_i C_ijkl n_l summed index by index.
+  // det of Q_jk = n_i C_ijkl n_l, summed index by index.
   double determinant_in(const Eigen::Matrix3d &d, const double theta)
   {
     const double n[2]        = {std::cos(theta), std::sin(theta)};
@@ -160,8 +164,8 @@ namespace
     return (q[0][0] * q[1][1] - q[0][1] * q[1][0]) / ((kappa + G) * G);
   }
 
-  // Unsymmetric tangents without any structure: the least of 3600 directions is found, at the right normal. Between two of
-  // them (spacing d = 0.05 degrees) a determinant of size s is at most 2 s d^2 lower.
+  // For unsymmetric tangents without structure the function finds the least of 3600 directions at the right normal. Between two
+  // of them (spacing d = 0.05 degrees) a determinant of size s is at most 2 s d^2 lower.
   TEST(Localisation, FindsTheLeastDeterminantOfAnyTangent)
   {
     std::mt19937                           generator(3);
@@ -183,9 +187,9 @@ namespace
       }
   }
 
-  // Two minima that merge at an axis: f = c1 cos(phi) + c2 cos(2 phi) has them at cos(phi) = -c1/(4 c2), and a maximum
-  // between them at phi = 180 degrees. An orthotropic tangent has such an f, with n near the y axis here.
-  TEST(Localisation, TwoMinimaCloseToAnAxisAreToldFromTheMaximumBetweenThem)
+  // Two minima that merge at an axis: f = c1 cos(phi) + c2 cos(2 phi) has them at cos(phi) = -c1/(4 c2), with a maximum between
+  // them at phi = 180 degrees. Here an orthotropic tangent has such an f, with n near the y axis.
+  TEST(Localisation, TwoMinimaNearAnAxisAreFoundBesideTheMaximum)
   {
     Eigen::Matrix3d d;
     d << 800, 100, 0, 100, 300, 0, 0, 0, 100;

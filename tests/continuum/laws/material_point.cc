@@ -23,8 +23,9 @@ namespace
     return report;
   }
 
-  // s1 = s3 Kp + 2 c sqrt(Kp), Kp = (1 + sin phi)/(1 - sin phi) = 3 for phi = 30: 3 + 0.2 * 1.7320508 = 3.346410 for c = 0.1,
-  // 3 + 0.02 * 1.7320508 = 3.034641 for c = 0.01, s3 = 1. Mohr-Coulomb for any dilatancy, Drucker-Prager with associated flow.
+  // s1 = s3 Kp + 2 c sqrt(Kp), Kp = (1 + sin phi)/(1 - sin phi) = 3 for phi = 30, s3 = 1. For c = 0.1: 3 + 0.2 * 1.7320508 =
+  // 3.346410; for c = 0.01: 3 + 0.02 * 1.7320508 = 3.034641. Valid for Mohr-Coulomb with any dilatancy and for Drucker-Prager
+  // with associated flow.
   TEST(MaterialPoint, FailsAtTheClosedFormStress)
   {
     for (const LawKind law : plastic_laws)
@@ -40,8 +41,8 @@ namespace
           }
   }
 
-  // With psi < phi Drucker-Prager comes to that stress once sigma_zz flows no more: from 10 % strain on to 1e-3; sooner it is off
-  // by more, which shows that the wait is real.
+  // With psi < phi Drucker-Prager reaches this stress once sigma_zz no longer flows: within 1e-3 from 10 % strain on. Earlier
+  // it is further off, which shows that the waiting is necessary.
   TEST(MaterialPoint, DruckerPragerMeetsItForAnyDilatancyOncePlasticInPlaneStrain)
   {
     for (const LawKind law : {LawKind::drucker_prager, LawKind::cosserat_drucker_prager})
@@ -57,7 +58,7 @@ namespace
         }
   }
 
-  // Volume against shear: sin psi = -d eps_v/d gamma of the plastic flow; on the plateau the whole strain is plastic.
+  // Volume against shear: sin psi = -d eps_v/d gamma of the plastic flow. On the plateau all strain is plastic.
   TEST(MaterialPoint, PlateauDilatesByTheAngle)
   {
     for (const LawKind law : plastic_laws)
@@ -67,13 +68,13 @@ namespace
           EXPECT_NEAR(report.rows.back().dilatancy_angle, dilatancy, 0.01) << name_of(law);
           if (dilatancy > 0)
             {
-              EXPECT_LT(report.rows.back().volumetric_strain, -0.02) << "it has grown";
+              EXPECT_LT(report.rows.back().volumetric_strain, -0.02) << "the volume has grown";
             }
         }
   }
 
-  // Peak to residual by exponential decay; after 0.9 of axial shortening kappa/kappa_s is beyond 200 and friction residual:
-  // t = s sin 13.5 + 0.01 cos 13.5 at s3 = 1: Kp = 1.609077, s1 = 1.609077 + 0.02 * 1.268494 = 1.634447.
+  // Peak to residual by exponential decay. After 0.9 of axial shortening kappa/kappa_s exceeds 200 and friction is residual: t
+  // = s sin 13.5 + 0.01 cos 13.5 at s3 = 1: Kp = 1.609077, s1 = 1.609077 + 0.02 * 1.268494 = 1.634447.
   TEST(MaterialPoint, SoftensFromPeakToResidual)
   {
     LawOptions options;
@@ -92,7 +93,8 @@ namespace
       }
   }
 
-  // Before yield: E' = E/(1 - nu^2) = 500/0.96 in plane strain at constant lateral stress; lateral over axial strain nu/(1 - nu).
+  // Before yield: E' = E/(1 - nu^2) = 500/0.96 in plane strain at constant lateral stress; lateral over axial strain nu/(1 -
+  // nu).
   TEST(MaterialPoint, BeginsWithThePlaneStrainModulus)
   {
     for (const LawKind law : all_laws())
@@ -104,7 +106,8 @@ namespace
       }
   }
 
-  // Finite strain: the volume is that of the shape, (1 - axial)(1 - lateral); with psi = 0 and no elasticity left it stays.
+  // Finite strain: the volume is that of the shape, (1 - axial)(1 - lateral). With psi = 0 and without elastic strain it is
+  // constant.
   TEST(MaterialPoint, VolumeIsThatOfTheShape)
   {
     const auto  report = drive(LawKind::mohr_coulomb, constant(30, 0, 0.01), {1, 0.5, 5e-3});
@@ -126,9 +129,9 @@ namespace
       }
   }
 
-  // Perzyna at unit rate: the overstress of the plateau is viscosity * d kappa/d axial, d kappa = d eps_1 - d eps_3 = 2 d eps_1
-  // per logarithmic axial strain for psi = 0. A step half as long leaves it, since d_time halves too. The rate
-  // grows slowly with 1/height, which takes a share of 4e-4 of the strain as elastic.
+  // Perzyna at unit rate: the overstress of the plateau is viscosity * d kappa/d axial. For psi = 0, d kappa = d eps_1 - d
+  // eps_3 = 2 d eps_1 per logarithmic axial strain. A step of half the length has the same overstress, because d_time is halved
+  // too. The rate grows slowly with 1/height, which leaves a share of 4e-4 of the strain elastic.
   TEST(MaterialPoint, OverstressIsThatOfUnitRateWhateverTheStep)
   {
     LawOptions options = constant(30, 0, 0.1);
@@ -137,7 +140,7 @@ namespace
       {
         const auto   report   = drive(LawKind::mohr_coulomb, options, {1, 0.1, step});
         const auto  &end      = report.rows.back();
-        const double rate     = 2 * std::log((1 - 0.1 + step) / (1 - 0.1)) / step; // of kappa per axial strain, 2/0.9
+        const double rate     = 2 * std::log((1 - 0.1 + step) / (1 - 0.1)) / step; // rate of kappa per axial strain, 2/0.9
         const double strength = (end.syy + end.sxx) / 2 * 0.5 + 0.1 * std::sqrt(3.) / 2;
         EXPECT_NEAR(end.overstress_share, 0.02 * rate / strength, 3e-5);
         // F = t - strength.
@@ -153,8 +156,8 @@ namespace
     EXPECT_EQ(report.rows[11].axial_strain, 0.0105);
   }
 
-  // The strains that the biaxial path found, prescribed: the same increments, thus the same stress. Logarithmic strains, because
-  // those are what the path hands to the law.
+  // Prescribes the strains of a biaxial path: the same increments must give the same stress. The strains are logarithmic,
+  // because the path uses logarithmic increments.
   TEST(StrainPath, StrainsOfTheBiaxialPathGiveItsStress)
   {
     for (const LawKind law : plastic_laws)
@@ -178,7 +181,7 @@ namespace
       }
   }
 
-  TEST(StrainPath, NamesTheStrainThatIsNone)
+  TEST(StrainPath, ReportsTheInvalidStrain)
   {
     StrainPath path;
     EXPECT_THROW((void)drive_strain_path(LawKind::linear_elastic, {}, {}, path), std::invalid_argument);
@@ -195,9 +198,8 @@ namespace
       }
   }
 
-  // Friction that breaks down within a strain far below the elastic one: the step is not found or called unreliable, never
-  // passed as reliable.
-  TEST(MaterialPoint, SaysSoWhereSofteningIsTooFast)
+  // Friction that drops within a strain far below the elastic one: the step fails or is called unreliable, never reliable.
+  TEST(MaterialPoint, ReportsSofteningThatIsTooFast)
   {
     LawOptions options;
     options.friction_angle_peak     = 40;
@@ -225,7 +227,7 @@ namespace
         }
   }
 
-  // The last step of a path is what the others leave of it.
+  // The last step of a path has the remaining length.
   TEST(MaterialPoint, EndsWithAShorterStep)
   {
     const Law law = make_law(LawKind::mohr_coulomb, constant(30, 12, 0.1));

@@ -1,4 +1,4 @@
-// diptych: Mohr-Coulomb in principal space, against independent answers
+// diptych: Mohr-Coulomb in principal space, against independent solutions
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 #include <map>
@@ -16,7 +16,7 @@ namespace
   using namespace diptych::continuum;
   using namespace diptych::continuum::tests;
 
-  // Principal stresses along the axes: plane (i, j) is (s_i - s_j)/2 + (s_i + s_j)/2 sin phi - c cos phi = 0, six of them.
+  // Principal stresses along the axes. Plane (i, j) is (s_i - s_j)/2 + (s_i + s_j)/2 sin phi - c cos phi = 0; there are six.
   struct Plane
   {
     unsigned int    major, minor;
@@ -126,8 +126,8 @@ namespace
       }
   }
 
-  // Koiter: plastic strain is a sum of the flow directions of planes that are active at the end, with no negative share, and
-  // kappa grows by the sum of the shares. The shares follow from least squares on the active flow directions.
+  // Koiter: plastic strain is a sum of the flow directions of the planes that are active at the end. No share is negative, and
+  // kappa grows by the sum of the shares. Least squares on the active flow directions give the shares.
   TEST(MohrCoulomb, FlowIsThatOfActivePlanesWithHardeningAndFadingDilatancy)
   {
     for (const std::string kind : {"exponential", "table, viscous"})
@@ -169,8 +169,8 @@ namespace
       }
   }
 
-  // Stress is continuous where regimes meet: along a straight line of trial states no jump exceeds what the elastic moduli and
-  // the step allow: |D| h = 2 (K + 4 G/3) h at most.
+  // Stress is continuous where regimes meet. Along a straight line of trial states no jump exceeds the limit of the elastic
+  // moduli and the step: |D| h = 2 (K + 4 G/3) h.
   TEST(MohrCoulomb, StressIsContinuousAcrossRegimes)
   {
     const MohrCoulomb law(hardenings()["exponential, viscous"]);
@@ -195,7 +195,7 @@ namespace
     EXPECT_EQ(seen.size(), 4u);
   }
 
-  // Equal in-plane principal stresses at an edge: no division by their difference.
+  // Equal in-plane principal stresses at an edge: the tangent must not divide by their difference.
   TEST(MohrCoulomb, TangentHoldsWithEqualStressesInThePlane)
   {
     const Law law = make_law(LawKind::mohr_coulomb, hardenings()["exponential"]);

@@ -1,4 +1,4 @@
-// diptych: many panels in one process: each as in a process of its own, none leaves memory behind
+// diptych: many panels in one process give the results of separate processes and release their memory
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cstdlib>
 #include <filesystem>
@@ -16,14 +16,14 @@ namespace
   using namespace diptych::continuum;
   using namespace diptych::continuum::tests;
 
-  // What is allocated and not given back [bytes].
+  // Bytes that are allocated and not released.
   double bytes_in_use()
   {
     const struct mallinfo2 now = mallinfo2();
     return double(now.uordblks + now.hblkhd);
   }
 
-  // Law, linear solver and mesh take turns of three, four and two, the friction of five.
+  // The law has period 3 in k, the linear solver 4, the mesh 2 and the friction 5.
   constexpr int n_turns = 12;
   Course        turn(const int k)
   {
@@ -50,7 +50,7 @@ namespace
     return values;
   }
 
-  // What a process of its own does: DIPTYCH_TURN says which turn, DIPTYCH_NUMBERS where its numbers go.
+  // Run in a separate process. DIPTYCH_TURN is the number of the turn, DIPTYCH_NUMBERS the file for its results.
   TEST(ManyPanels, DISABLED_OneTurn)
   {
     const char *which = std::getenv("DIPTYCH_TURN"), *file = std::getenv("DIPTYCH_NUMBERS");
@@ -60,7 +60,7 @@ namespace
       .write(reinterpret_cast<const char *>(values.data()), std::streamsize(values.size() * sizeof(double)));
   }
 
-  // Started without this one's environment, which MPI has filled with its own affairs.
+  // Starts without this process's environment, which contains MPI's own variables.
   std::vector<double> numbers_of_a_fresh_process(const int k)
   {
     namespace fs                = std::filesystem;
@@ -81,7 +81,7 @@ namespace
     return values;
   }
 
-  // Five of every turn. After two of each (which fill what libraries keep once) nothing more may stay in use.
+  // Five of every turn. Two of each first fill what the libraries keep once. After that no more memory may stay in use.
   TEST(ManyPanels, KeepNoMemoryAndGiveTheBitsOfAFreshProcess)
   {
     std::vector<std::vector<double>> fresh;
@@ -99,13 +99,13 @@ namespace
       }
     const double grown = bytes_in_use() - before;
     RecordProperty("grown_bytes", std::to_string(grown));
-    // 36 panels of 8 x 8 biquadratic elements, 289 nodes: one that kept its displacements would add 36 x 4.6 kB. Pools of the
-    // libraries still grow by 6 to 7 kB, the less the longer it goes on.
+    // 36 panels of 8 x 8 biquadratic elements, 289 nodes: a panel that kept its displacements would add 36 x 4.6 kB. Pools of
+    // the libraries still grow by 6 to 7 kB, ever more slowly.
     EXPECT_LT(grown, 20000);
   }
 
-  // Two panels side by side, one of them on a communicator of its own, walk as each alone.
-  TEST(ManyPanels, DoNotKnowOfEachOther)
+  // Two panels side by side, one of them on its own communicator, give the results of each of them running separately.
+  TEST(ManyPanels, DoNotInfluenceEachOther)
   {
     const QuadMesh mesh    = rectangle(14, 20, 4.);
     const Loading  loading = straight_loading(1, {20, -20}, {0.002, 0.004});

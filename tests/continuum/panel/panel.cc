@@ -1,4 +1,4 @@
-// diptych: a run of the continuum panel: stages, rows, honest ends, refused input
+// diptych: a run of the continuum panel: stages, rows, early ends, refused input
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <stdexcept>
 
@@ -30,7 +30,7 @@ namespace
     EXPECT_LT(c.end().stress_ratio, std::sin(20.5 * M_PI / 180) + 0.02); // t/s = sin phi + (c/s) cos phi, c = 0.01, s > 1
   }
 
-  // What a stage hands over: its cells fill the area, its means are those of the history, its platens are where they were driven.
+  // At a stage the cells fill the area, the means are those of the history, the platens are at the prescribed positions.
   TEST(Panel, SnapshotAndHistoryAreOfOneState)
   {
     const QuadMesh  mesh = rectangle(14, 20, 2.);
@@ -59,7 +59,7 @@ namespace
           ++n_upper;
           EXPECT_NEAR((s.displacement[k] - Eigen::Vector2d(0.2, -0.2)).norm(), 0, 1e-9);
         }
-    EXPECT_EQ(n_upper, 15); // 7 elements with middles
+    EXPECT_EQ(n_upper, 15); // 7 elements with midpoints
   }
 
   TEST(Panel, StopsAtTheNextStepOnRequest)
@@ -79,12 +79,12 @@ namespace
     EXPECT_GT(report.axial_strain, 0);
     EXPECT_LT(report.axial_strain, 0.05);
     steps = -1000;
-    EXPECT_EQ(panel.advance_to(1), Status::finished) << "asked again, it goes on";
+    EXPECT_EQ(panel.advance_to(1), Status::finished) << "a further call continues";
     EXPECT_EQ(panel.report().progress, 0.05);
   }
 
-  // Mesh, unknowns, nodes, matrix, state at rest: asked between them, and left at once when told so.
-  TEST(Panel, ASetUpThatIsStoppedIsLeftAtOnce)
+  // The panel checks for a stop between mesh, unknowns, nodes, matrix and state at rest, and then ends at once.
+  TEST(Panel, AStoppedSetUpEndsAtOnce)
   {
     const QuadMesh mesh      = rectangle(4, 6, 2.);
     const Loading  loading   = straight_loading(1, {6, -6}, {0.05});
@@ -103,8 +103,8 @@ namespace
       }
   }
 
-  // What has a weight is not at rest by itself. Stopped on the way there and asked again, the panel comes to the same bits.
-  TEST(Panel, IsStoppedOnTheWayToRestAndGoesOn)
+  // A sample with a weight is not at rest initially. A stop during the search for equilibrium does not change the bits.
+  TEST(Panel, ContinuesAfterAStopOnTheWayToRest)
   {
     const QuadMesh mesh    = outline_mesh(wavy_outline(24, 24, 13, 0.2), 4.);
     Loading        loading = straight_loading(1, {24, -24}, {0.004});
@@ -128,11 +128,11 @@ namespace
     EXPECT_EQ(panel.snapshot().position, whole.snapshot().position);
   }
 
-  TEST(Panel, SaysHowFarItCameWhenItCannotGoOn)
+  TEST(Panel, ReportsTheProgressReachedWhenItFails)
   {
     const QuadMesh mesh = rectangle(14, 20, 2.);
     Options        options;
-    options.max_newton_iterations = 1; // no plastic step converges in one
+    options.max_newton_iterations = 1; // no plastic step converges in one iteration
     options.min_step              = 1e-4;
     const Course c                = course(mesh, straight_loading(1, {20, -20}, {0.02}), options);
     EXPECT_EQ(c.report.status, Status::not_converged);
@@ -142,14 +142,14 @@ namespace
     EXPECT_NE(c.report.message.find("Newton"), std::string::npos) << c.report.message;
     if (c.report.axial_strain > 0)
       {
-        EXPECT_EQ(c.snapshots.back().axial_strain, c.report.axial_strain) << "what was reached is handed over";
+        EXPECT_EQ(c.snapshots.back().axial_strain, c.report.axial_strain) << "the snapshot holds the state reached";
       }
   }
 
-  // One element under smooth platens, hardly any hardening range: the acoustic tensor loses its positive determinant where
-  // softening begins, and the line lies between Roscoe's 45 + psi/2 and Coulomb's 45 + phi/2 to the horizontal, which is
-  // the direction of the minor pressure: 51 and 55.25 degrees at psi = 12, phi = 20.5.
-  TEST(Panel, TellsWhereALineCouldForm)
+  // One element under smooth platens with hardly any hardening range. The acoustic tensor loses its positive determinant where
+  // softening begins. The line lies between Roscoe's 45 + psi/2 and Coulomb's 45 + phi/2 to the horizontal, the direction of
+  // the minor pressure: 51 and 55.25 degrees at psi = 12, phi = 20.5.
+  TEST(Panel, ReportsTheOnsetOfLocalisation)
   {
     const QuadMesh mesh    = rectangle(1, 1, 1.);
     Options        options = with(Options(), Platens::smooth, Kinematics::updated);
@@ -176,10 +176,10 @@ namespace
     ASSERT_EQ(direct.rows.size(), amg.rows.size());
     for (std::size_t k = 0; k < direct.rows.size(); ++k)
       EXPECT_NEAR(amg.rows[k].stress_ratio, direct.rows[k].stress_ratio, 1e-4 * direct.end().stress_ratio);
-    EXPECT_GT(amg.end().linear_iterations, 2 * amg.end().newton_iterations) << "a multigrid hierarchy is no direct solver";
+    EXPECT_GT(amg.end().linear_iterations, 2 * amg.end().newton_iterations) << "multigrid needs more iterations";
   }
 
-  // Cells that carry the isotropic pressure, mapped, are the isotropic start.
+  // Mapping the isotropic pressure gives the isotropic initial state.
   TEST(Panel, MappedPressureIsTheIsotropicStart)
   {
     const QuadMesh mesh    = rectangle(4, 6, 2.);
@@ -196,8 +196,8 @@ namespace
     EXPECT_NEAR((mapped.end().mean_stress - plain.end().mean_stress).norm(), 0, 1e-9);
   }
 
-  // Cells that carry alternately 20 % more and less come to rest: then the sides balance the pressure again, and what is mapped
-  // is there cell by cell to the degree that equilibrium allows.
+  // Cells with alternately 20 % more and less stress come to rest: the sides balance the pressure again, and each cell
+  // keeps its mapped stress as far as equilibrium allows.
   TEST(Panel, MappedStressComesToRest)
   {
     const QuadMesh mesh    = rectangle(8, 12, 2.);
@@ -235,8 +235,8 @@ namespace
     return options;
   }
 
-  // One set of parameters: dense softens and dilates, loose hardens and contracts.
-  TEST(CriticalStatePanel, KnowsTheDensity)
+  // One set of parameters: a dense sample softens and dilates, a loose one hardens and contracts.
+  TEST(CriticalStatePanel, DependsOnTheDensity)
   {
     const QuadMesh mesh  = rectangle(14, 20, 2.);
     const Loading  shear = straight_loading(1, {0, -20}, {0.08});
@@ -244,12 +244,12 @@ namespace
     double         peak = 0;
     for (const HistoryRow &row : dense.rows)
       peak = std::max(peak, row.stress_ratio);
-    EXPECT_GT(peak, 1.2 * 0.267); // steady flow with this cohesion
+    EXPECT_GT(peak, 1.2 * 0.267); // value of steady flow with this cohesion
     EXPECT_LT(dense.end().stress_ratio, 0.85 * peak);
     EXPECT_LT(dense.end().volumetric_strain, -0.01);
     EXPECT_GT(loose.end().volumetric_strain, 0.01);
     EXPECT_LT(loose.end().stress_ratio, 0.28);
-    // Corners under rough platens, which the sides cannot reach, collapse: seldom in dense grains, more in loose ones.
+    // Corners under rough platens, which the sides cannot reach, collapse: rarely in dense grains, more often in loose ones.
     const auto most_unstable = [](const Course &c) {
       double most = 0;
       for (const HistoryRow &row : c.rows)
@@ -259,7 +259,7 @@ namespace
     EXPECT_GT(most_unstable(loose), 4 * most_unstable(dense));
   }
 
-  // With an internal length the elements do not matter, softening or not.
+  // With an internal length the element size does not matter, with or without softening.
   TEST(CriticalStatePanel, DoesNotDependOnTheMesh)
   {
     std::vector<double> strength, volume;
@@ -273,7 +273,7 @@ namespace
     EXPECT_NEAR(volume[1] / volume[0], 1, 0.04);
   }
 
-  // What is mapped cell by cell is what is given as a number, where it is the same everywhere.
+  // A uniform solid fraction mapped cell by cell gives the same result as one given as a number.
   TEST(CriticalStatePanel, MapsTheSolidFraction)
   {
     const QuadMesh mesh    = rectangle(8, 12, 2.);
@@ -331,7 +331,7 @@ namespace
     refuses(options, "rectangle_width");
   }
 
-  TEST(Panel, WhatTheMeshDoesNotAllowIsRefused)
+  TEST(Panel, LoadingsThatTheMeshCannotCarryAreRefused)
   {
     const QuadMesh straight = rectangle(4, 6, 2.);
     Loading        loading  = straight_loading(1, {0, -6}, {0.001});
@@ -340,7 +340,7 @@ namespace
     options.refinement      = Refinement::adaptive;
     EXPECT_THROW((void)course(straight, loading, options), std::invalid_argument);
     loading.lateral = PeriodicSides{std::nullopt};
-    EXPECT_THROW((void)course(straight, loading, elastic()), std::invalid_argument) << "rough platens do not stretch";
+    EXPECT_THROW((void)course(straight, loading, elastic()), std::invalid_argument) << "rough platens cannot stretch";
     EXPECT_EQ(course(straight, loading, with(elastic(), Platens::smooth, Kinematics::updated)).report.status, Status::finished);
     options                = elastic();
     options.initial_stress = InitialStress::mapped;
@@ -354,8 +354,8 @@ namespace
     EXPECT_THROW((void)course(torn, loading, elastic()), std::invalid_argument);
   }
 
-  // Keys that nothing reads as the options stand are named with what says so.
-  TEST(Panel, KeysThatNothingReadsAreNamed)
+  // Keys without effect are listed with the choice responsible.
+  TEST(Panel, UnusedKeysAreReported)
   {
     const auto names = [](const Options &options) {
       std::string text;
@@ -380,8 +380,8 @@ namespace
     EXPECT_NE(names(options).find("friction_angle_peak (law = linear_elastic)"), std::string::npos) << names(options);
   }
 
-  // Young's modulus below 50 or above a million pressures, a cohesion above the pressure: no granular sample has them.
-  TEST(Panel, DoubtfulModuliArePointedOut)
+  // Young's modulus below 50 or above a million pressures, or a cohesion above the pressure: implausible for a granular sample.
+  TEST(Panel, DoubtfulModuliAreReported)
   {
     const auto doubts = [](const double modulus, const double cohesion) {
       Options options;

@@ -1,4 +1,4 @@
-// diptych: several processes walk as one: every course is held to that of one process alone
+// diptych: runs on several processes, compared with the same run on one process
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/mpi.h>
 
@@ -26,17 +26,18 @@ namespace
             double(row.n_cells)};
   }
 
-  // The course of all processes against the one that each of them walks by itself. `relative`: to the largest of a column.
+  // Compares the run of all processes with the run of each of them without the others. `relative`: to the largest value of a
+  // column.
   Course as_alone(const QuadMesh &mesh, const Loading &loading, const Options &options, const double relative, Wishes wishes = {})
   {
     const Course c      = course(mesh, loading, options, wishes);
     wishes.communicator = MPI_COMM_SELF;
     const Course alone  = course(mesh, loading, options, wishes);
     EXPECT_EQ(c.report.status, Status::finished) << c.report.message;
-    EXPECT_GT(alone.end().stress_ratio, alone.rows.front().stress_ratio + 0.1) << "it was loaded";
+    EXPECT_GT(alone.end().stress_ratio, alone.rows.front().stress_ratio + 0.1) << "the sample was loaded";
     if (!is_first())
       {
-        EXPECT_TRUE(c.rows.empty()) << "only the first process is told";
+        EXPECT_TRUE(c.rows.empty()) << "only the first process gets rows";
         return c;
       }
     EXPECT_GT(c.rows.size(), 3u);
@@ -44,7 +45,7 @@ namespace
     for (int k = 0; k < n_columns; ++k)
       {
         double     scale    = 1e-9;
-        const bool is_force = k >= first_force && k < first_force + 4; // measured by the largest of their components
+        const bool is_force = k >= first_force && k < first_force + 4; // relative to the largest of their components
         for (const HistoryRow &row : alone.rows)
           for (int j = is_force ? first_force : k; j < (is_force ? first_force + 4 : k + 1); ++j)
             scale = std::max(scale, std::abs(numbers(row)[j]));
@@ -52,7 +53,7 @@ namespace
           EXPECT_NEAR(numbers(c.rows[row])[k], numbers(alone.rows[row])[k], relative * scale)
             << "column " << k << ", row " << row;
       }
-    // The snapshot is whole.
+    // The snapshot is complete.
     const Snapshot &s    = c.snapshots.back();
     double          area = 0;
     for (const double w : s.weight)
@@ -85,7 +86,7 @@ namespace
     as_alone(mesh, straight_loading(1, {20, -20}, {0, 0.006}), options, 1e-4);
   }
 
-  // Pairs of nodes, and a platen's nodes that move as one, lie on different processes.
+  // Pairs of periodic nodes, and tied nodes of a platen, lie on different processes.
   TEST(Parallel, PlaneShearBetweenPeriodicSides)
   {
     const QuadMesh mesh    = rectangle(16, 8, 2.);
@@ -107,7 +108,7 @@ namespace
     as_alone(mesh, loading, options, 1e-4);
   }
 
-  // Stress handed over by the first process reaches the cells of the others: it grows from left to right, and comes to rest.
+  // Stress given on the first process reaches the cells of the others. It grows from left to right and comes to rest.
   TEST(Parallel, MappedStress)
   {
     const QuadMesh mesh       = rectangle(12, 8, 2.);
@@ -127,8 +128,8 @@ namespace
     as_alone(mesh, straight_loading(1, {0, -8}, {0, 0.004}), options, 1e-4, wishes);
   }
 
-  // A checkpoint of one process is taken up by several, to where the course of one alone ends.
-  TEST(Parallel, ACheckpointOfOneProcessIsTakenUpByAll)
+  // Several processes resume a checkpoint of one process and reach the end of a run on one process.
+  TEST(Parallel, AllProcessesResumeACheckpointOfOne)
   {
     const QuadMesh mesh    = rectangle(14, 20, 4.);
     const Loading  loading = straight_loading(1, {20, -20}, {0, 0.008});
@@ -145,13 +146,13 @@ namespace
     EXPECT_EQ(c.report.status, Status::finished) << c.report.message;
     if (!is_first())
       return;
-    EXPECT_EQ(c.rows.front().step, 4) << "three steps were made before";
+    EXPECT_EQ(c.rows.front().step, 4) << "the checkpoint was made after three steps";
     const double size = whole.end().upper_platen_force.norm();
     EXPECT_NEAR((c.end().upper_platen_force - whole.end().upper_platen_force).norm(), 0, 1e-4 * size);
   }
 
-  // Put down and taken up by all of them: the factors of the last matrix are made anew, the rest comes back as it was.
-  TEST(ParallelChanges, AnInterruptedCourseGoesOn)
+  // All processes write and resume a checkpoint. Factors of the last matrix are recomputed, all else is restored.
+  TEST(ParallelChanges, AnInterruptedRunContinues)
   {
     const QuadMesh mesh          = rectangle(24, 24, 4.);
     const Loading  loading       = straight_loading(1, {24, -24}, {0, 0.012});
@@ -175,8 +176,8 @@ namespace
     EXPECT_NEAR((c.end().upper_platen_force - whole.end().upper_platen_force).norm(), 0, 1e-6 * size);
   }
 
-  // Unknowns and constraints change on the way: the solver's factors belong to a matrix that is no more. The same elements are
-  // divided, neighbours on another process included.
+  // Unknowns and constraints change during the run, so the solver must discard factors of the previous matrix. The same
+  // elements are divided, including neighbours on another process.
   TEST(ParallelChanges, AdaptiveRefinement)
   {
     const QuadMesh mesh          = rectangle(24, 24, 4.);
@@ -186,7 +187,7 @@ namespace
     as_alone(mesh, straight_loading(1, {24, -24}, {0, 0.012}), options, 1e-3);
   }
 
-  // Nodes that have come to a platen, of a sample that was `height` high.
+  // Nodes that have reached a platen, for a sample of the initial height `height`.
   int n_captured(const Snapshot &s, const double height)
   {
     int n = 0;
@@ -198,7 +199,7 @@ namespace
     return n;
   }
 
-  // Material is squeezed out beside a platen and taken up by it, which adds to the platen's nodes.
+  // Material is squeezed out beside a platen and joins it, which adds nodes to the platen.
   TEST(ParallelChanges, SideContact)
   {
     const QuadMesh mesh    = rectangle(30, 30, 3.75);
@@ -210,7 +211,7 @@ namespace
     EXPECT_GT(n_captured(c.snapshots.back(), 30), 0);
   }
 
-  // The nodes that come to a platen which moves freely sideways are tied to its first one, that lies on another process.
+  // Nodes that reach a platen with free horizontal motion are tied to its first node, which lies on another process.
   TEST(ParallelChanges, SideContactOfAPlatenThatMovesFreely)
   {
     const QuadMesh mesh    = rectangle(30, 30, 3.75);

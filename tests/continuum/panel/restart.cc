@@ -1,4 +1,4 @@
-// diptych: a course interrupted and taken up again is the course that was not
+// diptych: an interrupted and resumed run has the bits of an uninterrupted one
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ namespace
     return options;
   }
 
-  // Everything of a row but the seconds that it took.
+  // All entries of a row except the CPU seconds.
   void expect_same_bits(const HistoryRow &a, const HistoryRow &b)
   {
     std::vector<double> numbers[2];
@@ -42,14 +42,14 @@ namespace
   void expect_the_rest(const QuadMesh &mesh, const Loading &loading, const Options &options, const Halves &of)
   {
     ASSERT_EQ(of.first.report.status, Status::stopped_by_user);
-    const std::size_t put_down = of.first.rows.size();
+    const std::size_t interrupted_after = of.first.rows.size();
     Wishes            further;
     further.resume      = &of.first.checkpoint;
     const Course second = course(mesh, loading, options, further);
     ASSERT_EQ(second.report.status, Status::finished) << second.report.message;
-    ASSERT_EQ(put_down + second.rows.size(), of.whole.rows.size());
+    ASSERT_EQ(interrupted_after + second.rows.size(), of.whole.rows.size());
     for (std::size_t k = 0; k < of.whole.rows.size(); ++k)
-      expect_same_bits(k < put_down ? of.first.rows[k] : second.rows[k - put_down], of.whole.rows[k]);
+      expect_same_bits(k < interrupted_after ? of.first.rows[k] : second.rows[k - interrupted_after], of.whole.rows[k]);
     const Snapshot &a = second.snapshots.back(), &b = of.whole.snapshots.back();
     EXPECT_EQ(a.position, b.position);
     ASSERT_EQ(a.cell_state.size(), b.cell_state.size());
@@ -58,49 +58,49 @@ namespace
     EXPECT_EQ(second.report.localisation_progress, of.whole.report.localisation_progress);
   }
 
-  // Put down before any of its steps and taken up by a panel of its own, a course on one process tells the rows of one that was
-  // never interrupted, to the last bit: on divided elements, with mapped stress, with a multigrid preconditioner as with factors.
+  // A run on one process is interrupted before any of its steps and resumed by a new panel. Its rows must equal those of an
+  // uninterrupted run, bit for bit. This holds for divided elements, mapped stress, multigrid and factors.
   void expect_that_it_goes_on(const QuadMesh &mesh, const Loading &loading, const Options &options, Wishes wishes = {})
   {
     const Course whole = course(mesh, loading, options, wishes);
     ASSERT_EQ(whole.report.status, Status::finished) << whole.report.message;
     ASSERT_GT(whole.rows.size(), 6u);
-    for (std::size_t put_down = 1; put_down < whole.rows.size(); put_down += whole.rows.size() / 4)
+    for (std::size_t interrupted_after = 1; interrupted_after < whole.rows.size(); interrupted_after += whole.rows.size() / 4)
       {
-        SCOPED_TRACE("after " + std::to_string(put_down) + " rows");
+        SCOPED_TRACE("after " + std::to_string(interrupted_after) + " rows");
         Wishes stopped         = wishes;
-        stopped.stop_requested = [&](const std::size_t n_rows) { return n_rows >= put_down; };
+        stopped.stop_requested = [&](const std::size_t n_rows) { return n_rows >= interrupted_after; };
         const Course first     = course(mesh, loading, options, stopped);
-        ASSERT_EQ(first.rows.size(), put_down);
+        ASSERT_EQ(first.rows.size(), interrupted_after);
         expect_the_rest(mesh, loading, options, {first, whole});
       }
   }
 
-  // Stopped between two Newton iterations: three questions in a row, of which a step that takes two iterations asks two within.
-  void expect_that_it_goes_on_within_steps(const QuadMesh &mesh, const Loading &loading, const Options &options)
+  // Stops between two Newton iterations. Three successive checks are tried, because a step of two iterations makes two of them.
+  void expect_resume_within_steps(const QuadMesh &mesh, const Loading &loading, const Options &options)
   {
-    const Course whole     = course(mesh, loading, options);
-    int          questions = 0;
+    const Course whole = course(mesh, loading, options);
+    int          calls = 0;
     Wishes       asking;
-    asking.stop_requested = [&](const std::size_t n_rows) { return n_rows > 0 && ++questions < 0; };
+    asking.stop_requested = [&](const std::size_t n_rows) { return n_rows > 0 && ++calls < 0; };
     const Course asked    = course(mesh, loading, options, asking);
     ASSERT_EQ(asked.rows.size(), whole.rows.size());
     for (std::size_t k = 0; k < whole.rows.size(); ++k)
       expect_same_bits(asked.rows[k], whole.rows[k]);
-    ASSERT_GT(questions, int(whole.rows.size()) + 2) << "more than one a step";
-    for (const int last : {2, questions / 2, questions / 2 + 1, questions / 2 + 2, questions - 1})
+    ASSERT_GT(calls, int(whole.rows.size()) + 2) << "more than one check per step";
+    for (const int last : {2, calls / 2, calls / 2 + 1, calls / 2 + 2, calls - 1})
       {
-        SCOPED_TRACE("at question " + std::to_string(last) + " of " + std::to_string(questions));
+        SCOPED_TRACE("at check " + std::to_string(last) + " of " + std::to_string(calls));
         int    n = 0;
         Wishes stopped;
         stopped.stop_requested = [&](const std::size_t n_rows) { return n_rows > 0 && ++n >= last; };
         const Course first     = course(mesh, loading, options, stopped);
-        EXPECT_EQ(n, last) << "nothing more is done once it is said";
+        EXPECT_EQ(n, last) << "the panel stops at the first positive answer";
         expect_the_rest(mesh, loading, options, {first, whole});
       }
   }
 
-  TEST(Restart, GoesOnToTheSameBits)
+  TEST(Restart, ContinuesWithTheSameBits)
   {
     const QuadMesh mesh    = outline_mesh(wavy_outline(24, 24, 13, 0.2), 4.);
     const Loading  loading = straight_loading(1, {24, -24}, {0, 0.004, 0.012});
@@ -108,18 +108,18 @@ namespace
       expect_that_it_goes_on(mesh, loading, options_of(law, false));
   }
 
-  // With factors and with a multigrid preconditioner, which the iterations of the step that is given up have replaced.
-  TEST(Restart, GoesOnToTheSameBitsFromWithinAStep)
+  // With factors and with a multigrid preconditioner. The iterations of the rejected step have replaced both.
+  TEST(Restart, ContinuesWithTheSameBitsFromWithinAStep)
   {
     for (const LinearChoice solver : {LinearChoice::direct, LinearChoice::amg})
       {
         Options options       = options_of(LawKind::mohr_coulomb, false);
         options.linear_solver = solver;
-        expect_that_it_goes_on_within_steps(rectangle(14, 20, 2.), straight_loading(1, {20, -20}, {0, 0.01}), options);
+        expect_resume_within_steps(rectangle(14, 20, 2.), straight_loading(1, {20, -20}, {0, 0.01}), options);
       }
   }
 
-  TEST(Restart, GoesOnToTheSameBitsOnDividedElements)
+  TEST(Restart, ContinuesWithTheSameBitsOnDividedElements)
   {
     const Loading loading = straight_loading(1, {24, -24}, {0, 0.004, 0.02});
     Options       options = options_of(LawKind::cosserat_mohr_coulomb, true);
@@ -128,14 +128,14 @@ namespace
     expect_that_it_goes_on(rectangle(24, 24, 4.), loading, options);
   }
 
-  TEST(Restart, GoesOnToTheSameBitsWithAMultigridPreconditioner)
+  TEST(Restart, ContinuesWithTheSameBitsWithAMultigridPreconditioner)
   {
     Options options       = options_of(LawKind::mohr_coulomb, false);
     options.linear_solver = LinearChoice::amg;
     expect_that_it_goes_on(rectangle(14, 20, 2.), straight_loading(1, {20, -20}, {0, 0.01}), options);
   }
 
-  TEST(Restart, GoesOnToTheSameBitsFromAMappedStress)
+  TEST(Restart, ContinuesWithTheSameBitsFromAMappedStress)
   {
     Options options        = options_of(LawKind::cosserat_mohr_coulomb, true);
     options.initial_stress = InitialStress::mapped;
@@ -149,15 +149,16 @@ namespace
     expect_that_it_goes_on(rectangle(24, 24, 4.), straight_loading(1, {24, -24}, {0, 0.01}), options, wishes);
   }
 
-  // Material that has come to a platen beside it, and a platen that moves freely.
-  TEST(Restart, GoesOnToTheSameBitsInSideContact)
+  // Material has reached a platen beside it, and a platen moves freely.
+  TEST(Restart, ContinuesWithTheSameBitsInSideContact)
   {
     Loading loading       = straight_loading(1, {0, -30}, {0, 0.3});
     loading.platens[1][0] = force(0);
     expect_that_it_goes_on(rectangle(30, 30, 3.75), loading, with_steps(options_of(LawKind::cosserat_mohr_coulomb, false), 5e-3));
   }
 
-  // What preconditions the next solve decides its bits: factors of a matrix that is not there are not made anew in silence.
+  // The preconditioner determines the bits of the next solve. If its matrix is missing, the factors must not be recomputed
+  // silently.
   TEST(Restart, MatricesOfAnotherLengthAreRefused)
   {
     const Loading loading = straight_loading(1, {14, -20}, {0.002});

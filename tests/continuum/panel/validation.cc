@@ -32,10 +32,10 @@ namespace
     return options;
   }
 
-  // Plane strain between smooth platens: s1 = s3 Kp + 2 c sqrt(Kp), Kp = (1 + sin phi)/(1 - sin phi) = 3 at 30 degrees:
-  // 3 + 0.2 sqrt 3 = 3.346410 and 3 + 0.02 sqrt 3 = 3.034641 at s3 = 1. The sides carry pressure x current height, in small
-  // strain on the initial shape: s3 = 0.95 at 5 % strain, and s1 is less by 3 x 0.05. As s3 falls steadily, Drucker-Prager's
-  // sigma_zz keeps changing, which costs it some 1e-6 of its strength.
+  // Plane strain between smooth platens: s1 = s3 Kp + 2 c sqrt(Kp), Kp = (1 + sin phi)/(1 - sin phi) = 3 at 30 degrees. At s3 =
+  // 1 this is 3 + 0.2 sqrt 3 = 3.346410 and 3 + 0.02 sqrt 3 = 3.034641. In small strain the sides carry pressure x current
+  // height on the initial shape: s3 = 0.95 at 5 % strain, and s1 is lower by 3 x 0.05. As s3 falls steadily, sigma_zz of
+  // Drucker-Prager keeps changing, which reduces its strength by about 1e-6.
   TEST(Validation, OneElementReachesTheClosedFormStrengthInSmallStrain)
   {
     const QuadMesh mesh = rectangle(1, 1, 1.);
@@ -54,7 +54,7 @@ namespace
           }
   }
 
-  // Where the shape is updated the sides carry the pressure on their present height: s3 = 1.
+  // With updated geometry the sides carry the pressure on their current height: s3 = 1.
   TEST(Validation, OneElementReachesTheClosedFormStrengthOnTheMovedShape)
   {
     const QuadMesh mesh = rectangle(1, 1, 1.);
@@ -73,7 +73,7 @@ namespace
           }
   }
 
-  // With psi < phi Drucker-Prager comes to that stress once sigma_zz flows no more: from 10 % strain on to 1e-3.
+  // With psi < phi Drucker-Prager reaches this stress once sigma_zz no longer flows: within 1e-3 from 10 % strain on.
   TEST(Validation, DruckerPragerMeetsTheStrengthFromTenPercentOn)
   {
     const QuadMesh mesh = rectangle(1, 1, 1.);
@@ -91,9 +91,9 @@ namespace
           }
   }
 
-  // On the plateau all strain is plastic: d eps_v/d gamma = -sin psi with d eps_v = d e1 + d e3, d gamma = d e1 - d e3, so that
-  // the volume grows by d eps_v/d e1 = -2 sin psi/(1 - sin psi), here of logarithmic strains: -0.4202 at psi = 10. A step's
-  // strain is by its first shape: steps of 5e-4 differ from the logarithm by 1.42 x 1.21 x 5e-4/0.9 = 1e-3.
+  // On the plateau all strain is plastic: d eps_v/d gamma = -sin psi with d eps_v = d e1 + d e3, d gamma = d e1 - d e3. Hence
+  // the volume grows by d eps_v/d e1 = -2 sin psi/(1 - sin psi), in logarithmic strains: -0.4202 at psi = 10. The strain of a
+  // step refers to its first shape: steps of 5e-4 differ from the logarithm by 1.42 x 1.21 x 5e-4/0.9 = 1e-3.
   TEST(Validation, OneElementDilatesByItsAngle)
   {
     const QuadMesh mesh = rectangle(1, 1, 1.);
@@ -122,8 +122,8 @@ namespace
         }
   }
 
-  // The two geometries differ by the strain times the stress: at 0.2 % strain, in a course from elastic to plastic, by less
-  // than 1 %, and at 8 % by more.
+  // The two geometries differ by the strain times the stress. In a run from elastic to plastic this is less than 1 % at 0.2 %
+  // strain, and more at 8 %.
   TEST(Validation, GeometriesAgreeAtSmallStrainOnly)
   {
     const QuadMesh mesh    = rectangle(12, 20, 4.);
@@ -139,9 +139,9 @@ namespace
     EXPECT_GT(difference(1), 0.02);
   }
 
-  // Elastic Cosserat layer, omega = 0 at both walls: G_eff/G = 1/(1 - 2 Gc tanh(lam H/2)/((G + Gc) lam H)), lam^2 = 4 G Gc/
-  // (M (G + Gc)); Gc = G/2, M = 2 G l^2: lam = sqrt(2/3)/l, and with H = 20 l: 1/(1 - 2/3 x 1/16.3299 x tanh(8.165)) = 1.042562.
-  // With free rotations there is no layer at the walls, and the stiffness is that of the classical continuum.
+  // Elastic Cosserat layer, omega = 0 at both walls: G_eff/G = 1/(1 - 2 Gc tanh(lam H/2)/((G + Gc) lam H)), with lam^2 = 4 G
+  // Gc/ (M (G + Gc)), Gc = G/2 and M = 2 G l^2: lam = sqrt(2/3)/l. With H = 20 l: 1/(1 - 2/3 x 1/16.3299 x tanh(8.165)) =
+  // 1.042562. With free rotations there is no layer at the walls, and the stiffness is that of the classical continuum.
   TEST(Validation, ElasticCosseratLayerIsStiffened)
   {
     const QuadMesh mesh                 = rectangle(0.5, 20, 0.25);
@@ -162,9 +162,9 @@ namespace
         }
   }
 
-  // Hypoelastic simple shear to gamma = 1 with the stress turned by the spin (Jaumann): s_xy = G sin gamma, s_xx = -s_yy =
-  // G (1 - cos gamma), tension positive. Steps of d gamma err by G d gamma/2 at most times 1 and so on: first order; the
-  // extrapolation to no step is the closed form.
+  // Hypoelastic simple shear to gamma = 1, where the stress rotates with the spin (Jaumann): s_xy = G sin gamma, s_xx = -s_yy =
+  // G (1 - cos gamma), tension positive. Steps of d gamma have a first-order error of about G d gamma/2. The extrapolation to
+  // zero step length is the closed form.
   TEST(Validation, StressTurnsWithTheMaterialInSimpleShear)
   {
     const QuadMesh mesh    = rectangle(2, 2, 2.);
@@ -182,8 +182,9 @@ namespace
     EXPECT_NEAR(fine(0, 0), s_xx, 0.01 * G);
   }
 
-  // Simple shear under constant normal stress, psi = 0: no plastic strain normal to the flow, so that the planes of shear are
-  // those of the largest shear stress (Davis 1968): s_xx = s_yy = s and tau = s sin phi + c cos phi = 0.5 + 0.01 x 0.866025.
+  // Simple shear under constant normal stress, psi = 0. There is no plastic strain normal to the flow. Hence the planes of
+  // shear are those of the largest shear stress (Davis 1968): s_xx = s_yy = s and tau = s sin phi + c cos phi = 0.5 + 0.01 x
+  // 0.866025.
   TEST(Validation, SimpleShearStrengthIsThatOfDavis)
   {
     const QuadMesh mesh    = rectangle(2, 2, 2.);
@@ -202,9 +203,9 @@ namespace
       }
   }
 
-  // A sample of 12 x 24 elements at its limit, psi = 0, whose volume cannot change: an element that locks is stronger. Between
-  // smooth platens the closed form at phi = 20, c = 0.1, s3 = 0.98: Kp = 2.039607, 0.98 Kp + 0.2 sqrt(Kp) = 2.284444; between
-  // rough ones the two elements agree.
+  // A sample of 12 x 24 elements at its limit, psi = 0, whose volume cannot change: an element that locks is too strong.
+  // Between smooth platens the closed form at phi = 20, c = 0.1, s3 = 0.98 is Kp = 2.039607, 0.98 Kp + 0.2 sqrt(Kp) = 2.284444.
+  // Between rough platens both elements agree.
   TEST(Validation, ElementsDoNotLock)
   {
     const QuadMesh mesh = rectangle(12, 24, 1.);
@@ -218,7 +219,7 @@ namespace
             options.element = q2 ? Displacement::q2 : Displacement::q1_bbar;
             const Course c  = finished(mesh, straight_loading(1, {0, -24}, {0.016, 0.02}), options);
             stress[q2]      = -c.snapshots[1].upper_platen_force.y() / 12;
-            EXPECT_LT(stress[q2], -c.snapshots[0].upper_platen_force.y() / 12) << "the limit is behind, s3 falls";
+            EXPECT_LT(stress[q2], -c.snapshots[0].upper_platen_force.y() / 12) << "beyond the limit s3 falls";
           }
         EXPECT_NEAR(stress[0], stress[1], 0.02 * stress[1]) << name_of(platens);
         if (platens == Platens::smooth)
