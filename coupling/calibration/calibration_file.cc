@@ -6,10 +6,11 @@
 #include <filesystem>
 
 #include "coupling/calibration/coordinates.h"
-#include "coupling/scene/keys.h"
 #include "coupling/scene/identity.h"
+#include "coupling/scene/keys.h"
 #include "coupling/scene/scene_file.h"
-#include "coupling/folders/provenance.h"
+#include "coupling/store/file_names.h"
+#include "coupling/store/provenance.h"
 #include "coupling/studies/study_part.h"
 
 namespace diptych::coupling
@@ -45,7 +46,7 @@ namespace diptych::coupling
     void demand_samples_of_one_scene(const Part &part, const CalibrationTarget &target)
     {
       const auto sample_of = [&](const std::size_t k) {
-        Scene       scene    = *resolved_scene(target.results[k] + "/scene.prm");
+        Scene       scene    = *resolved_scene(scene_prm(target.results[k]));
         const bool  imported = scene.discrete.method.method == discrete::Method::imported;
         std::string mark     = imported ? scene.discrete.method.file : std::to_string(scene.sample.seed);
         if (imported)
@@ -87,8 +88,8 @@ namespace diptych::coupling
       for (const Part &one : part.list("results"))
         {
           const std::string          folder = resolved(value_text(one.json()), folder_of(file));
-          const std::optional<Scene> scene  = resolved_scene(folder + "/scene.prm");
-          if (!scene || !std::filesystem::exists(folder + "/discrete.csv") || !std::filesystem::exists(folder + "/discrete.h5"))
+          const std::optional<Scene> scene  = resolved_scene(scene_prm(folder));
+          if (!scene || !std::filesystem::exists(discrete_csv(folder)) || !std::filesystem::exists(discrete_h5(folder)))
             one.refuse("results: '" + folder + "' is no result folder with scene.prm, discrete.csv and discrete.h5");
           demand_as_left(one, folder);
           target.results.push_back(folder);
@@ -97,7 +98,7 @@ namespace diptych::coupling
       if (target.results.empty())
         part.refuse("results", " is empty");
       demand_samples_of_one_scene(part, target);
-      target.scene = target.results.front() + "/scene.prm";
+      target.scene = scene_prm(target.results.front());
     }
 
     // Keys of the continuum in a fragment.

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "coupling/statistics/history_table.h"
-#include "coupling/fields/resolution_study.h"
+#include "coupling/bands/theory_lines.h"
 #include "coupling/comparison/stage_record.h"
 #include "coupling/comparison/summary.h"
-#include "coupling/results/results.h"
-#include "coupling/bands/theory_lines.h"
+#include "coupling/fields/resolution_study.h"
+#include "coupling/statistics/history_table.h"
+#include "coupling/store/results.h"
 
 namespace diptych::coupling
 {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "coupling/comparison/comparison_output.h"
-#include "coupling/files/vtu_file.h"
+#include "coupling/store/vtu_file.h"
 #include "discrete/files/field_arrays.h"
 #include "discrete/files/hdf5_file.h"
 #include "discrete/files/staged_file.h"

@@ -9,6 +9,7 @@
 #include "coupling/comparison/comparison_numbers.h"
 #include "coupling/comparison/comparison_schema.h"
 #include "coupling/numbers/number_json.h"
+#include "coupling/store/file_names.h"
 #include "discrete/files/text_file.h"
 
 namespace diptych::coupling
@@ -118,7 +119,7 @@ namespace diptych::coupling
     NumbersToJson writer{root, scene.sample.mean_diameter};
     list_numbers(ComparisonDocument{scene, c}, writer);
     root["numbers"] = descriptions();
-    discrete::write_text(directory + "/comparison.json", root.dump(1) + "\n");
+    discrete::write_text(comparison_json(directory), root.dump(1) + "\n");
     discrete::write_text(directory + "/comparison.csv", comparison_csv(root));
   }
 } // namespace diptych::coupling

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "coupling/comparison/platen_balance.h"
-#include "coupling/results/results.h"
 #include "coupling/scene/scene.h"
 #include "coupling/statistics/history_table.h"
+#include "coupling/store/results.h"
 
 namespace diptych::coupling
 {

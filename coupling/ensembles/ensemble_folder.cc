@@ -6,11 +6,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "coupling/folders/folder_lock.h"
-#include "coupling/folders/provenance.h"
-#include "coupling/folders/result_folder.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
+#include "coupling/store/file_names.h"
+#include "coupling/store/folder_lock.h"
+#include "coupling/store/provenance.h"
+#include "coupling/store/result_folder.h"
 #include "discrete/files/text_file.h"
 
 namespace diptych::coupling
@@ -68,7 +69,7 @@ namespace diptych::coupling
       {
         demand_same_scene(scene);
         for (const int seed : seeds)
-          if (fs::exists(member_folder(directory, seed) + "/scene.prm"))
+          if (fs::exists(scene_prm(member_folder(directory, seed))))
             demand_member(scene, seed);
       }
     discrete::write_text(directory + "/ensemble.prm", resolved_text(scene));
@@ -90,7 +91,7 @@ namespace diptych::coupling
     const std::string folder = member.output.directory;
     if (!holds_finished_run(member))
       return false;
-    const json comparison = json::parse(discrete::read_text(folder + "/comparison.json"), nullptr, /* exceptions */ false);
+    const json comparison = json::parse(discrete::read_text(comparison_json(folder)), nullptr, /* exceptions */ false);
     try
       {
         if (!comparison.is_object() || comparison.value("seed", -1) != seed)

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "coupling/folders/result_folder.h"
 #include "coupling/scene/scene.h"
+#include "coupling/store/result_folder.h"
 
 namespace diptych::coupling
 {

@@ -7,10 +7,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "coupling/folders/provenance.h"
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_error.h"
 #include "coupling/scene/scene_file.h"
+#include "coupling/store/file_names.h"
+#include "coupling/store/provenance.h"
 #include "discrete/files/table_file.h"
 #include "discrete/files/text_file.h"
 #include "discrete/panel/snapshot_file.h"
@@ -70,9 +71,9 @@ namespace diptych::coupling
     try
       {
         results.snapshots = discrete::read_snapshots(file);
-        results.rows      = discrete::read_rows<discrete::HistoryRow>(folder + "/discrete.csv");
+        results.rows      = discrete::read_rows<discrete::HistoryRow>(discrete_csv(folder));
         results.facts     = read_run_facts(folder).discrete;
-        check_record_of_import(folder + "/import.json");
+        check_record_of_import(import_json(folder));
         check_files(folder, "discrete");
       }
     catch (const std::invalid_argument &error)

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "coupling/results/results.h"
 #include "coupling/scene/scene.h"
+#include "coupling/store/results.h"
 #include "discrete/bodies/state.h"
 
 namespace diptych::coupling

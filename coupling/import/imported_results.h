@@ -6,7 +6,7 @@
 #include <string>
 
 #include "coupling/import/arrived_sample.h"
-#include "coupling/results/results.h"
+#include "coupling/store/results.h"
 
 namespace diptych::coupling
 {

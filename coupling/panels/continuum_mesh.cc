@@ -11,6 +11,7 @@
 #include "coupling/import/imported_folder.h"
 #include "coupling/processes/progress.h"
 #include "coupling/processes/stop_signal.h"
+#include "coupling/store/file_names.h"
 #include "discrete/panel/panel.h"
 
 namespace diptych::coupling
@@ -41,8 +42,8 @@ namespace diptych::coupling
     const std::string         &directory = scene.output.directory;
     std::vector<ContinuumPart> parts     = {{"continuum", "continuum panel", directory, scene.continuum.element_size}};
     if (has_coarse(scene))
-      parts.push_back(
-        {"continuum_coarse", "continuum panel, coarse mesh", directory + "/coarse", scene.comparison.coarse_element_size, true});
+      parts.push_back({"continuum_coarse", "continuum panel, coarse mesh", coarse_folder(directory),
+                       scene.comparison.coarse_element_size, true});
     return parts;
   }
 

@@ -8,6 +8,7 @@
 
 #include "continuum/mesh/quad_mesh.h"
 #include "coupling/scene/scene.h"
+#include "coupling/store/file_names.h"
 #include "discrete/snapshot.h"
 
 namespace diptych::coupling
@@ -21,7 +22,7 @@ namespace diptych::coupling
     double      element_size = 0; // [mean diameters]
     bool        is_coarse    = false;
 
-    std::string checkpoint() const { return directory + "/continuum_checkpoint.h5"; }
+    std::string checkpoint() const { return continuum_checkpoint(directory); }
   };
 
   // The run on the scene's mesh and the one on the coarse mesh. A mesh of the user's has no coarse one, nor has a rectangle that

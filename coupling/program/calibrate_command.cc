@@ -11,8 +11,6 @@
 
 #include "coupling/calibration/calibration_file.h"
 #include "coupling/calibration/calibration_output.h"
-#include "coupling/folders/provenance.h"
-#include "coupling/folders/result_folder.h"
 #include "coupling/panels/continuum_loading.h"
 #include "coupling/plans/plan_text.h"
 #include "coupling/processes/processes.h"
@@ -22,6 +20,8 @@
 #include "coupling/scene/identity.h"
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_file.h"
+#include "coupling/store/provenance.h"
+#include "coupling/store/result_folder.h"
 #include "coupling/studies/study_folder.h"
 #include "discrete/choices.h"
 

@@ -9,13 +9,14 @@
 #include "continuum/history.h"
 #include "continuum/mesh/mesh.h"
 #include "coupling/comparison/increment.h"
-#include "coupling/files/continuum_snapshot_file.h"
-#include "coupling/folders/provenance.h"
 #include "coupling/panels/continuum_mesh.h"
 #include "coupling/plans/plan_text.h"
 #include "coupling/processes/processes.h"
 #include "coupling/scene/scene_file.h"
 #include "coupling/statistics/student.h"
+#include "coupling/store/continuum_snapshot_file.h"
+#include "coupling/store/file_names.h"
+#include "coupling/store/provenance.h"
 #include "coupling/studies/study_folder.h"
 #include "coupling/studies/study_results.h"
 #include "discrete/panel/snapshot_file.h"
@@ -156,7 +157,7 @@ namespace diptych::coupling
         if (is_beyond(path.data.observables.front().to, reached) || is_beyond(scene.loading.axial_strain, reached))
           throw SceneError(calibration.file + ": target '" + target.name + "': " + folder + " ends at " +
                            std::to_string(reached) + ", before the end of its loading");
-        const auto snapshots = discrete::read_snapshots(folder + "/discrete.h5");
+        const auto snapshots = discrete::read_snapshots(discrete_h5(folder));
         if (path.samples.empty())
           outlines[target.name] = outline_of(path, snapshots);
         path.samples.push_back(observe(scene, path.data.observables, history, snapshots));
@@ -209,7 +210,7 @@ namespace diptych::coupling
         const std::string folder = run_folder(directory, run);
         note_cost(folder, spent_on_grains);
         moved += (observe(path.scene, path.data.observables, panel_table(folder, Source::discrete),
-                          discrete::read_snapshots(folder + "/discrete.h5"))
+                          discrete::read_snapshots(discrete_h5(folder)))
                     .values -
                   path.samples[k].values) /
                  double(n);
@@ -264,7 +265,7 @@ namespace diptych::coupling
     note_cost(folder, spent_on_continuum);
     if (result.words.empty())
       result.observation = observe(path.scene, path.data.observables, panel_table(folder, Source::continuum),
-                                   read_continuum_snapshots(folder + "/continuum.h5"), outlines.at(path.target.name).frames);
+                                   read_continuum_snapshots(continuum_h5(folder)), outlines.at(path.target.name).frames);
     return result;
   }
 

@@ -384,16 +384,4 @@ namespace diptych::coupling
       warn(warning);
     return scene;
   }
-
-  void say(const CommandLine &line, const std::string &text)
-  {
-    if (!line.quiet)
-      std::cout << text << std::endl;
-  }
-
-  void warn(const std::string &text)
-  {
-    if (!text.empty())
-      std::cerr << "diptych: warning: " << text << std::endl;
-  }
 } // namespace diptych::coupling

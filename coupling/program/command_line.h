@@ -6,10 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "coupling/folders/result_folder.h"
 #include "coupling/import/foreign_sample.h"
+#include "coupling/processes/run_options.h"
 #include "coupling/program/exit_code.h"
 #include "coupling/scene/scene.h"
+#include "coupling/store/result_folder.h"
 #include "discrete/problem_files/fclib.h"
 #include "discrete/solvers/solver.h"
 
@@ -34,32 +35,26 @@ namespace diptych::coupling
   };
 
   // Members are set only by commands that accept the option.
-  struct CommandLine
+  struct CommandLine : RunOptions
   {
     Command                              command = Command::explain;
     std::string                          target;                // scene or problem file, result folder, section or shell
     std::string                          output;                // --output
     std::vector<std::string>             overrides;             // --set section/key=value, after the keys of --set-file
     std::vector<std::string>             set_files;             // --set-file
-    int                                  threads       = 1;     // --threads
-    bool                                 resume        = false; // --resume
-    bool                                 overwrite     = false; // --overwrite
     bool                                 study_of_step = false; // --study step
     std::string                          seeds;                 // --seeds: "1-8", "1,3,5-7"
-    int                                  jobs = 0;              // --jobs of run --seeds, study and plan; 0: as many as fit
     std::string                          accuracy;              // --accuracy, --for, --run of plan
     std::string                          wanted;
     bool                                 runs_the_plan = false;
     discrete::ContactSolver              solver = discrete::ContactSolver::psor; // --solver, --tolerance, --max-sweeps: of solve
     double                               tolerance  = 1e-8;
     int                                  max_sweeps = 1000000;
-    std::optional<discrete::ProblemForm> form;                   // --form; none: the better one that the file has
-    ForeignOptions                       foreign;                // of import
-    std::string                          format;                 // of export
-    int                                  stage          = 0;     // of export
-    bool                                 quiet          = false; // --quiet
-    bool                                 tells_warnings = true;  // the first of several processes does
-    std::string                          text;                   // as it was typed
+    std::optional<discrete::ProblemForm> form;                  // --form; none: the better one that the file has
+    ForeignOptions                       foreign;               // of import
+    std::string                          format;                // of export
+    int                                  stage          = 0;    // of export
+    bool                                 tells_warnings = true; // the first of several processes does
   };
 
   // The words after the program's name; or, where they ask for help, the version or a completion script or are wrong, the exit
@@ -78,7 +73,4 @@ namespace diptych::coupling
 
   // The scene of a command line, with its output folder. Its warnings go to standard error.
   Scene scene_of(const CommandLine &line);
-
-  void say(const CommandLine &line, const std::string &text); // to standard output, unless --quiet
-  void warn(const std::string &text);                         // to standard error; nothing where it is empty
 } // namespace diptych::coupling

@@ -7,13 +7,14 @@
 
 #include "coupling/comparison/comparison_output.h"
 #include "coupling/ensembles/ensemble_folder.h"
-#include "coupling/folders/provenance.h"
-#include "coupling/folders/result_folder.h"
 #include "coupling/processes/progress.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/program/ensemble_record.h"
 #include "coupling/program/report_command.h"
 #include "coupling/scene/scene_file.h"
+#include "coupling/store/file_names.h"
+#include "coupling/store/provenance.h"
+#include "coupling/store/result_folder.h"
 #include "coupling/studies/study_folder.h"
 
 namespace diptych::coupling
@@ -78,7 +79,7 @@ namespace diptych::coupling
           throw SceneError("--set " + text + ": only comparison/ and output/ can be changed without running the panels again");
         else
           refuse_other_folder(text);
-      Scene scene            = read_computed_scene(line.target + "/scene.prm", line.overrides);
+      Scene scene            = read_computed_scene(scene_prm(line.target), line.overrides);
       scene.output.directory = line.target;
       if (const std::string name = recorded_scene(line.target); !name.empty())
         scene.name = name;
@@ -108,7 +109,7 @@ namespace diptych::coupling
   {
     if (is_ensemble_folder(line.target))
       return writing(line.target, [&](FolderLock &) { return compare_ensemble_again(line); });
-    if (std::filesystem::exists(line.target + "/import.json") && !std::filesystem::exists(line.target + "/continuum.csv"))
+    if (std::filesystem::exists(import_json(line.target)) && !std::filesystem::exists(continuum_csv(line.target)))
       throw SceneError(line.target + ": holds an imported sample and no continuum yet; diptych run " + line.target +
                        "/scene.prm computes it beside the grains and compares");
     const Scene scene = scene_of_folder(line);

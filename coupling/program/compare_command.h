@@ -3,8 +3,8 @@
 #pragma once
 
 #include "coupling/program/command_line.h"
-#include "coupling/results/results.h"
 #include "coupling/scene/scene_error.h"
+#include "coupling/store/results.h"
 
 namespace diptych::coupling
 {

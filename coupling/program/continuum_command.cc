@@ -8,15 +8,16 @@
 #include <optional>
 #include <sstream>
 
-#include "coupling/folders/provenance.h"
-#include "coupling/folders/result_folder.h"
 #include "coupling/panels/continuum_loading.h"
+#include "coupling/panels/interrupted_continuum.h"
+#include "coupling/panels/recorded_continuum.h"
 #include "coupling/processes/processes.h"
-#include "coupling/program/interrupted_continuum.h"
-#include "coupling/program/recorded_continuum.h"
 #include "coupling/program/run_room.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
+#include "coupling/store/file_names.h"
+#include "coupling/store/provenance.h"
+#include "coupling/store/result_folder.h"
 #include "discrete/panel/snapshot_file.h"
 
 namespace diptych::coupling
@@ -42,7 +43,7 @@ namespace diptych::coupling
     {
       return facts_of_part(read_run_facts(scene.output.directory), part).finished &&
              !std::filesystem::exists(part.checkpoint()) &&
-             count_continuum_snapshots(part.directory + "/continuum.h5") == stages(scene.loading).size() + 1;
+             count_continuum_snapshots(continuum_h5(part.directory)) == stages(scene.loading).size() + 1;
     }
 
     ContinuumFacts facts_of(const continuum::Report &report)
@@ -87,7 +88,7 @@ namespace diptych::coupling
     // What the curve says, and what should not be overlooked in it.
     void say_result(const CommandLine &line, const Scene &scene, const ContinuumPart &part, const continuum::Report &report)
     {
-      const auto rows = discrete::read_rows<continuum::HistoryRow>(part.directory + "/continuum.csv");
+      const auto rows = discrete::read_rows<continuum::HistoryRow>(continuum_csv(part.directory));
       if (rows.empty())
         return;
       const auto larger_by = [](const auto member) {
@@ -202,10 +203,10 @@ namespace diptych::coupling
   int continuum_beside_grains(const CommandLine &line, const Scene &scene, const SceneChanges &changes, ContinuumTask task)
   {
     const std::string &directory = scene.output.directory;
-    if (task.grains_file.empty() && std::filesystem::exists(directory + "/discrete.h5"))
-      task.grains_file = directory + "/discrete.h5";
+    if (task.grains_file.empty() && std::filesystem::exists(discrete_h5(directory)))
+      task.grains_file = discrete_h5(directory);
     const bool replaces = on_first_process(
-      [&] { return int(!changes.continuum.empty() && std::filesystem::exists(directory + "/continuum.h5")); });
+      [&] { return int(!changes.continuum.empty() && std::filesystem::exists(continuum_h5(directory))); });
     if (!replaces)
       return continuum_panel(line, scene, task);
     Scene next            = scene;

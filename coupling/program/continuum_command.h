@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "coupling/program/command_line.h"
-#include "coupling/results/results.h"
-#include "discrete/snapshot.h"
 #include "coupling/scene/scene_error.h"
+#include "coupling/store/results.h"
+#include "discrete/snapshot.h"
 
 namespace diptych::coupling
 {

@@ -10,18 +10,19 @@
 #include <sstream>
 
 #include "coupling/comparison/step_comparison.h"
-#include "coupling/folders/provenance.h"
-#include "coupling/folders/result_folder.h"
 #include "coupling/import/imported_folder.h"
+#include "coupling/panels/imported_grains.h"
+#include "coupling/panels/interrupted_grains.h"
+#include "coupling/panels/recorded_grains.h"
 #include "coupling/processes/progress.h"
 #include "coupling/processes/stop_signal.h"
-#include "coupling/program/imported_grains.h"
-#include "coupling/program/interrupted_grains.h"
-#include "coupling/program/recorded_grains.h"
 #include "coupling/program/report_command.h"
 #include "coupling/program/run_room.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_error.h"
+#include "coupling/store/file_names.h"
+#include "coupling/store/provenance.h"
+#include "coupling/store/result_folder.h"
 #include "discrete/files/table_file.h"
 #include "discrete/files/text_file.h"
 #include "discrete/panel/checkpoint.h"
@@ -179,7 +180,7 @@ namespace diptych::coupling
       std::cerr << "discrete panel: "
                 << (report.status == discrete::Status::stopped_by_user ? "stopped on request" : report.message) << "; reached "
                 << text_of(discrete::walk_of(scene.loading.mode), report.progress) << ", kept in " << scene.output.directory;
-      if (report.status == discrete::Status::stopped_by_user && std::filesystem::exists(checkpoint_file(scene)))
+      if (report.status == discrete::Status::stopped_by_user && std::filesystem::exists(grain_checkpoint(scene.output.directory)))
         std::cerr << "; to go on: diptych " << name_of(line.command) << ' ' << line.target << " --output "
                   << scene.output.directory << " --resume (with the same --set)";
       std::cerr << std::endl;
@@ -229,7 +230,7 @@ namespace diptych::coupling
           if (code != done)
             return code;
           runs.push_back({*part.discrete.time.step,
-                          history_table(discrete::read_rows<discrete::HistoryRow>(part.output.directory + "/discrete.csv"))});
+                          history_table(discrete::read_rows<discrete::HistoryRow>(discrete_csv(part.output.directory)))});
         }
       const StepComparison comparison = compare_steps(runs, averaging_width(scene), discrete::walk_of(scene.loading.mode));
       write_step_comparison(scene.output.directory, runs, comparison);
@@ -242,7 +243,8 @@ namespace diptych::coupling
 
   std::unique_ptr<RecordedGrains> prepared_early(const CommandLine &line, const Scene &scene)
   {
-    const bool is_there = line.resume && (std::filesystem::exists(checkpoint_file(scene)) || grains_are_finished(scene));
+    const bool is_there = line.resume &&
+                          (std::filesystem::exists(grain_checkpoint(scene.output.directory)) || grains_are_finished(scene));
     if (is_there || scene.discrete.method.method == discrete::Method::imported)
       return {};
     auto prepared = std::make_unique<RecordedGrains>(line, scene, std::nullopt);
@@ -257,7 +259,10 @@ namespace diptych::coupling
                      std::optional<DiscreteResults> *results)
   {
     if (scene.discrete.method.method == discrete::Method::imported)
-      return take_imported(line, scene);
+      {
+        take_imported(line, scene);
+        return done;
+      }
     const std::string &directory  = scene.output.directory;
     const auto         checkpoint = line.resume ? interrupted_grains(scene) : std::nullopt;
     if (line.resume && !checkpoint && grains_are_finished(scene))
@@ -276,7 +281,7 @@ namespace diptych::coupling
     const bool       before   = checkpoint.has_value() || prepared != nullptr; // the timer began
     RecordedGrains  &recorded = prepared ? *prepared : *(prepared = std::make_unique<RecordedGrains>(line, scene, checkpoint));
     const discrete::Report &report = recorded.run();
-    const std::string       csv    = directory + "/discrete.csv";
+    const std::string       csv    = discrete_csv(directory);
     const Rows              rows   = !checkpoint                    ? recorded.results.rows
                                      : std::filesystem::exists(csv) ? discrete::read_rows<discrete::HistoryRow>(csv)
                                                                     : Rows();

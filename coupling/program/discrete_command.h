@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
+#include "coupling/panels/recorded_grains.h"
 #include "coupling/program/command_line.h"
-#include "coupling/program/recorded_grains.h"
 
 namespace diptych::coupling
 {

@@ -10,7 +10,6 @@
 #include "coupling/ensembles/ensemble_curves.h"
 #include "coupling/ensembles/ensemble_folder.h"
 #include "coupling/ensembles/seed_list.h"
-#include "coupling/folders/result_folder.h"
 #include "coupling/import/imported_folder.h"
 #include "coupling/panels/continuum_loading.h"
 #include "coupling/panels/continuum_mesh.h"
@@ -23,6 +22,7 @@
 #include "coupling/program/worker_command.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_error.h"
+#include "coupling/store/result_folder.h"
 
 namespace diptych::coupling
 {

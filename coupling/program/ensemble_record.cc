@@ -15,6 +15,7 @@
 #include "coupling/processes/worker.h"
 #include "coupling/program/report_command.h"
 #include "coupling/scene/scene_file.h"
+#include "coupling/store/file_names.h"
 
 namespace diptych::coupling
 {
@@ -24,7 +25,7 @@ namespace diptych::coupling
 
     Member read_member(const Scene &scene, const int seed)
     {
-      const std::string folder = member_folder(scene.output.directory, seed), path = folder + "/comparison.json";
+      const std::string folder = member_folder(scene.output.directory, seed), path = comparison_json(folder);
       check_files(folder);
       check_files(folder, "comparison");
       demand_member(scene, seed);

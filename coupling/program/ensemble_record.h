@@ -7,8 +7,8 @@
 
 #include "coupling/ensembles/ensemble.h"
 #include "coupling/ensembles/ensemble_output.h"
-#include "coupling/folders/provenance.h"
 #include "coupling/program/command_line.h"
+#include "coupling/store/provenance.h"
 
 namespace diptych::coupling
 {

@@ -5,10 +5,10 @@
 #include <iostream>
 
 #include "coupling/comparison/step_comparison.h"
-#include "coupling/folders/origin.h"
 #include "coupling/import/import_record.h"
 #include "coupling/program/result_entries.h"
 #include "coupling/scene/scene_file.h"
+#include "coupling/store/origin.h"
 #include "discrete/panel/history.h"
 #include "discrete/snapshot_fields.h"
 

@@ -4,10 +4,11 @@
 
 #include <filesystem>
 
-#include "coupling/folders/provenance.h"
-#include "coupling/folders/result_folder.h"
 #include "coupling/import/exported_sample.h"
 #include "coupling/scene/scene_file.h"
+#include "coupling/store/file_names.h"
+#include "coupling/store/provenance.h"
+#include "coupling/store/result_folder.h"
 #include "discrete/files/text_file.h"
 #include "discrete/panel/snapshot_file.h"
 
@@ -30,12 +31,12 @@ namespace diptych::coupling
     namespace fs = std::filesystem;
     if (!fs::is_directory(line.target))
       throw SceneError(line.target + ": no result folder");
-    const std::string file = line.target + "/discrete.h5";
+    const std::string file = discrete_h5(line.target);
     if (!fs::exists(file))
       throw SceneError(line.target + ": has no discrete.h5; diptych discrete or run makes it");
     Scene scene;
-    if (const std::string prm = line.target + "/scene.prm"; fs::exists(prm))
-      scene = fs::exists(line.target + "/import.json") && !is_resolved_scene(prm)
+    if (const std::string prm = scene_prm(line.target); fs::exists(prm))
+      scene = fs::exists(import_json(line.target)) && !is_resolved_scene(prm)
                 ? read_scene(prm, {}, false) // what an import proposes
                 : read_computed_scene(prm, {}, false);
     const std::vector<discrete::Snapshot> snapshots = discrete::read_snapshots(file);

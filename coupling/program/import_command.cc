@@ -12,8 +12,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "coupling/folders/provenance.h"
-#include "coupling/folders/result_folder.h"
 #include "coupling/import/arrival.h"
 #include "coupling/import/import_record.h"
 #include "coupling/import/imported_folder.h"
@@ -22,6 +20,9 @@
 #include "coupling/numbers/number_json.h"
 #include "coupling/scene/scene_file.h"
 #include "coupling/scene/scene_text.h"
+#include "coupling/store/file_names.h"
+#include "coupling/store/provenance.h"
+#include "coupling/store/result_folder.h"
 #include "discrete/files/table_file.h"
 #include "discrete/files/text_file.h"
 #include "discrete/panel/snapshot_file.h"
@@ -100,15 +101,15 @@ namespace diptych::coupling
       const ImportRecord record{line.foreign.files, arrival};
       NumbersToJson      into{json, 1};
       list_numbers(record, into);
-      discrete::write_text(directory + "/import.json",
+      discrete::write_text(import_json(directory),
                            json.dump(2) + "\n"); // first: the folder is an import's, even if killed now
-      discrete::TableFile table(directory + "/discrete.csv", discrete::csv_header<discrete::HistoryRow>());
+      discrete::TableFile table(discrete_csv(directory), discrete::csv_header<discrete::HistoryRow>());
       for (const discrete::HistoryRow &row : results.rows)
         table.add(discrete::csv_line(row));
       table.flush();
       discrete::write_snapshots(directory + "/discrete", results.snapshots);
       if (!scene_text.empty())
-        discrete::write_text(directory + "/scene.prm", scene_text);
+        discrete::write_text(scene_prm(directory), scene_text);
     }
   } // namespace
 
@@ -140,7 +141,7 @@ namespace diptych::coupling
       record_phases(line.output, described, line.text, {timer.stop()});
       record_facts(line.output, results.facts);
       say_checks(line, arrival);
-      say(line, loaded ? "written to " + line.output + "; both panels: diptych run " + line.output + "/scene.prm"
+      say(line, loaded ? "written to " + line.output + "; both panels: diptych run " + scene_prm(line.output)
                        : "written to " + line.output + "; one frame is no loading, so there is no scene");
       return done;
     });

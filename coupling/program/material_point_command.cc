@@ -4,11 +4,12 @@
 #include <iostream>
 #include <sstream>
 
-#include "continuum/laws/material_point.h"
-#include "coupling/folders/provenance.h"
-#include "coupling/folders/result_folder.h"
 #include "coupling/program/material_point_command.h"
+#include "continuum/laws/material_point.h"
 #include "coupling/scene/scene_error.h"
+#include "coupling/store/file_names.h"
+#include "coupling/store/provenance.h"
+#include "coupling/store/result_folder.h"
 #include "discrete/files/table_file.h"
 
 namespace diptych::coupling
@@ -52,7 +53,7 @@ namespace diptych::coupling
       open_result_folder(scene, lock, opening_of(line, true));
       const PhaseTimer                     timer("material_point");
       const continuum::MaterialPointReport report = continuum::drive_material_point(law, path);
-      const std::string                    csv    = scene.output.directory + "/material_point.csv";
+      const std::string                    csv    = material_point_csv(scene.output.directory);
       write(report, csv);
       record_phases(scene.output.directory, scene, line.text, {timer.stop()});
       std::cout << summary(report) << std::endl;

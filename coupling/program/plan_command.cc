@@ -7,8 +7,6 @@
 #include <iostream>
 #include <set>
 
-#include "coupling/folders/provenance.h"
-#include "coupling/folders/result_folder.h"
 #include "coupling/panels/continuum_loading.h"
 #include "coupling/plans/continuum_plan.h"
 #include "coupling/plans/error_law.h"
@@ -20,6 +18,8 @@
 #include "coupling/program/study_runs.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
+#include "coupling/store/provenance.h"
+#include "coupling/store/result_folder.h"
 #include "coupling/studies/study_folder.h"
 #include "coupling/studies/study_part.h"
 #include "coupling/version.h"

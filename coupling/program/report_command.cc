@@ -6,12 +6,13 @@
 #include <stdexcept>
 
 #include "coupling/ensembles/ensemble_folder.h"
-#include "coupling/folders/provenance.h"
-#include "coupling/folders/result_folder.h"
 #include "coupling/processes/child_process.h"
 #include "coupling/processes/progress.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/scene/scene_error.h"
+#include "coupling/store/file_names.h"
+#include "coupling/store/provenance.h"
+#include "coupling/store/result_folder.h"
 #include "coupling/studies/study_folder.h"
 #include "coupling/version.h"
 
@@ -60,7 +61,7 @@ namespace diptych::coupling
 
   std::string report_file(const std::string &directory)
   {
-    return fs::absolute(directory + "/report.html").lexically_normal().string();
+    return fs::absolute(report_html(directory)).lexically_normal().string();
   }
 
   void draw(const Drawing drawing, const std::string &directory)
@@ -102,7 +103,7 @@ namespace diptych::coupling
                             : is_calibration_folder(line.target) ? Drawing::calibration
                             : is_ensemble_folder(line.target)    ? Drawing::ensemble
                                                                  : Drawing::page;
-    if (drawing == Drawing::page && !fs::exists(line.target + "/comparison.json"))
+    if (drawing == Drawing::page && !fs::exists(comparison_json(line.target)))
       throw SceneError(line.target + ": holds no comparison.json, nor is it the folder of an ensemble, a study or a calibration");
     if (drawing == Drawing::page)
       {

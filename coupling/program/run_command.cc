@@ -6,17 +6,17 @@
 #include <stdexcept>
 
 #include "coupling/comparison/prepared_sample.h"
-#include "coupling/folders/provenance.h"
-#include "coupling/folders/result_folder.h"
 #include "coupling/panels/continuum_loading.h"
 #include "coupling/panels/continuum_mesh.h"
+#include "coupling/panels/interrupted_continuum.h"
+#include "coupling/panels/interrupted_grains.h"
 #include "coupling/program/compare_command.h"
 #include "coupling/program/continuum_command.h"
 #include "coupling/program/discrete_command.h"
 #include "coupling/program/report_command.h"
-#include "coupling/program/interrupted_continuum.h"
-#include "coupling/program/interrupted_grains.h"
 #include "coupling/program/run_room.h"
+#include "coupling/store/provenance.h"
+#include "coupling/store/result_folder.h"
 
 namespace diptych::coupling
 {

@@ -8,11 +8,11 @@
 #include <optional>
 #include <sstream>
 
-#include "coupling/folders/result_folder.h"
 #include "coupling/processes/processes.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/program/report_command.h"
 #include "coupling/program/study_runs.h"
+#include "coupling/store/result_folder.h"
 #include "coupling/studies/study_curves.h"
 #include "coupling/studies/study_file.h"
 #include "coupling/studies/study_folder.h"

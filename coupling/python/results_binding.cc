@@ -4,14 +4,15 @@
 
 #include "coupling/comparison/comparison_arrays.h"
 #include "coupling/comparison/comparison_numbers.h"
-#include "coupling/files/continuum_snapshot_file.h"
-#include "coupling/folders/provenance.h"
-#include "coupling/folders/result_folder.h"
 #include "coupling/numbers/number_json.h"
 #include "coupling/python/arrays.h"
 #include "coupling/python/bindings.h"
 #include "coupling/python/panel_results.h"
 #include "coupling/python/rows.h"
+#include "coupling/store/continuum_snapshot_file.h"
+#include "coupling/store/file_names.h"
+#include "coupling/store/provenance.h"
+#include "coupling/store/result_folder.h"
 #include "discrete/files/table_file.h"
 #include "discrete/panel/snapshot_file.h"
 
@@ -45,21 +46,21 @@ namespace diptych::python
 
     GrainResults read_grains(const std::string &folder)
     {
-      return {discrete::read_rows<discrete::HistoryRow>(folder + "/discrete.csv"),
-              shared(discrete::read_snapshots(folder + "/discrete.h5"))};
+      return {discrete::read_rows<discrete::HistoryRow>(coupling::discrete_csv(folder)),
+              shared(discrete::read_snapshots(coupling::discrete_h5(folder)))};
     }
 
     // discrete.h5, .xdmf and .csv, as the program writes them.
     void write_grains(const GrainResults &results, const std::string &folder)
     {
       discrete::write_snapshots(folder + "/discrete", values_of(results.snapshots));
-      write_rows(folder + "/discrete.csv", results.rows);
+      write_rows(coupling::discrete_csv(folder), results.rows);
     }
 
     ContinuumResults read_nodes(const std::string &folder)
     {
-      return {discrete::read_rows<continuum::HistoryRow>(folder + "/continuum.csv"),
-              shared(coupling::read_continuum_snapshots(folder + "/continuum.h5"))};
+      return {discrete::read_rows<continuum::HistoryRow>(coupling::continuum_csv(folder)),
+              shared(coupling::read_continuum_snapshots(coupling::continuum_h5(folder)))};
     }
 
     void write_nodes(const ContinuumResults &results, const std::string &folder)
@@ -68,7 +69,7 @@ namespace diptych::python
       for (const auto &snapshot : results.snapshots)
         file.add(*snapshot);
       file.close();
-      write_rows(folder + "/continuum.csv", results.rows);
+      write_rows(coupling::continuum_csv(folder), results.rows);
     }
 
     // With what a folder's provenance says of the runs; `folder` empty: nothing.

@@ -8,9 +8,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "coupling/folders/provenance.h"
-#include "coupling/folders/result_folder.h"
 #include "coupling/scene/scene_file.h"
+#include "coupling/store/file_names.h"
+#include "coupling/store/provenance.h"
+#include "coupling/store/result_folder.h"
 #include "coupling/studies/run_name.h"
 #include "coupling/version.h"
 #include "discrete/files/text_file.h"
@@ -94,7 +95,7 @@ namespace diptych::coupling
     // lie elsewhere by now.
     bool is_of_its_scene(const std::string &directory, const StudyRun &run, const json &end)
     {
-      const std::string file = run_folder(directory, run) + "/scene.prm";
+      const std::string file = scene_prm(run_folder(directory, run));
       if (std::error_code none; !fs::exists(file, none)) // refused before it wrote
         return !end.is_object() || end.value("exit_code", json()) == exit_code_of_a_refusal;
       const std::optional<Scene> found = resolved_scene(file), asked = resolved_scene(run_scene(directory, run));

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "coupling/folders/result_folder.h"
 #include "coupling/scene/scene_error.h"
+#include "coupling/store/result_folder.h"
 #include "coupling/studies/study_points.h"
 
 namespace diptych::coupling

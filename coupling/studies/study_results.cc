@@ -13,9 +13,10 @@
 #include "continuum/history.h"
 #include "continuum/laws/material_point_row.h"
 #include "coupling/ensembles/ensemble.h"
-#include "coupling/folders/provenance.h"
 #include "coupling/numbers/record_file.h"
 #include "coupling/processes/worker.h"
+#include "coupling/store/file_names.h"
+#include "coupling/store/provenance.h"
 #include "discrete/files/table_file.h"
 #include "discrete/panel/history.h"
 
@@ -51,7 +52,7 @@ namespace diptych::coupling
       {
         if (!member)
           {
-            member = member_of(read_record_file(path + "/comparison.json"));
+            member = member_of(read_record_file(comparison_json(path)));
             if (is_mirror_symmetric(scene))
               fold(*member);
           }
@@ -129,11 +130,11 @@ namespace diptych::coupling
     switch (source)
       {
       case Source::discrete:
-        return table_of<discrete::HistoryRow>(folder + "/discrete.csv");
+        return table_of<discrete::HistoryRow>(discrete_csv(folder));
       case Source::continuum:
-        return table_of<continuum::HistoryRow>(folder + "/continuum.csv");
+        return table_of<continuum::HistoryRow>(continuum_csv(folder));
         case Source::material_point: {
-          HistoryTable table = table_of<continuum::MaterialPointRow>(folder + "/material_point.csv");
+          HistoryTable table = table_of<continuum::MaterialPointRow>(material_point_csv(folder));
           if (!table.empty()) // a point walks along its axial strain
             table["progress"] = table["axial_strain"];
           return table;

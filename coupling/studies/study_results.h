@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "coupling/folders/facts.h"
 #include "coupling/statistics/history_table.h"
+#include "coupling/store/facts.h"
 #include "coupling/studies/study_folder.h"
 
 namespace diptych::coupling

@@ -27,9 +27,9 @@ namespace
   const std::map<std::string, std::vector<std::string>> rooms = {
     {"discrete", {"files", "bodies", "contacts", "solvers", "stepping", "problem_files", "samples", "panel"}},
     {"continuum", {"laws", "mesh", "elements", "equilibrium", "panel"}},
-    {"coupling", {"cells",  "statistics", "numbers", "processes", "files",       "averaging", "fields",
-                  "bands",  "probes",     "scene",   "folders",   "results",     "import",    "comparison",
-                  "panels", "ensembles",  "studies", "plans",     "calibration", "program",   "python"}}};
+    {"coupling",
+     {"cells", "statistics", "numbers", "processes", "averaging", "fields", "bands", "probes", "scene", "store", "import",
+      "comparison", "panels", "ensembles", "studies", "plans", "calibration", "program", "python"}}};
 
   std::vector<std::string> includes_of(const fs::path &file)
   {

@@ -14,7 +14,7 @@
 #include "coupling/numbers/number_json.h"
 #include "discrete/files/hdf5_file.h"
 #include "tests/coupling/comparison/example_results.h"
-#include "tests/coupling/files/examples.h"
+#include "tests/coupling/store/examples.h"
 
 namespace
 {

@@ -1,0 +1,71 @@
+// diptych: the continuum panel with its files
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "continuum/panel/panel.h"
+#include "coupling/panels/continuum_mesh.h"
+#include "coupling/processes/progress.h"
+#include "coupling/processes/run_options.h"
+#include "coupling/scene/scene.h"
+#include "coupling/scene/scene_error.h"
+#include "coupling/store/continuum_checkpoint_file.h"
+#include "coupling/store/continuum_snapshot_file.h"
+#include "coupling/store/results.h"
+#include "discrete/files/table_file.h"
+
+namespace diptych::coupling
+{
+  // Rows and snapshots go into the part's files as they come, a checkpoint when it is time. Files are the first process's; all
+  // functions are collective.
+  class RecordedContinuum
+  {
+  public:
+    // `grains`: the first process's, for the mesh and a mapped stress. `resume`: from part.checkpoint(). Throws SceneError where
+    // that belongs to another scene or mesh, StoppedOnRequest between phases of the set-up.
+    RecordedContinuum(const RunOptions         &options,
+                      const Scene              &scene,
+                      const ContinuumPart      &part,
+                      const discrete::Snapshot *grains,
+                      double                    solid_fraction,
+                      bool                      resume);
+    RecordedContinuum(const RecordedContinuum &)            = delete; // the panel's hooks call this one
+    RecordedContinuum &operator=(const RecordedContinuum &) = delete;
+
+    const continuum::Report &run();
+
+    ContinuumResults results; // the first process's rows and snapshots, where the run begins in this process
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    std::string                       path(const std::string &name) const { return part.directory + "/" + name; }
+    continuum::Hooks                  hooks();
+    std::unique_ptr<continuum::Panel> made_panel();
+    void                              take_up();
+    void                              prepare();
+    void                              add_row(const continuum::HistoryRow &row);
+    void                              add_snapshot();
+    void                              flush_rows();
+    void                              flush_now_and_then();
+    void                              save();
+
+    const RunOptions                    &options;
+    const Scene                         &scene;
+    const ContinuumPart                 &part;
+    const discrete::Snapshot            *grains;
+    continuum::QuadMesh                  mesh;
+    continuum::Loading                   loading;
+    std::string                          scene_identity, sample_identity;
+    Progress                             progress;
+    std::optional<discrete::TableFile>   table;
+    std::optional<ContinuumSnapshotFile> snapshots;
+    Clock::time_point                    saved = Clock::now(), flushed = saved;
+    std::unique_ptr<continuum::Panel>    panel;
+    bool                                 is_under_way = false; // at rest or beyond: there is something to go on from
+  };
+} // namespace diptych::coupling

@@ -1,0 +1,162 @@
+// diptych: the discrete panel with its files
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/panels/recorded_grains.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "coupling/panels/interrupted_grains.h"
+#include "coupling/processes/stop_signal.h"
+#include "coupling/scene/identity.h"
+#include "coupling/store/file_names.h"
+#include "coupling/store/result_folder.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    // Tells of every sampled snapshot how accurate its grain stress is.
+    std::string accuracy_text(const discrete::Snapshot &s, const double wanted)
+    {
+      if (std::isnan(s.stress_error))
+        return "";
+      std::ostringstream out;
+      out.precision(2);
+      out << "snapshot at " << text_of(s.walk, s.progress) << ": residual " << s.residual << ", error of grain stress ";
+      if (std::isfinite(s.stress_error))
+        out << 100 * s.stress_error << " % (estimated)";
+      else
+        out << "not known (it still changed by " << 100 * s.stress_change << " % in the last doubling of the sweeps)";
+      if (!std::isnan(s.error_over_residual))
+        out << ", error/residual " << s.error_over_residual;
+      if (!(s.stress_error <= wanted))
+        out << "; snapshot_accuracy " << 100 * wanted << " % not reached in snapshot_max_sweeps";
+      return out.str();
+    }
+  } // namespace
+
+  RecordedGrains::RecordedGrains(const RunOptions                                &options,
+                                 const Scene                                     &scene,
+                                 const std::optional<discrete::StoredCheckpoint> &checkpoint)
+      : options(options),
+        scene(scene),
+        identity(text_of(sample_identity(scene))),
+        progress(options.quiet),
+        panel(scene.sample, discrete_loading(scene.loading), scene.discrete, hooks())
+  {
+    if (!checkpoint)
+      return;
+    announced = true;
+    table.emplace(discrete_csv(scene.output.directory), discrete::csv_header<discrete::HistoryRow>(), checkpoint->n_rows);
+    snapshots.emplace(path("discrete"), std::size_t(checkpoint->panel.stage) + 1);
+    panel.resume(checkpoint->panel);
+  }
+
+  int RecordedGrains::n_stages() const
+  {
+    return int(stages(scene.loading).size());
+  }
+
+  const discrete::Report &RecordedGrains::run()
+  {
+    if (!table && !is_prepared)
+      prepare();
+    if (!table && panel.report().status == discrete::Status::finished)
+      begin_files();
+    for (int stage = panel.stage() + 1; panel.report().status == discrete::Status::finished && stage <= n_stages(); ++stage)
+      {
+        const bool reached = panel.advance_to(stage) == discrete::Status::finished;
+        if (reached || panel.has_snapshot())
+          add_snapshot();
+      }
+    progress.finish();
+    if (table)
+      table->flush();
+    if (panel.report().status == discrete::Status::stopped_by_user && table)
+      save();
+    if (panel.report().status == discrete::Status::finished)
+      {
+        snapshots->close();
+        remove_results(scene.output.directory, {"checkpoint.h5"});
+      }
+    return panel.report();
+  }
+
+  discrete::Hooks RecordedGrains::hooks()
+  {
+    discrete::Hooks hooks;
+    hooks.stop_requested = stop_requested;
+    hooks.on_progress    = [this](const std::string &phase, const double fraction) { progress.update(phase, fraction); };
+    hooks.before_step    = [this] { before_step(); };
+    hooks.on_row         = [this](const discrete::HistoryRow &row) { add_row(row); };
+    hooks.on_problem = [this](const int stage, const discrete::ContactProblem &problem, const discrete::StoredGeometry &geometry,
+                              const std::vector<discrete::Impulse> &impulses) {
+      discrete::write_fclib(contact_problem(scene.output.directory, stage), problem,
+                            {scene.name + ", stage " + std::to_string(stage), options.text}, geometry, impulses);
+    };
+    return hooks;
+  }
+
+  void RecordedGrains::prepare()
+  {
+    (void)panel.prepare(); // its report says how it ended
+    is_prepared = true;
+  }
+
+  void RecordedGrains::begin_files()
+  {
+    table.emplace(discrete_csv(scene.output.directory), discrete::csv_header<discrete::HistoryRow>());
+    snapshots.emplace(path("discrete"));
+    add_snapshot();
+  }
+
+  // What the loading is going to take: steps as long as the first, each as long as one of the preparation.
+  void RecordedGrains::announce() const
+  {
+    const discrete::Report &report  = panel.report();
+    const discrete::Loading loading = discrete_loading(scene.loading);
+    const double            rate    = discrete::strain_rate(loading, scene.sample.mean_diameter, scene.sample.density);
+    const double            steps   = std::ceil(loading.stages.back() / rate / report.step);
+    std::ostringstream      text;
+    text << "loading: about " << steps << " steps of " << report.step << " to " << n_stages() << " stages";
+    if (const int prepared = report.preparation.steps; prepared > 0)
+      text << "; at the pace of the preparation " << duration_text(steps * report.preparation_cpu_s / prepared);
+    say(options, text.str());
+  }
+
+  void RecordedGrains::add_row(const discrete::HistoryRow &row)
+  {
+    table->add(discrete::csv_line(row));
+    results.rows.push_back(row);
+    if (Clock::now() - flushed < std::chrono::seconds(1))
+      return;
+    table->flush();
+    flushed = Clock::now();
+  }
+
+  void RecordedGrains::add_snapshot()
+  {
+    const discrete::Snapshot &snapshot = results.snapshots.emplace_back(panel.snapshot());
+    table->flush();
+    snapshots->add(snapshot);
+    if (const std::string text = accuracy_text(snapshot, scene.discrete.sampling.snapshot_accuracy); !text.empty())
+      warnings += text + "\n";
+  }
+
+  void RecordedGrains::before_step()
+  {
+    if (!announced)
+      announce();
+    announced = true;
+    if (std::chrono::duration<double>(Clock::now() - saved).count() >= 60 * scene.discrete.method.checkpoint_minutes)
+      save();
+  }
+
+  // Rows first: the checkpoint says how many are its own.
+  void RecordedGrains::save()
+  {
+    table->flush();
+    discrete::write_checkpoint(grain_checkpoint(scene.output.directory), {panel.checkpoint(), table->n_rows(), identity});
+    saved = Clock::now();
+  }
+} // namespace diptych::coupling

@@ -1,0 +1,339 @@
+// diptych: provenance.json: the origin of a result and its cost
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/store/provenance.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <thread>
+
+#include <sys/resource.h>
+
+#include "coupling/numbers/number_json.h"
+#include "coupling/numbers/record_file.h"
+#include "coupling/scene/identity.h"
+#include "coupling/store/file_names.h"
+#include "coupling/store/origin.h"
+#include "discrete/files/text_file.h"
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    double seconds(const timeval &t)
+    {
+      return double(t.tv_sec) + 1e-6 * double(t.tv_usec);
+    }
+
+    rusage usage(const int who)
+    {
+      rusage result{};
+      getrusage(who, &result);
+      return result;
+    }
+
+    std::string cpu_name()
+    {
+      std::ifstream file("/proc/cpuinfo");
+      for (std::string line; std::getline(file, line);)
+        if (line.rfind("model name", 0) == 0)
+          return line.substr(line.find(':') + 2);
+      return "unknown";
+    }
+
+    std::string now_utc()
+    {
+      const std::time_t now = std::time(nullptr);
+      char              text[32];
+      std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
+      return text;
+    }
+  } // namespace
+
+  double cpu_seconds(const bool children)
+  {
+    const rusage self = usage(RUSAGE_SELF);
+    double       sum  = seconds(self.ru_utime) + seconds(self.ru_stime);
+    if (children)
+      {
+        const rusage others = usage(RUSAGE_CHILDREN);
+        sum += seconds(others.ru_utime) + seconds(others.ru_stime);
+      }
+    return sum;
+  }
+
+  PhaseTimer::PhaseTimer(std::string name)
+      : name(std::move(name)),
+        wall(std::chrono::steady_clock::now()),
+        cpu(cpu_seconds(true))
+  {}
+
+  PhaseCost PhaseTimer::stop() const
+  {
+    return {name, std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count(), cpu_seconds(true) - cpu,
+            double(usage(RUSAGE_SELF).ru_maxrss) / 1024};
+  }
+
+  namespace
+  {
+    using nlohmann::json;
+
+    std::string path_of(const std::string &directory)
+    {
+      return directory + "/provenance.json";
+    }
+
+    // What every command writes: a file without it is another program's, and facts that it lacks were not just not recorded.
+    void demand_record_of_a_run(const std::string &path, const json &record)
+    {
+      const auto demand = [&](const char *key, const bool good) {
+        if (!good)
+          throw std::invalid_argument(path + ": is no record of a run of diptych: '" + key +
+                                      "' is missing or is none that it writes");
+      };
+      const auto entry = [&](const char *key) { return record.value(key, json()); };
+      demand("program", entry("program") == "diptych");
+      for (const char *key : {"version", "command", "scene", "date"})
+        demand(key, entry(key).is_string());
+      for (const char *key : {"libraries", "host"})
+        demand(key, entry(key).is_object());
+      const json seeds = entry("seeds");
+      demand("seeds",
+             seeds.is_array() && std::all_of(seeds.begin(), seeds.end(), [](const json &s) { return s.is_number_integer(); }));
+      demand("phases", entry("phases").is_array());
+    }
+
+    json read_record(const std::string &directory)
+    {
+      const std::string path = path_of(directory);
+      if (!std::filesystem::exists(path))
+        return json::object();
+      json record = read_record_file(path);
+      demand_record_of_a_run(path, record);
+      return record;
+    }
+
+    void write_record(const std::string &directory, const json &record)
+    {
+      discrete::write_text(path_of(directory), record.dump(2) + "\n");
+    }
+
+    constexpr const char *panel_parts[] = {"discrete", "continuum", "continuum_coarse"};
+
+    bool is_panel(const std::string &part)
+    {
+      return std::find(std::begin(panel_parts), std::end(panel_parts), part) != std::end(panel_parts);
+    }
+
+    std::string table_of(const std::string &directory, const std::string &part)
+    {
+      return part == "continuum_coarse" ? continuum_csv(coarse_folder(directory))
+                                        : directory + "/" + part + (is_panel(part) ? ".csv" : ".json");
+    }
+
+    std::string snapshots_of(const std::string &directory, const std::string &part)
+    {
+      return std::filesystem::path(table_of(directory, part)).replace_extension(".h5").string();
+    }
+  } // namespace
+
+  std::string sum_over(const std::string &file)
+  {
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(file, none))
+      return {};
+    std::ifstream     in(file, std::ios::binary);
+    std::vector<char> piece(1 << 20);
+    std::uint64_t     sum = empty_digest;
+    while (in.read(piece.data(), std::streamsize(piece.size())), in.gcount() > 0)
+      sum = digest_on(sum, {piece.data(), std::size_t(in.gcount())});
+    return hexadecimal(sum);
+  }
+
+  namespace
+  {
+    void put_sums(const std::string &directory, const std::string &part, json &record)
+    {
+      NumbersToJson  sums{record[part + "_files"] = json::object(), 1};
+      const FileSums files{sum_over(table_of(directory, part)), sum_over(snapshots_of(directory, part))};
+      list_numbers(files, sums);
+    }
+
+    template <class Facts> void put_facts(const std::string &directory, const std::string &part, const Facts &facts)
+    {
+      json          record = read_record(directory);
+      NumbersToJson writer{record[part] = json::object(), 1};
+      list_numbers(facts, writer);
+      put_sums(directory, part, record);
+      write_record(directory, record);
+    }
+
+    // In the place of an earlier phase of the same name.
+    void put_phase(json &record, const json &row)
+    {
+      json      &stored = record["phases"];
+      const auto old    = std::find_if(stored.begin(), stored.end(), [&](const json &one) {
+        return one.is_object() && one.value("name", json()) == row.at("name");
+      });
+      if (old != stored.end())
+        *old = row;
+      else
+        stored.push_back(row);
+    }
+
+    template <class Facts> Facts get_facts(const json &record, const char *part)
+    {
+      Facts facts;
+      if (const auto found = record.find(part); found != record.end())
+        {
+          NumbersFromJson reader{*found};
+          list_numbers(facts, reader);
+        }
+      return facts;
+    }
+
+    FileSums sums_of(const std::string &directory, const json &record, const std::string &part)
+    {
+      return from_record(path_of(directory), [&] { return get_facts<FileSums>(record, (part + "_files").c_str()); });
+    }
+
+    RunFacts run_facts_of(const json &record)
+    {
+      RunFacts facts{get_facts<DiscreteFacts>(record, "discrete"),
+                     get_facts<ContinuumFacts>(record, "continuum"),
+                     get_facts<ContinuumFacts>(record, "continuum_coarse"),
+                     get_facts<FileSums>(record, "discrete_files"),
+                     get_facts<FileSums>(record, "continuum_files"),
+                     get_facts<FileSums>(record, "continuum_coarse_files"),
+                     get_facts<FileSums>(record, "comparison_files"),
+                     get_facts<FileSums>(record, "ensemble_files"),
+                     get_facts<SceneHashes>(record, "hashes"),
+                     {}};
+      for (const json &row : record.value("phases", json::array()).get<std::vector<json>>())
+        {
+          NumbersFromJson reader{row};
+          list_numbers(facts.phases.emplace_back(), reader);
+        }
+      return facts;
+    }
+  } // namespace
+
+  void forget_fact(const std::string &directory, const std::string &part)
+  {
+    json record = read_record(directory);
+    if (record.erase(part) + record.erase(part + "_files") > 0)
+      write_record(directory, record);
+  }
+
+  void forget_files(const std::string &directory, const std::string &part)
+  {
+    json record = read_record(directory);
+    if (record.erase(part + "_files") > 0)
+      write_record(directory, record);
+  }
+
+  void record_files(const std::string &directory, const std::string &part)
+  {
+    json record = read_record(directory);
+    put_sums(directory, part, record);
+    write_record(directory, record);
+  }
+
+  void check_files(const std::string &directory, const std::string &part)
+  {
+    const json record = read_record(directory);
+    const auto check  = [](const std::string &file, const std::string &recorded) {
+      if (recorded.empty())
+        return;
+      const std::string found = sum_over(file);
+      if (found != recorded)
+        throw std::invalid_argument(file + (found.empty() ? " is missing" : " was changed after the run had written it") +
+                                     " (checksum in provenance.json)");
+    };
+    const auto check_part = [&](const std::string &one) {
+      const FileSums sums = sums_of(directory, record, one);
+      check(table_of(directory, one), sums.table);
+      check(snapshots_of(directory, one), sums.snapshots);
+    };
+    if (!part.empty())
+      return check_part(part);
+    for (const char *one : panel_parts)
+      check_part(one);
+  }
+
+  void record_phases(const std::string            &directory,
+                     const Scene                  &scene,
+                     const std::string            &command,
+                     const std::vector<PhaseCost> &phases)
+  {
+    record_phases(directory, scene, command, phases, {scene.sample.seed});
+  }
+
+  void record_phases(const std::string            &directory,
+                     const Scene                  &scene,
+                     const std::string            &command,
+                     const std::vector<PhaseCost> &phases,
+                     const std::vector<int>       &seeds)
+  {
+    json          record = read_record(directory);
+    NumbersToJson into{record, 1};
+    list_numbers(Origin{command, scene.name, seeds, now_utc(), cpu_name(), std::thread::hardware_concurrency()}, into);
+    if (record["phases"].is_null())
+      record["phases"] = json::array();
+    for (const PhaseCost &phase : phases)
+      {
+        json          row = json::object();
+        NumbersToJson writer{row, 1};
+        list_numbers(phase, writer);
+        put_phase(record, row);
+      }
+    write_record(directory, record);
+  }
+
+  void record_facts(const std::string &directory, const DiscreteFacts &facts)
+  {
+    put_facts(directory, "discrete", facts);
+  }
+
+  void record_facts(const std::string &directory, const std::string &part, const ContinuumFacts &facts)
+  {
+    put_facts(directory, part, facts);
+  }
+
+  void record_scene(const std::string &directory, const Scene &scene, const std::string &command, const SceneHashes &hashes)
+  {
+    record_phases(directory, scene, command, {});
+    json          record = read_record(directory);
+    NumbersToJson writer{record["hashes"] = json::object(), 1};
+    list_numbers(hashes, writer);
+    write_record(directory, record);
+  }
+
+  void take_continuum_facts(const std::string &directory, const std::string &from)
+  {
+    json       record = read_record(directory);
+    const json other  = read_record(from);
+    for (const char *entry : {"continuum", "continuum_files", "continuum_coarse", "continuum_coarse_files", "hashes"})
+      if (other.contains(entry))
+        record[entry] = other[entry];
+      else
+        record.erase(entry);
+    record.erase("comparison_files");
+    for (const json &phase : other.at("phases"))
+      put_phase(record, phase);
+    write_record(directory, record);
+  }
+
+  RunFacts read_run_facts(const std::string &directory)
+  {
+    const json record = read_record(directory);
+    return from_record(path_of(directory), [&] { return run_facts_of(record); });
+  }
+
+  std::string recorded_scene(const std::string &directory)
+  {
+    const json record = read_record(directory);
+    return from_record(path_of(directory), [&] { return record.value("scene", ""); });
+  }
+} // namespace diptych::coupling

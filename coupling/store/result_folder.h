@@ -1,0 +1,85 @@
+// diptych: the folder that a run writes to
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "coupling/scene/scene.h"
+#include "coupling/scene/scene_error.h"
+#include "coupling/store/folder_lock.h"
+
+namespace diptych::coupling
+{
+  // What a command does about results that stand in its folder.
+  struct Opening
+  {
+    bool        resume    = false; // --resume: goes on from them
+    bool        overwrite = false; // --overwrite: renames their folder to DIRECTORY.1
+    bool        adds      = false; // computes a part beside a sample that stays, as `diptych continuum` does
+    std::string command;           // for provenance.json
+  };
+
+  // The keys by which the scene differs from the one of the folder, the first of each kind; empty: none.
+  struct SceneChanges
+  {
+    std::string sample, continuum, comparison;
+  };
+
+  SceneChanges changes_since(const Scene &scene, const std::string &directory);
+
+  // Results of any command: of a run, an import, an ensemble, a study, a plan or a calibration.
+  bool is_result_folder(const std::string &directory);
+
+  // Throws SceneError where the folder holds results and the command may neither go on nor overwrite, or where it holds other
+  // files. `what` names in the message what the command would write.
+  void require_usable(const std::string &directory, const Opening &opening);
+
+  // Renames the results in the folder to DIRECTORY.1; an earlier DIRECTORY.1 is replaced. Throws SceneError where it would move
+  // one of the `inputs` (what it is, file) or the working directory, or where DIRECTORY.1 holds no results.
+  using InputFiles = std::vector<std::pair<std::string, std::string>>;
+  void set_aside(FolderLock &lock, const InputFiles &inputs);
+
+  // Prepares the folder of a run: refuses it as above, compares the scene with the one whose results stand there, calls `check`,
+  // which may throw before anything has changed, sets old results aside, and writes scene.prm and provenance.json.
+  // Throws SceneError, also where results of another sample stand there, and std::runtime_error where it cannot be written to.
+  SceneChanges open_result_folder(const Scene                                     &scene,
+                                  FolderLock                                      &lock,
+                                  const Opening                                   &opening,
+                                  const std::function<void(const SceneChanges &)> &check = {});
+
+  // The resolved scene as DIRECTORY/scene.prm and its hashes in provenance.json.
+  void write_scene(const std::string &directory, const Scene &scene, const std::string &command);
+
+  // The same after a comparison with other keys: sample and continuum stay those that were run.
+  void write_compared_scene(const std::string &directory, const Scene &scene, const std::string &command);
+
+  // Everything that the scene asks for is in the folder, computed from this scene and these inputs.
+  // Throws std::invalid_argument naming a file that was changed since.
+  bool holds_finished_run(const Scene &scene);
+
+  // A continuum that replaces another one is computed in DIRECTORY/next, with scene.prm and provenance.json of its own.
+  std::string next_folder(const std::string &directory);
+
+  // Prepares that folder. True: it holds an interrupted run of the same scene, which can go on.
+  bool open_next_continuum(const Scene &scene, const std::string &command);
+
+  // Moves the finished continuum from DIRECTORY/next to its place and removes the comparison with the old one; does nothing where
+  // it is not finished. Can be repeated after a crash. True: it was moved.
+  bool take_next_continuum(const std::string &directory);
+
+  // Removes files and folders that a run has written.
+  void remove_results(const std::string &directory, const std::vector<std::string> &names);
+
+  // "kept in results/mine: checkpoint.h5, discrete.csv, discrete.h5, scene.prm"
+  std::string kept_in(const std::string &directory);
+
+  // Runs `work`. An error that is neither wrong input nor a broken invariant (a full disk, a library that throws) is passed on as
+  // std::runtime_error with what the folder keeps.
+  int keeping(const std::string &directory, const std::function<int()> &work);
+
+  // The same with the folder locked, on one process.
+  int writing(const std::string &directory, const std::function<int(FolderLock &)> &work);
+} // namespace diptych::coupling

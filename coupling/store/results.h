@@ -1,0 +1,43 @@
+// diptych: what both panels made of one scene, in memory
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "continuum/history.h"
+#include "continuum/snapshot.h"
+#include "coupling/store/facts.h"
+#include "discrete/panel/history.h"
+#include "discrete/snapshot.h"
+
+namespace diptych::coupling
+{
+  struct DiscreteResults
+  {
+    std::vector<discrete::HistoryRow> rows;
+    std::vector<discrete::Snapshot>   snapshots; // the prepared sample first, then one a stage
+    DiscreteFacts                     facts;
+  };
+
+  struct ContinuumResults
+  {
+    std::vector<continuum::HistoryRow> rows;
+    std::vector<continuum::Snapshot>   snapshots; // the state at rest first, then one a stage
+    ContinuumFacts                     facts;
+  };
+
+  // Everything that a comparison is made of. It comes from panels that ran in this process, or from files; numbers are the same
+  // bits either way.
+  struct Results
+  {
+    DiscreteResults        discrete;
+    ContinuumResults       continuum, coarse; // coarse: on the coarse mesh, without it empty
+    std::vector<PhaseCost> phases;
+  };
+
+  // Of a result folder: discrete.h5 and .csv, continuum.h5 and .csv, coarse/continuum.h5 and .csv, provenance.json. Throws
+  // std::invalid_argument naming what is missing, broken or not of the same run: a table without the last step of a stage, a mesh
+  // turned inside out.
+  Results load_results(const std::string &folder);
+} // namespace diptych::coupling

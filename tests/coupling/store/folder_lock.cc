@@ -1,0 +1,169 @@
+// diptych: one writer of a folder at a time
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/store/folder_lock.h"
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "coupling/processes/child_process.h"
+#include "discrete/files/text_file.h"
+
+namespace
+{
+  namespace fs = std::filesystem;
+  using diptych::coupling::FolderLock;
+
+  constexpr char lock_name[] = ".diptych.lock";
+
+  struct Lock : testing::Test
+  {
+    fs::path top = fs::path(testing::TempDir()) / ("folder_lock" + std::to_string(getpid()));
+    fs::path out = top / "results" / "one";
+
+    void     SetUp() override { fs::create_directories(top); }
+    void     TearDown() override { fs::remove_all(top); }
+    fs::path file() const { return out / lock_name; }
+
+    // The message that another process gets when it asks for the folder; empty if it got it.
+    std::string asked_by_another() const
+    {
+      int ends[2];
+      if (pipe(ends) != 0)
+        return "no pipe";
+      const pid_t child = fork();
+      if (child == 0)
+        {
+          std::string told;
+          try
+            {
+              const FolderLock lock(out);
+            }
+          catch (const std::runtime_error &error)
+            {
+              told = error.what();
+            }
+          _exit(write(ends[1], told.data(), told.size()) == ssize_t(told.size()) ? 0 : 1);
+        }
+      close(ends[1]);
+      std::string told(4096, '\0');
+      told.resize(std::size_t(std::max<ssize_t>(0, read(ends[0], told.data(), told.size()))));
+      close(ends[0]);
+      waitpid(child, nullptr, 0);
+      return told;
+    }
+  };
+
+  TEST_F(Lock, ASecondWriterIsRefusedNamingTheFirst)
+  {
+    const FolderLock  lock(out);
+    const std::string told = asked_by_another();
+    EXPECT_NE(told.find(out.string()), std::string::npos) << told;
+    EXPECT_NE(told.find("process " + std::to_string(getpid())), std::string::npos) << told;
+  }
+
+  TEST_F(Lock, IsGivenBack)
+  {
+    {
+      const FolderLock lock(out);
+      std::ofstream(out / "result") << "kept";
+    }
+    EXPECT_FALSE(fs::exists(file()));
+    EXPECT_EQ(asked_by_another(), "");
+    EXPECT_TRUE(fs::exists(out / "result"));
+  }
+
+  // Killed while it wrote its first file.
+  TEST_F(Lock, AnUnfinishedFileOfAKilledProcessLeavesTheFolderEmpty)
+  {
+    fs::create_directories(out);
+    std::ofstream(file()) << "process 1 on nowhere since yesterday";
+    std::ofstream(out / "import.json.part") << "half";
+    EXPECT_TRUE(is_empty_folder(out));
+    std::ofstream(out / "letter.txt") << "somebody's";
+    EXPECT_FALSE(is_empty_folder(out));
+  }
+
+  TEST_F(Lock, TheLockOfAKilledProcessIsTakenOver)
+  {
+    fs::create_directories(out);
+    std::ofstream(file()) << "process 1 on nowhere since yesterday";
+    const FolderLock lock(out);
+    std::ifstream    in(file());
+    std::string      held;
+    std::getline(in, held);
+    EXPECT_NE(held.find(std::to_string(getpid())), std::string::npos) << held;
+  }
+
+  // A worker of a killed study still writes its checkpoint.
+  TEST_F(Lock, WorkersOfAKilledProcessAreWaitedFor)
+  {
+    const fs::path end    = top / "ended";
+    const pid_t    killed = fork();
+    if (killed == 0)
+      {
+        const FolderLock  lock(out);
+        const std::string program = "trap '' TERM; echo; sleep 1; touch '" + end.string() + "'; exec sleep 0.2";
+        const int         socket  = diptych::coupling::start_answerer({"/bin/sh", "-c", program}).socket;
+        char              line    = 0;
+        _exit(read(socket, &line, 1) == 1 ? kill(getpid(), SIGKILL) : 1);
+      }
+    siginfo_t how; // nobody has asked it yet how it ended: it is not gone from the system's list
+    ASSERT_EQ(waitid(P_PID, id_t(killed), &how, WEXITED | WNOWAIT), 0);
+    testing::internal::CaptureStderr();
+    const FolderLock  lock(out);
+    const std::string told = testing::internal::GetCapturedStderr();
+    EXPECT_TRUE(fs::exists(end)) << "the program still wrote";
+    EXPECT_NE(told.find("workers of process " + std::to_string(killed)), std::string::npos) << told;
+    waitpid(killed, nullptr, 0);
+  }
+
+  TEST_F(Lock, SetAsideTheOldFilesAreInTheOtherFolderAndTheNewOneIsLocked)
+  {
+    const fs::path aside = top / "results" / "one.1";
+    FolderLock     lock(out);
+    std::ofstream(out / "rows.csv") << "a";
+    lock.set_aside(aside);
+    EXPECT_TRUE(fs::exists(aside / "rows.csv"));
+    EXPECT_FALSE(fs::exists(aside / lock_name));
+    EXPECT_TRUE(diptych::coupling::is_empty_folder(out));
+    EXPECT_NE(asked_by_another(), "");
+  }
+
+  TEST_F(Lock, AFolderThatStaysEmptyIsRemoved)
+  {
+    {
+      const FolderLock lock(out);
+      EXPECT_TRUE(fs::is_directory(out));
+      EXPECT_TRUE(diptych::coupling::is_empty_folder(out));
+    }
+    EXPECT_FALSE(fs::exists(out));
+    EXPECT_TRUE(fs::exists(top));
+  }
+
+  // A disk that is not mounted just now leaves such a link.
+  TEST_F(Lock, ABrokenLinkStays)
+  {
+    std::filesystem::create_symlink("nowhere/folder", top / "results");
+    EXPECT_THROW(FolderLock{out}, std::invalid_argument);
+    EXPECT_TRUE(std::filesystem::is_symlink(top / "results"));
+  }
+
+  TEST_F(Lock, AFileInThePlaceOfTheFolderIsNamed)
+  {
+    std::ofstream(top / "results") << "a file";
+    try
+      {
+        const FolderLock lock(out);
+        FAIL() << "it was taken";
+      }
+    catch (const std::invalid_argument &error)
+      {
+        EXPECT_NE(std::string(error.what()).find((top / "results").string()), std::string::npos) << error.what();
+      }
+  }
+} // namespace
