@@ -38,7 +38,7 @@ namespace diptych::benchmarks
       Sheared sheared = start_shear(grains, load);
       for (int k = 0; k < steps_before; ++k)
         (void)advance(sheared);
-      std::vector<double> whole, solver, kept, anew, sweeps;
+      std::vector<double> whole, solver, kept, renewed, sweeps;
       std::size_t         contacts = 0;
       NeighbourList       list;
       (void)detection(sheared, list);
@@ -46,7 +46,7 @@ namespace diptych::benchmarks
         {
           NeighbourList fresh;
           kept.push_back(detection(sheared, list).median);
-          anew.push_back(detection(sheared, fresh).median);
+          renewed.push_back(detection(sheared, fresh).median);
           const double     begin  = cpu_seconds();
           const StepResult result = advance(sheared);
           whole.push_back(cpu_seconds() - begin);
@@ -59,7 +59,8 @@ namespace diptych::benchmarks
         outside.push_back(whole[k] - solver[k]);
       const double all = spread(whole).median, out = spread(outside).median, found = spread(kept).median;
       std::printf("%6d %8zu %7.0f %9.4f %9.4f %9.2f %5.1f %% %9.2f %9.2f %5.1f %%", grains, contacts, spread(sweeps).median, all,
-                  spread(solver).median, 1e3 * out, 100 * out / all, 1e3 * found, 1e3 * spread(anew).median, 100 * found / all);
+                  spread(solver).median, 1e3 * out, 100 * out / all, 1e3 * found, 1e3 * spread(renewed).median,
+                  100 * found / all);
     }
 
     // Each size runs in its own process, because the peak memory is that of a process.
@@ -89,7 +90,7 @@ namespace diptych::benchmarks
     std::printf("I = 1e-3, step 0.02, tolerance 1e-4, steps %d to %d of the loading, medians, CPU time; solver including "
                 "its batches\n",
                 steps_before + 1, steps_before + steps_measured);
-    std::printf(" discs contacts  sweeps  s a step  solver s outside ms share  list kept ms  anew ms share  peak MB\n");
+    std::printf(" discs contacts  sweeps    s/step  solver s outside ms share  list kept ms   new ms share  peak MB\n");
     for (const int grains : {500, 1000, 2000, 4000, 8000, 16000, 32000, 64000})
       print_in_child(grains);
   }
