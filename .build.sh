@@ -1,4 +1,4 @@
-# Sourced by run.sh and test.sh: what they need from Debian 12, and how they build.
+# Sourced by run.sh and test.sh: the packages that they need from Debian 12, and how they build.
 
 packages=(
   g++ cmake ninja-build ccache git ca-certificates libcli11-dev libpugixml-dev zlib1g-dev
@@ -6,13 +6,13 @@ packages=(
   python3 python3-h5py python3-matplotlib python3-jinja2 python3-dev python3-numpy pybind11-dev
 )
 
-# OpenMPI refuses to start as root, which a container usually is.
+# OpenMPI refuses to start as root, the usual user of a container.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 
 # A second checkout of the same sources finds what the first one has compiled.
 export CCACHE_BASEDIR=$PWD
 
-# install_missing: only what is missing; does not touch apt where nothing is.
+# install_missing: installs missing packages. Does not call apt if none is missing.
 install_missing() {
   local missing=() package
   for package in "${packages[@]}"; do
@@ -26,12 +26,12 @@ install_missing() {
   "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-# Cores that this process may use; nproc alone would take OMP_NUM_THREADS, which is about something else.
+# Number of cores that this process may use. Plain nproc would return OMP_NUM_THREADS.
 cores() {
   env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc
 }
 
-# build PRESET TARGET...: at most one compiler per 2.5 GB of memory, which a deal.II unit takes.
+# build PRESET TARGET...: at most one compiler per 2.5 GB of memory, the need of a deal.II unit.
 build() {
   local preset=$1 jobs memory_gb log
   shift

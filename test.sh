@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Installs what is missing (Debian 12), builds Release and runs the tests.
+# Installs missing packages (Debian 12), builds Release and runs the tests.
 #   ./test.sh         all but the long ones (label slow)
 #   ./test.sh --all   the long ones too
-#   ./test.sh discrete   all of the discrete panel alone (no deal.II)
-#   ./test.sh debug      tests of units, in discrete/, continuum/ and coupling/, with assertions of deal.II, Eigen and our own
-#   ./test.sh sanitize   tests of units, in discrete/ and coupling/, with address and undefined-behaviour sanitizers
+#   ./test.sh discrete   the discrete panel without deal.II
+#   ./test.sh debug      unit tests of discrete/, continuum/ and coupling/ with assertions of deal.II, Eigen and our own
+#   ./test.sh sanitize   unit tests of discrete/ and coupling/ with address and undefined-behaviour sanitizers
 #   ./test.sh thread     solver, stepping and panel under the thread sanitizer
-#   ./test.sh fuzz [S]   fuzzers of what reads other people's files, S seconds each (60); their inputs in build/fuzz/inputs
+#   ./test.sh fuzz [S]   fuzzers of the readers of foreign files, S seconds each (60); their inputs are in build/fuzz/inputs
 set -euo pipefail
 cd "$(dirname "$0")"
 source ./.build.sh
@@ -33,28 +33,28 @@ case "$preset" in
   fuzz) targets=(fuzz_scene fuzz_table fuzz_problem fuzz_import)
         packages+=(clang) ;;
 esac
-# The tests alone: they open report.html, read the ParaView files back, make a package and the manual, use the Python package and
-# run its notebooks.
+# Only the tests need these packages. They open report.html, read the ParaView files, build a package and the manual, and use the
+# Python package and its notebooks.
 packages+=(chromium python3-meshio dpkg-dev clang-format mkdocs mkdocs-material libjs-katex fish man-db)
 packages+=(python3-pytest python3-pandas python3-scipy python3-nbconvert python3-ipykernel python3-mpi4py)
 install_missing
 build "$preset" "${targets[@]}"
 if [ "$preset" = fuzz ]; then
-  # HDF5 asks for as much memory as a damaged file says, and finds that the file ends before or that there is not so much: none of it is used.
+  # HDF5 allocates as much memory as a damaged file demands, then fails without using it. The fuzzer must allow that.
   fuzz_one() {
     local log=build/fuzz/$1.log inputs=build/fuzz/inputs/$1
     mkdir -p "$inputs"
     TIMEFORMAT="fuzz_$1: %U s of CPU time, and %S s in the system"
     time ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 "build/fuzz/tests/robustness/fuzz/fuzz_$1" -max_total_time="$2" -timeout=25 -rss_limit_mb=4000 -malloc_limit_mb=-1 \
       -print_final_stats=1 -artifact_prefix="build/fuzz/finding_$1_" "$inputs" "tests/robustness/fuzz/kept/$1" >"$log" 2>&1 ||
-      { tail -n 50 "$log"; echo "fuzz_$1: a finding, build/fuzz/finding_$1_*"; return 1; }
+      { tail -n 50 "$log"; echo "fuzz_$1: finding in build/fuzz/finding_$1_*"; return 1; }
     echo "fuzz_$1: $(sed -n 's/stat::number_of_executed_units: *//p' "$log") inputs, no finding"
   }
   export -f fuzz_one
   printf '%s\n' scene table problem import | xargs -P "$(cores)" -I '{}' bash -c "fuzz_one {} $seconds"
   exit 0
 fi
-# The thread sanitizer knows no addresses but those of a process without random places.
+# The thread sanitizer needs a process without address randomisation.
 around=()
 [ "$preset" != thread ] || around=(setarch "$(uname -m)" -R)
 "${around[@]}" ctest --test-dir build/"$preset" --output-on-failure -j "$(cores)" "${select[@]}"

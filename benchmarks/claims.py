@@ -1,8 +1,8 @@
-# diptych: what a scene claims, over one or several seeds, and whether the program's results say so
+# diptych: runs of a scene over one or several seeds, compared with its claims
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""For the check.py of a folder: runs of the program, what they leave, and a table of figures against their intervals.
+"""Common part of the check.py scripts: runs of the program, their results, a table of numbers against their intervals.
 
-A check.py gives a function that makes its runs for one seed and returns {name: figure}, and a list of (name, low, high)."""
+A check.py passes a function that makes its runs for one seed and returns {name: number}, and a list of (name, low, high)."""
 import argparse
 import csv
 import json
@@ -15,7 +15,7 @@ import h5py
 import numpy
 
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
-PEAK_WINDOW = 0.005  # axial or shear strain of the running mean
+PEAK_WINDOW = 0.005  # Axial or shear strain over which the running mean is taken.
 
 
 class RunFailed(Exception):
@@ -23,14 +23,14 @@ class RunFailed(Exception):
 
 
 class Runs:
-    """Runs of one seed: each in its own folder below `folder`, with the settings of the command line on top of the seed."""
+    """Runs of one seed, each in its own folder below `folder`, with the seed and the settings of the command line."""
 
     def __init__(self, options, seed, folder):
         self.options, self.folder = options, folder
         self.settings = [f"sample/seed={seed}", "output/report=false", *options.set]
 
     def run(self, name, command, scene, *settings):
-        """Result of `PROGRAM command scene`; with --reuse an earlier one where it is there. Throws RunFailed."""
+        """Result of `PROGRAM command scene`. With --reuse an existing result is read instead. Throws RunFailed."""
         folder = os.path.join(self.folder, name)
         if not (self.options.reuse and os.path.exists(os.path.join(folder, "provenance.json"))):
             words = [word for setting in (*self.settings, *settings) for word in ("--set", setting)]
@@ -42,7 +42,7 @@ class Runs:
 
 
 class Result:
-    """What one run left. Columns of the two histories by name, as arrays."""
+    """Results of one run. The columns of both histories are arrays, by name."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -74,7 +74,7 @@ class Result:
 
 
 def value(number):
-    """A number of comparison.json, which may come with its interval."""
+    """A number of comparison.json, with or without its interval."""
     return number["value"] if isinstance(number, dict) else number
 
 
@@ -83,24 +83,24 @@ def angles(bands):
 
 
 def running_mean(strain, quantity):
-    """(strain at the end, mean) of every PEAK_WINDOW of strain. The steps are equal."""
+    """(strain at the end, mean) of every PEAK_WINDOW of strain. The steps must be equal."""
     n_steps = max(1, round(PEAK_WINDOW / (strain[1] - strain[0])))
     return strain[n_steps - 1:], numpy.convolve(quantity, numpy.ones(n_steps) / n_steps, "valid")
 
 
 def between(strain, quantity, low, high):
-    """Mean of the steps with low < strain <= high."""
+    """Mean over the steps with low < strain <= high."""
     return quantity[(strain > low) & (strain <= high + 1e-9)].mean()
 
 
 def mean_and_error(values):
-    """(mean, standard error of the mean) over the first axis; an error of 0 for a single value."""
+    """(mean, standard error of the mean) over the first axis. The error of a single value is 0."""
     values = numpy.array(values)
     return values.mean(axis=0), values.std(axis=0, ddof=1) / numpy.sqrt(len(values)) if len(values) > 1 else 0 * values[0]
 
 
 def platen_difference(columns):
-    """|F_upper + F_lower| / mean size of the two, of the vertical platen forces of every step: zero in statics, at most 2."""
+    """|F_upper + F_lower| / mean size of both vertical platen forces, for every step: zero in statics, at most 2."""
     lower, upper = columns["lower_fy"], columns["upper_fy"]
     size = 0.5 * (numpy.abs(lower) + numpy.abs(upper))
     return numpy.divide(numpy.abs(lower + upper), size, out=numpy.zeros_like(size), where=size > 0)
@@ -111,7 +111,7 @@ def stage_means(comparison, panel, name="stress_ratio"):
 
 
 def judge(seeds, figures, claims):
-    """Prints one row a figure, claimed ones first; number of claimed figures outside their interval."""
+    """Prints one row per number, claimed ones first. Returns how many claimed numbers lie outside their interval."""
     n_outside = 0
     width = max(len(name) for name in figures[0]) + 2
     print(f"{'seed':{width}}" + "".join(f"{seed:>10}" for seed in seeds) + "   claimed")
@@ -129,14 +129,16 @@ def judge(seeds, figures, claims):
 
 
 def main(doc, measure, claims, draw, switches=None):
-    """measure(runs) -> {name: figure} of one seed; draw(folder of the first seed's runs, path); switches: {word: help} of further
-    options, read by measure from runs.options."""
+    """Entry point of a check.py.
+
+    measure(runs) returns {name: number} of one seed. draw(folder, path) draws the runs of the first seed. switches: {word: help}
+    of further options, which measure reads from runs.options."""
     parser = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
     parser.add_argument("--seeds", default="1", help="default: 1")
-    parser.add_argument("--output", help="folder for the result folders; default: thrown away")
+    parser.add_argument("--output", help="folder for the result folders; default: a temporary one")
     parser.add_argument("--reuse", action="store_true", help="keep runs that are already in --output")
-    parser.add_argument("--set", action="append", default=[], help="section/key=value, handed on to every run")
+    parser.add_argument("--set", action="append", default=[], help="section/key=value, passed to every run")
     parser.add_argument("--figure", help="file for the figure of the first seed (matplotlib)")
     for word, meaning in (switches or {}).items():
         parser.add_argument(f"--{word}", action="store_true", help=meaning)

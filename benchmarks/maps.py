@@ -10,8 +10,8 @@ from claims import value
 
 
 def draw_bands(axis, panel, points):
-    """Middle of every band, and where a tenth and nine tenths of its jump are done. Offsets count from the middle of the box that
-    holds `points`."""
+    """Lines at the middle of every band and at 10 and 90 % of its jump. Offsets count from the middle of the bounding box of
+    `points`."""
     centre = 0.5 * (points.min(axis=0) + points.max(axis=0))
     reach = numpy.linalg.norm(numpy.ptp(points, axis=0))
     for band in panel["bands"]:

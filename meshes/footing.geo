@@ -1,5 +1,5 @@
-// A rectangle under a strip in the middle of its upper edge; the rest of the upper edge is free. Structured. The program
-// makes the same mesh by itself (continuum/mesh/rectangle_mesh.cc); this is a start for shapes of your own.
+// A rectangle under a strip in the middle of its upper edge. The rest of the upper edge is free. Structured.
+// The program can make the same mesh (continuum/mesh/rectangle_mesh.cc). This file is a start for shapes of your own.
 //   gmsh footing.geo -2 -format msh22 -setnumber width 40 -setnumber strip 4
 DefineConstant[ width = 20, height = 10, strip = 2, size = 0.5 ];
 
@@ -8,11 +8,11 @@ x() = {0, beside, beside + strip, width};
 For i In {0:3}
   Point(1 + i) = {x(i), 0, 0};
   Point(11 + i) = {x(i), height, 0};
-  Line(21 + i) = {1 + i, 11 + i}; // upright
+  Line(21 + i) = {1 + i, 11 + i}; // vertical lines
 EndFor
 For i In {0:2}
-  Line(31 + i) = {1 + i, 2 + i};   // below
-  Line(41 + i) = {11 + i, 12 + i}; // above
+  Line(31 + i) = {1 + i, 2 + i};   // lower edge
+  Line(41 + i) = {11 + i, 12 + i}; // upper edge
   Curve Loop(1 + i) = {31 + i, 22 + i, -(41 + i), -(21 + i)};
   Plane Surface(1 + i) = {1 + i};
 EndFor

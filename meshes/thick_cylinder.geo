@@ -1,10 +1,10 @@
 // A quarter of a thick cylinder, inner radius a and outer radius b, centre at the origin. Structured.
-// The four lines that every mesh carries stand for: lower_platen, the cut on y = 0; left_side, the cut on x = 0 (both are
-// planes of symmetry); right_side, the inner arc, on which the pressure acts; upper_platen, the outer arc.
+// Every mesh has four boundary lines. Here they are: lower_platen, the cut on y = 0, and left_side, the cut on x = 0 (both
+// are planes of symmetry); right_side, the inner arc, which carries the pressure; upper_platen, the outer arc.
 //   gmsh thick_cylinder.geo -2 -format msh22 -setnumber b 3
 DefineConstant[ a = 1, b = 2, n_radial = 10, n_around = 20 ];
 
-Point(1) = {0, 0, 0}; // centre of the arcs, no vertex of the mesh
+Point(1) = {0, 0, 0}; // Centre of the arcs, not a vertex of the mesh.
 Point(2) = {a, 0, 0};
 Point(3) = {b, 0, 0};
 Point(4) = {0, b, 0};

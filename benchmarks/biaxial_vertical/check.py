@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-# diptych: platens that move vertically shear a sample in two crossing zones
+# diptych: platens that move vertically shear a sample in two crossing bands
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """check.py PROGRAM [--seeds 1,2,3] [--output DIR] [--reuse] [--set section/key=value] [--figure figure.png]
 
-Runs scene.prm for every seed and compares bands and forces of both panels with what the README claims. Exit code 1 where a
-figure is outside its interval, 2 where a run fails. Needs h5py and numpy, the figure matplotlib."""
+Runs scene.prm for every seed and compares bands and forces of both panels with the claims of the README. Exit code 1: a number is
+outside its interval; 2: a run failed. Needs h5py and numpy, the figure matplotlib."""
 import os
 import sys
 
@@ -14,10 +14,11 @@ import claims  # noqa: E402
 import maps  # noqa: E402
 
 SCENE = os.path.join(HERE, "scene.prm")
-LATE = 2  # window from 2 to 3 % strain
+LATE = 2  # Index of the window from 2 to 3 % strain.
 
-# Mean and four standard deviations over the fifteen seeds of the README, cut where the claim is stricter: two bands that
-# cross, in every window, each with more than a third of the platen's travel. Platen forces: of the eight with the present steps.
+# Mean and four standard deviations over the fifteen seeds of the README, narrower where the claim is stricter. The claim: two
+# crossing bands in every window, each with more than a third of the platen's travel. The interval of the platen forces is from
+# the eight seeds with the present steps.
 CLAIMS = [("grains: windows of 3 with two bands", 3, 3), ("continuum: windows of 3 with two bands", 3, 3),
           ("grains, 2-3 %: bands that cross", 2, 2),
           ("grains, 2-3 %: rising, degrees", 22, 70), ("grains, 2-3 %: falling, degrees", -66, -24),
@@ -29,7 +30,7 @@ CLAIMS = [("grains: windows of 3 with two bands", 3, 3), ("continuum: windows of
 
 
 def crossing(panel, name):
-    """Bands of one panel in one window: number, the two inclinations, the weaker jump."""
+    """Bands of one panel in one window: their number, both inclinations, the weaker jump."""
     bands = panel["bands"]
     rising = [a for a in claims.angles(bands) if a > 0]
     falling = [a for a in claims.angles(bands) if a < 0]

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # diptych: figure and tables of a calibration
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: figure.py DIR FIGURE.png. DIR: folder of `diptych calibrate`. Draws every path and prints the tables of a README."""
+"""Usage: figure.py DIR FIGURE.png. DIR: folder of `diptych calibrate`. Draws every path and prints all tables as Markdown."""
 import json
 import os
 import sys

@@ -1,4 +1,4 @@
-// diptych: what a residual says about the grains' stress
+// diptych: error of the grain stress for a given residual
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cstdio>
 #include <limits>
@@ -14,7 +14,7 @@ namespace diptych::benchmarks
 
   namespace
   {
-    // Where the residual first came below `wanted`.
+    // The check at which the residual first fell below `wanted`.
     struct Instant
     {
       double               wanted, residual, change, estimate;
@@ -22,7 +22,7 @@ namespace diptych::benchmarks
       std::vector<Impulse> impulses;
     };
 
-    // One solve to 1e-9, or as far as the budget goes, looked at on its way.
+    // One solve to 1e-9, or to the end of its budget of sweeps, observed on the way.
     std::vector<Instant> watch(const NextStep &next, const long budget, std::vector<Impulse> &r, SolveReport &report)
     {
       std::vector<double>  wanted{1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
@@ -30,7 +30,7 @@ namespace diptych::benchmarks
       GrainStressError     error;
       ThreadTeam           alone(1);
       SolverOptions        options;
-      options.tolerance   = std::numeric_limits<double>::max(); // the test below is asked at every check
+      options.tolerance   = std::numeric_limits<double>::max(); // The condition below is evaluated at every check.
       options.max_sweeps  = int(budget);
       r                   = next.guess;
       const StopTest look = [&](const SolveReport &now, const std::function<std::vector<Impulse>()> &present) {

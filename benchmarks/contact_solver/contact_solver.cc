@@ -1,4 +1,4 @@
-// diptych: what the contact solver costs and how exact it is, as plain tables
+// diptych: tables of the cost and accuracy of the contact solver
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cstdio>
 #include <cstring>
@@ -19,11 +19,11 @@ namespace
   using namespace diptych::benchmarks;
   constexpr Section sections[] = {{"update_cost", "ns per update, 4000 discs", update_cost},
                                   {"stored_problems", "contact problems in files", stored_problems},
-                                  {"step_solve", "one step's solve, 4000 discs", step_solve},
+                                  {"step_solve", "solve of one step, 4000 discs", step_solve},
                                   {"how_far", "smallest residuals reached (25 min)", how_far},
                                   {"sweep_orders", "order of the sweeps and omega by status", sweep_orders},
-                                  {"whole_step", "seconds a step and memory, 500 to 64000 discs", whole_step},
-                                  {"threads", "two threads, wall clock", threads},
+                                  {"whole_step", "seconds per step and memory, 500 to 64000 discs", whole_step},
+                                  {"threads", "two threads, wall time", threads},
                                   {"accuracy", "grain-stress error against residual", accuracy},
                                   {"warm_start", "with and without the impulses of the preceding step", warm_start},
                                   {"wandering", "a step on which the sweeps do not converge", wandering},
@@ -32,7 +32,7 @@ namespace
   int usage()
   {
     std::printf("contact_solver_benchmark [--states DIR] SECTION... | all\n");
-    std::printf("  --states DIR     keep sheared samples there, so that they are made once\n");
+    std::printf("  --states DIR     keep sheared samples there, so that they are prepared once\n");
     for (const Section &s : sections)
       std::printf("  %-16s %s\n", s.name, s.meaning);
     return 2;

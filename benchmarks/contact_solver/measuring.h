@@ -9,7 +9,7 @@
 
 namespace diptych::benchmarks
 {
-  // CPU time of all threads of this process: other programs on the machine do not count.
+  // CPU time of all threads of this process, so that other programs on the machine do not count.
   inline double cpu_seconds()
   {
     std::timespec now;

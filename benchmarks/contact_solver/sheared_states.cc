@@ -1,4 +1,4 @@
-// diptych: samples under way, whose next contact problem is what the benchmark solves
+// diptych: samples during a loading; the benchmark solves their next contact problem
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "benchmarks/contact_solver/sheared_states.h"
 
@@ -47,14 +47,14 @@ namespace diptych::benchmarks
 
   double strain_of_a_step(const LoadCase &load)
   {
-    return load.inertial_number * load.step; // mean diameter, density and pressure are 1
+    return load.inertial_number * load.step; // Mean diameter, density and pressure are 1.
   }
 
   StepResult advance(Sheared &sheared)
   {
     StepResult result = discrete::advance(sheared.state, sheared.setting, sheared.cache);
     if (result.solve.status != SolveStatus::converged)
-      throw std::runtime_error("a step on the way to the state did not converge");
+      throw std::runtime_error("a step before the sheared state did not converge");
     return result;
   }
 
@@ -71,7 +71,7 @@ namespace diptych::benchmarks
     if (!folder.empty())
       {
         std::filesystem::create_directories(folder);
-        StoredCheckpoint checkpoint; // which wants one reference position a grain
+        StoredCheckpoint checkpoint; // A checkpoint needs one reference position per grain.
         checkpoint.panel.state              = sheared.state;
         checkpoint.panel.reference.position = sheared.state.grains.position;
         write_checkpoint(path, checkpoint);
@@ -81,7 +81,7 @@ namespace diptych::benchmarks
 
   NextStep next_step(const Sheared &sheared)
   {
-    // The contacts of a step that is solved badly are those of one that is solved well.
+    // The contacts of a step do not depend on how well it is solved, so one sweep is enough.
     StepSetting one_sweep        = sheared.setting;
     one_sweep.solver.max_sweeps  = 1;
     one_sweep.accept_unconverged = true;

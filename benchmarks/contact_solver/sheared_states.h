@@ -1,4 +1,4 @@
-// diptych: samples under way, whose next contact problem is what the benchmark solves
+// diptych: samples during a loading; the benchmark solves their next contact problem
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace diptych::benchmarks
 {
-  // A loading at 45 degrees with free end grains: inertial number I, step [d sqrt(rho/P)], tolerance of the preceding steps.
+  // A loading at 45 degrees with free sides: inertial number I, step [d sqrt(rho/P)], tolerance of the preceding steps.
   struct LoadCase
   {
     const char *name;
@@ -23,39 +23,39 @@ namespace diptych::benchmarks
     discrete::StepCache   cache = {};
   };
 
-  // Default sample (radii 0.3 to 0.7 d, width/height 0.7, seed 1), prepared and set moving.
+  // Default sample (radii 0.3 to 0.7 d, width/height 0.7, seed 1), prepared and in motion.
   Sheared start_shear(int grains, const LoadCase &load);
 
-  // Axial strain by which the next step shears it.
+  // Axial strain of the next step.
   double strain_of_a_step(const LoadCase &load);
 
-  // One step at the tolerance of its setting. Throws std::runtime_error where it does not converge.
+  // Advances one step at the tolerance of its load case. Throws std::runtime_error if the step does not converge.
   discrete::StepResult advance(Sheared &sheared);
 
-  // start_shear() and steps to 1 % axial strain. Kept as a checkpoint in `folder`, if that is not empty, and read from there when
-  // asked again. Says on stderr what it waits for.
+  // start_shear() and steps to 1 % axial strain. If `folder` is not empty, keeps the state there as a checkpoint and reads it
+  // from there at the next call. Prints to stderr what it computes.
   Sheared sheared_state(const std::string &folder, int grains, const LoadCase &load);
 
-  // What the solver is given in the next step of `sheared`, which stays as it is.
+  // Input of the solver in the next step of `sheared`, which is not changed.
   struct NextStep
   {
     discrete::ContactProblem       problem;
     std::vector<discrete::Contact> contacts;
-    std::vector<double>            radius; // of the grains
-    std::vector<discrete::Impulse> guess;  // impulses of the preceding step
+    std::vector<double>            radius; // Radii of the grains.
+    std::vector<discrete::Impulse> guess;  // Impulses of the preceding step.
   };
   NextStep next_step(const Sheared &sheared);
 
-  // Solves of several steps: CPU seconds with the making of the batches, sweeps, residuals, and how many converged.
+  // Solves of several steps: CPU seconds including the making of the batches, sweeps, residuals, number of converged steps.
   struct MeasuredSolves
   {
     std::vector<double> seconds, sweeps, residuals;
     int                 converged = 0;
 
-    void add(const NextStep &next, const discrete::SolverOptions &options); // from the impulses of the preceding step
+    void add(const NextStep &next, const discrete::SolverOptions &options); // Starts from the impulses of the preceding step.
   };
 
-  // Rms difference of the grains' stress, relative to its rms value in `exact`.
+  // Rms difference of the grain stress, relative to its rms value in `exact`.
   double stress_difference(const NextStep                       &step,
                            const std::vector<discrete::Impulse> &impulses,
                            const std::vector<discrete::Impulse> &exact);

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-# diptych: the stored contact problems with Siconos' 2D NSGS and with ours, in the same run
+# diptych: the stored contact problems, solved by the 2D NSGS of Siconos and by this program in the same run
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """siconos_fc2d.py PROGRAM [--limit SECONDS] [--repeats N] [--figure FILE.png]
 
-PROGRAM: diptych. Needs python3 with siconos, h5py, numpy and scipy (Debian: python3-siconos, which is no dependency of this
-project); says so and ends with 0 where they are missing. Siconos stops on its own residual, which is scaled by
-max(|r|, |u|, |q|): the natural map relative to |r| of what it returns stands beside it. --figure: that against CPU seconds, for
-tolerances of 1e-3 to 1e-8 (needs matplotlib)."""
+PROGRAM: diptych. Needs python3 with siconos, h5py, numpy and scipy (Debian: python3-siconos, not a dependency of this project).
+If one is missing, prints a message and ends with 0. Siconos stops on its own residual, which is scaled by max(|r|, |u|, |q|). The
+table therefore also shows the natural map, relative to |r|, of the impulses that it returns. --figure: natural map against CPU
+seconds for tolerances of 1e-3 to 1e-8 (needs matplotlib)."""
 import argparse
 import os
 import statistics
@@ -31,7 +31,7 @@ def read_problem(path):
 
 
 def natural_map(matrix, q, mu, r):
-    """||r - P(r)|| / ||r||, P solving each contact for itself: as in discrete/contact_problem.h."""
+    """||r - P(r)|| / ||r||, where P solves each contact by itself, as in discrete/contacts/contact_problem.h."""
     import numpy
     u, diagonal = matrix @ r + q, matrix.diagonal()
     normal = numpy.maximum(0, r[0::2] - u[0::2] / diagonal[0::2])
@@ -40,7 +40,7 @@ def natural_map(matrix, q, mu, r):
 
 
 def solve_here(path, tolerance):
-    """One solve with Siconos from zero impulses; prints sweeps, CPU seconds, its residual, natural map, info."""
+    """Solves with Siconos from zero impulses. Prints sweeps, CPU seconds, its residual, natural map and info."""
     import numpy
     import siconos.numerics as siconos
     matrix, q, mu = read_problem(path)
@@ -60,7 +60,7 @@ def solve_here(path, tolerance):
 
 
 def siconos_solve(path, tolerance, limit):
-    """[sweeps, seconds, residual, natural map, info] of a solve in a process of its own; None after `limit` seconds."""
+    """[sweeps, seconds, residual, natural map, info] of a solve in a separate process; None after `limit` seconds."""
     try:
         done = subprocess.run([sys.executable, os.path.abspath(__file__), "--one", path, str(tolerance)],
                               capture_output=True, text=True, timeout=limit + 5, check=True)

@@ -1,4 +1,4 @@
-// diptych: how often sweeps stall on a few contacts in fast flow, and what it costs
+// diptych: how often sweeps stall on a few contacts in fast flow, and the cost
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cstdio>
 #include <numeric>

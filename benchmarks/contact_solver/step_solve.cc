@@ -1,4 +1,4 @@
-// diptych: one step's solve of 4000 discs in shear, and how far down the solvers come
+// diptych: the solve of one step of 4000 discs in shear, and the smallest residuals that the solvers reach
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cstdio>
 
@@ -26,7 +26,7 @@ namespace diptych::benchmarks
       return options;
     }
 
-    // Of `n` consecutive steps, each solved with each of the options.
+    // Results of `n` consecutive steps, each solved with each of the options.
     std::vector<MeasuredSolves> solve_steps(Sheared sheared, const std::vector<SolverOptions> &options, const int n)
     {
       std::vector<MeasuredSolves> measured(options.size());

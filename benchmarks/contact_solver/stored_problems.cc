@@ -1,4 +1,4 @@
-// diptych: every solver and form on the stored contact problems
+// diptych: every solver and form of the problem on the stored contact problems
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cstdio>
 
@@ -13,9 +13,9 @@ namespace diptych::benchmarks
 
   namespace
   {
-    constexpr double enough_seconds = 2; // longer solves are not repeated
+    constexpr double enough_seconds = 2; // Longer solves are not repeated.
 
-    // From zero impulses.
+    // Solves from zero impulses.
     void print_solve(const StoredProblem &problem, const char *file, const char *form, const SolverOptions &options)
     {
       SolveReport         report;

@@ -1,4 +1,4 @@
-// diptych: does the order of the sweeps still help beside omega by contact status
+// diptych: gain from the order of the sweeps when omega depends on the contact status
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cstdio>
 #include <numeric>
@@ -23,7 +23,7 @@ namespace diptych::benchmarks
     constexpr const char *orders[]      = {"sorted", "rows", "random"};
     constexpr double      tolerances[]  = {1e-4, 1e-5};
 
-    // `rows`: ascending in (i, j), with grains numbered upward before the loading, so nearly sorted, too.
+    // `rows`: ascending in (i, j). Grains are numbered upward before the loading, so rows are nearly sorted too.
     void set_order(ContactProblem &problem, const std::string &name)
     {
       if (name == "sorted")
@@ -31,7 +31,7 @@ namespace diptych::benchmarks
       problem.order.resize(name == "rows" ? 0 : problem.contacts.size());
       std::iota(problem.order.begin(), problem.order.end(), 0);
       std::mt19937_64 random(1);
-      for (std::size_t k = problem.order.size(); k > 1; --k) // std::shuffle differs between libraries
+      for (std::size_t k = problem.order.size(); k > 1; --k) // Not std::shuffle: its order differs between libraries.
         std::swap(problem.order[k - 1], problem.order[random() % k]);
     }
 

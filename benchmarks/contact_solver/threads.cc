@@ -12,8 +12,8 @@ namespace diptych::benchmarks
 {
   using namespace diptych::discrete;
 
-  // One and two threads take turns, so that other programs on the machine disturb both alike; the least time is that with
-  // the least disturbance. 20 sweeps are what the solver does between two checks.
+  // One and two threads take turns, so that other programs on the machine disturb both in the same way. The least time has the
+  // least disturbance. The solver does 20 sweeps between two checks.
   void threads(const std::string &states)
   {
     constexpr int repeats = 1000, n_sweeps = 20;

@@ -1,4 +1,4 @@
-// diptych: what one contact update costs, sweeps alone
+// diptych: cost of one contact update, sweeps only
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cstdio>
 
@@ -14,7 +14,7 @@ namespace diptych::benchmarks
 {
   using namespace diptych::discrete;
 
-  // Every row of the problem, open or closed, is one update a sweep.
+  // Every contact of the problem, open or closed, is one update per sweep.
   void update_cost(const std::string &states)
   {
     constexpr int       n_sweeps = 200, repeats = 15;
@@ -38,7 +38,7 @@ namespace diptych::benchmarks
     batches.set_impulses(next.guess);
     const Spread batched  = timed(repeats, cpu_seconds,
                                   [&] { batches.sweep(o.omega_sticking, o.omega_slipping, n_sweeps, alone); });
-    double       sum      = 0; // so that the residual cannot be left out
+    double       sum      = 0; // Used, so that the compiler cannot remove the residual.
     const Spread residual = timed(repeats, cpu_seconds, [&] {
       for (int k = 0; k < n_sweeps; ++k)
         sum += batches.residual(alone);

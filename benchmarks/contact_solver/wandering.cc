@@ -1,4 +1,4 @@
-// diptych: what the sweeps do on a step on which they do not converge
+// diptych: behaviour of the sweeps in a step that does not converge
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 #include <cstdio>
@@ -19,8 +19,8 @@ namespace diptych::benchmarks
 
     struct Wandering
     {
-      double              mean_residual = 0, least_residual = 1; // geometric mean
-      std::vector<double> change;                                // of grain stress since the first record, rms relative
+      double              mean_residual = 0, least_residual = 1; // The mean is geometric.
+      std::vector<double> change;                                // Rms relative change of grain stress since the first record.
     };
 
     Wandering watch(const NextStep &next, const double omega)

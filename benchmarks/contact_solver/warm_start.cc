@@ -1,4 +1,4 @@
-// diptych: what the impulses of the preceding step are worth as a first guess
+// diptych: value of the preceding step's impulses as a first guess
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cstdio>
 
@@ -41,7 +41,7 @@ namespace diptych::benchmarks
       std::fflush(stdout);
     }
 
-    // A prepared sample between platens that stand still, with friction on.
+    // A prepared sample with friction between platens at rest.
     void print_static(const int grains)
     {
       Sheared sheared = start_shear(grains, {"static", 0, 0.2, 1e-4});

@@ -1,4 +1,4 @@
-// diptych: a whole step from 500 to 64000 discs, what of it is not the solver, and the memory
+// diptych: a whole step of 500 to 64000 discs: total time, time outside the solver, memory
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cstdio>
 #include <stdexcept>
@@ -19,7 +19,7 @@ namespace diptych::benchmarks
     constexpr LoadCase load{"A at 1e-4", 1e-3, 0.02, 1e-4};
     constexpr int      steps_before = 100, steps_measured = 21;
 
-    // With the margins of time_stepping.h, on a list of its own: kept, and made anew.
+    // Detection with the margins of time_stepping.h on a separate list: with the kept list, and with a new list.
     Spread detection(const Sheared &sheared, NeighbourList &list)
     {
       const Grains                      &g     = sheared.state.grains;
@@ -38,7 +38,7 @@ namespace diptych::benchmarks
       Sheared sheared = start_shear(grains, load);
       for (int k = 0; k < steps_before; ++k)
         (void)advance(sheared);
-      std::vector<double> whole, solver, kept, anew, sweeps;
+      std::vector<double> whole, solver, kept, renewed, sweeps;
       std::size_t         contacts = 0;
       NeighbourList       list;
       (void)detection(sheared, list);
@@ -46,7 +46,7 @@ namespace diptych::benchmarks
         {
           NeighbourList fresh;
           kept.push_back(detection(sheared, list).median);
-          anew.push_back(detection(sheared, fresh).median);
+          renewed.push_back(detection(sheared, fresh).median);
           const double     begin  = cpu_seconds();
           const StepResult result = advance(sheared);
           whole.push_back(cpu_seconds() - begin);
@@ -59,10 +59,11 @@ namespace diptych::benchmarks
         outside.push_back(whole[k] - solver[k]);
       const double all = spread(whole).median, out = spread(outside).median, found = spread(kept).median;
       std::printf("%6d %8zu %7.0f %9.4f %9.4f %9.2f %5.1f %% %9.2f %9.2f %5.1f %%", grains, contacts, spread(sweeps).median, all,
-                  spread(solver).median, 1e3 * out, 100 * out / all, 1e3 * found, 1e3 * spread(anew).median, 100 * found / all);
+                  spread(solver).median, 1e3 * out, 100 * out / all, 1e3 * found, 1e3 * spread(renewed).median,
+                  100 * found / all);
     }
 
-    // Each size in a process of its own, so that the memory is its own.
+    // Each size runs in its own process, because the peak memory is that of a process.
     void print_in_child(const int grains)
     {
       std::fflush(stdout);
@@ -86,10 +87,10 @@ namespace diptych::benchmarks
 
   void whole_step(const std::string &)
   {
-    std::printf("I = 1e-3, step 0.02, tolerance 1e-4, steps %d to %d of the loading, medians, CPU time; solver with the making "
-                "of its batches\n",
+    std::printf("I = 1e-3, step 0.02, tolerance 1e-4, steps %d to %d of the loading, medians, CPU time; solver including "
+                "its batches\n",
                 steps_before + 1, steps_before + steps_measured);
-    std::printf(" discs contacts  sweeps  s a step  solver s outside ms share  list kept ms  anew ms share  peak MB\n");
+    std::printf(" discs contacts  sweeps    s/step  solver s outside ms share  list kept ms   new ms share  peak MB\n");
     for (const int grains : {500, 1000, 2000, 4000, 8000, 16000, 32000, 64000})
       print_in_child(grains);
   }

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-# diptych: what the continuum panel costs, and what accuracy that buys
+# diptych: cost of the continuum panel and the accuracy it buys
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """continuum_cost.py PROGRAM [--only targets,accuracy,phases,samples,growth] [--results DIR] [--figure figure.png]
 
-Runs scene.prm in variants, one program at a time, and prints a table per part. Seconds are CPU seconds of the continuum phase
-(provenance.json). With --results the runs are kept, and those already there are not run again. Needs numpy, h5py, matplotlib."""
+Runs variants of scene.prm one after the other and prints a table per part. Seconds are CPU seconds of the continuum phase
+(provenance.json). --results keeps the runs and does not repeat existing ones. Needs numpy, h5py, matplotlib."""
 import argparse
 import csv
 import json
@@ -19,14 +19,14 @@ from refined_band import band_thickness
 HERE = os.path.dirname(os.path.abspath(__file__))
 ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 FINEST = {"element_size": 0.75, "max_step": 0.001}
-# For the stress ratio at 8 %: in FINEST a node of a free side reaches a platen just there, and the ratio jumps by 0.6 %.
+# Reference of the stress ratio at 8 %. In FINEST a node of a free side reaches a platen just there, and the ratio jumps by 0.6 %.
 FINEST_AT_END = {"element_size": 1, "max_step": 0.001}
 # Steps end at every stage, and a step of half a stage does not grow to a whole one: larger steps need larger stages.
 LONG_STAGES = {"stage_strain": 0.04}
 STEPS = {"0.02": {"max_step": 0.02, "loading": LONG_STAGES}, "0.01": {"max_step": 0.01, "loading": LONG_STAGES},
          "0.01, stages of 1 %": {"max_step": 0.01}, "0.005": {}, "0.0025": {"max_step": 0.0025}, "0.001": {"max_step": 0.001}}
 VERY_SHORT = ("0.0005", {"max_step": 0.0005, "initial_step": 0.0005})
-# name on the chart, label of a point -> keys of the section continuum; what is not named is as in scene.prm
+# Name on the chart, label of a point -> keys of the section continuum. Other keys are those of scene.prm.
 VARIANTS = {
     "element size h": {f"{h:g}": {"element_size": h} for h in (4, 3, 2, 1.5, 1)},
     "max_step, h = 2": {step: {"element_size": 2, **keys} for step, keys in [*STEPS.items(), VERY_SHORT]},
@@ -42,7 +42,7 @@ LOCAL = {f"{element}, h = {h}": {"law": "mohr_coulomb", "element": element, "ele
 
 
 class Runs:
-    """Runs of the program, each in a folder of its own."""
+    """Runs of the program, each in its own folder."""
 
     def __init__(self, program, folder):
         self.program, self.folder, self.revisions = program, folder, set()
@@ -81,7 +81,7 @@ class Runs:
 
 
 def result(folder):
-    """Cost, facts and history of a finished run."""
+    """Cost, sizes and history of a finished run."""
     with open(os.path.join(folder, "provenance.json")) as file:
         provenance = json.load(file)
     with open(os.path.join(folder, "exit.json")) as file:
@@ -98,7 +98,7 @@ def result(folder):
 
 
 def thickness_of(r):
-    """[length]; NaN without a stage at 7 %."""
+    """Thickness of the band [length]. NaN without a stage at 7 %."""
     if r.last["axial_strain"] < 0.08 or not r.has_window:
         return float("nan")
     return band_thickness(r.folder, r.element_size if r.refined else None)

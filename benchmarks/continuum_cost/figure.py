@@ -9,7 +9,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as pyplot  # noqa: E402
 from matplotlib.ticker import FuncFormatter, NullFormatter  # noqa: E402
 
-# Okabe and Ito (2008), colours that the colour-blind tell apart
+# Okabe and Ito (2008): colours that colour-blind readers can distinguish.
 COLOURS = dict(black="#000000", orange="#E69F00", sky="#56B4E9", green="#009E73", blue="#0072B2", red="#D55E00", purple="#CC79A7")
 STYLES = {
     "element size h": ("black", "o", "-"),
@@ -22,11 +22,11 @@ STYLES = {
     "small strain, h = 2": ("green", "X", ""),
 }
 ERRORS = ("peak stress ratio", "stress ratio at 8 % strain", "band thickness, 7-8 % strain")
-# Which points are labelled, and where, per panel [points]
+# Labelled points and the offsets of their labels, per panel [points].
 LABELLED = ({"element size h": (5, 4), "viscosity, h = 2": (6, -2)},
             {"element size h": (-4, -12), "max_step, h = 2": (-33, -2), "viscosity, h = 2": (6, -2)},
             {"element size h": (5, 4), "viscosity, h = 2": (6, -2)})
-FLOOR = 0.02  # [%]: smaller errors are drawn here
+FLOOR = 0.02  # Smaller errors are drawn at this value [%].
 
 
 def plain(axis, ticks):

@@ -1,8 +1,8 @@
 # diptych: thickness of the oblique band on uniform and on refined meshes
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The measure is that of ../cosserat_band/width.py: full width at half maximum of the increment of the hardening variable across
-the band, in current coordinates. A refined mesh is first written on the grid of its smallest elements: a larger element's mean
-in each of its parts, their points by its biquadratic shape functions."""
+"""Measures as ../cosserat_band/width.py: full width at half maximum of the increment of the hardening variable across the band, in
+current coordinates. A refined mesh is first written on the grid of its smallest elements. Each part of a larger element gets the
+element's mean, and its points come from the element's biquadratic shape functions."""
 import os
 import sys
 
@@ -19,7 +19,7 @@ def quadratics(t):
 
 
 class Grid:
-    """A stage on the grid of squares of edge h: hardening variable of the squares, current places of N_POINTS^2 points in each."""
+    """A stage on a grid of squares of edge h: hardening variable of the squares, current positions of N_POINTS^2 points in each."""
 
     def __init__(self, stage, h):
         position = stage["nodes/position"][()][:, :2]
@@ -45,7 +45,7 @@ class Grid:
 
 
 class RefinedIncrement(Increment):
-    """What Increment holds of an undivided rectangle; only what measure() needs."""
+    """The members of Increment that measure() needs, for a refined mesh."""
 
     def __init__(self, before, after, h):
         earlier, later = Grid(before, h), Grid(after, h)
@@ -58,7 +58,7 @@ class RefinedIncrement(Increment):
 
 
 def band_thickness(folder, refined=None, last=0.08, strain=0.01):
-    """[length]; `refined`: smallest element of a mesh that is not uniform."""
+    """Thickness of the band [length]. `refined`: smallest element of a refined mesh."""
     if refined is None:
         return float(measure(Increment(folder, last, strain), ARMS["oblique"]).thickness)
     with h5py.File(os.path.join(folder, "continuum.h5")) as file:

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-# diptych: the internal length at work: thickness and angle of shear bands of Cosserat laws
+# diptych: effect of the internal length on thickness and angle of shear bands of Cosserat laws
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """band.py PROGRAM [--output DIR] [--reuse] [--figure figure.png]
 
-Runs `PROGRAM continuum` on oblique.prm, vertical.prm and smooth.prm with other internal lengths l, elements h, sizes and laws and
-prints thickness and angle of the bands (width.py says how they are measured). --reuse: finished runs in DIR are not run again.
-Exit code 1 where mesh convergence, the angle or the strain reached is outside its band, 2 where a run fails. Needs h5py and
-numpy, the figure matplotlib."""
+Runs `PROGRAM continuum` on oblique.prm, vertical.prm and smooth.prm with several internal lengths l, elements h, sizes and laws.
+Prints thickness and angle of the bands, measured as in width.py. --reuse: does not repeat finished runs in DIR. Exit code 1: mesh
+convergence, the angle or the strain reached is outside its interval; 2: a run failed. Needs h5py and numpy, the figure
+matplotlib."""
 import argparse
 import sys
 import tempfile
@@ -15,14 +15,14 @@ import numpy
 
 from runs import LENGTHS, LOCAL_ELEMENTS, SIZES, STRAINS, Runs, bands, facts, history, length_runs, power, size_runs, thicknesses
 
-# Another prototype, element 1, W = H = 60: internal length -> thickness at STRAINS. Said to be of the oblique loading.
+# Another program, element 1, W = H = 60: internal length -> thickness at STRAINS. Its authors state the oblique loading.
 PROTOTYPE = {1: (6.3, 7.8, 9.0), 2: (11.7, 11.7, 13.1)}
-ROUGH_CONVERGENCE, SMOOTH_CONVERGENCE = 0.03, 0.05  # between h = l and l/2
-DILATANCY_ANGLE, FRICTION_ANGLE, ANGLE_BAND = 5, 30, 2  # of smooth.prm; [degrees]
+ROUGH_CONVERGENCE, SMOOTH_CONVERGENCE = 0.03, 0.05  # Largest relative difference between h = l and l/2.
+DILATANCY_ANGLE, FRICTION_ANGLE, ANGLE_BAND = 5, 30, 2  # Values of smooth.prm [degrees].
 
 
 class Table:
-    """Prints rows as they come, and keeps what did not reach `reached`."""
+    """Prints rows one by one and keeps the runs that ended early."""
 
     def __init__(self):
         self.n_failed, self.n_cut_backs = 0, 0
@@ -31,7 +31,7 @@ class Table:
         print(f"\n{text}\n{'':44}" + "".join(f"{100 * e:5g} %" for e in STRAINS) + "  scatter  angle  cuts  CPU s", flush=True)
 
     def row(self, label, folder, scene, reached=0.08):
-        """`reached`: strain that is asked for; 0: the run is shown for its failure."""
+        """`reached`: strain that the run must reach; 0: the run is expected to fail."""
         measured, cost, last = bands(folder, scene), facts(folder), history(folder)[-1]
         print(f"{label:44}" + "".join(f"{b.thickness if b else numpy.nan:7.2f}" for b in measured)
               + (f"{measured[-1].scatter:9.2f}{measured[-1].angle:7.1f}" if measured[-1] else "")
@@ -82,7 +82,7 @@ def show_vertical_and_smooth(table, runs):
 
 
 def show_powers(table, runs):
-    """Without another length the thickness is W f(l/W): both exponents must add up to 1."""
+    """The law has no other length, so the thickness is W f(l/W) and both exponents must add up to 1."""
     table.header("oblique: thickness [d] at sample size W = H, l = 2, h = 1")
     by_size = numpy.array([table.row(f"W = {size}", folder, "oblique") for size, folder in size_runs(runs).items()])
     by_length = numpy.array([thicknesses(folder, "oblique") for folder in length_runs(runs).values()])

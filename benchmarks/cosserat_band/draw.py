@@ -1,4 +1,4 @@
-# diptych: figure of the bands, their thickness and what becomes of it without an internal length
+# diptych: figure of the bands, of their thickness and of its mesh dependence without an internal length
 # SPDX-License-Identifier: LGPL-2.1-or-later
 import matplotlib
 
@@ -47,7 +47,7 @@ def draw_strain(axes, runs):
 
 
 def draw_powers(axes, runs):
-    """Thickness and l relative to the size: both series must lie on one curve."""
+    """Thickness against l, both relative to the size: both series must lie on one curve."""
     for strain, colour in ((0.02, GREEN), (0.04, VERMILION), (0.08, BLUE)):
         by_length = [thicknesses(folder, "oblique", (strain,))[0] / 60 for folder in length_runs(runs).values()]
         by_size = [thicknesses(folder, "oblique", (strain,))[0] / size for size, folder in size_runs(runs).items()]

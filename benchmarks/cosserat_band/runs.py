@@ -1,4 +1,4 @@
-# diptych: runs of the continuum panel with other lengths, sizes and laws, and what is read from them
+# diptych: runs of the continuum panel with several lengths, sizes and laws, and their numbers
 # SPDX-License-Identifier: LGPL-2.1-or-later
 import csv
 import json
@@ -12,7 +12,7 @@ from width import Arm, Increment, measure
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 STRAINS = (0.02, 0.04, 0.08)
-# Guesses of where the arm lies that is measured: of the X the lower left one, half way between crossing and corner.
+# First guess of the measured arm. In the X it is the lower left arm, half way between crossing and corner.
 ARMS = {"oblique": Arm(0.5, 0.5, -45, 0.3), "vertical": Arm(0.25, 0.25, 43, 0.11), "smooth": Arm(0.5, 0.27, 47, 0.25)}
 LENGTHS, SIZES, LOCAL_ELEMENTS = (1, 2, 4), (40, 60, 90, 120), (4, 2, 1)
 
@@ -22,13 +22,13 @@ class Runs:
         self.program, self.reuse, self.folder = options.program, options.reuse, folder
 
     def __call__(self, scene, **keys):
-        """Folder of `scene` with keys of its section continuum; axial_strain is the loading's."""
+        """Result folder of `scene` with the given keys of its section continuum. axial_strain is a key of the section loading."""
         keys = {key: value if isinstance(value, str) else f"{value:g}" for key, value in keys.items()}
         name = "_".join([scene] + [f"{key}={value}" for key, value in keys.items()])
         folder = os.path.join(self.folder, name)
         if self.reuse and os.path.exists(os.path.join(folder, "provenance.json")) and facts(folder)["finished"]:
             return folder
-        words = ["--set", "comparison/coarse_element_size=100"]  # larger than the sample: no second mesh
+        words = ["--set", "comparison/coarse_element_size=100"]  # Larger than the sample: no second mesh.
         for key, value in keys.items():
             words += ["--set", f"{'loading' if key == 'axial_strain' else 'continuum'}/{key}={value}"]
         done = subprocess.run([self.program, "continuum", os.path.join(HERE, scene + ".prm"), "--output", folder, "--quiet",
@@ -52,7 +52,7 @@ def history(folder):
 
 
 def bands(folder, scene, strains=STRAINS):
-    """Of the increments of 1 % that end at these strains; None beyond what the run reached."""
+    """Bands of the increments of 1 % that end at these strains; None beyond the strain that the run reached."""
     reached = facts(folder)["reached_axial_strain"]
     return [measure(Increment(folder, e), ARMS[scene]) if e < reached + 1e-9 else None for e in strains]
 

@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The full width at half maximum of the plastic shear increment between two stages, across the band, in current coordinates.
 
-1. The increment of the hardening variable is known as means over cells. On the rectangle's grid it is turned into point values by
-   the cubic spline through its cumulative sums, direction by direction: the cells' means are kept, so that the box of a cell does
-   not widen the band. Points lie N_POINTS^2 to a cell; the biquadratic displacement carries them to their current places.
+1. The result holds the increment of the hardening variable as means over cells. On the rectangle's grid the cubic spline through
+   its cumulative sums, direction by direction, turns them into point values. This keeps the cells' means, so that the width of a
+   cell does not widen the band. Each cell has N_POINTS^2 points; the biquadratic displacement moves them to their current places.
 2. A frame (centre, angle) on the band's middle part is cut into N_STRIPS strips across the band. The profile of a strip is the
-   mean over bins of a fifth of an element; its half-maximum points are the first on both sides of its peak, interpolated linearly.
-   The base is zero, not the smallest value.
-3. The frame is moved and turned onto the straight line through the strips' middles until it rests. Thickness: mean over the
-   strips, angle: the frame's, scatter: standard deviation over the strips."""
+   mean over bins of a fifth of an element. Its half-maximum points are the first on both sides of its peak, interpolated
+   linearly. The base is zero, not the smallest value.
+3. The frame is moved and turned onto the straight line through the strips' middles until it no longer changes. Thickness is the
+   mean over the strips, scatter their standard deviation. The angle is that of the frame."""
 import dataclasses
 import os
 
@@ -21,27 +21,27 @@ N_POINTS, N_STRIPS, BINS_PER_ELEMENT = 10, 9, 5
 
 @dataclasses.dataclass
 class Arm:
-    """The part of a band that is measured: a guess, in the initial sample."""
-    x: float  # of its middle [initial widths]
-    y: float  # [initial heights]
-    angle: float  # from the horizontal, anticlockwise [degrees]
-    half_length: float  # [initial widths]
+    """First guess of the measured part of a band, in the initial sample."""
+    x: float  # Middle of the part [initial widths].
+    y: float  # Middle of the part [initial heights].
+    angle: float  # From the horizontal, anticlockwise [degrees].
+    half_length: float  # [initial widths].
 
 
 @dataclasses.dataclass
 class Band:
     thickness: float
     scatter: float
-    angle: float  # from the horizontal, in (-90, 90] [degrees]
+    angle: float  # From the horizontal, in (-90, 90] [degrees].
     centre: numpy.ndarray
     half_length: float
-    across: numpy.ndarray  # of the mean profile
+    across: numpy.ndarray  # Abscissae of the mean profile.
     profile: numpy.ndarray
 
 
 def point_values(n_cells):
-    """Matrix from the means over a row of equal cells to N_POINTS values in each, through the natural cubic spline of the sums:
-    slopes m at the nodes from m[i-1] + 4 m[i] + m[i+1] = 3 (c[i-1] + c[i])."""
+    """Matrix from the means c over a row of equal cells to N_POINTS values in each, through the natural cubic spline of the sums. Its
+    slopes m at the nodes satisfy m[i-1] + 4 m[i] + m[i+1] = 3 (c[i-1] + c[i])."""
     left, right = numpy.zeros((n_cells + 1, n_cells)), numpy.zeros((n_cells + 1, n_cells + 1))
     for i in range(n_cells + 1):
         for neighbour, cell in ((i - 1, i - 1), (i + 1, i)):
@@ -58,7 +58,7 @@ def point_values(n_cells):
 
 
 class Increment:
-    """Plastic shear increment between two stages of a run on an undivided rectangle: points, values and areas."""
+    """Plastic shear increment between two stages of a run on a uniform rectangle: points, values and areas."""
 
     def __init__(self, folder, last, strain=0.01):
         """`last`: axial strain at the end of the increment."""
@@ -87,13 +87,13 @@ class Increment:
         self.shape = tuple(N_POINTS * n for n in shape)
 
     def material_point(self, x, y):
-        """Current place of the point that was at (x widths, y heights)."""
+        """Current position of the point that was initially at (x widths, y heights)."""
         row, column = (min(int(share * n), n - 1) for share, n in zip((y, x), self.shape))
         return self.points.reshape(self.shape + (2,))[row, column]
 
 
 def half_maximum(across, profile):
-    """(first, last) place of half the peak; NaN where the profile does not fall that far."""
+    """(first, last) abscissa of half the peak; NaN if the profile does not fall that far."""
     peak = int(numpy.nanargmax(profile))
     half = 0.5 * profile[peak]
     ends = []
@@ -109,7 +109,7 @@ def half_maximum(across, profile):
 
 
 def strip_profiles(increment, centre, angle, half_length, reach):
-    """(across, profiles[N_STRIPS, n]) in the frame; the profile is the mean value in a bin."""
+    """(across, profiles[N_STRIPS, n]) in the frame. A profile holds the mean value of each bin."""
     tangent = numpy.array((numpy.cos(angle), numpy.sin(angle)))
     relative = increment.points - centre
     along, across = relative @ tangent, relative @ (-tangent[1], tangent[0])
@@ -133,7 +133,7 @@ def measure(increment, arm):
     for _ in range(40):
         across, profiles = strip_profiles(increment, centre, angle, half_length, reach)
         ends = numpy.array([half_maximum(across, profile) for profile in profiles])
-        if numpy.isnan(ends).any():  # no band, or it leaves the frame
+        if numpy.isnan(ends).any():  # There is no band, or it leaves the frame.
             break
         slope, offset = numpy.polyfit(along, ends.mean(axis=1), 1)
         centre = centre + offset * numpy.array((-numpy.sin(angle), numpy.cos(angle)))

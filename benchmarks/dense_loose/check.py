@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-# diptych: the same grains packed densely and loosely, peak and dilation against neither
+# diptych: the same grains packed densely (peak and dilation) and loosely (neither)
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """check.py PROGRAM [--seeds 1,2,3] [--output DIR] [--reuse] [--set section/key=value] [--figure figure.png]
 
-Runs dense.prm and loose.prm for every seed and compares both panels with what the README claims. Exit code 1 where a figure is
-outside its interval, 2 where a run fails. Needs h5py and numpy, the figure matplotlib."""
+Runs dense.prm and loose.prm for every seed and compares both panels with the claims of the README. Exit code 1: a number is
+outside its interval; 2: a run failed. Needs h5py and numpy, the figure matplotlib."""
 import os
 import sys
 
@@ -16,8 +16,8 @@ import claims  # noqa: E402
 
 STATES = ("dense", "loose")
 
-# Mean and four standard deviations over the first seven seeds of the README, cut where the claim is stricter: the same grains; a
-# peak of more than 11 % in the dense sample and of less in the loose one.
+# Mean and four standard deviations over the first seven seeds of the README, narrower where the claim is stricter. The claim: the
+# same grains have a peak of more than 11 % in the dense sample and of less in the loose one.
 CLAIMS = [("largest difference of the sorted radii", 0, 0), ("dense: solid fraction", 0.845, 0.85),
           ("loose: solid fraction", 0.8, 0.814), ("loose / dense: t/s, first 1 %", 0.09, 0.32),
           ("dense: peak t/s", 0.293, 0.447), ("dense: strain at the peak", 0.002, 0.036), ("dense: peak / last 2 %", 1.11, 1.7),
@@ -63,7 +63,7 @@ def measure(runs):
 
 
 def draw(folder, path):
-    """Stress ratio and volumetric strain of both states: grains step by step and in running means, continuum."""
+    """Stress ratio and volumetric strain of both states: every step and running means of the grains, and the continuum."""
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as pyplot

@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """check.py PROGRAM [--levels 5] [--output DIR] [--figure figure.png]
 
-Runs `PROGRAM continuum` on phi0.prm and phi20.prm and compares N_c = force / (c B) at the end with the closed form. --levels:
-divisions of elements of 0.5, a list for a convergence table; the scenes' own are 5, and only these are judged. Exit code 1 where
-a figure is off by more than 3 %, 2 where a run fails. The figure needs h5py, matplotlib and numpy, the rest Python alone."""
+Runs `PROGRAM continuum` on phi0.prm and phi20.prm and compares N_c = force / (c B) at the end with the closed form. --levels: list
+of refinement levels of elements of 0.5, for a convergence table. The scenes have 5 levels, and only these are judged. Exit code 1:
+N_c is off by more than 3 %; 2: a run failed. The figure needs h5py, matplotlib and numpy."""
 import argparse
 import csv
 import math
@@ -16,7 +16,7 @@ import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 FRICTION_ANGLES = (0, 20)
-WIDTH, COHESION, COARSE_ELEMENT, SCENE_LEVELS = 2, 1, 0.5, 5  # as in the scenes
+WIDTH, COHESION, COARSE_ELEMENT, SCENE_LEVELS = 2, 1, 0.5, 5  # As in the scenes.
 ALLOWED = 0.03
 
 
@@ -60,7 +60,7 @@ def prandtl_outline(friction_angle):
 
 
 def plastic_increment(folder):
-    """Corners of the cells relative to the strip's middle [B] and the increment of the hardening variable over the last stage."""
+    """Corners of the cells relative to the strip's middle [B], and the hardening variable's increment over the last stage."""
     import h5py
     with h5py.File(os.path.join(folder, "continuum.h5"), "r") as file:
         before, after = (file[name] for name in sorted(file)[-2:])
@@ -113,7 +113,7 @@ def draw(folders, path):
 
 
 def half(friction_angle):
-    """Half the width that the figure shows [B]."""
+    """Half the width of the figure [B]."""
     return 4.2 if friction_angle else 2.4
 
 

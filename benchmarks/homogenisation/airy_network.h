@@ -1,4 +1,4 @@
-// diptych: contact networks in exact equilibrium under a stress field that is known
+// diptych: contact networks in exact equilibrium under a known stress field
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -14,8 +14,8 @@
 
 namespace diptych::benchmarks
 {
-  // phi with its first and second derivatives at a point. Stress, positive in compression: xx = -phi,yy, yy = -phi,xx,
-  // xy = phi,xy, in equilibrium without weight whatever phi is.
+  // Airy's function phi with its first and second derivatives at a point. Stress, positive in compression: xx = -phi,yy,
+  // yy = -phi,xx, xy = phi,xy. It is in equilibrium without weight for every phi.
   struct Airy
   {
     double          value;
@@ -31,7 +31,7 @@ namespace diptych::benchmarks
   };
   using AiryFunction = std::function<Airy(const Eigen::Vector2d &)>;
 
-  // Pressure 1 and a wave of it, phi = -r^2/2 + a/k^2 cos(k x) cos(k y): the stress varies by a about 1, wave length 2 pi/k.
+  // Pressure 1 with a wave, phi = -r^2/2 + a/k^2 cos(k x) cos(k y): the stress varies by a around 1, wave length 2 pi/k.
   inline AiryFunction pressure_wave(const double amplitude, const double wave_length)
   {
     return [a = amplitude, k = 2 * M_PI / wave_length](const Eigen::Vector2d &x) {
@@ -48,18 +48,18 @@ namespace diptych::benchmarks
   {
     std::vector<Eigen::Vector2d>        position;
     std::vector<double>                 radius;
-    std::vector<discrete::ContactForce> contacts; // body n_grains: the box around
+    std::vector<discrete::ContactForce> contacts; // Body n_grains is the box around the grains.
   };
 
   enum class Faces
   {
-    power_cells, // of the discs, as touching discs have them
-    voronoi      // of their centres, whatever their radii
+    power_cells, // Power cells of the discs, as touching discs have them.
+    voronoi      // Voronoi cells of the centres, independent of the radii.
   };
 
-  // A box filled with discs of radius 0.3 to 0.7 and mean 0.5 on a shaken square lattice of spacing 1, each with a cell round it.
-  // What the stress transmits through an edge between two cells is a contact's force, at the point of the edge's line where
-  // it has the moment of the stress. Forces and moments on every grain add up to zero to round-off.
+  // A box of discs of radius 0.3 to 0.7 and mean 0.5 on a shaken square lattice of spacing 1, each with a cell around it. The
+  // force of a contact is what the stress transmits through the edge between two cells. Its point on the edge's line gives it
+  // the moment of the stress. Forces and moments on every grain add up to zero to round-off.
   inline AiryNetwork airy_network(const Eigen::Vector2d &lower,
                                   const Eigen::Vector2d &upper,
                                   const AiryFunction    &phi,
@@ -88,7 +88,7 @@ namespace diptych::benchmarks
           const int j = cells[i].beyond[k] < 0 ? n : cells[i].beyond[k];
           if (j < i)
             continue;
-          // tractions along the edge, of which sigma n dl = d(phi,y, -phi,x) and x cross sigma n dl = d(phi - x . grad phi)
+          // Tractions along the edge: sigma n dl = d(phi,y, -phi,x) and x cross sigma n dl = d(phi - x . grad phi).
           const Eigen::Vector2d &a = cells[i].corner[k], &b = cells[i].corner[(k + 1) % cells[i].corner.size()], edge = b - a;
           const Airy             at_a = phi(a), at_b = phi(b);
           const Eigen::Vector2d  change = at_b.gradient - at_a.gradient, force(change.y(), -change.x());

@@ -1,4 +1,4 @@
-// diptych: CPU seconds of every method of averaging
+// diptych: CPU seconds of every averaging method
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cstdio>
 
@@ -30,13 +30,13 @@ namespace diptych::benchmarks
         }
     }
 
-    // Stress alone: contact forces of a snapshot onto cells, the making of the search included. Methods take turns.
+    // Stress only: contact forces of a snapshot onto cells, including the making of the search. Methods take turns.
     void stress_cost(const discrete::Snapshot &grains, const QuadMesh &mesh, const int repeats)
     {
       std::vector<Row> rows{{"segments, by triangles and checked", {}}};
       for (const NamedMethod &method : methods)
         rows.push_back({method.name, {}});
-      double sum = 0; // so that nothing can be left out
+      double sum = 0; // Used, so that the compiler cannot remove the work.
       for (int repeat = 0; repeat < repeats; ++repeat)
         {
           double begin = cpu_seconds();
@@ -79,7 +79,7 @@ namespace diptych::benchmarks
     const discrete::Snapshot             &to        = snapshots.back();
     const double                          width     = to.outline.right.front().x() - to.outline.left.front().x();
     const double                          height    = to.upper_y - to.lower_y;
-    const QuadMesh mesh = outline_mesh(to.outline, unsigned(width / 2 + 0.5), unsigned(height / 2 + 0.5)); // 2 d
+    const QuadMesh mesh = outline_mesh(to.outline, unsigned(width / 2 + 0.5), unsigned(height / 2 + 0.5)); // Cells of 2 d.
     stress_cost(to, mesh, 9);
     fields_cost(snapshots[snapshots.size() - 2], to, mesh, 5);
 
@@ -87,7 +87,8 @@ namespace diptych::benchmarks
     Eigen::Vector2d          lower = sixteen.position.front(), upper = lower;
     for (const Eigen::Vector2d &x : sixteen.position)
       lower = lower.cwiseMin(x), upper = upper.cwiseMax(x);
-    const Eigen::Vector2d margin = Eigen::Vector2d::Constant(0.2); // less than a radius: discs and contacts reach beyond
+    const Eigen::Vector2d margin = Eigen::Vector2d::Constant(
+      0.2); // Less than a radius: discs and contacts extend beyond the grid.
     stress_cost(sixteen, regular_grid(lower - margin, upper + margin, 2), 7);
   }
 } // namespace diptych::benchmarks

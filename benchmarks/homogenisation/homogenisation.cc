@@ -1,4 +1,4 @@
-// diptych: what averaging grains over cells costs and how exact it is, as plain tables
+// diptych: tables of the cost and accuracy of averaging grains over cells
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cstdio>
 #include <cstring>
@@ -25,7 +25,7 @@ namespace
   int usage()
   {
     std::printf("homogenisation_benchmark [--samples DIR] SECTION... | all\n");
-    std::printf("  --samples DIR    keep the sheared sample there, so that it is made once\n");
+    std::printf("  --samples DIR    keep the sheared sample there, so that it is prepared once\n");
     for (const Section &s : sections)
       std::printf("  %-16s %s\n", s.name, s.meaning);
     return 2;

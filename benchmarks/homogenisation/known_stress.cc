@@ -1,4 +1,4 @@
-// diptych: error of every method of averaging against a stress field that is known
+// diptych: error of every averaging method against a known stress field
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cstdio>
 
@@ -14,7 +14,7 @@ namespace diptych::benchmarks
   {
     const Eigen::Vector2d lower(0, 0), upper(60, 90);
 
-    // Means of a stress over the cells, by the middles of 10 x 10 parts of each: good to 0.1 % for waves of ten times their side.
+    // Means of a stress over the cells from the middles of 10 x 10 parts of each: good to 0.1 % for waves of ten cell sides.
     std::vector<Eigen::Matrix2d> exact_means(const QuadMesh &grid, const AiryFunction &phi)
     {
       constexpr int                n = 10;
@@ -31,7 +31,7 @@ namespace diptych::benchmarks
       return means;
     }
 
-    // sqrt(sum |a - b|^2 / sum |b|^2) over the cells, equal in size: all of them, or those `margin` away from the edge.
+    // sqrt(sum |a - b|^2 / sum |b|^2) over the cells of equal size that are at least `margin` away from the edge.
     double relative_error(const QuadMesh                     &grid,
                           const CellSums                     &sums,
                           const std::vector<Eigen::Matrix2d> &exact,
@@ -52,8 +52,8 @@ namespace diptych::benchmarks
       return std::sqrt(difference / norm);
     }
 
-    // Root mean square distance of the centre of mass of a cell's grains from the cell's centre: an affine velocity is
-    // reproduced there.
+    // Root mean square distance between the cell's centre and the centre of mass of its grains, where an affine velocity is
+    // reproduced.
     double centre_offset(const QuadMesh &grid, const AiryNetwork &network, const AveragingOptions &options)
     {
       Carriers c = moment_carriers(network.position, network.radius, {});
@@ -74,8 +74,8 @@ namespace diptych::benchmarks
 
   namespace
   {
-    constexpr double margin    = 6;               // from the edge, of the cells called inside
-    constexpr double lengths[] = {0, 40, 20, 10}; // of the waves; 0: none
+    constexpr double margin    = 6;               // Least distance of an inner cell from the edge.
+    constexpr double lengths[] = {0, 40, 20, 10}; // Wave lengths; 0: no wave.
 
     void print_errors(const QuadMesh &grid, const AveragingOptions &options, const Faces faces)
     {

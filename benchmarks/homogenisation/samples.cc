@@ -14,7 +14,7 @@ namespace diptych::benchmarks
 {
   namespace
   {
-    // Abscissa of a side at a height; its points run upward.
+    // Abscissa of a side at a height. The points of the side ascend.
     double abscissa(const std::vector<Eigen::Vector2d> &side, const double y)
     {
       const auto             above = std::lower_bound(side.begin() + 1, side.end() - 1, y,
@@ -97,7 +97,7 @@ namespace diptych::benchmarks
         {
           const int copy = int(k / (contacts.size() / (n * n)));
           contacts[k].point += Eigen::Vector2d(copy % n * spacing.x(), copy / n * spacing.y());
-          // platens have the numbers behind all grains
+          // The numbers of the platens follow those of all grains.
           contacts[k].j += contacts[k].j < n_once ? copy * n_once : (n * n - 1) * n_once;
           contacts[k].i += copy * n_once;
         }

@@ -1,4 +1,4 @@
-// diptych: the tables of the benchmark, each printed by one function
+// diptych: tables of the benchmark, one function per table
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -9,9 +9,9 @@
 
 namespace diptych::benchmarks
 {
-  // `samples`: folder in which the sheared sample is kept; empty: it is made anew each time.
+  // `samples`: folder that keeps the sheared sample. If it is empty, each call makes it again.
   void cost(const std::string &samples);           // CPU seconds of every method at 4000 and 64000 grains
-  void known_stress(const std::string &samples);   // error of every method against a stress field that is known
+  void known_stress(const std::string &samples);   // error of every method against a known stress field
   void sheared_grains(const std::string &samples); // scatter of every method on a sheared sample
   void resolution(const std::string &samples);     // stress against the averaging length
 

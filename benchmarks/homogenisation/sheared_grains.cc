@@ -1,4 +1,4 @@
-// diptych: scatter of every method of averaging on a sheared sample, and its stress against the averaging length
+// diptych: scatter of every averaging method on a sheared sample, and stress against the averaging length
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 #include <cstdio>
@@ -13,7 +13,7 @@ namespace diptych::benchmarks
 
   namespace
   {
-    // The coarsest cells are about 6 d, the others parts of them.
+    // The coarsest cells are about 6 d wide. The others divide them.
     struct Divisions
     {
       unsigned int columns, rows;
@@ -25,7 +25,7 @@ namespace diptych::benchmarks
       return {unsigned(std::lround(width / (6 * s.mean_diameter))), unsigned(std::lround(height / (6 * s.mean_diameter)))};
     }
 
-    // Symmetric stress of the cells by the given forces.
+    // Symmetric stress of the cells from the given forces.
     std::vector<Eigen::Matrix2d> stress_of(const QuadMesh                            &mesh,
                                            const discrete::Snapshot                  &s,
                                            const std::vector<discrete::ContactForce> &forces,
@@ -45,8 +45,8 @@ namespace diptych::benchmarks
 
     struct Figures
     {
-      double scatter;    // of s = trace/2, deviation / mean over the cells
-      double difference; // relative L2, of the stress from the time-averaged one of the 6 d cell around it
+      double scatter;    // Deviation / mean of s = trace/2 over the cells.
+      double difference; // Relative L2 difference from the time-averaged stress of the surrounding 6 d cell.
     };
 
     Figures figures(const std::vector<Eigen::Matrix2d> &stress,
@@ -74,9 +74,9 @@ namespace diptych::benchmarks
     const discrete::Snapshot             &last      = snapshots.back();
     const Divisions                       coarse    = divisions(last);
 
-    // the windows of 0.5 % strain before the last one, each on the shape of its own instant
+    // The windows of 0.5 % strain before the last one, each on the shape of the sample at its end.
     std::vector<Eigen::Matrix2d> reference(coarse.columns * coarse.rows, Eigen::Matrix2d::Zero());
-    const std::size_t            first = 2, n_windows = snapshots.size() - 1 - first; // 2.5, 3 and 3.5 %
+    const std::size_t            first = 2, n_windows = snapshots.size() - 1 - first; // 2.5, 3 and 3.5 % strain.
     for (std::size_t w = first; w + 1 < snapshots.size(); ++w)
       {
         const auto stress = stress_of(outline_mesh(snapshots[w].outline, coarse.columns, coarse.rows), snapshots[w],

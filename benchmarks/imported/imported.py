@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-# diptych: real output of five codes imported, against truth; two of them beside the continuum
+# diptych: imports real output of five codes, compares it with numpy, and runs two samples beside the continuum
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: imported.py PROGRAM. Imports every set of tests/foreign into results/imported/ and prints the table of the README, then
+"""Usage: imported.py PROGRAM. Imports every set of tests/foreign into results/imported/ and prints the numbers of the README. Then
 runs scene.prm on the samples of LAMMPS (seed 1) and MercuryDPM (seed 2)."""
 
 import glob
@@ -37,7 +37,7 @@ def imported(program, name):
 
 
 def row(name, record):
-    """Worst frame: contacts found and true, mass and stress against truth, what walls and contacts differ by in both."""
+    """Numbers of the worst frame: contacts, mass and stress by the import and by numpy, difference of walls and contacts in both."""
     with open(os.path.join(FOREIGN, SETS[name][1], "truth.json")) as file:
         truth = json.load(file)["frames"]
     contacts, true_contacts, mass, stress, apart, true_apart = 0, 0, 0., 0., 0., 0.

@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """penalty.py PROGRAM [--seeds 1,2,3] [--figure figure.png] [--no-blow-up]
 
-Both methods load the same samples (benchmarks/dense_biaxial: relaxed, 1000 discs) to 4 % strain; the penalty method first lets
-its springs take up the pressure. Then the step at which the penalty method blows up. The figure needs matplotlib."""
+Both methods load the same samples (benchmarks/dense_biaxial: relaxed, 1000 discs) to 4 % strain. The penalty method first presses
+its springs. A second part finds the step at which the penalty method blows up. The figure needs matplotlib."""
 import argparse
 import csv
 import json
@@ -17,11 +17,11 @@ import tempfile
 BIAXIAL = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../dense_biaxial")
 STRAIN = 0.04
 STIFFNESSES = (1e2, 1e3, 1e4)
-STEPS = (0.4, 0.2, 0.1, 0.05)  # of NSCD [d sqrt(rho/P)]
+STEPS = (0.4, 0.2, 0.1, 0.05)  # Steps of NSCD [d sqrt(rho/P)].
 FRACTIONS = (0.2, 0.4, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.9, 1.0, 1.05, 1.1, 1.2)
 NSCD = ["discrete/tolerance=1e-4"]
 PENALTY = ["discrete/method=penalty", "discrete/penalty_preload=0", "sample/allowed_overlap=0.5"]
-# name, friction between grains, penalty_damping, inertial number
+# Name, friction between grains, penalty_damping, inertial number.
 CASES = (("frictionless, undamped", 0, 0, 1.13e-3), ("sticking, undamped", 100, 0, 1.13e-3),
          ("friction 0.4, damping 0.2", 0.4, 0.2, 1.13e-3), ("the same, ten times slower", 0.4, 0.2, 1.13e-4))
 
@@ -55,7 +55,7 @@ def load(program, folder, sample, settings):
 
 
 def sample_under_springs(program, folder, sample, stiffness):
-    """The sample after its springs have taken up the pressure without friction: its snapshot file."""
+    """Snapshot file of the sample after its springs have been pressed without friction."""
     settings = [f"sample/file={sample}", f"discrete/penalty_stiffness={stiffness:g}", *PENALTY]
     code, _, _ = run(program, "relax.prm", folder, settings)
     if code != 0:
@@ -68,7 +68,7 @@ def mean_and_half_range(values):
 
 
 def compare(options, scratch, samples):
-    """{name: [figures of each seed]}; None where a run did not end."""
+    """{name: [numbers of each seed]}; None for a run that did not finish."""
     figures = {}
     for seed, sample in samples.items():
         for step in STEPS:
@@ -93,7 +93,7 @@ def compare(options, scratch, samples):
 
 
 def blow_up(options, scratch, sample):
-    """Median kinetic energy over the last half of 0.5 % strain, relative to that of the smallest fraction; inf: blew up."""
+    """Median kinetic energy over 0.25-0.5 % strain, relative to that of the smallest step fraction; inf: the run blew up."""
     print("\nkinetic energy relative to that at step fraction 0.2, kn/P = 1000, to 0.5 % strain\nstep / sqrt(m_min/kn)      "
           + "".join(f"{f:8g}" for f in FRACTIONS))
     compressed = sample_under_springs(options.program, os.path.join(scratch, "blow_springs"), sample, 1000)

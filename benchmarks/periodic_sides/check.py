@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """check.py PROGRAM [--seeds 1,2,3] [--output DIR] [--reuse] [--set section/key=value] [--figure figure.png] [--variants]
 
-Runs scene.prm for every seed, hands its prepared grains to a run with free sides under the same shear, and compares the two with
-what the README claims. --variants: the period under a free height, and a dense sample, too. Exit code 1 where a figure is outside
-its interval, 2 where a run fails. Needs h5py and numpy, the figure matplotlib."""
+Runs scene.prm for every seed, then loads its prepared grains with free sides under the same shear, and compares both with the
+claims of the README. --variants: also a free height, a free width and a dense sample. Exit code 1: a number is outside its
+interval; 2: a run failed. Needs h5py and numpy, the figure matplotlib."""
 import os
 import sys
 
@@ -16,18 +16,18 @@ sys.path.insert(0, os.path.dirname(HERE))
 import claims  # noqa: E402
 
 SCENE = os.path.join(HERE, "scene.prm")
-SETTLED = 0.002  # strain from which on platen forces are compared
+SETTLED = 0.002  # Platen forces are compared from this strain on.
 
-SWITCHES = {"variants": "a free height, a free width and a dense sample, too"}
-# Settings on top of the scene's.
+SWITCHES = {"variants": "also run a free height, a free width and a dense sample"}
+# Settings in addition to the scene's.
 VARIANTS = {"free height": ["loading/mode=plane_shear"],
             "free width": ["discrete/side_motion=pressure", "loading/mode=descent", "loading/horizontal_over_vertical=1"],
             "dense": ["sample/target_solid_fraction=0", "sample/box_solid_fraction=0.835"]}
 
-# Fourteen seeds (README) reach 1.34 to 2 with the period and 0.02 to 0.1 without. 0.5 is the paper's figure; "much larger" is
-# five times at least (19 to 104 seen). The largest of some thousand steps has a long tail: 0.3 is three times what was seen. The solid fraction
-# is the key's, to its 0.002. The continuum's stress is uniform: t = s sin(phi) + c cos(phi) with s = P, which is 0.2936 at 16.5
-# degrees and c = 0.01 P.
+# Fourteen seeds (README) reach a difference of 1.34 to 2 with the period and 0.02 to 0.1 without. The paper gives 0.5. "Much
+# larger" means at least five times (19 to 104 measured). The largest of some thousand steps has a long tail, so the limit of 0.3
+# is three times the measured value. The solid fraction is that of the key within 0.002. The continuum's stress is uniform:
+# t = s sin(phi) + c cos(phi) with s = P, which is 0.2936 at 16.5 degrees and c = 0.01 P.
 CLAIMS = [("periodic: largest difference", 0.5, 2.001), ("free sides: largest difference", 0, 0.3),
           ("periodic / free sides: largest difference", 5, 1e3), ("periodic: steps above 50 %", 0.001, 1),
           ("free sides: steps above 50 %", 0, 0), ("free sides: steps below a tenth of P width", 0, 0),
@@ -45,7 +45,7 @@ def as_sample(result, path):
 
 
 def forces(result):
-    """Columns after SETTLED, and the difference of the platens' vertical forces."""
+    """Columns from SETTLED on, and the difference of the platens' vertical forces."""
     columns = result.grains
     settled = numpy.maximum(columns["shear_strain"], columns["axial_strain"]) > SETTLED
     columns = {name: column[settled] for name, column in columns.items()}
@@ -54,14 +54,14 @@ def forces(result):
 
 def difference_figures(name, result):
     columns, difference = forces(result)
-    load = numpy.abs(columns["lower_fy"]) / (result.prepared["area"] / result.prepared["upper_y"])  # the pressure is 1
+    load = numpy.abs(columns["lower_fy"]) / (result.prepared["area"] / result.prepared["upper_y"])  # The pressure is 1.
     return {f"{name}: largest difference": difference.max(), f"{name}: median": numpy.median(difference),
             f"{name}: steps above 1 %": (difference > 0.01).mean(), f"{name}: steps above 50 %": (difference > 0.5).mean(),
             f"{name}: mean load / (P width)": load.mean(), f"{name}: steps below a tenth of P width": (load < 0.1).mean()}
 
 
 def continuum_difference(comparison):
-    """Largest of all stages of the sum of the continuum's vertical platen forces, relative to one of them."""
+    """Sum of the continuum's vertical platen forces relative to one of them, the largest of all stages."""
     pairs = [(stage["continuum"]["platen_resultants"][k][1] for k in ("lower", "upper")) for stage in comparison["stages"]]
     return max(abs(lower + upper) / abs(upper) for lower, upper in pairs)
 
@@ -86,7 +86,7 @@ def measure(runs):
 
 
 def draw(folder, path):
-    """Load on the lower platen and difference of the two over the shear strain, periodic and with free sides."""
+    """Load on the lower platen and difference of both platens over the shear strain, periodic and with free sides."""
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as pyplot

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-# diptych: what `diptych plan` predicts, held against finer runs of samples that it has not seen
+# diptych: predictions of `diptych plan` compared with finer runs of samples that it has not seen
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: plan.py PROGRAM [--output DIR] [--scenes NAME ...] [--jobs N]
 
-Plans every scene, then runs what was planned and a finer reference as a study of `diptych study`, and prints a table: error, scatter
-and CPU time as predicted and as found."""
+Plans every scene, then runs the planned settings and a finer reference with `diptych study`. Prints error, scatter and CPU time,
+predicted and found."""
 import argparse
 import json
 import os
@@ -13,11 +13,11 @@ import sys
 
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
 BENCHMARKS = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-FRESH_SEEDS = "101-116"  # samples of the grains that no pilot has seen
+FRESH_SEEDS = "101-116"  # Samples of the grains that no pilot has seen.
 FINER = 4
-FINER_ELEMENTS = 3  # their cost goes with the third power
+FINER_ELEMENTS = 3  # Their cost grows with the third power.
 
-# name: scene, accuracy, further settings
+# Name: scene, accuracy, further settings.
 SCENES = {
     "moreau_quick": ("moreau_quick/scene.prm", "5 %", {}),
     "dense_biaxial": ("dense_biaxial/scene.prm", "2 %", {"loading/axial_strain": 0.04}),
@@ -34,14 +34,14 @@ def read(*names):
 
 
 def call(words):
-    """Output of a command that must not fail."""
+    """Output of a command that must succeed."""
     done = subprocess.run(words, env=ENVIRONMENT, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         sys.exit(f"{' '.join(words)}: exit code {done.returncode}: {done.stderr.strip()}")
 
 
 def finer(panel):
-    """Settings of the reference: a quarter of every size that the plan chose, a third of elements."""
+    """Settings of the reference: a quarter of every size that the plan chose, a third of the elements' size."""
     planned = dict(setting.split(" = ") for setting in panel["settings"])
     if panel["panel"] == "discrete":
         return {"discrete/accuracy": max(0.001, float(planned["discrete/accuracy"]) / FINER)}
@@ -52,7 +52,7 @@ def finer(panel):
 
 
 def quantity(name, scene):
-    """A quantity of a study that is read as the plan reads it."""
+    """A quantity of a study, evaluated as in the plan."""
     panel, short = name.split(".")
     source = {"name": name, "limit": {"relative": 0.05}, **({"of": "continuum"} if panel == "continuum" else {})}
     if short == "peak_stress_ratio":
@@ -61,7 +61,7 @@ def quantity(name, scene):
 
 
 def verify(program, folder, plan, panel, jobs):
-    """The planned settings and a reference on the same samples."""
+    """Study of the planned settings and a reference on the same samples."""
     study = {"title": f"{plan['scene']}: {panel['panel']}", "scene": "planned.prm", "command": panel["command"],
              "reference": finer(panel), "axes": [{"name": "point", "points": [{"label": "planned", "set": {}}]}],
              "quantities": [quantity(q["name"], {"end": plan["end"]}) for q in panel["quantities"]]}

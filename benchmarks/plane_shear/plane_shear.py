@@ -4,9 +4,9 @@
 """plane_shear.py PROGRAM [--seeds 1,2,3,4] [--numbers 0.005,0.016,...] [--friction 0.4,0] [--jobs 2] [--output DIR] [--reuse]
                 [--set section/key=value] [--figure figure.png]
 
-Loads scene.prm for every seed, friction and inertial number; means over shear strains of 2 to 6. mu* is the mean shear force on the
-upper platen over its mean normal force; rate and solid fraction are those of the middle half of the height, from the snapshots.
-Then the straight lines mu* = a + b I and phi = a - b I, fitted as da Cruz et al. (2005) did. Needs h5py and numpy, the figure
+Loads scene.prm for every seed, friction and inertial number and averages over shear strains of 2 to 6. mu* is the mean shear force
+on the upper platen over its mean normal force. Rate and solid fraction are those of the middle half of the height, from the
+snapshots. Then fits the straight lines mu* = a + b I and phi = a - b I as da Cruz et al. (2005). Needs h5py and numpy, the figure
 matplotlib."""
 import argparse
 import concurrent.futures
@@ -22,22 +22,22 @@ sys.path.insert(0, os.path.dirname(HERE))
 import claims  # noqa: E402
 
 SCENE = os.path.join(HERE, "scene.prm")
-DISC = numpy.sqrt(numpy.pi / 4)  # sqrt(m/P) with the mass of the mean disc over d sqrt(rho/P)
+DISC = numpy.sqrt(numpy.pi / 4)  # sqrt(m/P) with the mass of the mean disc, over d sqrt(rho/P).
 FIRST_STRAIN = 2.
-SLICES = 40  # of the height, to fill with areas of discs
-# mu* and phi over I = rate sqrt(m/P), by da Cruz et al. 2005, Phys. Rev. E 72, 021309: with friction 0.4 mu* = 0.25 + 1.1 I and
+SLICES = 40  # Slices of the height, for the areas of the discs.
+# mu* and phi over I = rate sqrt(m/P) with friction 0.4 (da Cruz et al. 2005, Phys. Rev. E 72, 021309): mu* = 0.25 + 1.1 I and
 # phi = 0.81 - 0.3 I.
 LITERATURE = {"mu*": (0.25, 1.1), "phi": (0.81, -0.3)}
 
 
 def covered_share(y, r, height, width):
-    """Share of the period that discs cover at the given height."""
+    """Share of the period that the discs cover at the given height."""
     half = numpy.sqrt(numpy.maximum(0, r ** 2 - (y - height) ** 2))
     return 2 * half.sum() / width
 
 
 def middle(stage):
-    """(shear rate, solid fraction) of the middle half between the platens at one moment."""
+    """(shear rate, solid fraction) of the middle half between the platens at one instant."""
     attributes, grains = stage.attrs, stage["grains"]
     low, high = attributes["lower_y"], attributes["upper_y"]
     position, radius = grains["position"][:, :2], grains["radius"][:]
@@ -50,7 +50,7 @@ def middle(stage):
 
 
 def figures(result):
-    """{name: figure} of one run."""
+    """{name: number} of one run."""
     history = result.grains
     late = history["shear_strain"] > FIRST_STRAIN
     pressure = -history["upper_fy"][late].mean()
@@ -73,7 +73,7 @@ def run(options, case):
 
 
 def measure(options):
-    """{(friction, number): [figures of each seed]}."""
+    """{(friction, inertial number): [numbers of each seed]}."""
     cases = [(seed, friction, number) for friction in options.friction for number in options.numbers for seed in options.seeds]
     found = {}
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:

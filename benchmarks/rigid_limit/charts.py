@@ -13,12 +13,12 @@ import matplotlib.pyplot as pyplot  # noqa: E402
 
 COLOURS = {"NSCD h =": "#0072B2", "NSCD accuracy": "#56B4E9", "penalty kn/P =": "#D55E00", "LAMMPS kn/P =": "#007A5E"}
 MARKS = {"NSCD h =": "o", "NSCD accuracy": "*", "penalty kn/P =": "s", "LAMMPS kn/P =": "^"}
-OTHERS = "#777777"  # another build
+OTHERS = "#777777"  # Colour of another build.
 QUANTITIES = (("t", "T/S, running over 0.3 %"), ("volumetric_strain", "dilation (%)"), ("kinetic_energy", "kinetic energy (P d²)"))
 
 
 def curve(columns, name):
-    """Of one run, at the ends of its bins."""
+    """Curve of one run at the ends of its bins."""
     if name == "volumetric_strain":
         return -100 * columns[name]
     if name == "kinetic_energy":
@@ -29,7 +29,7 @@ def curve(columns, name):
 
 
 def draw_curves(by_method, inertial, path):
-    """The finest of every family, and the coarsest of the springs."""
+    """The finest method of every family, and the softest springs."""
     figure, axes = pyplot.subplots(1, 3, figsize=(13, 4), constrained_layout=True)
     shown = {}
     for method in by_method:
@@ -58,7 +58,8 @@ def draw_curves(by_method, inertial, path):
 
 
 def draw_error(by_method, strength, inertial, path):
-    """strength(columns) / reference - 1 against CPU seconds; the reference, sample by sample: the mean of the stiffest springs of both programs."""
+    """strength(columns) / reference - 1 against CPU seconds. The reference of a sample is the mean of the stiffest springs of both
+    programs."""
     stiffest = [[m for m in by_method if m.family == family][-1] for family in ("penalty kn/P =", "LAMMPS kn/P =")]
     seeds = list(by_method[stiffest[0]])
     reference = {seed: numpy.mean([strength(by_method[m][seed][0]) for m in stiffest]) for seed in seeds}

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The test of ../dense_biaxial with springs and dashpots (LAMMPS, gran/hooke/history) on a snapshot of the discrete panel.
 
-Left and lower wall stand, the upper one descends from an affine start, the right one is a piston of mass sqrt(N) m under P x height,
-P = 1; all walls are smooth. kt = kn/2, damping without limit on attraction, none along the tangent, step 0.2 sqrt(m_min/kn): what
-our method `penalty` does. First the springs take up the pressure without friction for PRELOAD d sqrt(rho/P)."""
+The left and the lower wall are fixed, the upper one descends from an affine start, the right one is a piston of mass sqrt(N) m
+under P x height with P = 1. All walls are smooth. The springs are those of the method `penalty`: kt = kn/2, normal damping
+that never makes a contact attract, none along the tangent, step 0.2 sqrt(m_min/kn). First the springs are pressed without friction for PRELOAD
+d sqrt(rho/P)."""
 import os
 import re
 import subprocess
@@ -13,8 +14,8 @@ import h5py
 import numpy
 
 PRELOAD = 30.
-DAMPING = 0.2  # of the critical one of a pair of mean mass
-ROW_STRAIN = 4e-5  # between two rows of the history
+DAMPING = 0.2  # Share of the critical damping of a pair of mean mass.
+ROW_STRAIN = 4e-5  # Strain between two rows of the history.
 
 SCRIPT = """units lj
 dimension 2
@@ -101,7 +102,7 @@ def write_start(path, position, radius, width, height):
 
 
 def loading_seconds(log):
-    """CPU seconds of the last run of a log: loop time x share of a CPU."""
+    """CPU seconds of the last run in a log: loop time x CPU share."""
     with open(log) as file:
         text = file.read()
     loops = re.findall(r"Loop time of (\S+) on", text)
@@ -111,7 +112,7 @@ def loading_seconds(log):
 
 def run(sample, folder, stiffness, inertial_number, strain, friction=0.4):
     """(columns by name, CPU seconds of the loading). Columns: axial_strain, t, s [P], volumetric_strain, kinetic_energy [P d^2].
-    Throws RuntimeError where LAMMPS fails."""
+    Throws RuntimeError if LAMMPS fails."""
     os.makedirs(folder, exist_ok=True)
     position, radius, width, height = read_sample(sample)
     mass = numpy.pi * radius ** 2

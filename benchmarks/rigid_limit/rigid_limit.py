@@ -4,10 +4,10 @@
 """rigid_limit.py PROGRAM [--seeds 11,12,...] [--inertial 1.13e-3,1.13e-4] [--quick] [--output DIR] [--reuse] [--jobs 1]
                [--also NAME=PROGRAM] [--lammps run|stored] [--store] [--figures DIR]
 
-The samples of samples/ (those of ../dense_biaxial, 1000 discs each), loaded to 4 % strain by NSCD with several steps, by `penalty`
-with several stiffnesses and by LAMMPS. Differences are taken sample by sample. LAMMPS is run where `lmp` is installed (Debian package
-lammps) and asked for, else its results of lammps.csv stand in; --store writes these. --also: the same NSCD runs by another build,
-which prepares its own samples from the same seeds. --quick: NSCD alone. Needs h5py and numpy, the figures matplotlib."""
+Loads the samples of samples/ (those of ../dense_biaxial, 1000 discs each) to 4 % strain with NSCD at several steps, with `penalty`
+at several stiffnesses and with LAMMPS. Takes differences sample by sample. --lammps run: runs `lmp` (Debian package lammps);
+otherwise the results in lammps.csv are used, which --store writes. --also: repeats the NSCD runs with another build, which prepares
+its own samples from the same seeds. --quick: NSCD only. Needs h5py and numpy, the figures matplotlib."""
 import argparse
 import concurrent.futures
 import csv
@@ -27,15 +27,15 @@ import claims  # noqa: E402
 SCENE = os.path.join(HERE, "../dense_biaxial/scene.prm")
 STORED = os.path.join(HERE, "lammps.csv")
 STRAIN = 0.04
-BIN = 0.001  # of strain, of the stored curves
-EARLY = (0., 0.003)  # told apart: forces build up, and the start decides
+BIN = 0.001  # Bin of strain of the stored curves.
+EARLY = (0., 0.003)  # A separate window: forces build up, and the start matters.
 WINDOWS = (EARLY, (0.005, 0.015), (0.015, 0.04), (0.005, 0.04))
 JUDGED = (0.005, 0.04)
-VOLUMES = (0.015, 0.04)  # strains
-# Steps of NSCD [d sqrt(rho/P)] and stiffnesses kn/P, by inertial number.
+VOLUMES = (0.015, 0.04)  # Strains.
+# Steps of NSCD [d sqrt(rho/P)] and stiffnesses kn/P for each inertial number.
 STEPS = {1.13e-3: (0.4, 0.2, 0.1, 0.05, 0.025, 0.0125), 1.13e-4: (1., 0.5, 0.25, 0.125)}
-FINE = "discrete/accuracy=0.008"  # tolerance x step / I = 0.02: so that the step alone tells
-TIGHT = {1.13e-3: FINE, 1.13e-4: "discrete/accuracy=0.02"}  # slow steps do not converge to the former
+FINE = "discrete/accuracy=0.008"  # tolerance x step / I = 0.02, so that only the step matters.
+TIGHT = {1.13e-3: FINE, 1.13e-4: "discrete/accuracy=0.02"}  # Slow steps do not converge to FINE.
 NOISE = {1.13e-3: 0.02, 1.13e-4: 0.05}
 STIFFNESSES = {1.13e-3: (1e3, 1e4, 1e5), 1.13e-4: (1e3, 1e4)}
 SEEDS = {1.13e-3: range(11, 23), 1.13e-4: range(11, 17)}
@@ -47,7 +47,7 @@ def sample_file(seed):
 
 
 def binned(columns):
-    """Means over bins of BIN; the volumetric strain at their ends."""
+    """Means over bins of BIN; volumetric strain at the ends of the bins."""
     edges = numpy.arange(0, STRAIN + BIN / 2, BIN)
     rows = {name: [] for name in COLUMNS}
     for low, high in zip(edges[:-1], edges[1:]):
@@ -60,7 +60,7 @@ def binned(columns):
 
 
 def of_panel(result):
-    """(binned columns, CPU seconds of the loading) of a run of the program."""
+    """(binned columns, CPU seconds of the loading) of a run."""
     history = result.grains
     columns = {name: history[name] for name in ("axial_strain", "volumetric_strain", "kinetic_energy")}
     columns["t"] = numpy.hypot(0.5 * (history["syy"] - history["sxx"]), 0.5 * (history["sxy"] + history["syx"]))
@@ -71,7 +71,7 @@ def of_panel(result):
 
 
 class Method:
-    """A way to load a sample: name, settings for the program (none: LAMMPS with `stiffness`)."""
+    """A method that loads a sample: name and settings of the program (None: LAMMPS with `stiffness`)."""
 
     def __init__(self, family, value, settings, program=None):
         self.family, self.value, self.settings, self.program = family, value, settings, program
@@ -104,7 +104,7 @@ class Method:
 
 
 def stored(inertial, stiffness, seed):
-    """What lammps.csv holds of one run. Throws KeyError where it does not."""
+    """Columns of one run in lammps.csv. Throws KeyError if it is missing."""
     with open(STORED) as file:
         rows = [row for row in csv.DictReader(line for line in file if not line.startswith("#"))
                 if (float(row["inertial_number"]), float(row["stiffness"]), int(row["seed"])) == (inertial, float(stiffness), seed)]

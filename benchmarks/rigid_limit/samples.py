@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-# diptych: makes the samples of this folder anew
+# diptych: prepares the samples of this folder again
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""samples.py PROGRAM FOLDER [SEED ...]: samples of ../dense_biaxial as prepared, seeds 11 to 22 unless given, as FOLDER/seed_N.h5 that
-`sample/file` reads. Another revision of the program prepares other samples, to which the stored results of LAMMPS do not belong.
-Needs h5py and numpy."""
+"""samples.py PROGRAM FOLDER [SEED ...]: writes the prepared samples of ../dense_biaxial (default: seeds 11 to 22) to FOLDER/seed_N.h5,
+which `sample/file` reads. Another revision of the program prepares other samples; the stored results of LAMMPS do not belong to
+them. Needs h5py and numpy."""
 import argparse
 import os
 import sys
@@ -21,7 +21,7 @@ ATTRIBUTES = ("left_x", "right_x", "lower_y", "upper_y", "step", "time", "mean_d
 
 
 def keep(result, path):
-    """Writes grains, box and acting contacts of the first stage."""
+    """Writes grains, box and acting contacts of the first stage to `path`."""
     packed = {"compression": 9, "shuffle": True}
     with h5py.File(os.path.join(result.folder, "discrete.h5"), "r") as source, h5py.File(path, "w") as file:
         old, new = source["stage_0000"], file.create_group("stage_0000")

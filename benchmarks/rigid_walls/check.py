@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """check.py PROGRAM [--seeds 1,2,3] [--output DIR] [--reuse] [--set section/key=value] [--figure figure.png]
 
-Runs scene.prm for every seed and compares both panels with what the README claims. Exit code 1 where a figure is outside its
-interval, 2 where a run fails. Needs h5py and numpy, the figure matplotlib."""
+Runs scene.prm for every seed and compares both panels with the claims of the README. Exit code 1: a number is outside its
+interval; 2: a run failed. Needs h5py and numpy, the figure matplotlib."""
 import os
 import sys
 
@@ -17,7 +17,7 @@ import claims  # noqa: E402
 SCENE = os.path.join(HERE, "scene.prm")
 
 # Grains and prediction: mean and four standard deviations over the first ten seeds of the README. The mean forces on opposite
-# walls differ by the grains' momentum at the end over the time: 0.3 % to the sides.
+# walls differ by the grains' momentum at the end over the time: 0.3 % at the sides.
 CLAIMS = [("grains: peak t/s", 0.356, 0.445), ("grains: t/s, 1.5-4 %", 0.339, 0.414), ("grains: t/s, 7-8 %", 0.266, 0.378),
           ("grains: volumetric strain at the end", -0.0373, -0.0214), ("right wall: mean force / (P height)", 0.999, 1.001),
           ("left / right wall: mean force", 1, 1.006), ("lower / upper wall: mean force", 0.999, 1.001),
@@ -27,7 +27,7 @@ CLAIMS = [("grains: peak t/s", 0.356, 0.445), ("grains: t/s, 1.5-4 %", 0.339, 0.
 
 
 def wall_figures(result):
-    """What four smooth walls owe: the pressure at the sides, no shear, equal forces on opposite walls in the mean."""
+    """Checks of four smooth walls: pressure at the sides, no shear, equal mean forces on opposite walls."""
     history = result.grains
     height = result.prepared["upper_y"] * (1 - history["axial_strain"])
     vertical = numpy.abs(history["upper_fy"]).mean()
@@ -39,11 +39,11 @@ def wall_figures(result):
 
 
 def continuum_figures(comparison):
-    """A uniform continuum: no band, the same stress in every probe of a stage."""
+    """Checks of a uniform continuum: no band, the same stress in every probe of a stage."""
     spread = []
     for stage in comparison["stages"]:
         ratios = [claims.value(probe["t_over_s"]) for probe in stage["continuum"]["probes"]]
-        spread.append(numpy.ptp([ratio for ratio in ratios if ratio is not None]))  # none where no cell lies in a probe
+        spread.append(numpy.ptp([ratio for ratio in ratios if ratio is not None]))  # None if no cell lies in a probe.
     return {"continuum: bands in all windows": sum(len(w["continuum"]["bands"]) for w in comparison["windows"]),
             "continuum: largest spread of t/s over the probes": max(spread)}
 

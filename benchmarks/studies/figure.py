@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-# diptych: the figure of a study that ships
+# diptych: figure of a shipped study
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """figure.py DIR FIGURE.png [--quantities strength,dilation] [--columns 3] [--no-maps]
 
-DIR: folder of a study (`diptych study`). Left to right, row by row: error against CPU seconds of the quantities named (default: those
-with a limit), then the maps of classes. Drawn by the functions of the report. Needs h5py and matplotlib."""
+DIR: folder of a study (`diptych study`). Draws error against CPU seconds of the given quantities (default: those with a limit), then
+the maps of classes, row by row. Uses the functions of the report. Needs h5py and matplotlib."""
 import argparse
 import math
 import os
@@ -50,7 +50,7 @@ def main():
     style.set_up()
     names = [q["name"] for q in study.quantities if q["limit"]] if options.quantities is None else options.quantities.split(",")
     parts = panels(study, names, not options.no_maps)
-    parts = [(title, draw) for title, draw in parts if draw(Figure().add_subplot()) is not False]  # no picture of what has no error
+    parts = [(title, draw) for title, draw in parts if draw(Figure().add_subplot()) is not False]  # Leaves out parts without errors.
     rows = math.ceil(len(parts) / options.columns)
     figure = Figure(figsize=(4.6 * options.columns, 3.5 * rows), layout="constrained")
     FigureCanvasAgg(figure)

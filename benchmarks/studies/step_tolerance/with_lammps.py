@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-# diptych: LAMMPS in the charts of step_tolerance: the same samples, errors and costs
+# diptych: adds LAMMPS on the same samples to the charts of step_tolerance
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """with_lammps.py DIR FIGURE.png [--run]
 
-DIR: folder of study.json or slow.json (`diptych study`). Draws error against CPU seconds as figure.py does, with LAMMPS on the same
-samples at kn/P of 1e3, 1e4 and 1e5, held against the study's reference, and prints these errors with their 95 % intervals. --run: by
-`lmp` (Debian package lammps); without it by the results that ../../rigid_limit/lammps.csv keeps. Needs h5py, numpy and matplotlib."""
+DIR: folder of study.json or slow.json (`diptych study`). Draws error against CPU seconds like figure.py, with LAMMPS on the same
+samples at kn/P of 1e3, 1e4 and 1e5, compared with the study's reference. Prints these errors with their 95 % intervals. --run: runs
+`lmp` (Debian package lammps); otherwise reads the results in ../../rigid_limit/lammps.csv. Needs h5py, numpy and matplotlib."""
 import argparse
 import csv
 import os
@@ -28,14 +28,14 @@ from diptych_report.data.study import load  # noqa: E402
 from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 
-LOADED = 0.015  # strain of the study; the stored runs of LAMMPS go to rigid_limit.STRAIN
+LOADED = 0.015  # Strain of the study. The stored runs of LAMMPS go to rigid_limit.STRAIN.
 WINDOWS = {"early strength": (0.002, 0.005), "strength": (0.005, 0.015)}
-LOWEST = 0.05  # per cent: smaller errors are luck
-STUDENT = {6: 2.571, 8: 2.365}  # 97.5 % for the studies' numbers of samples
+LOWEST = 0.05  # Per cent. Smaller errors are chance.
+STUDENT = {6: 2.571, 8: 2.365}  # 97.5 % quantiles for the studies' numbers of samples.
 
 
 def of_run(folder):
-    """Columns of a run of the study in bins of strain."""
+    """Columns of one run of the study in bins of strain."""
     with open(os.path.join(folder, "discrete.csv"), encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     history = {name: numpy.array([float(row[name]) for row in rows])
@@ -74,7 +74,7 @@ def errors(study, folder, inertial, stiffness, runs_it):
     for name in references[0]:
         base = numpy.array([one[name] for one in references])
         difference = (numpy.array([numbers(columns)[name] for columns, _ in runs]) - base) / abs(base.mean())
-        difference *= numpy.sign(base.mean())  # of a size: less dilation is negative
+        difference *= numpy.sign(base.mean())  # Relative to the size: less dilation is negative.
         found[name] = difference.mean(), STUDENT[len(seeds)] * difference.std(ddof=1) / numpy.sqrt(len(seeds))
     return found, numpy.mean([seconds for _, seconds in runs])
 
