@@ -15,8 +15,16 @@ namespace diptych::python
         }
       catch (const coupling::SceneError &error)
         {
-          const py::object type = py::module_::import("diptych.errors").attr("SceneError");
-          PyErr_SetObject(type.ptr(), type(error.what()).ptr());
+          const py::object type  = py::module_::import("diptych.errors").attr("SceneError");
+          py::object       value = type(error.what());
+          const auto      &r     = error.refusal;
+          value.attr("file")     = r.place.file;
+          value.attr("line")     = r.place.line;
+          value.attr("key")      = r.key.empty() ? py::object(py::none()) : py::object(py::str(r.key));
+          value.attr("value")    = r.value;
+          value.attr("allowed")  = r.allowed;
+          value.attr("hint")     = r.hint;
+          PyErr_SetObject(type.ptr(), value.ptr());
         }
     });
   }

@@ -81,13 +81,13 @@ namespace diptych::coupling
     }
   } // namespace
 
-  std::string JsonText::place(const std::string &pointer) const
+  Place JsonText::place(const std::string &pointer) const
   {
-    // What has no line of its own stands on that of what holds it.
+    // A member without a line of its own has that of the member that holds it.
     for (std::string name = pointer; !name.empty(); name.erase(name.rfind('/')))
       if (const auto found = lines.find(name); found != lines.end())
-        return file + ", line " + std::to_string(found->second);
-    return file + ", line 1";
+        return {file, found->second};
+    return {file, 1};
   }
 
   JsonText read_json_text(const std::string &file, std::istream &in)

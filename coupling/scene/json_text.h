@@ -19,7 +19,7 @@ namespace diptych::coupling
     nlohmann::ordered_json     root;
     std::map<std::string, int> lines; // of a member, by its JSON pointer
 
-    std::string place(const std::string &pointer) const; // "FILE, line 12"
+    Place place(const std::string &pointer) const;
   };
 
   // // and /* comments are allowed. Throws SceneError naming file and line where the text is no JSON object, or an object

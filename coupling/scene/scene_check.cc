@@ -96,21 +96,21 @@ namespace diptych::coupling
       return false;
     }
 
-    // "; FILE, line 12: continuum/cohesion = '3'" for every key that a message speaks of, as it was set last: by section and
-    // name or, in a message about one section, by its name.
-    std::string places_of(const std::string &message, const std::string &section, const std::vector<Entry> &entries)
+    // The assignments that a message is about, as they were made last: it names the key with its section or, in a check of one
+    // section, without.
+    std::vector<Entry> assignments_in(const std::string &message, const std::string &section, const std::vector<Entry> &entries)
     {
       std::map<std::string, Entry> last;
       for (const Entry &entry : entries)
-        last[entry.section + "/" + entry.key] = entry;
-      std::string text;
+        last[entry.name()] = entry;
+      std::vector<Entry> found;
       for (const auto &[key, entry] : last)
         if (speaks_of(message, key) || (entry.section == section && speaks_of(message, entry.key)))
-          text += "; " + entry.place + ": " + key + " = '" + entry.value + "'";
-      return text;
+          found.push_back(entry);
+      return found;
     }
 
-    // Runs `check`; an error gets the file in front and the lines behind that it speaks of.
+    // Runs `check`. Its error gets the file in front and the assignments that it is about behind.
     template <class Check>
     void in_section(const std::string &file, const std::string &section, const std::vector<Entry> &entries, Check &&check)
     {
@@ -120,8 +120,17 @@ namespace diptych::coupling
         }
       catch (const std::invalid_argument &error)
         {
-          throw SceneError(file + ": " + (section.empty() ? "" : "section " + section + ": ") + error.what() +
-                           places_of(error.what(), section, entries));
+          std::string problem = (section.empty() ? "" : "section " + section + ": ") + error.what();
+          Refusal     refused;
+          for (const Entry &entry : assignments_in(error.what(), section, entries))
+            {
+              problem += "; " + text_of(entry.place) + ": " + entry.name() + " = '" + entry.value + "'";
+              if (refused.key.empty())
+                refused = {entry.place, entry.name(), entry.value, "", ""};
+            }
+          SceneError whole(file + ": " + problem);
+          whole.refusal = refused;
+          throw whole;
         }
     }
 
@@ -255,18 +264,18 @@ namespace diptych::coupling
     const auto                   values = values_of(scene), defaults = values_of(Scene());
     std::map<std::string, Entry> last;
     for (const Entry &entry : entries)
-      last[entry.section + "/" + entry.key] = entry;
+      last[entry.name()] = entry;
     std::vector<std::string> warnings;
     for (const auto &[key, because] : unused_keys(scene))
       if (const auto set = last.find(key); set != last.end() && (!set->second.of_resolved || values.at(key) != defaults.at(key)))
         {
-          warnings.push_back(set->second.place + ": " + key + " = '" + values.at(key) + "' is not used: " + because);
+          warnings.push_back(text_of(set->second.place) + ": " + key + " = '" + values.at(key) + "' is not used: " + because);
           last.erase(set); // one reason is enough
         }
     for (const auto &[name, text] : continuum::doubtful_values(scene.continuum))
       {
         const auto set = last.find("continuum/" + name);
-        warnings.push_back((set == last.end() ? "" : set->second.place + ": ") + "continuum/" + name + text);
+        warnings.push_back((set == last.end() ? "" : text_of(set->second.place) + ": ") + "continuum/" + name + text);
       }
     return warnings;
   }

@@ -27,12 +27,12 @@ namespace diptych::coupling
       return keys;
     }
 
-    [[noreturn]] void refuse_section(const std::string              &place,
+    [[noreturn]] void refuse_section(const Place                    &place,
                                      const std::string              &section,
                                      const std::vector<std::string> &known = section_names())
     {
-      throw SceneError(place + "unknown section '" + section + "'; the nearest is '" + discrete::nearest_name(section, known) +
-                       "'");
+      throw SceneError({place, section, "", "", "the nearest is '" + discrete::nearest_name(section, known) + "'"},
+                       "is an unknown section");
     }
 
     [[noreturn]] void refuse_key(const Entry &entry)
@@ -40,26 +40,26 @@ namespace diptych::coupling
       std::vector<std::string> names;
       for (const KeyDescription &key : describe(entry.section))
         names.push_back(key.name);
-      throw SceneError(entry.place + ": unknown key '" + entry.section + "/" + entry.key + "'; the nearest is '" + entry.section +
-                       "/" + discrete::nearest_name(entry.key, names) + "'");
+      throw SceneError({entry.place, entry.name(), "", "",
+                        "the nearest is '" + entry.section + "/" + discrete::nearest_name(entry.key, names) + "'"},
+                       "is an unknown key");
     }
 
     [[noreturn]] void refuse_value(const Entry &entry)
     {
       for (const KeyDescription &key : describe(entry.section))
         if (key.name == entry.key)
-          throw SceneError(entry.place + ": " + entry.section + "/" + entry.key + " = '" + entry.value +
-                           "' is not allowed: " + key.allowed + " [" + key.unit + "] is");
+          throw SceneError({entry.place, entry.name(), entry.value, key.allowed + " [" + key.unit + "]", ""}, "is not allowed");
       refuse_key(entry);
     }
 
     void demand_one_line(const Entry &entry)
     {
       if (entry.value.find_first_of("\n\r") != std::string::npos || entry.value.find('\0') != std::string::npos)
-        throw SceneError(entry.place + ": " + entry.section + "/" + entry.key + " holds a line break or a zero byte");
+        throw SceneError({entry.place, entry.name(), "", "", ""}, "holds a line break or a zero byte");
       if (!entry.value.empty() && (std::strchr(" \t", entry.value.front()) || std::strchr(" \t", entry.value.back())))
-        throw SceneError(entry.place + ": " + entry.section + "/" + entry.key + " = '" + entry.value +
-                         "' begins or ends with a blank, which a scene file cannot hold");
+        throw SceneError({entry.place, entry.name(), entry.value, "", ""},
+                         "begins or ends with a blank, which a scene file cannot hold");
     }
 
     void set(Scene &scene, const Entry &entry)
@@ -77,7 +77,7 @@ namespace diptych::coupling
           refuse_value(entry);
       });
       if (!is_section)
-        refuse_section(entry.place + ": ", entry.section);
+        refuse_section(entry.place, entry.section);
     }
 
     // results/moreau_1997 for .../moreau_1997/scene.prm, results/mine for mine.prm.
@@ -93,11 +93,11 @@ namespace diptych::coupling
     }
   } // namespace
 
-  void demand_section(const std::string &place, const std::string &section)
+  void demand_section(const Place &place, const std::string &section)
   {
     const std::vector<std::string> known = section_names();
     if (std::find(known.begin(), known.end(), section) == known.end())
-      refuse_section(place + ": ", section);
+      refuse_section(place, section);
   }
 
   std::vector<std::string> section_names()
@@ -132,7 +132,7 @@ namespace diptych::coupling
     {
       std::set<std::string> set;
       for (const Entry &entry : entries)
-        set.insert(entry.section + "/" + entry.key);
+        set.insert(entry.name());
       const std::vector<KeyDescription> keys = describe("");
       return std::all_of(keys.begin(), keys.end(),
                          [&](const KeyDescription &key) { return set.count(key.section + "/" + key.name) > 0; });
@@ -259,7 +259,7 @@ namespace diptych::coupling
     if (!section.empty() && std::find(known.begin(), known.end(), section) == known.end())
       {
         known.push_back("results"); // which the command explains itself
-        refuse_section("", section, known);
+        refuse_section({}, section, known);
       }
     std::ostringstream out;
     std::string        current;

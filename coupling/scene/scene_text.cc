@@ -82,33 +82,34 @@ namespace diptych::coupling
 
   std::vector<Entry> entries_of_prm(const std::string &file, std::istream &in)
   {
-    const std::string                  folder = std::filesystem::path(file).parent_path().string();
-    std::vector<Entry>                 entries;
-    std::map<std::string, std::string> places; // of the keys
-    std::string                        section, raw;
-    int                                number = 0;
+    const std::string            folder = std::filesystem::path(file).parent_path().string();
+    std::vector<Entry>           entries;
+    std::map<std::string, Place> places; // of the keys
+    std::string                  section, raw;
+    int                          number = 0;
     while (std::getline(in, raw))
       {
-        const std::string place = file + ", line " + std::to_string(++number);
-        std::string       line  = without_comment(raw);
+        const Place place(file, ++number);
+        std::string line = without_comment(raw);
         while (n_last_backslashes(line) % 2 == 1 && std::getline(in, raw))
           line = trimmed(line.substr(0, line.size() - 1)) + " " + without_comment(raw), ++number;
         if (n_last_backslashes(line) % 2 == 1)
-          throw SceneError(place + ": ends with \\, which continues it on the next line, but the file ends");
+          throw SceneError({place, "", "", "", ""},
+                           "the line ends with \\, which continues it on the next one, but the file ends");
         line.resize(line.size() - n_last_backslashes(line) / 2);
         if (line.empty())
           continue;
         if (const auto name = after("subsection", line))
           {
             if (!section.empty())
-              throw SceneError(place + ": subsection '" + *name + "' inside '" + section + "'; 'end' is missing");
+              throw SceneError({place, section, "", "", ""}, "is not closed by 'end' before subsection '" + *name + "'");
             demand_section(place, *name);
             section = *name;
           }
         else if (strcasecmp(line.c_str(), "end") == 0)
           {
             if (section.empty())
-              throw SceneError(place + ": 'end' without a subsection");
+              throw SceneError({place, "", "", "", ""}, "'end' without a subsection");
             section.clear();
           }
         else if (const auto set = after("set", line); set && set->find('=') != std::string::npos && set->find('=') > 0)
@@ -116,14 +117,14 @@ namespace diptych::coupling
             const std::string key        = trimmed(set->substr(0, set->find('=')));
             const auto [first, is_first] = places.try_emplace(section + "/" + key, place);
             if (!is_first)
-              throw SceneError(place + ": " + section + "/" + key + " stands twice, first in " + first->second);
+              throw SceneError({place, section + "/" + key, "", "", ""}, "is set twice, first in " + text_of(first->second));
             entries.push_back({section, key, trimmed(set->substr(set->find('=') + 1)), place, folder});
           }
         else
-          throw SceneError(place + ": '" + line + "' is neither 'subsection NAME', 'set KEY = VALUE' nor 'end'");
+          throw SceneError({place, "", "", "", ""}, "'" + line + "' is neither 'subsection NAME', 'set KEY = VALUE' nor 'end'");
       }
     if (!section.empty())
-      throw SceneError(file + ", line " + std::to_string(number) + ": subsection '" + section + "' has no 'end'");
+      throw SceneError({{file, number}, section, "", "", ""}, "has no 'end'");
     return entries;
   }
 
@@ -143,7 +144,7 @@ namespace diptych::coupling
     if (slash == std::string::npos || equals == std::string::npos || slash == 0 || equals <= slash + 1 ||
         text.substr(slash + 1, equals - slash - 1).find('/') != std::string::npos)
       throw SceneError("--set " + text + ": not of the form section/key=value");
-    return {text.substr(0, slash), text.substr(slash + 1, equals - slash - 1), trimmed(text.substr(equals + 1)), "--set " + text,
-            ""};
+    return {text.substr(0, slash), text.substr(slash + 1, equals - slash - 1), trimmed(text.substr(equals + 1)),
+            Place("--set " + text), ""};
   }
 } // namespace diptych::coupling

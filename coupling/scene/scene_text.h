@@ -14,8 +14,12 @@ namespace diptych::coupling
   // One assignment, where it was made, and where the files that it names are looked for.
   struct Entry
   {
-    std::string section, key, value, place, folder;
-    bool        of_resolved = false; // of a file that holds every key, wanted or not
+    std::string section, key, value;
+    Place       place;
+    std::string folder;
+    bool        of_resolved = false; // of a file that sets every key, wanted or not
+
+    std::string name() const { return section + "/" + key; }
   };
 
   // The text of a file with keys, as read_input checks it. Throws SceneError naming the file.
@@ -28,8 +32,8 @@ namespace diptych::coupling
   // {"section": {"key": value}}; the value may also stand as {"value": ...}. Throws SceneError naming file and line.
   std::vector<Entry> entries_of_json(const std::string &file, std::istream &in);
 
-  // Throws SceneError "PLACE: unknown section ..." naming the nearest, where scenes have none of that name.
-  void demand_section(const std::string &place, const std::string &section);
+  // Throws SceneError naming the nearest section, where scenes have none of that name.
+  void demand_section(const Place &place, const std::string &section);
 
   // A value as it stands in such a text. Throws SceneError where it holds a line break.
   std::string prm_value(const std::string &value);

@@ -42,12 +42,14 @@ namespace diptych::coupling
 
   void Part::refuse(const std::string &why) const
   {
-    throw SceneError(text.place(pointer) + ": " + why);
+    throw SceneError({text.place(pointer), "", "", "", ""}, why);
   }
 
   void Part::refuse(const std::string &key, const std::string &why) const
   {
-    throw SceneError(text.place(pointer + "/" + escaped(key)) + ": " + key + why);
+    SceneError refused(text_of(text.place(pointer + "/" + escaped(key))) + ": " + key + why);
+    refused.refusal = {text.place(pointer + "/" + escaped(key)), key, "", "", ""};
+    throw refused;
   }
 
   void Part::allow(const std::vector<std::string> &keys) const
@@ -124,7 +126,7 @@ namespace diptych::coupling
   void refuse_folder(const Entry &entry)
   {
     if (entry.section == "output" && entry.key == "directory")
-      throw SceneError(entry.place + ": output/directory cannot be set: runs have folders of their own below --output");
+      throw SceneError(text_of(entry.place) + ": output/directory cannot be set: runs have folders of their own below --output");
   }
 
   Settings Part::settings(const std::string &key) const
@@ -142,10 +144,10 @@ namespace diptych::coupling
 
   Entry Part::setting(const std::string &key, const std::string &name, const ordered_json &to) const
   {
-    const std::string place = text.place(pointer + "/" + escaped(key));
+    const Place       place = text.place(pointer + "/" + escaped(key));
     const std::size_t slash = name.find('/');
     if (slash == std::string::npos)
-      throw SceneError(place + ": '" + name + "' is no key of a scene; section/key is");
+      throw SceneError({place, name, "", "", "a key is section/name, such as discrete/friction"}, "is not a key of a scene");
     const Entry entry{name.substr(0, slash), name.substr(slash + 1), value_text(to), place,
                       std::filesystem::path(text.file).parent_path().string()};
     check_entry(with_seed(entry, "1"));
