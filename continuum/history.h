@@ -37,13 +37,22 @@ namespace diptych::continuum
     Walk            walk     = Walk::axial_strain;
   };
 
+  // The meaning of a column that may hold NaN. A plain text stands for a column whose numbers are finite.
+  struct ColumnMeaning
+  {
+    operator const char *() const { return text; }
+
+    const char *text;
+    bool        may_be_nan;
+  };
+
   // Every entry of a row in the order of continuum.csv: visit(name of the column, value, unit, meaning). Per unit thickness.
   template <class Row, class Visit, std::enable_if_t<std::is_same_v<std::remove_const_t<Row>, HistoryRow>, int> = 0>
   void visit_columns(Row &r, Visit &&visit)
   {
     visit("step", r.step, "-", "accepted load steps so far");
     visit("axial_strain", r.axial_strain, "-", "descent of the upper platen / initial height");
-    visit("stress_ratio", r.stress_ratio, "-", "t/s of the mean stress; nan where nothing carries a stress");
+    visit("stress_ratio", r.stress_ratio, "-", ColumnMeaning{"t/s of the mean stress; nan where nothing carries a stress", true});
     visit("volumetric_strain", r.volumetric_strain, "-", "1 - V/V0, dilation negative");
     visit("sxx", r.mean_stress(0, 0), "pressure", "mean stress over the area, xx component");
     visit("sxy", r.mean_stress(0, 1), "pressure", "mean stress, xy component (row: of the force)");

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "discrete/meaning.h"
 #include "discrete/snapshot.h"
 
 namespace diptych::discrete
@@ -67,7 +68,7 @@ namespace diptych::discrete
     visit("outline/right", s.outline.right, "length", "right side of the sample's outline, upward");
   }
 
-  // Attributes of the stage's group. They are finite unless the meaning speaks of nan or inf; of a frame of another code those
+  // Attributes of the stage's group. They are finite unless their Meaning says otherwise; of a frame of another code those
   // beside is_always_told() may be nan, too: it did not tell them.
   template <class AnySnapshot, class Visit> void visit_attributes(AnySnapshot &s, Visit &&visit)
   {
@@ -80,16 +81,18 @@ namespace diptych::discrete
     visit("residual", s.residual, "-", "natural map relative to the impulses, of the last step");
     visit("mean_diameter", s.mean_diameter, "length", "mean diameter d");
     visit("stress_error", s.stress_error, "-",
-          "estimated rms error of the last step's grain stress over its rms; nan: not estimated, inf: not known");
+          Meaning("estimated rms error of the last step's grain stress over its rms; nan: not estimated, inf: not known", true,
+                  true));
     visit("stress_change", s.stress_change, "-",
-          "change of the same in the last doubling of the sweeps; nan: not estimated, inf: from nothing");
-    visit("error_over_residual", s.error_over_residual, "-",
-          "error of grain stress over residual, measured once in the run; nan: not, inf: of a residual of 0");
+          Meaning("change of the same in the last doubling of the sweeps; nan: not estimated, inf: from nothing", true, true));
+    visit(
+      "error_over_residual", s.error_over_residual, "-",
+      Meaning("error of grain stress over residual, measured once in the run; nan: not, inf: of a residual of 0", true, true));
     visit("window_time", s.window_time, "time", "length of the stage over which means are taken; 0: no stage yet");
     visit("lower_y", s.lower_y, "length", "height of the lower platen");
     visit("upper_y", s.upper_y, "length", "height of the upper platen");
-    visit("left_x", s.left_x, "length", "place of the left wall; nan where there is none");
-    visit("right_x", s.right_x, "length", "place of the right wall; nan where there is none");
+    visit("left_x", s.left_x, "length", Meaning("place of the left wall; nan where there is none", true));
+    visit("right_x", s.right_x, "length", Meaning("place of the right wall; nan where there is none", true));
     visit("cell_width", s.cell_width, "length", "width of the periodic cell; 0 where there is none");
     visit("area", s.area, "length^2", "of the outline");
     visit("upper_platen_displacement_x", s.upper_platen_displacement.x(), "length", "since the start of the loading");
