@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "coupling/processes/progress.h"
+#include "discrete/files/words.h"
 
 namespace diptych::coupling
 {
@@ -109,14 +110,6 @@ namespace diptych::coupling
              (load_steps * elements) * step_of_an_element;
     }
 
-    std::string listed(const std::vector<std::string> &items)
-    {
-      std::string text;
-      for (const std::string &item : items)
-        text += (text.empty() ? "" : ", ") + item;
-      return text.empty() ? "what files say" : text;
-    }
-
     // Of the machine, or what this process may have of it (ulimit -v) besides what the continuum's libraries map (main.cc).
     double memory_of_process(const RunParts &parts)
     {
@@ -198,7 +191,10 @@ namespace diptych::coupling
       in_all.push_back(
         (room.cpu_s.high < 1 ? "less than 1 s" : duration_text(room.cpu_s.low) + " to " + duration_text(room.cpu_s.high)) +
         " of CPU time");
-    return (parts.samples > 1 ? std::to_string(parts.samples) + " samples, each of " : "") + listed(of_each) + "; about " +
-           listed(in_all);
+    const auto known = [](const std::vector<std::string> &items) {
+      return items.empty() ? "what files say" : discrete::listed(items);
+    };
+    return (parts.samples > 1 ? std::to_string(parts.samples) + " samples, each of " : "") + known(of_each) + "; about " +
+           known(in_all);
   }
 } // namespace diptych::coupling
