@@ -108,10 +108,10 @@ namespace diptych::coupling
     std::string doubts(const Rows &rows, const discrete::Report &report, const Scene &scene)
     {
       constexpr double         doubtful_penetration = 0.02, doubtful_gain = 0.1;
-      const discrete::Options &options = scene.discrete;
-      // auto keeps to 1 and 1.25 times the accuracy
-      const double       doubtful_strength = 1.5 * options.accuracy.accuracy, doubtful_dilation = 2.5 * options.accuracy.accuracy;
-      std::ostringstream out;
+      const discrete::Options &options           = scene.discrete;
+      const double             doubtful_strength = 1.5 * options.accuracy.accuracy; // auto keeps to the accuracy
+      const double             doubtful_dilation = 2 * discrete::dilation_share * options.accuracy.accuracy;
+      std::ostringstream       out;
       doubt_idle_grains(rows, scene, out);
       doubt_sample(report, options, out);
       if (report.expected.strength > doubtful_strength)
@@ -119,7 +119,7 @@ namespace diptych::coupling
             << " % to the strength; discrete/step = auto keeps to discrete/accuracy\n";
       if (report.expected.dilation > doubtful_dilation)
         out << "a tolerance of " << report.tolerance << " at this step loses about " << 100 * report.expected.dilation
-            << " % of the dilation; discrete/tolerance = auto keeps to 1.5 discrete/accuracy\n";
+            << " % of the dilation; discrete/tolerance = auto keeps to " << discrete::dilation_share << " discrete/accuracy\n";
       double penetration = 0;
       for (const discrete::HistoryRow &row : rows)
         penetration = std::max(penetration, row.max_penetration);

@@ -55,7 +55,6 @@ namespace diptych::discrete
     // per step; of the dilation by tolerance x step / I, the more the longer the step.
     constexpr double strength_of_step = 0.05, strength_of_strain = 55;
     constexpr double dilation_of_noise = 0.2, dilation_of_noise_and_step = 0.8;
-    constexpr double dilation_share = 1.25; // of the accuracy
     // Residuals add up along extended chains: larger samples lose more.
     constexpr double grains_of_rule = 1000, power_of_grains = 0.75;
     // Beyond them the rule has been seen to fail: half of the dilation goes.

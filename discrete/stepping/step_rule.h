@@ -25,6 +25,9 @@ namespace diptych::discrete
       "expected to err by 1.25 accuracy");
   }
 
+  // Error of the dilation that the rules allow, over the accuracy.
+  constexpr double dilation_share = 1.25;
+
   // What the sample feels, for the rules.
   struct FlowState
   {
