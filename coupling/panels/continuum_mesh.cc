@@ -56,7 +56,7 @@ namespace diptych::coupling
     hooks.on_progress    = [&](const std::string &phase, const double fraction) { progress.update(phase, fraction); };
     discrete::Panel panel(scene.sample, discrete_loading(scene.loading), scene.discrete, hooks);
     const bool      quieted = panel.prepare() == discrete::Status::finished;
-    progress.finish();
+    progress.finish(quieted);
     if (quieted)
       return panel.snapshot();
     std::cerr << "preparing the sample: " << (stop_requested() ? "stopped on request" : panel.report().message) << std::endl;

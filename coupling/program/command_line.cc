@@ -13,6 +13,7 @@
 #include <CLI/Formatter.hpp>
 
 #include "coupling/folders/written_echo.h"
+#include "coupling/processes/progress.h"
 #include "coupling/program/built_with.h"
 #include "coupling/program/completion.h"
 #include "coupling/program/option_values.h"
@@ -379,8 +380,10 @@ namespace diptych::coupling
 
   void say(const CommandLine &line, const std::string &text)
   {
-    if (!line.quiet)
-      std::cout << text << std::endl;
+    if (line.quiet)
+      return;
+    Progress::make_room();
+    std::cout << text << std::endl;
   }
 
   void warn(const std::string &text)
