@@ -19,7 +19,7 @@
 #include "coupling/program/interrupted_grains.h"
 #include "coupling/program/recorded_grains.h"
 #include "coupling/program/report_command.h"
-#include "coupling/program/run_room.h"
+#include "coupling/program/resource_estimate.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_error.h"
 #include "discrete/files/table_file.h"
@@ -292,10 +292,10 @@ namespace diptych::coupling
     if (scene.discrete.method.method == discrete::Method::imported)
       (void)load_imported(scene);
     if (!line.study_of_step)
-      announce_room(line, scene, {true, false});
+      announce_resources(line, scene, {true, false});
     else
       for (const int divisor : divisors)
-        announce_room(line, part_of_study(scene, divisor), {true, false});
+        announce_resources(line, part_of_study(scene, divisor), {true, false});
     return writing(scene.output.directory, [&] {
       const Scene                     first = line.study_of_step ? part_of_study(scene, divisors[0]) : scene;
       std::unique_ptr<RecordedGrains> prepared;

@@ -13,7 +13,7 @@
 #include "coupling/program/discrete_command.h"
 #include "coupling/program/interrupted_continuum.h"
 #include "coupling/program/interrupted_grains.h"
-#include "coupling/program/run_room.h"
+#include "coupling/program/resource_estimate.h"
 
 namespace diptych::coupling
 {
@@ -40,7 +40,7 @@ namespace diptych::coupling
     require_continuum(scene);
     check_comparable(scene);
     require_platen_travel(scene);
-    announce_room(line, scene, {true, true});
+    announce_resources(line, scene, {true, true});
     return writing(scene.output.directory, [&] {
       const bool                      resume_continuum = line.resume && may_resume_continuum(scene);
       std::unique_ptr<RecordedGrains> prepared;
