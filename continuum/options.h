@@ -160,7 +160,7 @@ namespace diptych::continuum
     visitor("platen_width", o.platen_width, "length", {0., 1e12},
             "mesh = rectangle: of the upper platen, a strip in the middle of the upper edge; 0: the whole edge");
     visitor("element_size", o.element_size, "mean diameters", {0.01, 1e3},
-            "edge length of an element; at most the internal length for a band that the mesh does not set");
+            "edge length of an element; 1.5 to 2 internal lengths resolve a band");
     visitor("refinement", o.refinement, "-",
             "adaptive: elements are larger by 2^refinement_levels at first and divided where plastic strain gathers");
     visitor("refinement_levels", o.refinement_levels, "-", {1, 6}, "adaptive: divisions down to element_size");
