@@ -37,7 +37,16 @@ namespace diptych::continuum
     Walk            walk     = Walk::axial_strain;
   };
 
-  // Calls visit(column name, value, unit, meaning) for every entry of a row, in the order of continuum.csv. Per unit thickness.
+  // The meaning of a column that may hold NaN. A plain text stands for a column whose numbers are finite.
+  struct ColumnMeaning
+  {
+    operator const char *() const { return text; }
+
+    const char *text;
+    bool        may_be_nan;
+  };
+
+  // Every entry of a row in the order of continuum.csv: visit(name of the column, value, unit, meaning). Per unit thickness.
   template <class Row, class Visit, std::enable_if_t<std::is_same_v<std::remove_const_t<Row>, HistoryRow>, int> = 0>
   void visit_columns(Row &r, Visit &&visit)
   {

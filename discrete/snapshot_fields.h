@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "discrete/meaning.h"
 #include "discrete/snapshot.h"
 
 namespace diptych::discrete
@@ -72,8 +73,8 @@ namespace diptych::discrete
     visit("outline/right", s.outline.right, "length", "right side of the sample's outline, upward");
   }
 
-  // Attributes of the stage's group. They are finite unless their meaning mentions nan or inf. A frame of another code may have
-  // nan in all attributes except those of is_always_told().
+  // Attributes of the stage's group. They are finite unless their Meaning says otherwise. A frame of another code may have nan in
+  // all attributes except those of is_always_told().
   template <class AnySnapshot, class Visit> void visit_attributes(AnySnapshot &s, Visit &&visit)
   {
     visit("walk", s.walk, "-", "which attribute progress equals: axial_strain, shear_strain or time");
@@ -85,17 +86,20 @@ namespace diptych::discrete
     visit("residual", s.residual, "-", "residual of the last step: natural map relative to the impulses");
     visit("mean_diameter", s.mean_diameter, "length", "mean diameter d");
     visit("stress_error", s.stress_error, "-",
-          "estimated rms error of the last step's grain stress / its rms; nan: not estimated, inf: unknown");
-    visit("stress_change", s.stress_change, "-",
-          "relative change of the grain stress in the last doubling of the sweeps; nan: not estimated, inf: no earlier value");
-    visit("error_over_residual", s.error_over_residual, "-",
-          "error of grain stress / residual, measured once per run; nan: not measured, inf: the residual was 0");
+          Meaning("estimated rms error of the last step's grain stress / its rms; nan: not estimated, inf: unknown", true, true));
+    visit(
+      "stress_change", s.stress_change, "-",
+      Meaning("relative change of the grain stress in the last doubling of the sweeps; nan: not estimated, inf: no earlier value",
+              true, true));
+    visit(
+      "error_over_residual", s.error_over_residual, "-",
+      Meaning("error of grain stress / residual, measured once per run; nan: not measured, inf: the residual was 0", true, true));
     visit("window_time", s.window_time, "time",
           "duration of the window over which means are taken; 0: the window has not started");
     visit("lower_y", s.lower_y, "length", "height of the lower platen");
     visit("upper_y", s.upper_y, "length", "height of the upper platen");
-    visit("left_x", s.left_x, "length", "x of the left wall; nan if there is none");
-    visit("right_x", s.right_x, "length", "x of the right wall; nan if there is none");
+    visit("left_x", s.left_x, "length", Meaning("x of the left wall; nan if there is none", true));
+    visit("right_x", s.right_x, "length", Meaning("x of the right wall; nan if there is none", true));
     visit("cell_width", s.cell_width, "length", "width of the periodic cell; 0 if there is none");
     visit("area", s.area, "length^2", "area of the outline");
     visit("upper_platen_displacement_x", s.upper_platen_displacement.x(), "length",

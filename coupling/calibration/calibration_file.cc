@@ -249,13 +249,15 @@ namespace diptych::coupling
           const std::string word = value_text(part.json());
           const auto        kind = discrete::value_of<ObservableKind>(word);
           if (!kind)
-            part.refuse("quantities: '" + word + "' is not allowed: some of " + listed(names_of(ObservableKind())) + " are");
+            part.refuse("quantities: '" + word + "' is not allowed: some of " + discrete::listed(names_of(ObservableKind())) +
+                        " are");
           if (std::find(kinds.begin(), kinds.end(), *kind) != kinds.end())
             part.refuse("quantities: '" + word + "' stands there twice");
           kinds.push_back(*kind);
         }
       if (kinds.empty())
-        root.refuse("quantities", " is missing or empty: some of " + listed(names_of(ObservableKind())) + " are needed");
+        root.refuse("quantities",
+                    " is missing or empty: some of " + discrete::listed(names_of(ObservableKind())) + " are needed");
       return kinds;
     }
 

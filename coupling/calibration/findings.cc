@@ -10,6 +10,7 @@
 #include "coupling/statistics/equivalence.h"
 #include "coupling/statistics/student.h"
 #include "discrete/choices.h"
+#include "discrete/files/words.h"
 
 namespace diptych::coupling
 {
@@ -170,7 +171,7 @@ namespace diptych::coupling
       }
     for (const ParameterRecord &p : record.parameters)
       {
-        const std::string name = p.key + (p.targets.empty() ? "" : " (" + listed(p.targets) + ")");
+        const std::string name = p.key + (p.targets.empty() ? "" : " (" + discrete::listed(p.targets) + ")");
         if (!p.is_identified)
           record.words.push_back(name + " is not identified: the data leave " + text_of(std::round(100 * p.share_known)) +
                                  " % of what was unknown before them");

@@ -8,22 +8,13 @@
 #include "coupling/bands/band_detection.h"
 #include "coupling/comparison/increment.h"
 #include "coupling/ensembles/ensemble.h"
+#include "coupling/results/results.h"
 #include "coupling/scene/scene.h"
 
 namespace diptych::coupling
 {
   namespace
   {
-    constexpr double same_progress = 1e-6; // of stages
-
-    template <class Snapshot> const Snapshot *snapshot_at(const std::vector<Snapshot> &snapshots, const double progress)
-    {
-      for (const Snapshot &one : snapshots)
-        if (std::abs(one.progress - progress) < same_progress)
-          return &one;
-      return nullptr;
-    }
-
     const char *column_of(const ObservableKind kind)
     {
       return kind == ObservableKind::stress_ratio ? "stress_ratio" : "volumetric_strain";
@@ -71,9 +62,9 @@ namespace diptych::coupling
         {
           if (observables[k].kind != ObservableKind::ln_width)
             continue;
-          const Snapshot *from = snapshot_at(snapshots, observables[k].from), *to = snapshot_at(snapshots, observables[k].to);
-          if (from != nullptr && to != nullptr)
-            if (const std::vector<Band> bands = find(*from, *to, window); !bands.empty())
+          const auto from = snapshot_at(snapshots, observables[k].from), to = snapshot_at(snapshots, observables[k].to);
+          if (from && to)
+            if (const std::vector<Band> bands = find(snapshots[*from], snapshots[*to], window); !bands.empty())
               {
                 o.values[Eigen::Index(k)] = std::log(bands.front().width_10_90 / scene.sample.mean_diameter);
                 o.angle_deg = is_mirror_symmetric(scene) ? std::abs(bands.front().angle_deg) : bands.front().angle_deg;
@@ -105,10 +96,10 @@ namespace diptych::coupling
     for (const Observable &one : observables)
       if (one.kind == ObservableKind::ln_width)
         {
-          const auto *from = snapshot_at(snapshots, one.from), *to = snapshot_at(snapshots, one.to);
-          if (from == nullptr || to == nullptr)
+          const auto from = snapshot_at(snapshots, one.from), to = snapshot_at(snapshots, one.to);
+          if (!from || !to)
             throw std::invalid_argument("a window of comparison/window_edges is no stage of the grains");
-          frames.push_back(sample_frame(*from, *to));
+          frames.push_back(sample_frame(snapshots[*from], snapshots[*to]));
         }
     return frames;
   }
@@ -145,7 +136,7 @@ namespace diptych::coupling
       if (observables[k].kind == ObservableKind::ln_width)
         {
           double &value = o.values[Eigen::Index(k)];
-          if (ran && !std::isfinite(value) && snapshot_at(snapshots, observables[k].to) != nullptr)
+          if (ran && !std::isfinite(value) && snapshot_at(snapshots, observables[k].to))
             value = std::log(0.5 * frames.at(window).height / scene.sample.mean_diameter);
           ++window;
         }

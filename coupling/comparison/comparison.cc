@@ -13,7 +13,6 @@ namespace diptych::coupling
 {
   namespace
   {
-    constexpr double same_progress = 1e-6; // of stages
 
     // A panel that ended early leaves its last instant behind, which is no stage of the other.
     std::size_t n_common_snapshots(const Results &results)
@@ -109,15 +108,6 @@ namespace diptych::coupling
       return resolution_study(c.stages.back().fields.mesh, grains, points, options.averaging.kernel);
     }
 
-    // Which of the first n snapshots is at a progress; -1 if none is.
-    int snapshot_at(const Results &results, const std::size_t n, const double progress)
-    {
-      for (std::size_t k = 0; k < n; ++k)
-        if (std::abs(results.discrete.snapshots[k].progress - progress) < same_progress)
-          return int(k);
-      return -1;
-    }
-
     // Stages, windows, the coarse run's windows and what comes after them: each one piece of the work.
     class Pieces
     {
@@ -139,20 +129,22 @@ namespace diptych::coupling
 
     void make_windows(const Scene &scene, const Results &results, const std::size_t n, Pieces &pieces, Comparison &c)
     {
-      const std::vector<double> &edges = scene.comparison.window_edges;
+      const std::vector<double>             &edges  = scene.comparison.window_edges;
+      const std::vector<discrete::Snapshot> &grains = results.discrete.snapshots;
       for (std::size_t w = 0; w + 1 < edges.size(); ++w, pieces.next())
-        if (const int from = snapshot_at(results, n, edges[w]), to = snapshot_at(results, n, edges[w + 1]); from >= 0 && to >= 0)
-          {
-            c.windows.push_back(make_increment(stage_pair(results, std::size_t(from), std::size_t(to)), scene.comparison.band,
-                                               std::uint64_t(scene.sample.seed)));
-            if (to > 0)
-              take_angles_to_stress(c.windows.back(), c.stages[std::size_t(to) - 1]);
-          }
+        {
+          const auto from = snapshot_at(grains, edges[w]), to = snapshot_at(grains, edges[w + 1]);
+          if (!from || !to || *from >= n || *to >= n)
+            continue;
+          c.windows.push_back(
+            make_increment(stage_pair(results, *from, *to), scene.comparison.band, std::uint64_t(scene.sample.seed)));
+          if (*to > 0)
+            take_angles_to_stress(c.windows.back(), c.stages[*to - 1]);
+        }
     }
 
     std::optional<CoarseRun> coarse_run(const Scene                  &scene,
                                         const Results                &results,
-                                        const std::size_t             n,
                                         const std::vector<Increment> &windows,
                                         Pieces                       &pieces)
     {
@@ -164,14 +156,15 @@ namespace diptych::coupling
       result.peak = peak_of_running_mean(history_table(results.coarse.rows), "stress_ratio", averaging_width(scene));
       for (const Increment &window : windows)
         {
-          const int from = snapshot_at(results, n, window.from), to = snapshot_at(results, n, window.to);
-          if (to >= int(nodes.size()))
+          const std::size_t from = snapshot_at(results.discrete.snapshots, window.from).value();
+          const std::size_t to   = snapshot_at(results.discrete.snapshots, window.to).value();
+          if (to >= nodes.size())
             break;
           pieces.next();
           Increment coarse;
           coarse.from = window.from, coarse.to = window.to, coarse.frame = window.frame;
-          coarse.continuum = continuum_increment(nodes[std::size_t(from)], nodes[std::size_t(to)], window.frame,
-                                                 scene.comparison.band, std::uint64_t(scene.sample.seed));
+          coarse.continuum = continuum_increment(nodes[from], nodes[to], window.frame, scene.comparison.band,
+                                                 std::uint64_t(scene.sample.seed));
           result.windows.push_back(std::move(coarse));
         }
       return result;
@@ -192,7 +185,7 @@ namespace diptych::coupling
         take_angles_to_stress(c.stages.back().increment, c.stages.back());
       }
     make_windows(scene, results, n, pieces, c);
-    c.coarse = coarse_run(scene, results, n, c.windows, pieces);
+    c.coarse = coarse_run(scene, results, c.windows, pieces);
     pieces.next();
     c.resolution         = study_of(c, results.discrete.snapshots[n - 1], scene.comparison);
     const auto &material = scene.continuum.material;

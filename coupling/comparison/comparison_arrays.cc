@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/comparison/comparison_arrays.h"
 
-#include <cmath>
-
 #include "coupling/comparison/comparison_output.h"
 #include "coupling/store/vtu_file.h"
 #include "discrete/files/field_arrays.h"
@@ -129,18 +127,10 @@ namespace diptych::coupling
       list_increment_attributes(stage.increment, IntoGroup{file, group});
     }
 
-    // Which snapshot stands at a progress.
-    std::size_t snapshot_at(const Results &results, const double progress)
-    {
-      std::size_t k = 0;
-      while (std::abs(results.discrete.snapshots[k].progress - progress) >= 1e-6)
-        ++k;
-      return k;
-    }
-
     void write_window(discrete::Hdf5Writer &file, const std::string &group, const Increment &window, const Results &results)
     {
-      const std::size_t from = snapshot_at(results, window.from), to = snapshot_at(results, window.to);
+      const std::size_t from = snapshot_at(results.discrete.snapshots, window.from).value();
+      const std::size_t to   = snapshot_at(results.discrete.snapshots, window.to).value();
       list_increment_arrays(window, results.discrete.snapshots[to], IntoGroup{file, group});
       list_mesh_arrays(window.mesh, IntoGroup{file, group + "/cells"});
       list_window_cell_arrays(window, moved_cells(results.continuum.snapshots[from], results.continuum.snapshots[to]),

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/comparison/comparison_output.h"
 
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -28,11 +29,26 @@ namespace diptych::coupling
       return result;
     }
 
+    // The start and the stages as the scene gives them: without the rounding error of a multiple of the interval.
+    std::vector<double> requested_stages(const Scene &scene)
+    {
+      std::vector<double> requested = stages(scene.loading);
+      for (double &stage : requested)
+        {
+          char              text[32];
+          const char *const end = std::to_chars(text, text + sizeof text, stage, std::chars_format::general, 15).ptr;
+          std::from_chars(text, end, stage);
+        }
+      requested.insert(requested.begin(), 0.);
+      return requested;
+    }
+
     // A line of the .csv for every known number of a JSON value; an interval stands in one line with its ends.
     class CsvLines
     {
     public:
-      CsvLines()
+      explicit CsvLines(const Scene &scene)
+          : stages(requested_stages(scene))
       {
         for (const NumberDescription &number : comparison_schema())
           units[number.place] = number.unit;
@@ -66,7 +82,7 @@ namespace diptych::coupling
                        to   = increment.contains("to") ? increment["to"] : increment["progress"];
             for (const auto &[panel, part] : increment.items())
               if (part.is_structured())
-                add(part, from.dump() + ',' + to.dump() + ',' + prefix + panel + ',', place + "/" + panel, "");
+                add(part, progress(from) + ',' + progress(to) + ',' + prefix + panel + ',', place + "/" + panel, "");
           }
       }
 
@@ -76,19 +92,29 @@ namespace diptych::coupling
       static bool        known(const json &v) { return v.is_number() && std::isfinite(v.get<double>()); }
       static std::string text(const json &v) { return known(v) ? v.dump() : std::string(); }
 
+      // The stage that was asked for, where the panels reached it.
+      std::string progress(const json &reached) const
+      {
+        for (const double stage : stages)
+          if (reached.is_number() && std::abs(reached.get<double>() - stage) <= 1e-6 * stage)
+            return json(stage).dump();
+        return reached.dump();
+      }
+
       void write(const std::string &line, const std::string &quantity, const std::string &numbers, const std::string &place)
       {
         const auto unit = units.find(place);
         out << line << quantity << ',' << numbers << ',' << (unit == units.end() ? "" : unit->second) << '\n';
       }
 
+      std::vector<double>                stages;
       std::ostringstream                 out;
       std::map<std::string, std::string> units; // by place
     };
 
-    std::string comparison_csv(const json &comparison)
+    std::string comparison_csv(const Scene &scene, const json &comparison)
     {
-      CsvLines lines;
+      CsvLines lines(scene);
       lines.add_increments(comparison["stages"], "stages", "");
       lines.add_increments(comparison["windows"], "windows", "");
       if (const json &coarse = comparison["continuum_coarse"]; coarse.is_object())
@@ -120,6 +146,6 @@ namespace diptych::coupling
     list_numbers(ComparisonDocument{scene, c}, writer);
     root["numbers"] = descriptions();
     discrete::write_text(comparison_json(directory), root.dump(1) + "\n");
-    discrete::write_text(directory + "/comparison.csv", comparison_csv(root));
+    discrete::write_text(directory + "/comparison.csv", comparison_csv(scene, root));
   }
 } // namespace diptych::coupling

@@ -13,7 +13,8 @@ namespace diptych::coupling
   // Columns of comparison.csv, a line a number of comparison.json.
   inline std::array<NumberEntry, 8> comparison_columns()
   {
-    return {{{"progress_from", "as walk says", "beginning of the window or stage; empty where the number is of the whole run"},
+    return {{{"progress_from", "as walk says",
+              "beginning of the window or stage as the scene gives it; empty where the number is of the whole run"},
              {"progress_to", "as walk says", "its end"},
              {"panel", "-", "discrete, continuum, difference or mapping, or the part of comparison.json that the number is of"},
              {"quantity", "-", "keys on the way to the number; entries of lists count from 1, or have their name"},
@@ -24,8 +25,8 @@ namespace diptych::coupling
   }
 
   // comparison.json: every number that comparison_numbers.h lists, and under "numbers" what each of them is. comparison.csv: the
-  // same, one line a number: progress_from, progress_to, panel, quantity, value and, where they are known, the ends of its 95 %
-  // interval, unit.
+  // same, one line a number: progress_from and progress_to as the scene gives its stages, panel, quantity, value and, where they
+  // are known, the ends of its 95 % interval, unit.
   void write_comparison(const std::string &directory, const Scene &scene, const Comparison &c);
 
   // comparison.h5: the arrays behind the report's pictures, as comparison_arrays.h lists them.

@@ -3,6 +3,7 @@
 #include "coupling/import/dump_file.h"
 
 #include "coupling/scene/scene_error.h"
+#include "discrete/files/words.h"
 
 namespace diptych::coupling
 {
@@ -39,7 +40,7 @@ namespace diptych::coupling
       const std::string_view head = lines.take("'ITEM: NUMBER OF ...'");
       if (!begins(head, "ITEM: NUMBER OF "))
         lines.refuse("expected 'ITEM: NUMBER OF ATOMS' or 'ENTRIES'");
-      const long count = lines.whole(trimmed(lines.take("a number of rows")), "the number of rows");
+      const long count = lines.whole(discrete::trimmed(lines.take("a number of rows")), "the number of rows");
       if (count < 0)
         lines.refuse("the number of rows is negative");
       return count;
@@ -51,7 +52,7 @@ namespace diptych::coupling
       while (begins(lines.peek(), "ITEM: UNITS") || begins(lines.peek(), "ITEM: TIME") || begins(lines.peek(), "ITEM: LABEL"))
         {
           const bool is_step = begins(lines.take("a head"), "ITEM: TIMESTEP");
-          const auto value   = trimmed(lines.take("its value"));
+          const auto value   = discrete::trimmed(lines.take("its value"));
           if (is_step)
             section.step = lines.whole(value, "the step");
         }

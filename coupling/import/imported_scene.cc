@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "coupling/import/imported_results.h"
+#include "coupling/scene/keys.h"
 #include "coupling/scene/scene_error.h"
 #include "discrete/files/csv_file.h"
 
@@ -31,14 +32,6 @@ namespace diptych::coupling
         arrival.frames.front().wall_file + ": frame " + arrival.frames.front().name +
         ": no lateral pressure can be found: in no frame is the right wall pressed, or the horizontal stress above 0; say "
         "--pressure P");
-    }
-
-    std::string listed(const std::vector<double> &values)
-    {
-      std::string text;
-      for (const double value : values)
-        text += (text.empty() ? "" : ", ") + exact_text(value);
-      return text;
     }
 
     // Two windows where there are stages enough, else one.
@@ -77,7 +70,7 @@ namespace diptych::coupling
     set("pressure", exact_text(pressure ? *pressure : side_pressure(arrival, results)));
     set("mode", axial ? "descent" : "shear");
     set("axial_strain", exact_text(stages.back()));
-    set("stages", listed(stages));
+    set("stages", text_of(stages));
     const discrete::HistoryRow &last = results.rows.back();
     if (std::isfinite(last.time) && last.time > 0)
       set("strain_rate", exact_text(last.progress / last.time));
@@ -94,7 +87,7 @@ namespace diptych::coupling
         end();
       }
     begin("comparison");
-    set("window_edges", listed(windows(stages)));
+    set("window_edges", text_of(windows(stages)));
     set("averaging_strain", exact_text(1e-3 * shortest)); // frames are instants: so is what the continuum is held against
     end();
     return out.str();

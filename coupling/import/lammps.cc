@@ -8,6 +8,7 @@
 #include "coupling/import/readers.h"
 #include "coupling/import/wall_table.h"
 #include "coupling/scene/scene_error.h"
+#include "discrete/files/words.h"
 
 namespace diptych::coupling
 {
@@ -182,7 +183,7 @@ namespace diptych::coupling
             continue;
           if (words.size() > 2 && words[2] != "sphere")
             lines.refuse("atom_style " + std::string(words[2]) + "; only sphere has radii");
-          while (trimmed(lines.peek()).empty() && !lines.at_end())
+          while (discrete::trimmed(lines.peek()).empty() && !lines.at_end())
             lines.skip();
           for (long row = 0; row < count; ++row)
             {

@@ -1,6 +1,7 @@
 // diptych: fields of LMGC90's fixed columns
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/import/lmgc90_text.h"
+#include "discrete/files/words.h"
 
 namespace diptych::coupling
 {
@@ -9,7 +10,7 @@ namespace diptych::coupling
     const std::size_t at = line.find(name);
     if (at == std::string_view::npos)
       lines.refuse("no '" + std::string(name) + "'");
-    return lines.number(trimmed(line.substr(at + name.size(), 14)), std::string(name));
+    return lines.number(discrete::trimmed(line.substr(at + name.size(), 14)), std::string(name));
   }
 
   long lmgc90_body_number(const TextLines &lines, const std::string_view line)

@@ -8,19 +8,12 @@
 
 #include "coupling/scene/scene_error.h"
 #include "discrete/files/csv_file.h"
+#include "discrete/files/words.h"
 
 namespace diptych::coupling
 {
   namespace
   {
-    std::string listed(const std::vector<std::string> &names)
-    {
-      std::string text;
-      for (const std::string &name : names)
-        text += (text.empty() ? "" : ", ") + name;
-      return text;
-    }
-
     bool starts_with_a_letter(const std::string_view word)
     {
       return !word.empty() && std::isalpha(static_cast<unsigned char>(word[0])) != 0 && word != "nan" && word != "inf";
@@ -43,11 +36,11 @@ namespace diptych::coupling
     // "# x y" and "#x,y" as "x y".
     std::string_view without_mark(std::string_view line)
     {
-      line = trimmed(line);
+      line = discrete::trimmed(line);
       if (line.substr(0, 3) == "\xEF\xBB\xBF")
         line.remove_prefix(3);
       while (!line.empty() && line[0] == '#')
-        line = trimmed(line.substr(1));
+        line = discrete::trimmed(line.substr(1));
       return line;
     }
   } // namespace
@@ -80,7 +73,8 @@ namespace diptych::coupling
   {
     if (const auto found = find_any(names))
       return *found;
-    throw SceneError(path + ": no column for " + what + " (" + listed(names) + "); it has " + listed(columns));
+    throw SceneError(path + ": no column for " + what + " (" + discrete::listed(names) + "); it has " +
+                     discrete::listed(columns));
   }
 
   void NumberTable::refuse(const std::size_t row, const std::string &why) const
@@ -109,7 +103,7 @@ namespace diptych::coupling
     const std::vector<std::string_view> words = words_of(text);
     if (words.size() != table.columns.size())
       lines.refuse(std::to_string(words.size()) + " entries; expected " + std::to_string(table.columns.size()) + ": " +
-                   listed(table.columns));
+                   discrete::listed(table.columns));
     for (std::size_t c = 0; c < words.size(); ++c)
       table.values.push_back(lines.number(words[c], "column " + table.columns[c]));
     table.line.push_back(lines.line());
@@ -131,7 +125,7 @@ namespace diptych::coupling
         if (words.size() > 1 && words[0].empty() && table.columns.empty())
           words[0] = "-"; // the index that pandas writes has no name
         const bool is_names  = std::all_of(words.begin() + (words[0] == "-" ? 1 : 0), words.end(), starts_with_a_letter);
-        const bool is_marked = trimmed(text)[0] == '#';
+        const bool is_marked = discrete::trimmed(text)[0] == '#';
         if (is_names && table.n_rows() == 0 && columns.empty() && (are_marked || !is_marked))
           table.columns = names_of(words), are_marked = is_marked;
         if (is_names && table.n_rows() > 0 && !is_marked && names_of(words) != table.columns)

@@ -11,6 +11,7 @@
 
 #include "coupling/processes/stop_signal.h"
 #include "coupling/scene/scene_error.h"
+#include "discrete/files/words.h"
 
 namespace diptych::coupling
 {
@@ -133,14 +134,6 @@ namespace diptych::coupling
     return value;
   }
 
-  std::string_view trimmed(std::string_view text)
-  {
-    const std::size_t first = text.find_first_not_of(blanks);
-    if (first == std::string_view::npos)
-      return {};
-    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-  }
-
   std::vector<std::string_view> words_of(std::string_view line)
   {
     std::vector<std::string_view> words;
@@ -149,7 +142,7 @@ namespace diptych::coupling
         for (std::size_t start = 0; start != std::string_view::npos;)
           {
             const std::size_t comma = line.find(mark, start);
-            words.push_back(trimmed(line.substr(start, comma == std::string_view::npos ? comma : comma - start)));
+            words.push_back(discrete::trimmed(line.substr(start, comma == std::string_view::npos ? comma : comma - start)));
             start = comma == std::string_view::npos ? comma : comma + 1;
           }
         return words;

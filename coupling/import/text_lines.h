@@ -41,7 +41,6 @@ namespace diptych::coupling
 
   // Separated by blanks and tabs; in a line with commas or semicolons, by these.
   std::vector<std::string_view> words_of(std::string_view line);
-  std::string_view              trimmed(std::string_view text);
 
   // "contacts_12.txt" has 12; -1 without digits before the ending.
   long number_in_name(const std::string &path);

@@ -13,6 +13,7 @@
 
 #include "coupling/import/text_lines.h"
 #include "coupling/scene/scene_error.h"
+#include "discrete/files/words.h"
 
 namespace diptych::coupling
 {
@@ -212,7 +213,8 @@ namespace diptych::coupling
         const std::string_view text =
           is_appended
             ? std::string_view(appended).substr(found->offset)
-            : trimmed(std::string_view(found->text).substr(std::min(found->text.size(), found->text.find_first_not_of(" \n\t"))));
+            : discrete::trimmed(
+                std::string_view(found->text).substr(std::min(found->text.size(), found->text.find_first_not_of(" \n\t"))));
         array.values = numbers_in(bytes_of(text, compressed, wide_header ? 8 : 4, place), found->type, place);
       }
     if (array.values.size() % components != 0)

@@ -9,6 +9,7 @@
 #include "coupling/import/readers.h"
 #include "coupling/import/wall_table.h"
 #include "coupling/scene/scene_error.h"
+#include "discrete/files/words.h"
 
 namespace diptych::coupling
 {
@@ -58,7 +59,7 @@ namespace diptych::coupling
       TextLines lines(path);
       while (!lines.at_end())
         {
-          const std::string_view line  = trimmed(lines.take("a line"));
+          const std::string_view line  = discrete::trimmed(lines.take("a line"));
           const auto             words = words_of(line);
           if (words.empty())
             continue;
@@ -136,7 +137,7 @@ namespace diptych::coupling
     {
       TextLines lines(path);
       for (; !lines.at_end(); lines.skip())
-        if (const std::string_view line = trimmed(lines.peek()); !line.empty())
+        if (const std::string_view line = discrete::trimmed(lines.peek()); !line.empty())
           return read_number_table(path, line[0] == '#' ? std::vector<std::string>() : yade_contact_columns);
       throw SceneError(path + ": holds no row of numbers");
     }
@@ -190,7 +191,7 @@ namespace diptych::coupling
       if (files.spheres.empty())
         throw SceneError((files.contacts.empty() ? files.walls : files.contacts) + ": there are no spheres of frame " + number);
       ForeignFrame frame;
-      frame.name              = "_" + std::string(trimmed(number));
+      frame.name              = "_" + std::string(discrete::trimmed(number));
       frame.grain_file        = files.spheres;
       const NumberTable table = read_number_table(files.spheres);
       if (!table.has("id") && !files.contacts.empty())

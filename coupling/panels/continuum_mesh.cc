@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <iostream>
 
 #include "continuum/mesh/mesh.h"
@@ -12,6 +11,7 @@
 #include "coupling/processes/progress.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/store/file_names.h"
+#include "coupling/scene/identity.h"
 #include "discrete/panel/panel.h"
 
 namespace diptych::coupling
@@ -57,7 +57,7 @@ namespace diptych::coupling
     hooks.on_progress    = [&](const std::string &phase, const double fraction) { progress.update(phase, fraction); };
     discrete::Panel panel(scene.sample, discrete_loading(scene.loading), scene.discrete, hooks);
     const bool      quieted = panel.prepare() == discrete::Status::finished;
-    progress.finish();
+    progress.finish(quieted);
     if (quieted)
       return panel.snapshot();
     std::cerr << "preparing the sample: " << (stop_requested() ? "stopped on request" : panel.report().message) << std::endl;
@@ -117,17 +117,19 @@ namespace diptych::coupling
 
   std::string identity_of(const continuum::QuadMesh &mesh)
   {
-    std::uint64_t hash = 14695981039346656037ull; // FNV-1a
-    const auto    add  = [&](const void *bytes, const std::size_t n) {
-      for (std::size_t k = 0; k < n; ++k)
-        hash = (hash ^ static_cast<const unsigned char *>(bytes)[k]) * 1099511628211ull;
+    std::uint64_t digest = empty_digest;
+    const auto    add    = [&](const void *bytes, const std::size_t n) {
+      digest = digest_on(digest, {static_cast<const char *>(bytes), n});
     };
     for (const Eigen::Vector2d &x : mesh.vertices)
       add(x.data(), sizeof x);
     for (const auto &cell : mesh.cells)
       add(cell.data(), sizeof cell);
     for (const auto &edge : mesh.boundary)
-      add(edge.vertices.data(), sizeof edge.vertices), add(&edge.id, sizeof edge.id);
-    return "mesh " + std::to_string(hash);
+      {
+        add(edge.vertices.data(), sizeof edge.vertices);
+        add(&edge.id, sizeof edge.id);
+      }
+    return "mesh " + std::to_string(digest);
   }
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: progress of long work with the time left
+// diptych: progress of long work with the time remaining
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -7,20 +7,27 @@
 
 namespace diptych::coupling
 {
-  // On a terminal one line that is rewritten (bar, per cent, time left); in a log one plain line per tenth of a phase.
-  // Writes to standard error, so that standard output stays clean.
+  // On a terminal one line that is rewritten (bar, per cent, time elapsed and remaining); in a log one plain line per tenth of a
+  // phase. Writes to standard error, so that standard output stays clean.
   class Progress
   {
   public:
     explicit Progress(bool quiet);
-    ~Progress();
+    ~Progress(); // a phase that is still open ends here without success
+    Progress(const Progress &)            = delete;
+    Progress &operator=(const Progress &) = delete;
 
-    // A new phase name starts a new clock. fraction: 0 .. 1, of the phase.
+    // A new phase name starts a new clock and completes the phase before. fraction: 0 .. 1, of the phase.
     void update(const std::string &phase, double fraction);
-    void finish(); // ends the line of the present phase
+    void finish(bool is_complete = true); // ends the present phase; one that was stopped on request is never complete
+
+    // Completes the phase that is open, if any: a message that follows begins on a line of its own.
+    static void make_room();
 
   private:
     using Clock = std::chrono::steady_clock;
+
+    double elapsed() const; // seconds
 
     bool              quiet, terminal;
     std::string       phase;

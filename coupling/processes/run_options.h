@@ -5,6 +5,8 @@
 #include <iostream>
 #include <string>
 
+#include "coupling/processes/progress.h"
+
 namespace diptych::coupling
 {
   struct RunOptions
@@ -20,8 +22,10 @@ namespace diptych::coupling
   // To standard output, unless --quiet.
   inline void say(const RunOptions &options, const std::string &text)
   {
-    if (!options.quiet)
-      std::cout << text << std::endl;
+    if (options.quiet)
+      return;
+    Progress::make_room();
+    std::cout << text << std::endl;
   }
 
   // To standard error, quiet or not; nothing where the text is empty.

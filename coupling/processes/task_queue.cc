@@ -58,8 +58,9 @@ namespace diptych::coupling
         const double waited  = std::chrono::duration<double>(Clock::now() - shown).count();
         if (quiet || (terminal ? waited < 0.2 && !changed : part == last_part))
           return;
-        std::fprintf(stderr, "%s%d of %d %s done, %d running, %d failed, %s left%s", terminal ? "\r\033[K" : "", n_done, n_total,
-                     noun.c_str(), n_running, n_failed, n_known > 0 ? duration_text(left).c_str() : "?", terminal ? "" : "\n");
+        const std::string remaining = n_known > 0 ? ", " + duration_text(left) + " remaining" : "";
+        std::fprintf(stderr, "%s%d of %d %s done, %d running, %d failed%s%s", terminal ? "\r\033[K" : "", n_done, n_total,
+                     noun.c_str(), n_running, n_failed, remaining.c_str(), terminal ? "" : "\n");
         shown = Clock::now(), last_part = part;
       }
 

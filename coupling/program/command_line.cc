@@ -20,6 +20,7 @@
 #include "coupling/scene/scene_file.h"
 #include "discrete/files/nearest_name.h"
 #include "discrete/files/text_file.h"
+#include "discrete/files/words.h"
 
 namespace diptych::coupling
 {
@@ -255,7 +256,7 @@ namespace diptych::coupling
       {
         add(Command::explain, "every key of a scene: default, unit, range, meaning; or all that result files hold")
           ->add_option("SECTION", line.target, "a section of a scene, or what the files of results hold (default: all sections)")
-          ->type_name("{" + joined(section_names(), ",") + ",results}");
+          ->type_name("{" + discrete::joined(section_names(), ",") + ",results}");
         add(Command::completion, "a script that completes command lines: source <(diptych completion bash)")
           ->add_option("SHELL", line.target)
           ->required()

@@ -10,6 +10,7 @@
 #include "coupling/program/option_values.h"
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene.h"
+#include "discrete/files/words.h"
 
 namespace diptych::coupling
 {
@@ -30,7 +31,7 @@ namespace diptych::coupling
       std::vector<std::string> words;
       for (const KeyDescription &key : keys)
         words.push_back(key.section + "/" + key.name + "=");
-      return joined(words);
+      return discrete::joined(words);
     }
 
     std::string offer(const std::string &pattern, const std::string &words)
@@ -44,7 +45,7 @@ namespace diptych::coupling
       std::string lines;
       for (const KeyDescription &key : keys)
         if (!key.choices.empty())
-          lines += offer(key.section + "/" + key.name, joined(key.choices));
+          lines += offer(key.section + "/" + key.name, discrete::joined(key.choices));
       return lines;
     }
 
@@ -57,14 +58,6 @@ namespace diptych::coupling
       return words;
     }
   } // namespace
-
-  std::string joined(const std::vector<std::string> &words, const std::string &between)
-  {
-    std::string text;
-    for (const std::string &word : words)
-      text += (text.empty() ? "" : between) + word;
-    return text;
-  }
 
   std::vector<std::string> option_names(CLI::App &command)
   {
@@ -93,7 +86,7 @@ namespace diptych::coupling
     for (CLI::App *command : app.get_subcommands({}))
       {
         commands.push_back(command->get_name());
-        out << "    " << command->get_name() << ") options=\"" << joined(option_names(*command)) << "\" words=\""
+        out << "    " << command->get_name() << ") options=\"" << discrete::joined(option_names(*command)) << "\" words=\""
             << words_of(*command) << "\" ;;\n";
         for (const CLI::Option *option : command->get_options())
           if (const std::string values = values_of(*option); !values.empty() && !option->get_lnames().empty())
@@ -103,7 +96,7 @@ namespace diptych::coupling
         << choices << "  esac\n  if [ \"$before\" = = ]; then\n    key=${COMP_WORDS[COMP_CWORD-2]}\n"
         << "  elif [ \"$word\" = = ]; then\n    key=$before word=\"\"\n  fi\n  case \"$key\" in\n"
         << values_of_keys(keys) << "  esac\n  if [ \"$COMP_CWORD\" -eq 1 ]; then\n    COMPREPLY=($(compgen -W \""
-        << joined(commands) << " --help --version\" -- \"$word\"))\n"
+        << discrete::joined(commands) << " --help --version\" -- \"$word\"))\n"
         << "  elif [ \"$before\" = --set ]; then\n    compopt -o nospace 2>/dev/null\n    COMPREPLY=($(compgen -W \""
         << assignments(keys) << "\" -- \"$word\"))\n"
         << "  elif [ \"${word#-}\" != \"$word\" ]; then\n    COMPREPLY=($(compgen -W \"$options\" -- \"$word\"))\n"

@@ -12,8 +12,6 @@ namespace CLI
 
 namespace diptych::coupling
 {
-  std::string joined(const std::vector<std::string> &words, const std::string &between = " ");
-
   // Options of a command as they are typed: --set, --help.
   std::vector<std::string> option_names(CLI::App &command);
 

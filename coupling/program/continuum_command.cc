@@ -12,7 +12,7 @@
 #include "coupling/panels/interrupted_continuum.h"
 #include "coupling/panels/recorded_continuum.h"
 #include "coupling/processes/processes.h"
-#include "coupling/program/run_room.h"
+#include "coupling/program/resource_estimate.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
 #include "coupling/store/file_names.h"
@@ -226,7 +226,7 @@ namespace diptych::coupling
   {
     const Scene scene = scene_of(line);
     require_continuum(scene);
-    announce_room(line, scene, {false, true});
+    announce_resources(line, scene, {false, true});
     std::optional<FolderLock> lock;
     return keeping(scene.output.directory, [&] {
       ContinuumTask task;

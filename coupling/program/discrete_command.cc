@@ -17,7 +17,7 @@
 #include "coupling/processes/progress.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/program/report_command.h"
-#include "coupling/program/run_room.h"
+#include "coupling/program/resource_estimate.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_error.h"
 #include "coupling/store/file_names.h"
@@ -109,10 +109,10 @@ namespace diptych::coupling
     std::string doubts(const Rows &rows, const discrete::Report &report, const Scene &scene)
     {
       constexpr double         doubtful_penetration = 0.02, doubtful_gain = 0.1;
-      const discrete::Options &options = scene.discrete;
-      // auto keeps to 1 and 1.25 times the accuracy
-      const double       doubtful_strength = 1.5 * options.accuracy.accuracy, doubtful_dilation = 2.5 * options.accuracy.accuracy;
-      std::ostringstream out;
+      const discrete::Options &options           = scene.discrete;
+      const double             doubtful_strength = 1.5 * options.accuracy.accuracy; // auto keeps to the accuracy
+      const double             doubtful_dilation = 2 * discrete::dilation_share * options.accuracy.accuracy;
+      std::ostringstream       out;
       doubt_idle_grains(rows, scene, out);
       doubt_sample(report, options, out);
       if (report.expected.strength > doubtful_strength)
@@ -120,7 +120,7 @@ namespace diptych::coupling
             << " % to the strength; discrete/step = auto keeps to discrete/accuracy\n";
       if (report.expected.dilation > doubtful_dilation)
         out << "a tolerance of " << report.tolerance << " at this step loses about " << 100 * report.expected.dilation
-            << " % of the dilation; discrete/tolerance = auto keeps to 1.5 discrete/accuracy\n";
+            << " % of the dilation; discrete/tolerance = auto keeps to " << discrete::dilation_share << " discrete/accuracy\n";
       double penetration = 0;
       for (const discrete::HistoryRow &row : rows)
         penetration = std::max(penetration, row.max_penetration);
@@ -310,10 +310,10 @@ namespace diptych::coupling
     if (scene.discrete.method.method == discrete::Method::imported)
       (void)load_imported(scene);
     if (!line.study_of_step)
-      announce_room(line, scene, {true, false});
+      announce_resources(line, scene, {true, false});
     else
       for (const int divisor : divisors)
-        announce_room(line, part_of_study(scene, divisor), {true, false});
+        announce_resources(line, part_of_study(scene, divisor), {true, false});
     return writing(scene.output.directory, [&](FolderLock &lock) {
       const Scene                     first = line.study_of_step ? part_of_study(scene, divisors[0]) : scene;
       std::unique_ptr<RecordedGrains> prepared;

@@ -18,7 +18,7 @@
 #include "coupling/program/compare_command.h"
 #include "coupling/program/ensemble_record.h"
 #include "coupling/program/report_command.h"
-#include "coupling/program/run_room.h"
+#include "coupling/program/resource_estimate.h"
 #include "coupling/program/worker_command.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_error.h"
@@ -182,7 +182,7 @@ namespace diptych::coupling
   {
     const std::vector<int> seeds = read_seeds(line.seeds);
     const Scene            scene = ensemble_scene(line);
-    announce_room(line, scene, {true, true, int(seeds.size())});
+    announce_resources(line, scene, {true, true, int(seeds.size())});
     std::optional<FolderLock> lock;
     on_first_process([&] {
       lock.emplace(scene.output.directory);

@@ -5,6 +5,7 @@
 #include "coupling/program/completion.h"
 #include "coupling/scene/keys.h"
 #include "discrete/files/nearest_name.h"
+#include "discrete/files/words.h"
 
 namespace diptych::coupling
 {
@@ -27,7 +28,7 @@ namespace diptych::coupling
       return "diptych: " +
              (is_option ? error
                         : "'" + first + "' is no command; the nearest is '" + discrete::nearest_name(first, names) + "'") +
-             "; the commands are " + joined(names) + "; see diptych --help";
+             "; the commands are " + discrete::joined(names) + "; see diptych --help";
     }
 
     // "; it is one of diptych run" for an option that only other commands have.
@@ -38,7 +39,7 @@ namespace diptych::coupling
         for (const std::string &name : option_names(*command))
           if (name == option)
             owners.push_back("diptych " + command->get_name());
-      return owners.empty() ? "" : "; it is one of " + joined(owners, ", ");
+      return owners.empty() ? "" : "; it is one of " + discrete::listed(owners);
     }
   } // namespace
 
@@ -50,7 +51,7 @@ namespace diptych::coupling
     CLI::App   &asked = *found.front();
     std::string text  = error.what();
     if (const std::vector<std::string> extra = asked.remaining(true); !extra.empty())
-      text = "'" + joined(extra) + "' is not used" + owners_of(app, extra.front());
-    return "diptych " + asked.get_name() + ": " + text + "; it has " + joined(option_names(asked));
+      text = "'" + discrete::joined(extra) + "' is not used" + owners_of(app, extra.front());
+    return "diptych " + asked.get_name() + ": " + text + "; it has " + discrete::joined(option_names(asked));
   }
 } // namespace diptych::coupling

@@ -14,7 +14,7 @@
 #include "coupling/program/continuum_command.h"
 #include "coupling/program/discrete_command.h"
 #include "coupling/program/report_command.h"
-#include "coupling/program/run_room.h"
+#include "coupling/program/resource_estimate.h"
 #include "coupling/store/provenance.h"
 #include "coupling/store/result_folder.h"
 
@@ -59,7 +59,7 @@ namespace diptych::coupling
           say(line, "report: " + report_file(scene.output.directory));
         return done;
       }
-    announce_room(line, scene, {true, true});
+    announce_resources(line, scene, {true, true});
     return writing(scene.output.directory, [&](FolderLock &lock) {
       std::unique_ptr<RecordedGrains> prepared;
       const SceneChanges              changes = open_result_folder(scene, lock, opening_of(line), [&](const SceneChanges &found) {

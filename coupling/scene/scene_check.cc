@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -219,6 +220,17 @@ namespace diptych::coupling
       });
       return values;
     }
+
+    // The second run shows what larger elements do to the band.
+    std::optional<std::string> doubtful_coarse_mesh(const Scene &scene)
+    {
+      const double coarse = scene.comparison.coarse_element_size, fine = scene.continuum.element_size;
+      if (coarse == 0 || coarse > fine || scene.continuum.mesh.kind == continuum::MeshOption::Kind::file)
+        return std::nullopt;
+      return "comparison/coarse_element_size = " + text_of(coarse) +
+             " is not larger than continuum/element_size = " + text_of(fine) +
+             ": the run on the coarse mesh is no coarser than the first; give a larger size, or 0 for no such run";
+    }
   } // namespace
 
   void check_comparison(const Scene &scene, const std::string &file, const std::vector<Entry> &entries, const bool compares)
@@ -277,6 +289,8 @@ namespace diptych::coupling
         const auto set = last.find("continuum/" + name);
         warnings.push_back((set == last.end() ? "" : text_of(set->second.place) + ": ") + "continuum/" + name + text);
       }
+    if (const auto text = doubtful_coarse_mesh(scene))
+      warnings.push_back(*text + places_of(*text, "", entries));
     return warnings;
   }
 } // namespace diptych::coupling

@@ -18,6 +18,6 @@ namespace diptych::coupling
   void check_comparison(const Scene &scene, const std::string &file, const std::vector<Entry> &entries, bool compares);
 
   // Keys that the scene sets to another value than the default and that nothing reads, each with the key that says so; moduli and
-  // cohesions that are probably meant in another unit.
+  // cohesions that are probably meant in another unit; a coarse mesh that is no coarser than the first.
   std::vector<std::string> warnings_of(const Scene &scene, const std::vector<Entry> &entries);
 } // namespace diptych::coupling

@@ -11,17 +11,12 @@
 
 #include "coupling/scene/scene_error.h"
 #include "discrete/files/text_file.h"
+#include "discrete/files/words.h"
 
 namespace diptych::coupling
 {
   namespace
   {
-    std::string trimmed(const std::string &text)
-    {
-      const auto first = text.find_first_not_of(" \t\r\n");
-      return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-    }
-
     // Up to the first # without a \ before it; \# becomes #.
     std::string without_comment(const std::string &line)
     {
@@ -35,7 +30,7 @@ namespace diptych::coupling
             kept.pop_back();
           kept += c;
         }
-      return trimmed(kept);
+      return std::string(discrete::trimmed(kept));
     }
 
     std::size_t n_last_backslashes(const std::string &text)
@@ -50,7 +45,7 @@ namespace diptych::coupling
       if (line.size() <= keyword.size() || strncasecmp(line.c_str(), keyword.c_str(), keyword.size()) != 0 ||
           (line[keyword.size()] != ' ' && line[keyword.size()] != '\t'))
         return std::nullopt;
-      return trimmed(line.substr(keyword.size()));
+      return std::string(discrete::trimmed(line.substr(keyword.size())));
     }
     // What a full disk leaves of a scene is not the scene of defaults; nor is one line all that a file without line ends says.
     void demand_text(const std::string &file, const std::string &text)
@@ -92,7 +87,10 @@ namespace diptych::coupling
         const Place place(file, ++number);
         std::string line = without_comment(raw);
         while (n_last_backslashes(line) % 2 == 1 && std::getline(in, raw))
-          line = trimmed(line.substr(0, line.size() - 1)) + " " + without_comment(raw), ++number;
+          {
+            line = std::string(discrete::trimmed(line.substr(0, line.size() - 1))) + " " + without_comment(raw);
+            ++number;
+          }
         if (n_last_backslashes(line) % 2 == 1)
           throw SceneError({place, "", "", "", ""},
                            "the line ends with \\, which continues it on the next one, but the file ends");
@@ -114,11 +112,11 @@ namespace diptych::coupling
           }
         else if (const auto set = after("set", line); set && set->find('=') != std::string::npos && set->find('=') > 0)
           {
-            const std::string key        = trimmed(set->substr(0, set->find('=')));
+            const std::string key(discrete::trimmed(set->substr(0, set->find('='))));
             const auto [first, is_first] = places.try_emplace(section + "/" + key, place);
             if (!is_first)
               throw SceneError({place, section + "/" + key, "", "", ""}, "is set twice, first in " + text_of(first->second));
-            entries.push_back({section, key, trimmed(set->substr(set->find('=') + 1)), place, folder});
+            entries.push_back({section, key, std::string(discrete::trimmed(set->substr(set->find('=') + 1))), place, folder});
           }
         else
           throw SceneError({place, "", "", "", ""}, "'" + line + "' is neither 'subsection NAME', 'set KEY = VALUE' nor 'end'");
@@ -144,7 +142,7 @@ namespace diptych::coupling
     if (slash == std::string::npos || equals == std::string::npos || slash == 0 || equals <= slash + 1 ||
         text.substr(slash + 1, equals - slash - 1).find('/') != std::string::npos)
       throw SceneError("--set " + text + ": not of the form section/key=value");
-    return {text.substr(0, slash), text.substr(slash + 1, equals - slash - 1), trimmed(text.substr(equals + 1)),
-            Place("--set " + text), ""};
+    return {text.substr(0, slash), text.substr(slash + 1, equals - slash - 1),
+            std::string(discrete::trimmed(text.substr(equals + 1))), Place("--set " + text), ""};
   }
 } // namespace diptych::coupling

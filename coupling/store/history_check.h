@@ -28,14 +28,23 @@ namespace diptych::coupling
       throw std::invalid_argument(check.table + what);
     }
 
-    // A number is finite unless the column's meaning speaks of nan.
+    // A plain text is the meaning of a column whose numbers are finite.
+    template <class Meaning> bool may_be_nan(const Meaning &meaning)
+    {
+      if constexpr (std::is_class_v<Meaning>)
+        return meaning.may_be_nan;
+      else
+        return false;
+    }
+
+    // A number is finite unless its column may hold NaN.
     template <class Row> void demand_numbers(const std::vector<Row> &rows, const HistoryCheck &check)
     {
       for (std::size_t k = 0; k < rows.size(); ++k)
-        visit_columns(rows[k], [&](const std::string &name, const auto &value, const char *, const std::string &meaning) {
+        visit_columns(rows[k], [&](const std::string &name, const auto &value, const char *, const auto &meaning) {
           if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
             {
-              const bool may_be_unknown = meaning.find("nan") != std::string::npos ||
+              const bool may_be_unknown = may_be_nan(meaning) ||
                                           (check.another_code && name != "progress" && name != "axial_strain");
               if (!std::isfinite(value) && !may_be_unknown)
                 refuse(check, ", line " + std::to_string(k + 2) + ": column '" + name + "' is not finite");

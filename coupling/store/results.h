@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +37,18 @@ namespace diptych::coupling
     ContinuumResults       continuum, coarse; // coarse: on the coarse mesh, without it empty
     std::vector<PhaseCost> phases;
   };
+
+  // Progress of stages: two that differ by less are the same stage.
+  constexpr double same_progress = 1e-6;
+
+  // Index of the first snapshot at that progress; none where no stage ends there.
+  template <class Snapshot> std::optional<std::size_t> snapshot_at(const std::vector<Snapshot> &snapshots, const double progress)
+  {
+    for (std::size_t k = 0; k < snapshots.size(); ++k)
+      if (std::abs(snapshots[k].progress - progress) < same_progress)
+        return k;
+    return std::nullopt;
+  }
 
   // Of a result folder: discrete.h5 and .csv, continuum.h5 and .csv, coarse/continuum.h5 and .csv, provenance.json. Throws
   // std::invalid_argument naming what is missing, broken or not of the same run: a table without the last step of a stage, a mesh

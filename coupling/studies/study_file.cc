@@ -105,7 +105,7 @@ namespace diptych::coupling
         if (part.has(name))
           given.push_back(reduction);
       if (given.size() != 1)
-        part.refuse("a quantity has exactly one of " + listed(names_of(Reduction())));
+        part.refuse("a quantity has exactly one of " + discrete::listed(names_of(Reduction())));
       quantity.reduction = given.front();
       switch (given.front())
         {

@@ -13,6 +13,7 @@
 #include "coupling/studies/study_numbers.h"
 #include "coupling/version.h"
 #include "discrete/files/text_file.h"
+#include "discrete/files/words.h"
 
 namespace diptych::coupling
 {
@@ -31,14 +32,6 @@ namespace diptych::coupling
     std::string cell(const double value)
     {
       return std::isfinite(value) ? text_of(value) : "";
-    }
-
-    std::string joined(const std::vector<std::string> &texts)
-    {
-      std::string line;
-      for (const std::string &text : texts)
-        line += (line.empty() ? "" : "; ") + text;
-      return line;
     }
 
     std::set<std::string> phases_of(const StudyResults &results)
@@ -68,7 +61,7 @@ namespace diptych::coupling
         memory = std::fmax(memory, phase.peak_memory_mb);
       line = {std::to_string(point),
               cell(of.family < 0 ? "reference" : t.study.families[std::size_t(of.family)].name),
-              cell(joined(of.settings)),
+              cell(discrete::joined(of.settings, "; ")),
               t.study.seeds.empty() ? "" : std::to_string(t.study.seeds[sample]),
               cell(discrete::name_of(record.kind)),
               run.is_known ? std::to_string(run.exit_code) : "",

@@ -26,14 +26,6 @@ namespace diptych::coupling
     }
   } // namespace
 
-  std::string listed(const std::vector<std::string> &names)
-  {
-    std::string text;
-    for (const std::string &name : names)
-      text += (text.empty() ? "" : ", ") + name;
-    return text;
-  }
-
   Part::Part(const JsonText &text, const ordered_json &value, std::string pointer)
       : text(text),
         value(value),
@@ -55,10 +47,11 @@ namespace diptych::coupling
   void Part::allow(const std::vector<std::string> &keys) const
   {
     if (!value.is_object())
-      refuse("an object is needed, with " + listed(keys));
+      refuse("an object is needed, with " + discrete::listed(keys));
     for (const auto &[key, member] : value.items())
       if (std::find(keys.begin(), keys.end(), key) == keys.end())
-        refuse(key, ": unknown key; the nearest is '" + discrete::nearest_name(key, keys) + "', all are " + listed(keys));
+        refuse(key,
+               ": unknown key; the nearest is '" + discrete::nearest_name(key, keys) + "', all are " + discrete::listed(keys));
   }
 
   Part Part::at(const std::string &key) const

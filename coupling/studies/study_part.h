@@ -8,12 +8,10 @@
 #include "coupling/scene/json_text.h"
 #include "coupling/studies/study.h"
 #include "discrete/choices.h"
+#include "discrete/files/words.h"
 
 namespace diptych::coupling
 {
-  // "a, b, c"
-  std::string listed(const std::vector<std::string> &names);
-
   // The names of an enum's table.
   template <class E> std::vector<std::string> names_of(const E)
   {
@@ -54,7 +52,7 @@ namespace diptych::coupling
         return otherwise;
       if (const auto chosen = discrete::value_of<E>(word(key)))
         return *chosen;
-      refuse(key, " = '" + word(key) + "' is not allowed: one of " + listed(names_of(E())) + " is");
+      refuse(key, " = '" + word(key) + "' is not allowed: one of " + discrete::listed(names_of(E())) + " is");
     }
 
     // As on the command line, "1-8" or "1,3,5-7" or a number; empty where it is not there.

@@ -10,24 +10,19 @@
 
 #include "discrete/files/nearest_name.h"
 #include "discrete/files/text_file.h"
+#include "discrete/files/words.h"
 
 namespace diptych::discrete
 {
   namespace
   {
-    std::string trimmed(const std::string &text)
-    {
-      const std::size_t first = text.find_first_not_of(" \t\r");
-      return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-    }
-
     std::vector<std::string> fields_of(const std::string &line)
     {
       std::vector<std::string> fields;
       for (std::size_t start = 0; start != std::string::npos;)
         {
           const std::size_t comma = line.find(',', start);
-          fields.push_back(trimmed(line.substr(start, comma == std::string::npos ? comma : comma - start)));
+          fields.emplace_back(trimmed(line.substr(start, comma == std::string::npos ? comma : comma - start)));
           start = comma == std::string::npos ? comma : comma + 1;
         }
       return fields;
@@ -56,7 +51,7 @@ namespace diptych::discrete
       for (int number = 1; std::getline(file, text); ++number)
         {
           ask_now_and_then(go_on, std::size_t(number), path);
-          text = trimmed(text);
+          text = std::string(trimmed(text));
           if (!text.empty() && text[0] != '#')
             lines.push_back({number, text});
         }

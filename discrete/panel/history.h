@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "discrete/meaning.h"
 #include "discrete/stepping/time_stepping.h"
 #include "discrete/walk.h"
 
@@ -46,7 +47,7 @@ namespace diptych::discrete
     visit("step", r.step, "-", "steps so far; the halves of a halved step count");
     visit("time", r.time, "time", "time since the start of the loading");
     visit("axial_strain", r.axial_strain, "-", "descent of the upper platen / initial height");
-    visit("stress_ratio", r.stress_ratio, "-", "t/s of the mean stress; nan without stress");
+    visit("stress_ratio", r.stress_ratio, "-", Meaning("t/s of the mean stress; nan without stress", true));
     visit("volumetric_strain", r.volumetric_strain, "-", "1 - V/V0 of the outline, dilation negative");
     visit("sxx", r.stress(0, 0), "pressure", "mean stress: sum of internal moments / area of the outline, xx component");
     visit("sxy", r.stress(0, 1), "pressure", "mean stress, xy component (row: of the force)");

@@ -159,20 +159,20 @@ namespace diptych::discrete
       });
     }
 
-    // True if the value is finite or the meaning of the attribute allows nan or inf.
-    bool may_be(const double value, const std::string &name, const std::string &meaning, const bool of_another_code)
+    // True if the value is finite or the attribute may be nan or inf.
+    bool may_be(const double value, const std::string &name, const Meaning &meaning, const bool of_another_code)
     {
       if (std::isfinite(value))
         return true;
       if (std::isinf(value))
-        return meaning.find("inf:") != std::string::npos;
-      return meaning.find("nan") != std::string::npos || (of_another_code && !is_always_told(name));
+        return meaning.may_be_infinite;
+      return meaning.may_be_nan || (of_another_code && !is_always_told(name));
     }
 
     void read_attributes(const Hdf5Reader &file, const std::string &group, const ArrayCheck &check, Snapshot &s)
     {
       const bool of_another_code = !file.has(group + "/contacts/impulse"); // imported frames have no step
-      visit_attributes(s, [&](const char *name, auto &value, const char *, const char *meaning) {
+      visit_attributes(s, [&](const char *name, auto &value, const char *, const Meaning &meaning) {
         using Value = std::decay_t<decltype(value)>;
         if constexpr (std::is_same_v<Value, double>)
           {

@@ -56,7 +56,6 @@ namespace diptych::discrete
     // step.
     constexpr double strength_of_step = 0.05, strength_of_strain = 55;
     constexpr double dilation_of_noise = 0.2, dilation_of_noise_and_step = 0.8;
-    constexpr double dilation_share = 1.25; // error of the dilation / accuracy
     // Residuals add up along extended chains, so larger samples lose more.
     constexpr double grains_of_rule = 1000, power_of_grains = 0.75;
     // Beyond these limits the rule fails: half of the dilation is lost.

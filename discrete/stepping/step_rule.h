@@ -26,6 +26,9 @@ namespace diptych::discrete
             "relative error of the dilation is 1.25 accuracy");
   }
 
+  // Error of the dilation that the rules allow / accuracy.
+  constexpr double dilation_share = 1.25;
+
   // State of the flow, from which the rules follow.
   struct FlowState
   {

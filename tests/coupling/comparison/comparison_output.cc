@@ -121,6 +121,21 @@ namespace
     EXPECT_TRUE(found);
   }
 
+  // Steps of the panels reach a stage to within rounding errors; the table names the stage, comparison.json what was reached.
+  TEST(ComparisonOutput, TheTableNamesTheStageThatTheSceneAskedFor)
+  {
+    const files::Folder folder("stages");
+    Comparison          c = compare(example_scene(), example_results());
+    c.windows[0].to       = 0.0199999999998;
+    write_comparison(folder.path, example_scene(), c);
+    json document;
+    std::ifstream(folder / "comparison.json") >> document;
+    EXPECT_EQ(document["windows"][0]["to"], 0.0199999999998);
+    const std::string csv = files::contents_of(folder / "comparison.csv");
+    EXPECT_NE(csv.find("\n0.0,0.02,continuum,"), std::string::npos);
+    EXPECT_EQ(csv.find("0.0199999999998"), std::string::npos);
+  }
+
   TEST(ComparisonOutput, ArraysHaveTitleUnitAndMeaning)
   {
     const diptych::discrete::Hdf5Reader file(written().folder / "comparison.h5");

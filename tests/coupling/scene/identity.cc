@@ -117,6 +117,16 @@ namespace
     EXPECT_TRUE(warnings("subsection continuum\n  set refinement = adaptive\n  set refinement_levels = 3\nend\n").empty());
   }
 
+  TEST(Warnings, ACoarseMeshThatIsNotCoarserIsNamedWithBothKeys)
+  {
+    expect_one(warnings("subsection continuum\n  set element_size = 4\nend\n"),
+               {"warned.prm, line 2", "comparison/coarse_element_size = 4", "continuum/element_size = 4"});
+    expect_one(warnings("", {"continuum/element_size=3", "comparison/coarse_element_size=2"}),
+               {"--set continuum/element_size=3", "--set comparison/coarse_element_size=2"});
+    EXPECT_TRUE(warnings("", {"continuum/element_size=5", "comparison/coarse_element_size=0"}).empty());
+    EXPECT_TRUE(warnings("", {"continuum/element_size=3.9"}).empty());
+  }
+
   // Default E = 500 P. Between 50 and 1e6, and cohesions up to 1, nothing is said.
   TEST(Warnings, ModuliAndCohesionsThatLookAbsoluteArePointedOut)
   {

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "continuum/history.h"
 #include "tests/coupling/comparison/example_results.h"
 #include "tests/coupling/store/examples.h"
 
@@ -88,5 +89,21 @@ namespace
     rows[7].time = rows[7].energy_residual = NAN; // another code tells less
     EXPECT_NO_THROW(check_history(rows, three_snapshots(), {"mine.csv", true, true}));
     EXPECT_THROW(check_history(rows, three_snapshots(), {"mine.csv", true, false}), std::invalid_argument);
+  }
+
+  // Both tables hold NaN in the one column whose description says so, whatever the words of the others.
+  TEST(HistoryCheck, OnlyTheStressRatioMayBeNan)
+  {
+    const auto named = [](const auto &row) {
+      std::vector<std::string> names;
+      visit_columns(row, [&](const std::string &name, const auto &, const char *, const auto &meaning) {
+        if (history::may_be_nan(meaning))
+          names.push_back(name);
+      });
+      return names;
+    };
+    const std::vector<std::string> expected{"stress_ratio"};
+    EXPECT_EQ(named(HistoryRow()), expected);
+    EXPECT_EQ(named(diptych::continuum::HistoryRow()), expected);
   }
 } // namespace

@@ -1,6 +1,6 @@
 // diptych: what a run will take of the machine
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupling/program/run_room.h"
+#include "coupling/program/resource_estimate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "coupling/processes/progress.h"
+#include "discrete/files/words.h"
 
 namespace diptych::coupling
 {
@@ -109,14 +110,6 @@ namespace diptych::coupling
              (load_steps * elements) * step_of_an_element;
     }
 
-    std::string listed(const std::vector<std::string> &items)
-    {
-      std::string text;
-      for (const std::string &item : items)
-        text += (text.empty() ? "" : ", ") + item;
-      return text.empty() ? "what files say" : text;
-    }
-
     // Of the machine, or what this process may have of it (ulimit -v) besides what the continuum's libraries map (main.cc).
     double memory_of_process(const RunParts &parts)
     {
@@ -125,6 +118,24 @@ namespace diptych::coupling
       rlimit       limit{};
       const bool   is_limited = getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
       return is_limited ? std::min(machine, double(limit.rlim_cur) - libraries) : machine;
+    }
+
+    bool is_adaptive(const Scene &scene, const RunParts &parts)
+    {
+      return parts.continuum && scene.continuum.refinement == continuum::Refinement::adaptive &&
+             scene.continuum.mesh.kind != continuum::MeshOption::Kind::file;
+    }
+
+    // With the meshes on which the run begins; refinement = adaptive divides their elements where plastic strain gathers.
+    Scene with_first_meshes(Scene scene, const RunParts &parts)
+    {
+      if (!is_adaptive(scene, parts))
+        return scene;
+      const double larger = std::exp2(scene.continuum.refinement_levels);
+      scene.continuum.element_size *= larger;
+      scene.comparison.coarse_element_size *= larger;
+      scene.continuum.refinement = continuum::Refinement::uniform;
+      return scene;
     }
 
     // The nearest folder above that is there.
@@ -137,68 +148,76 @@ namespace diptych::coupling
     }
   } // namespace
 
-  RunRoom expected_room(const Scene &scene, const RunParts &parts)
+  ResourceEstimate estimate_resources(const Scene &scene, const RunParts &parts)
   {
-    const double grains = n_grains(scene), elements = n_elements(scene, parts);
-    const double n_stages = double(stages(scene.loading).size()) + 1;
-    const double rows = n_rows(scene, parts), loaded = parts.grains ? grains : 0;
-    RunRoom      room;
-    room.steps      = n_steps(scene, parts);
-    room.load_steps = n_load_steps(scene, parts);
-    room.memory     = memory_of_a_grain * grains + memory_of_an_element * elements + memory_of_a_row * rows;
+    const double     grains = n_grains(scene), elements = n_elements(scene, parts);
+    const double     n_stages = double(stages(scene.loading).size()) + 1;
+    const double     rows = n_rows(scene, parts), loaded = parts.grains ? grains : 0;
+    ResourceEstimate estimate;
+    estimate.steps      = n_steps(scene, parts);
+    estimate.load_steps = n_load_steps(scene, parts);
+    estimate.memory     = memory_of_a_grain * grains + memory_of_an_element * elements + memory_of_a_row * rows;
     // At the end the stages stand one by one and in the whole file, too; a megabyte is what every file is given at first.
-    room.disk = disk_of_files +
-                ways_of_keeping * parts.samples *
-                  (n_stages * (bytes_of_a_grain * loaded + bytes_of_an_element * elements) + bytes_of_a_row * rows);
-    room.cpu_s = double(parts.samples) * cpu_seconds(scene, parts, room.steps, room.load_steps);
-    return room;
+    estimate.disk = disk_of_files +
+                    ways_of_keeping * parts.samples *
+                      (n_stages * (bytes_of_a_grain * loaded + bytes_of_an_element * elements) + bytes_of_a_row * rows);
+    const auto seconds = [&](const Scene &of) {
+      return double(parts.samples) * cpu_seconds(of, parts, estimate.steps, estimate.load_steps);
+    };
+    estimate.cpu_s = {seconds(with_first_meshes(scene, parts)).low, seconds(scene).high};
+    return estimate;
   }
 
-  void demand_room(const Scene &scene, const RunParts &parts)
+  void require_resources(const Scene &asked_scene, const RunParts &parts)
   {
-    const RunRoom     room   = expected_room(scene, parts);
-    const double      memory = memory_of_process(parts);
+    const Scene            scene    = with_first_meshes(asked_scene, parts);
+    const ResourceEstimate estimate = estimate_resources(scene, parts);
+    const double           memory   = memory_of_process(parts);
     const std::string asked = "the scene asks for " + counted(n_grains(scene)) + " grains, " + counted(n_elements(scene, parts)) +
                               " elements and " + counted(n_rows(scene, parts)) + " rows of discrete.csv, ";
     const std::string keys = " (sample/grains, continuum/element_size, discrete/history_interval); nothing was written";
-    if (room.memory > memory)
-      throw std::runtime_error(asked + "which take about " + bytes(room.memory) + " of memory; this process may have " +
+    if (estimate.memory > memory)
+      throw std::runtime_error(asked + "which take about " + bytes(estimate.memory) + " of memory; this process may have " +
                                bytes(memory) + keys);
     std::error_code      unknown;
     const fs::space_info disk = fs::space(standing(scene.output.directory), unknown);
-    if (!unknown && room.disk > double(disk.available))
-      throw std::runtime_error(asked + "which take about " + bytes(room.disk) + " of disk; " + scene.output.directory + " has " +
-                               bytes(double(disk.available)) + keys);
+    if (!unknown && estimate.disk > double(disk.available))
+      throw std::runtime_error(asked + "which take about " + bytes(estimate.disk) + " of disk; " + scene.output.directory +
+                               " has " + bytes(double(disk.available)) + keys);
   }
 
-  void announce_room(const CommandLine &line, const Scene &scene, const RunParts &parts)
+  void announce_resources(const CommandLine &line, const Scene &scene, const RunParts &parts)
   {
-    demand_room(scene, parts);
+    require_resources(scene, parts);
     if (!line.resume)
-      say(line, scene.name + ": " + room_text(scene, parts));
+      say(line, scene.name + ": " + resource_text(scene, parts));
   }
 
-  std::string room_text(const Scene &scene, const RunParts &parts)
+  std::string resource_text(const Scene &scene, const RunParts &parts)
   {
-    const RunRoom            room = expected_room(scene, parts);
+    const ResourceEstimate   estimate = estimate_resources(scene, parts);
     std::vector<std::string> of_each, in_all;
     const auto               add = [&](const double number, const std::string &what) {
       if (number > 0)
         of_each.push_back(counted(std::ceil(number)) + " " + what);
     };
     add(n_grains(scene), "grains");
-    add(room.steps, "steps");
-    add(n_elements(scene, parts), "elements");
-    add(room.load_steps, "load steps");
-    if (room.memory > 0)
-      in_all.push_back(bytes(room.memory) + " of memory" + (parts.samples > 1 ? " a process" : ""));
-    if (room.disk > 0)
-      in_all.push_back(bytes(room.disk) + " of files");
-    if (room.cpu_s.low > 0)
-      in_all.push_back(
-        (room.cpu_s.high < 1 ? "less than 1 s" : duration_text(room.cpu_s.low) + " to " + duration_text(room.cpu_s.high)) +
-        " of CPU time");
-    return (parts.samples > 1 ? std::to_string(parts.samples) + " samples, each of " : "") + listed(of_each) + "; about " +
-           listed(in_all);
+    add(estimate.steps, "steps");
+    add(n_elements(scene, parts), is_adaptive(scene, parts) ? "elements at most" : "elements");
+    add(estimate.load_steps, "load steps");
+    if (estimate.memory > 0)
+      in_all.push_back(bytes(estimate.memory) + " of memory" + (parts.samples > 1 ? " a process" : ""));
+    if (estimate.disk > 0)
+      in_all.push_back(bytes(estimate.disk) + " of files");
+    if (estimate.cpu_s.low > 0)
+      in_all.push_back((estimate.cpu_s.high < 1
+                          ? "less than 1 s"
+                          : duration_text(estimate.cpu_s.low) + " to " + duration_text(estimate.cpu_s.high)) +
+                       " of CPU time");
+    const auto known = [](const std::vector<std::string> &items) {
+      return items.empty() ? "size unknown before its files are read" : discrete::listed(items);
+    };
+    return (parts.samples > 1 ? std::to_string(parts.samples) + " samples, each of " : "") + known(of_each) +
+           (is_adaptive(scene, parts) ? "; at most " : "; about ") + known(in_all);
   }
 } // namespace diptych::coupling
