@@ -8,7 +8,7 @@
 #include "coupling/bands/band_detection.h"
 #include "coupling/comparison/increment.h"
 #include "coupling/ensembles/ensemble.h"
-#include "coupling/results/results.h"
+#include "coupling/store/results.h"
 #include "coupling/scene/scene.h"
 
 namespace diptych::coupling
