@@ -49,12 +49,12 @@ namespace diptych::continuum
   class BoundaryValueProblem
   {
   public:
-    BoundaryValueProblem(const QuadMesh    &mesh,
-                         const Units       &units,
-                         const Loading     &loading,
-                         const Options     &options,
-                         MPI_Comm           communicator   = MPI_COMM_WORLD,
-                         const StopRequest &stop_requested = {}); // between phases: throws SetUpStopped
+    BoundaryValueProblem(const QuadMesh  &mesh,
+                         const Units     &units,
+                         const Loading   &loading,
+                         const Options   &options,
+                         MPI_Comm         communicator = MPI_COMM_WORLD,
+                         const CheckStop &check_stop   = {}); // called between phases
 
     // In the place of the isotropic stress, one tensor per cell of this process, compression positive.
     void set_initial_stress(const std::vector<Eigen::Matrix2d> &stress);
@@ -95,7 +95,7 @@ namespace diptych::continuum
     void reset_balance();
 
     // After a change of the mesh: new unknowns, then the state carried over by the caller.
-    void rebuild(const StopRequest &stop_requested = {});
+    void rebuild(const CheckStop &check_stop = {});
     void adopt(CommittedState state);
 
     // Grows whenever the unknowns or their constraints change: matrices have another pattern then.
@@ -122,7 +122,7 @@ namespace diptych::continuum
     DistributedVector   owned_values(const std::vector<double> &relevant) const; // its inverse
 
   private:
-    void                                   set_conditions(const SideContact &contact, const StopRequest &stop_requested = {});
+    void                                   set_conditions(const SideContact &contact, const CheckStop &check_stop = {});
     void                                   move_nodes();
     bool                                   moves() const { return options.geometry == Kinematics::updated; }
     std::array<PlatenPlane, 2>             platen_planes() const;

@@ -38,10 +38,12 @@ namespace diptych::continuum
     double                localisation_angle = 0; // of the line that could form there [degrees from the horizontal]
   };
 
-  // All optional. On several processes stop_requested and before_step are asked of all of them, the others of the first alone.
+  // All optional. On several processes all of them call check_stop, stop_requested and before_step; the first alone calls the
+  // others.
   struct Hooks
   {
-    std::function<bool()> stop_requested; // asked between phases of the set-up, before every step and linear solve
+    CheckStop             check_stop;     // called between phases of the constructor; throws on all processes or on none
+    std::function<bool()> stop_requested; // asked before every step and linear solve
     std::function<void()> before_step;    // where a checkpoint may be taken
     std::function<void(const std::string &phase, double fraction)> on_progress;
     std::function<void(const HistoryRow &)> on_row; // of every accepted step and of the state at rest (step 0)
@@ -53,7 +55,7 @@ namespace diptych::continuum
   {
   public:
     // `units`: what keys of `options` count in. Throws std::invalid_argument on a mesh, a loading or options that are wrong or
-    // contradict each other, SetUpStopped (stopping.h) where hooks.stop_requested says so.
+    // contradict each other, and what hooks.check_stop throws.
     Panel(const QuadMesh &mesh,
           const Units    &units,
           const Loading  &loading,
