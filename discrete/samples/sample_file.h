@@ -47,7 +47,7 @@ namespace diptych::discrete
   // absent), in any order: centre and radius [length, 1e-12 to 1e12 the radius], velocity [length/time], spin, counter-clockwise
   // positive [rad/time]. Rotations start from 0, masses are density x pi r^2 (density: mass/length^2 per unit thickness).
   // Throws std::invalid_argument naming file, line, column, value and range (see read_csv).
-  GrainFile read_grains_csv(const std::string &path, double density, const GoOn &go_on = {});
+  GrainFile read_grains_csv(const std::string &path, double density, const CheckStop &check_stop = {});
 
   // Writes such a file with all columns and numbers that read back with the same bits; rotations and masses are not kept.
   // Throws std::runtime_error when it cannot be written.
