@@ -1,26 +1,22 @@
-// diptych: requests to stop a long computation between its phases
+// diptych: how a caller stops a long computation
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
 #include <functional>
-#include <stdexcept>
-#include <string>
 
 namespace diptych::continuum
 {
-  // Returns true if a stop was requested. The call is collective: all processes ask at the same places and get the same answer.
-  // An empty function means that no stop can be requested.
+  // Work that can be continued asks this and ends with a report. True: stop. Collective: on several processes all ask at the
+  // same places and get the same answer. Empty: never stops.
   using StopRequest = std::function<bool()>;
 
-  // The run was stopped before any state existed from which it could be resumed.
-  struct SetUpStopped : std::runtime_error
-  {
-    using std::runtime_error::runtime_error;
-  };
+  // Work that leaves nothing to continue calls this now and then. It may throw to leave; the exception passes to the caller.
+  // Empty: never stops.
+  using CheckStop = std::function<void()>;
 
-  inline void leave_if(const StopRequest &stop_requested, const std::string &phase)
+  inline void call(const CheckStop &check_stop)
   {
-    if (stop_requested && stop_requested())
-      throw SetUpStopped("stopped on request before " + phase);
+    if (check_stop)
+      check_stop();
   }
 } // namespace diptych::continuum

@@ -56,10 +56,10 @@ namespace diptych::continuum
     }
   } // namespace
 
-  Discretisation::Discretisation(const QuadMesh    &mesh,
-                                 const ElementKind  kind,
-                                 const MPI_Comm     communicator,
-                                 const StopRequest &stop_requested)
+  Discretisation::Discretisation(const QuadMesh   &mesh,
+                                 const ElementKind kind,
+                                 const MPI_Comm    communicator,
+                                 const CheckStop  &check_stop)
       : triangulation(communicator),
         kind(kind),
         reference(kind),
@@ -67,22 +67,22 @@ namespace diptych::continuum
         dof_handler(triangulation)
   {
     create(mesh, triangulation);
-    leave_if(stop_requested, "numbering the unknowns");
-    distribute(stop_requested);
+    call(check_stop);
+    distribute(check_stop);
     measure();
   }
 
-  void Discretisation::distribute(const StopRequest &stop_requested)
+  void Discretisation::distribute(const CheckStop &check_stop)
   {
     dof_handler.distribute_dofs(element);
-    leave_if(stop_requested, "numbering the nodes");
+    call(check_stop);
     owned = dof_handler.locally_owned_dofs();
     DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
     cells.clear();
     nodes.clear();
     edges.clear();
     number_nodes();
-    leave_if(stop_requested, "collecting the edges");
+    call(check_stop);
     number_locally();
     collect_edges();
   }

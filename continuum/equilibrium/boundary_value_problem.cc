@@ -44,21 +44,21 @@ namespace diptych::continuum
     }
   } // namespace
 
-  BoundaryValueProblem::BoundaryValueProblem(const QuadMesh    &quads,
-                                             const Units       &units,
-                                             const Loading     &loading,
-                                             const Options     &options,
-                                             const MPI_Comm     communicator,
-                                             const StopRequest &stop_requested)
+  BoundaryValueProblem::BoundaryValueProblem(const QuadMesh  &quads,
+                                             const Units     &units,
+                                             const Loading   &loading,
+                                             const Options   &options,
+                                             const MPI_Comm   communicator,
+                                             const CheckStop &check_stop)
       : options(options),
         loading(loading),
         units(units),
         material(make_law(options.law, options.material, units)),
-        mesh(quads, element_kind(options), communicator, stop_requested)
+        mesh(quads, element_kind(options), communicator, check_stop)
   {
-    leave_if(stop_requested, "setting up the boundary conditions");
-    rebuild(stop_requested);
-    leave_if(stop_requested, "setting the state at rest");
+    call(check_stop);
+    rebuild(check_stop);
+    call(check_stop);
     area_at_start = Utilities::MPI::sum(current.area, mesh.communicator());
     set_at_rest(mesh, options, units, loading.pressure, state.points);
     begin_step(0);
@@ -66,10 +66,10 @@ namespace diptych::continuum
     reset_balance();
   }
 
-  void BoundaryValueProblem::rebuild(const StopRequest &stop_requested)
+  void BoundaryValueProblem::rebuild(const CheckStop &check_stop)
   {
-    set_conditions({}, stop_requested);
-    leave_if(stop_requested, "setting up the points");
+    set_conditions({}, check_stop);
+    call(check_stop);
     const std::size_t n_points = mesh.cells.size() * mesh.reference.n_points;
     trial.assign(n_points, {});
     trial_increment.assign(mesh.relevant.n_elements(), 0.);
@@ -85,13 +85,13 @@ namespace diptych::continuum
       add_body_force(mesh, current, loading.body_force, weight);
   }
 
-  void BoundaryValueProblem::set_conditions(const SideContact &contact, const StopRequest &stop_requested)
+  void BoundaryValueProblem::set_conditions(const SideContact &contact, const CheckStop &check_stop)
   {
     in_side_contact = contact;
     conditions      = std::make_unique<BoundaryConditions>(
       mesh, loading, PlatenGrip{options.platens == Platens::rough, options.platen_rotation == PlatenRotation::held}, contact);
-    leave_if(stop_requested, "building the sparsity pattern");
-    tangent.reinit(mesh, conditions->correction(), stop_requested);
+    call(check_stop);
+    tangent.reinit(mesh, conditions->correction(), check_stop);
     ++structure_version;
   }
 

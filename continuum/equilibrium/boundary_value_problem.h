@@ -49,12 +49,12 @@ namespace diptych::continuum
   class BoundaryValueProblem
   {
   public:
-    BoundaryValueProblem(const QuadMesh    &mesh,
-                         const Units       &units,
-                         const Loading     &loading,
-                         const Options     &options,
-                         MPI_Comm           communicator   = MPI_COMM_WORLD,
-                         const StopRequest &stop_requested = {}); // throws SetUpStopped between phases
+    BoundaryValueProblem(const QuadMesh  &mesh,
+                         const Units     &units,
+                         const Loading   &loading,
+                         const Options   &options,
+                         MPI_Comm         communicator = MPI_COMM_WORLD,
+                         const CheckStop &check_stop   = {}); // called between phases
 
     // Replaces the isotropic initial stress: one tensor per cell of this process, compression positive.
     void set_initial_stress(const std::vector<Eigen::Matrix2d> &stress);
@@ -94,8 +94,8 @@ namespace diptych::continuum
     // Makes the internal forces of the present state the loads of share 0.
     void reset_balance();
 
-    // For a change of the mesh: rebuild() creates new unknowns, adopt() takes the state that the caller transferred.
-    void rebuild(const StopRequest &stop_requested = {});
+    // After a change of the mesh: new unknowns, then the state carried over by the caller.
+    void rebuild(const CheckStop &check_stop = {});
     void adopt(CommittedState state);
 
     // Increases whenever unknowns or constraints change, that is, when matrices get a new pattern.
@@ -122,7 +122,7 @@ namespace diptych::continuum
     DistributedVector   owned_values(const std::vector<double> &relevant) const; // inverse of relevant_values()
 
   private:
-    void                                   set_conditions(const SideContact &contact, const StopRequest &stop_requested = {});
+    void                                   set_conditions(const SideContact &contact, const CheckStop &check_stop = {});
     void                                   move_nodes();
     bool                                   moves() const { return options.geometry == Kinematics::updated; }
     std::array<PlatenPlane, 2>             platen_planes() const;

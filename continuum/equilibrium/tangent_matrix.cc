@@ -17,18 +17,18 @@ namespace diptych::continuum
 
   void TangentMatrix::reinit(const Discretisation            &mesh,
                              const AffineConstraints<double> &constraints,
-                             const StopRequest               &stop_requested)
+                             const CheckStop                 &check_stop)
   {
     this->mesh        = &mesh;
     this->constraints = &constraints;
     TrilinosWrappers::SparsityPattern pattern(mesh.owned, mesh.owned, mesh.relevant, mesh.communicator());
     DoFTools::make_sparsity_pattern(mesh.dof_handler, pattern, constraints, false,
                                     Utilities::MPI::this_mpi_process(mesh.communicator()));
-    leave_if(stop_requested, "compressing the sparsity pattern");
+    call(check_stop);
     pattern.compress();
-    leave_if(stop_requested, "allocating the matrix");
+    call(check_stop);
     sparse.reinit(pattern);
-    leave_if(stop_requested, "looking up positions in the matrix");
+    call(check_stop);
     const bool one_process = Utilities::MPI::n_mpi_processes(mesh.communicator()) == 1;
     general.assign(mesh.cells.size(), !one_process);
     places.clear();

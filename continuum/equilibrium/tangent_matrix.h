@@ -18,10 +18,10 @@ namespace diptych::continuum
   class TangentMatrix
   {
   public:
-    // Throws SetUpStopped between its phases.
+    // Calls `check_stop` between its phases.
     void reinit(const Discretisation                    &mesh,
                 const dealii::AffineConstraints<double> &constraints,
-                const StopRequest                       &stop_requested = {});
+                const CheckStop                         &check_stop = {});
 
     void                          clear();
     template <class Element> void add(std::size_t cell, const ElementMatrix<Element> &K);

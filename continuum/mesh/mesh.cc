@@ -193,7 +193,7 @@ namespace diptych::continuum
     }
   } // namespace
 
-  QuadMesh outline_mesh(const Outline &outline, const double element_size, const std::function<bool()> &stop_requested)
+  QuadMesh outline_mesh(const Outline &outline, const double element_size, const CheckStop &check_stop)
   {
     check_outline(outline, element_size);
     const auto make = [&] {
@@ -205,10 +205,10 @@ namespace diptych::continuum
         return mesh;
       });
     };
-    return made_in_child(make, stop_requested);
+    return made_in_child(make, check_stop);
   }
 
-  QuadMesh read_mesh(const std::string &file, const std::function<bool()> &stop_requested)
+  QuadMesh read_mesh(const std::string &file, const CheckStop &check_stop)
   {
     constexpr unsigned int most_cpu_seconds = 120; // a .geo script may have an endless loop
     const std::string      ending           = std::filesystem::path(file).extension().string();
@@ -218,7 +218,7 @@ namespace diptych::continuum
       throw std::invalid_argument(file + ": there is no such mesh file");
     try
       {
-        return made_in_child([&] { return mesh_through_gmsh(file, ending); }, stop_requested, most_cpu_seconds);
+        return made_in_child([&] { return mesh_through_gmsh(file, ending); }, check_stop, most_cpu_seconds);
       }
     catch (const GmshEnded &end)
       {

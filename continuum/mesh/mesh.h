@@ -2,22 +2,22 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <functional>
 #include <string>
 
 #include "continuum/mesh/quad_mesh.h"
 #include "continuum/snapshot.h"
+#include "continuum/stopping.h"
 
 namespace diptych::continuum
 {
-  // Every mesh returned here has passed check().
+  // Every mesh returned here has passed check(). `check_stop` is called while gmsh works (mesh_child.h).
 
   // Mesh the polygon left side - upper platen - right side - lower platen with quadrilaterals whose edges are about
   // `element_size` [length] long. The sides are resampled at the element size along the given polylines; the platens are
   // straight. Sides that are both straight and vertical get vertices at equal heights, as periodic sides need.
   // Throws std::invalid_argument for an outline that is no sample (too few points, points not upward, sides crossing,
   // platens not horizontal) and std::runtime_error when no all-quadrilateral mesh is found.
-  QuadMesh outline_mesh(const Outline &outline, double element_size, const std::function<bool()> &stop_requested = {});
+  QuadMesh outline_mesh(const Outline &outline, double element_size, const CheckStop &check_stop = {});
 
   // A rectangle with its lower left corner at the origin. [length]
   struct Rectangle
@@ -36,8 +36,8 @@ namespace diptych::continuum
   // The user's mesh: a .msh file, or a .geo script, which gmsh meshes first. gmsh opens the file in a child process with two
   // minutes of CPU time. A .geo script is a program and may do what the user may do. Physical lines are recognised by name,
   // those without a name by number; every boundary edge must lie on exactly one of them.
-  // Throws std::invalid_argument naming the file and the fault, and MeshingStopped.
-  QuadMesh read_mesh(const std::string &file, const std::function<bool()> &stop_requested = {});
+  // Throws std::invalid_argument naming the file and the fault.
+  QuadMesh read_mesh(const std::string &file, const CheckStop &check_stop = {});
 
   // MSH 2.2 as deal.II's GridIn and gmsh read it, with the ids and names of BoundaryId and all digits; under a temporary name
   // that is then renamed. Throws std::runtime_error naming the file.

@@ -98,6 +98,33 @@ namespace diptych::continuum
       _exit(0);
     }
 
+    // The child and the end of its pipe that is read. Leaving the scope kills a child that has not ended, and closes the pipe.
+    struct Child
+    {
+      pid_t id; // negative: there is none
+      int   pipe;
+
+      ~Child()
+      {
+        if (id > 0)
+          {
+            kill(id, SIGKILL);
+            (void)status();
+          }
+        close(pipe);
+      }
+
+      // Waits for its end. Once.
+      int status()
+      {
+        int status = 0;
+        while (waitpid(id, &status, 0) < 0 && errno == EINTR)
+          {}
+        id = 0;
+        return status;
+      }
+    };
+
     QuadMesh mesh_of(const std::string &bytes, const int status)
     {
       if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
@@ -119,44 +146,32 @@ namespace diptych::continuum
     }
   } // namespace
 
-  QuadMesh made_in_child(const std::function<QuadMesh()> &make,
-                         const std::function<bool()>     &stop_requested,
-                         const unsigned int               most_cpu_seconds)
+  QuadMesh made_in_child(const std::function<QuadMesh()> &make, const CheckStop &check_stop, const unsigned int most_cpu_seconds)
   {
     constexpr int patience_ms = 50;
     int           ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
       throw std::runtime_error(std::string("no process for gmsh: ") + std::strerror(errno));
-    const pid_t child = fork();
-    if (child == 0)
+    Child child{fork(), ends[0]};
+    if (child.id == 0)
       answer_and_end(make, ends[1], most_cpu_seconds);
     close(ends[1]);
-    if (child < 0)
-      {
-        close(ends[0]);
-        throw std::runtime_error(std::string("no process for gmsh: ") + std::strerror(errno));
-      }
+    if (child.id < 0)
+      throw std::runtime_error(std::string("no process for gmsh: ") + std::strerror(errno));
     const auto  last_moment = Clock::now() + wall_seconds_per_cpu_second * std::chrono::seconds(most_cpu_seconds);
     std::string bytes, piece(1 << 16, '\0');
-    bool        stopped = false;
     for (bool open = true; open;)
       {
-        stopped = stopped || (stop_requested && stop_requested());
-        if (stopped || (most_cpu_seconds > 0 && Clock::now() > last_moment)) // a script that sleeps uses no CPU time
-          kill(child, SIGKILL);
-        pollfd wait = {ends[0], POLLIN, 0};
+        call(check_stop);
+        if (most_cpu_seconds > 0 && Clock::now() > last_moment) // a script that sleeps uses no CPU time
+          kill(child.id, SIGKILL);
+        pollfd wait = {child.pipe, POLLIN, 0};
         if (poll(&wait, 1, patience_ms) <= 0)
           continue;
-        const ssize_t n = read(ends[0], piece.data(), piece.size());
+        const ssize_t n = read(child.pipe, piece.data(), piece.size());
         open            = n > 0 || (n < 0 && errno == EINTR);
         bytes.append(piece, 0, n > 0 ? std::size_t(n) : 0);
       }
-    close(ends[0]);
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR)
-      {}
-    if (stopped)
-      throw MeshingStopped();
-    return mesh_of(bytes, status);
+    return mesh_of(bytes, child.status());
   }
 } // namespace diptych::continuum

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -71,12 +70,4 @@ namespace diptych::continuum
 
   // Least sine of a corner over all cells; not positive where one is clockwise, folded or a triangle in disguise.
   double worst_corner(const QuadMesh &mesh);
-
-  // Asked to stop while a mesh was being made.
-  struct MeshingStopped : std::runtime_error
-  {
-    MeshingStopped()
-        : std::runtime_error("stopped on request while the mesh was being made")
-    {}
-  };
 } // namespace diptych::continuum

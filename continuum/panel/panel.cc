@@ -62,7 +62,7 @@ namespace diptych::continuum
           options_(options),
           hooks_(std::move(hooks)),
           communicator_(communicator),
-          problem_(checked(mesh, loading, options), units, loading, options, communicator, stop_request()),
+          problem_(checked(mesh, loading, options), units, loading, options, communicator, hooks_.check_stop),
           driver_(problem_, options, stop_request())
     {
       check_places(problem_.discretisation());

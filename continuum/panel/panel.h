@@ -38,12 +38,13 @@ namespace diptych::continuum
     double                localisation_angle = 0; // of the band that could form there [degrees from the horizontal]
   };
 
-  // All hooks are optional. On several processes stop_requested and before_step are called on all of them, the others only on
-  // the first.
+  // All optional. On several processes all of them call check_stop, stop_requested and before_step; the first alone calls the
+  // others.
   struct Hooks
   {
-    std::function<bool()> stop_requested; // called between set-up phases, before every step and before every linear solve
-    std::function<void()> before_step;    // a checkpoint may be taken here
+    CheckStop             check_stop;     // called between phases of the constructor; throws on all processes or on none
+    std::function<bool()> stop_requested; // asked before every step and linear solve
+    std::function<void()> before_step;    // where a checkpoint may be taken
     std::function<void(const std::string &phase, double fraction)> on_progress;
     std::function<void(const HistoryRow &)> on_row; // for every accepted step and the state at rest (step 0)
   };
@@ -53,8 +54,8 @@ namespace diptych::continuum
   class Panel
   {
   public:
-    // `units` are the units of the options' keys. Throws std::invalid_argument if mesh, loading or options are wrong or
-    // contradict each other. Throws SetUpStopped (stopping.h) if hooks.stop_requested returns true.
+    // `units`: what keys of `options` count in. Throws std::invalid_argument on a mesh, a loading or options that are wrong or
+    // contradict each other, and what hooks.check_stop throws.
     Panel(const QuadMesh &mesh,
           const Units    &units,
           const Loading  &loading,

@@ -64,21 +64,6 @@ namespace diptych::coupling
     return std::nullopt;
   }
 
-  namespace
-  {
-    continuum::QuadMesh outline_mesh_of(const discrete::Snapshot &grains, const double edge)
-    {
-      try
-        {
-          return continuum::outline_mesh({grains.outline.left, grains.outline.right}, edge, stop_requested);
-        }
-      catch (const continuum::MeshingStopped &stopped)
-        {
-          throw StoppedOnRequest(stopped.what());
-        }
-    }
-  } // namespace
-
   double solid_fraction(const discrete::Snapshot &grains)
   {
     double area = 0;
@@ -89,14 +74,7 @@ namespace diptych::coupling
 
   continuum::QuadMesh users_mesh(const std::string &file)
   {
-    try
-      {
-        return continuum::read_mesh(file, stop_requested);
-      }
-    catch (const continuum::MeshingStopped &stopped)
-      {
-        throw StoppedOnRequest(file + ": " + stopped.what());
-      }
+    return continuum::read_mesh(file, [&] { leave_if_stopped("making the mesh of " + file); });
   }
 
   continuum::QuadMesh mesh_of(const Scene &scene, const ContinuumPart &part, const discrete::Snapshot *grains)
@@ -106,7 +84,8 @@ namespace diptych::coupling
     switch (o.mesh.kind)
       {
       case continuum::MeshOption::Kind::outline:
-        return outline_mesh_of(*grains, edge);
+        return continuum::outline_mesh({grains->outline.left, grains->outline.right}, edge,
+                                       [] { leave_if_stopped("making the mesh"); });
       case continuum::MeshOption::Kind::rectangle:
         return continuum::rectangle_mesh({o.rectangle_width, o.rectangle_height, o.platen_width, edge});
       case continuum::MeshOption::Kind::file:

@@ -73,23 +73,11 @@ namespace diptych::coupling
         scene_identity(text_of(continuum_identity(scene))),
         sample_identity(identity_of(mesh)),
         progress(options.quiet),
-        panel(made_panel()),
+        panel(std::make_unique<continuum::Panel>(mesh, continuum_units(scene), loading, scene.continuum, hooks())),
         is_under_way(resume)
   {
     if (resume)
       take_up();
-  }
-
-  std::unique_ptr<continuum::Panel> RecordedContinuum::made_panel()
-  {
-    try
-      {
-        return std::make_unique<continuum::Panel>(mesh, continuum_units(scene), loading, scene.continuum, hooks());
-      }
-    catch (const continuum::SetUpStopped &)
-      {
-        throw StoppedOnRequest(part.title + ": stopped on request while it was set up");
-      }
   }
 
   void RecordedContinuum::take_up()
@@ -122,6 +110,10 @@ namespace diptych::coupling
     continuum::Hooks   hooks;
     std::ostringstream phase;
     phase << "continuum, elements of " << part.element_size << " d";
+    hooks.check_stop = [this] {
+      if (any_process(stop_requested())) // so that all leave
+        throw StoppedOnRequest(part.title + ": stopped on request while it was set up");
+    };
     hooks.stop_requested = stop_requested;
     hooks.before_step    = [this] {
       flush_now_and_then();

@@ -43,16 +43,15 @@ namespace diptych::coupling
   private:
     using Clock = std::chrono::steady_clock;
 
-    std::string                       path(const std::string &name) const { return part.directory + "/" + name; }
-    continuum::Hooks                  hooks();
-    std::unique_ptr<continuum::Panel> made_panel();
-    void                              take_up();
-    void                              prepare();
-    void                              add_row(const continuum::HistoryRow &row);
-    void                              add_snapshot();
-    void                              flush_rows();
-    void                              flush_now_and_then();
-    void                              save();
+    std::string      path(const std::string &name) const { return part.directory + "/" + name; }
+    continuum::Hooks hooks();
+    void             take_up();
+    void             prepare();
+    void             add_row(const continuum::HistoryRow &row);
+    void             add_snapshot();
+    void             flush_rows();
+    void             flush_now_and_then();
+    void             save();
 
     const RunOptions                    &options;
     const Scene                         &scene;

@@ -57,10 +57,8 @@ namespace diptych::coupling
     double                           strength_error = NAN, dilation_error = NAN;             // that the rule of the step expects
   };
 
-  // Runs a task; what was run before is not run again. Throws Interrupted on a stop signal.
+  // Runs a task; what was run before is not run again. Throws StoppedOnRequest on a stop signal.
   using RunPilot = std::function<std::vector<PilotPoint>(const PilotTask &)>;
-  struct Interrupted
-  {};
 
   // A share of the error of a mean.
   struct ErrorPart

@@ -21,7 +21,7 @@ namespace diptych::coupling
   // Of a process whose parent's death sends it SIGTERM (start_answerer): it then has `seconds` to end, and is ended by SIGALRM.
   void end_after_parent(unsigned int seconds);
 
-  // A phase that has nothing to go on from was asked to end: exit code 3.
+  // Work was left on request: exit code 3. The hooks of the panels throw it, too.
   struct StoppedOnRequest : std::runtime_error
   {
     using std::runtime_error::runtime_error;

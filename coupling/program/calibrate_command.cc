@@ -233,9 +233,11 @@ namespace diptych::coupling
           calibrate(
             calibration, coordinates, paths, [&](const ModelTask &task) { return runs.continuum(paths, task); }, record);
         }
-      catch (const CalibrationInterrupted &)
+      catch (const StoppedOnRequest &stopped)
         {
-          record.status = "stopped on request";
+          if (!runs.are_stopped()) // this process alone: the others do not come to keep()
+            throw;
+          record.status = stopped.what();
         }
       catch (const SceneError &)
         {

@@ -12,6 +12,7 @@
 #include "coupling/panels/continuum_mesh.h"
 #include "coupling/plans/plan_text.h"
 #include "coupling/processes/processes.h"
+#include "coupling/processes/stop_signal.h"
 #include "coupling/scene/scene_file.h"
 #include "coupling/statistics/student.h"
 #include "coupling/store/continuum_snapshot_file.h"
@@ -83,11 +84,11 @@ namespace diptych::coupling
 
   void CalibrationRuns::run_or_stop(const StudyPoints &asked)
   {
-    bool interrupted = false;
     for (const TaskOutcome &outcome : do_runs(line, asked))
-      interrupted = interrupted || outcome.interrupted;
-    if (from_first_process(std::vector<double>{double(interrupted)}).front() != 0)
-      throw CalibrationInterrupted();
+      stopped = stopped || outcome.interrupted;
+    stopped = any_process(stopped);
+    if (stopped)
+      throw StoppedOnRequest("stopped on request");
   }
 
   void CalibrationRuns::note_cost(const std::string &folder, double &sum)

@@ -13,10 +13,8 @@
 
 namespace diptych::coupling
 {
-  struct CalibrationInterrupted
-  {};
-
-  // Every run is done once: its folder is named by what is run. Collective; all processes read the results.
+  // Every run is done once: its folder is named by what is run. Collective; all processes read the results. Functions that run
+  // something throw StoppedOnRequest on all processes after a stop signal.
   class CalibrationRuns
   {
   public:
@@ -35,6 +33,7 @@ namespace diptych::coupling
 
     std::vector<std::vector<ModelRun>> continuum(const std::vector<CalibrationPath> &paths, const ModelTask &task);
 
+    bool   are_stopped() const { return stopped; } // on all processes
     double continuum_cpu_s() const { return spent_on_continuum; }
     double grains_cpu_s() const { return spent_on_grains; }
 
@@ -64,6 +63,7 @@ namespace diptych::coupling
     std::string                    directory;
     std::map<std::string, Outline> outlines; // by the target's name
     std::set<std::string>          counted;
+    bool                           stopped            = false;
     double                         spent_on_continuum = 0, spent_on_grains = 0;
   };
 } // namespace diptych::coupling

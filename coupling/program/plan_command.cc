@@ -15,6 +15,7 @@
 #include "coupling/plans/plan_output.h"
 #include "coupling/plans/plan_question.h"
 #include "coupling/plans/plan_text.h"
+#include "coupling/processes/stop_signal.h"
 #include "coupling/program/study_runs.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
@@ -81,7 +82,8 @@ namespace diptych::coupling
           }
         for (const TaskOutcome &outcome : do_runs(line, asked))
           if (outcome.interrupted)
-            throw Interrupted();
+            throw StoppedOnRequest("stopped on request; to go on: diptych plan " + line.target + " --output " + directory +
+                                   " --resume (with the same options)");
         const StudyResults      results = results_of(asked);
         std::vector<PilotPoint> points;
         for (std::size_t k = 0; k < asked.points.size(); ++k)
@@ -296,16 +298,7 @@ namespace diptych::coupling
       inputs.emplace_back("--set-file", file);
     return writing(directory, [&](FolderLock &lock) {
       open_runs_folder(lock, folder_of_a_plan, question.scene, opening_of(line), inputs);
-      try
-        {
-          return carry_out(line, question, scene, directory);
-        }
-      catch (const Interrupted &)
-        {
-          std::cerr << "stopped on request; the runs are kept in " << directory << "; to go on: diptych plan " << line.target
-                    << " --output " << directory << " --resume (with the same options)" << std::endl;
-          return int(not_converged);
-        }
+      return carry_out(line, question, scene, directory);
     });
   }
 } // namespace diptych::coupling

@@ -33,7 +33,7 @@ namespace diptych::python
     explicit DrivenPanel(const Make &make)
     {
       Hooks hooks;
-      hooks.stop_requested = [this] { return panel_ && to_stop(); }; // not while it is made
+      hooks.stop_requested = [this] { return to_stop(); };
       hooks.on_row         = [this](const Row &row) { rows_.push_back(row); };
       panel_               = std::make_unique<Panel>(make(hooks));
     }

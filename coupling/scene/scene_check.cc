@@ -243,30 +243,14 @@ namespace diptych::coupling
     in_section(file, "comparison", entries, [&] { check_probe_options(scene.comparison.probes); });
   }
 
-  namespace
-  {
-    // As long as its table is, so that a signal is asked for between lines.
-    void check_sample_file(const Scene &scene, const discrete::Loading &loading)
-    {
-      try
-        {
-          discrete::check_sample_file(scene.sample, discrete::preparation_setting(loading, scene.discrete),
-                                      [] { return !stop_requested(); });
-        }
-      catch (const discrete::ReadingStopped &stopped)
-        {
-          throw StoppedOnRequest(stopped.what());
-        }
-    }
-  } // namespace
-
   void check_scene(const Scene &scene, const std::string &file, const std::vector<Entry> &entries, const bool compares)
   {
     check_comparison(scene, file, entries, compares);
     in_section(file, "", entries, [&] {
       const discrete::Loading loading = discrete_loading(scene.loading);
       discrete::validate(scene.sample, loading, scene.discrete);
-      check_sample_file(scene, loading);
+      discrete::check_sample_file(scene.sample, discrete::preparation_setting(loading, scene.discrete),
+                                  [&] { leave_if_stopped("reading " + scene.sample.file); });
     });
     in_section(file, "continuum", entries, [&] { continuum::validate(scene.continuum); });
   }

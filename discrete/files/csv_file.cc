@@ -35,22 +35,22 @@ namespace diptych::discrete
     };
 
     // One look at a clock or a flag in a thousand lines costs nothing.
-    void ask_now_and_then(const GoOn &go_on, const std::size_t line, const std::string &path)
+    void call_now_and_then(const CheckStop &check_stop, const std::size_t line)
     {
       if (line % 1024 == 0)
-        ask(go_on, path);
+        call(check_stop);
     }
 
     // Lines that are neither blank nor a comment.
-    std::vector<Line> lines_of(const std::string &path, const GoOn &go_on)
+    std::vector<Line> lines_of(const std::string &path, const CheckStop &check_stop)
     {
       constexpr std::size_t most_bytes = std::size_t(4) << 30; // ten million grains need a tenth of it
-      std::istringstream    file(read_input(path, most_bytes, go_on));
+      std::istringstream    file(read_input(path, most_bytes, check_stop));
       std::vector<Line>     lines;
       std::string           text;
       for (int number = 1; std::getline(file, text); ++number)
         {
-          ask_now_and_then(go_on, std::size_t(number), path);
+          call_now_and_then(check_stop, std::size_t(number));
           text = std::string(trimmed(text));
           if (!text.empty() && text[0] != '#')
             lines.push_back({number, text});
@@ -134,16 +134,16 @@ namespace diptych::discrete
     return found == columns.end() ? std::nullopt : std::optional<std::size_t>(found - columns.begin());
   }
 
-  CsvTable read_csv(const std::string &path, const CsvHeader &header, const GoOn &go_on)
+  CsvTable read_csv(const std::string &path, const CsvHeader &header, const CheckStop &check_stop)
   {
-    const std::vector<Line> lines = lines_of(path, go_on);
+    const std::vector<Line> lines = lines_of(path, check_stop);
     CsvTable                table;
     table.path    = path;
     table.columns = fields_of(lines[0].text);
     check_header(table.columns, header, path + ", line " + std::to_string(lines[0].number));
     for (std::size_t k = 1; k < lines.size(); ++k)
       {
-        ask_now_and_then(go_on, k, path);
+        call_now_and_then(check_stop, k);
         table.rows.push_back(row_of(lines[k], table));
         table.line.push_back(lines[k].number);
       }

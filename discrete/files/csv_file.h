@@ -37,8 +37,8 @@ namespace diptych::discrete
   // exact_text() wrote comes back with the same bits.
   // Throws std::invalid_argument naming file, line, column and value: file missing, empty or without a row; column missing,
   // unknown (with the nearest known one), unnamed or named twice; another number of fields; not a number, not finite, beyond
-  // double precision. `go_on` is asked between lines.
-  CsvTable read_csv(const std::string &path, const CsvHeader &header, const GoOn &go_on = {});
+  // double precision. Calls `check_stop` between lines.
+  CsvTable read_csv(const std::string &path, const CsvHeader &header, const CheckStop &check_stop = {});
 
   // "FILE, line N: column 'r' = '-1'"
   std::string cell_place(const CsvTable &table, std::size_t row, const std::string &column);

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <stdexcept>
 
-
 namespace diptych::discrete
 {
   namespace fs = std::filesystem;

@@ -14,7 +14,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-
 namespace diptych::discrete
 {
   namespace
@@ -67,12 +66,6 @@ namespace diptych::discrete
     return std::string::npos;
   }
 
-  void ask(const GoOn &go_on, const std::string &path)
-  {
-    if (go_on && !go_on())
-      throw ReadingStopped(path + ": stopped on request while it was read");
-  }
-
   void require_regular_file(const std::string &path)
   {
     std::error_code none;
@@ -85,34 +78,35 @@ namespace diptych::discrete
 
   namespace
   {
-    std::string whole_text(const std::string &path, const std::size_t most_bytes, const GoOn &go_on)
+    // Closed on every way out.
+    struct OpenFile
     {
-      const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-      if (file < 0)
+      const int id;
+      ~OpenFile() { ::close(id); }
+    };
+
+    std::string whole_text(const std::string &path, const std::size_t most_bytes, const CheckStop &check_stop)
+    {
+      const OpenFile file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+      if (file.id < 0)
         throw std::invalid_argument(path + ": cannot be read: " + std::strerror(errno));
       std::string text, piece(1 << 16, '\0');
-      ssize_t     n       = 0;
-      bool        goes_on = true;
-      while (text.size() <= most_bytes && ((n = ::read(file, piece.data(), piece.size())) > 0 || (n < 0 && errno == EINTR)) &&
-             goes_on)
+      for (ssize_t n = 1; n != 0 && text.size() <= most_bytes;)
         {
-          if (n > 0)
-            text.append(piece, 0, std::size_t(n));
-          goes_on = !go_on || go_on();
+          call(check_stop);
+          n = ::read(file.id, piece.data(), piece.size());
+          if (n < 0 && errno != EINTR)
+            throw std::invalid_argument(path + ": cannot be read: " + std::strerror(errno));
+          text.append(piece, 0, n > 0 ? std::size_t(n) : 0);
         }
-      const int error = n < 0 ? errno : 0;
-      ::close(file);
-      ask([goes_on] { return goes_on; }, path);
-      if (error != 0)
-        throw std::invalid_argument(path + ": cannot be read: " + std::strerror(error));
       return text;
     }
   } // namespace
 
-  std::string read_input(const std::string &path, const std::size_t most_bytes, const GoOn &go_on)
+  std::string read_input(const std::string &path, const std::size_t most_bytes, const CheckStop &check_stop)
   {
     require_regular_file(path);
-    std::string text = whole_text(path, most_bytes, go_on);
+    std::string text = whole_text(path, most_bytes, check_stop);
     if (const std::size_t bad = first_non_utf8(text); bad < most_bytes && bad != std::string::npos)
       throw std::invalid_argument(
         path + ", line " + std::to_string(1 + std::count(text.begin(), text.begin() + off_t(bad), '\n')) +

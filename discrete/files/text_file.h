@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <stdexcept>
 #include <string>
 
 namespace diptych::discrete
@@ -19,13 +18,14 @@ namespace diptych::discrete
   // The whole file, byte by byte; empty where it cannot be read.
   std::string read_text(const std::string &path);
 
-  // Asked now and then by what may read for long: false ends it, and ReadingStopped is thrown. Empty: nobody asks.
-  using GoOn = std::function<bool()>;
-  struct ReadingStopped : std::runtime_error
+  // A long reading calls this now and then. It may throw to leave; the exception passes to the caller. Empty: never stops.
+  using CheckStop = std::function<void()>;
+
+  inline void call(const CheckStop &check_stop)
   {
-    using std::runtime_error::runtime_error;
-  };
-  void ask(const GoOn &go_on, const std::string &path); // throws it, naming the file
+    if (check_stop)
+      check_stop();
+  }
 
   // Throws std::invalid_argument where `path` is there but no regular file: opening a FIFO waits for its writer, and a device may
   // never come to an end.
@@ -33,7 +33,7 @@ namespace diptych::discrete
 
   // A text that somebody else wrote, in a regular file: at most `most_bytes` of UTF-8 without zeros. A byte order mark at its
   // begin is left out. Throws std::invalid_argument naming the file and, for a byte that is none of a text, its line.
-  std::string read_input(const std::string &path, std::size_t most_bytes, const GoOn &go_on = {});
+  std::string read_input(const std::string &path, std::size_t most_bytes, const CheckStop &check_stop = {});
 
   // Index of the first byte that is none of a text in UTF-8 (a zero, a sequence that is cut, overlong or a surrogate); npos:
   // none.

@@ -104,21 +104,43 @@ namespace diptych::discrete
     return sample;
   }
 
-  FileSample file_sample(const SampleOptions &o, const PreparationSetting &preparation, const GoOn &go_on)
+  namespace
   {
-    return read_for("file", o.file, [&](const std::string &path) {
-      const bool snapshots = path.size() > 3 && path.compare(path.size() - 3, 3, ".h5") == 0;
-      GrainFile  read      = snapshots ? read_grains_hdf5(path) : read_grains_csv(path, o.density, go_on);
-      ask(go_on, path);
-      FileSample sample = place_grains(o, preparation, std::move(read));
-      ask(go_on, path);
-      return sample;
-    });
+    FileSample read_and_placed(const SampleOptions &o, const PreparationSetting &preparation, const CheckStop &check_stop)
+    {
+      return read_for("file", o.file, [&](const std::string &path) {
+        const bool snapshots = path.size() > 3 && path.compare(path.size() - 3, 3, ".h5") == 0;
+        GrainFile  read      = snapshots ? read_grains_hdf5(path) : read_grains_csv(path, o.density, check_stop);
+        call(check_stop);
+        FileSample sample = place_grains(o, preparation, std::move(read));
+        call(check_stop);
+        return sample;
+      });
+    }
+  } // namespace
+
+  std::optional<FileSample> file_sample(const SampleOptions         &o,
+                                        const PreparationSetting    &preparation,
+                                        const std::function<bool()> &go_on)
+  {
+    struct Leave
+    {};
+    try
+      {
+        return read_and_placed(o, preparation, [&] {
+          if (!go_on())
+            throw Leave();
+        });
+      }
+    catch (const Leave &)
+      {
+        return std::nullopt;
+      }
   }
 
-  void check_sample_file(const SampleOptions &o, const PreparationSetting &preparation, const GoOn &go_on)
+  void check_sample_file(const SampleOptions &o, const PreparationSetting &preparation, const CheckStop &check_stop)
   {
     if (!o.file.empty())
-      (void)file_sample(o, preparation, go_on);
+      (void)read_and_placed(o, preparation, check_stop);
   }
 } // namespace diptych::discrete

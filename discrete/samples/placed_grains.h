@@ -22,19 +22,17 @@ namespace diptych::discrete
   // Sets up side walls or cell for the lateral condition during the preparation.
   void set_sides(State &state, const PreparationSetting &setting);
 
-  // Calls read(file) and adds the key to the message of an error in the file.
+  // A fault of the file of a key, and a lack of memory, is reported together with the key. Other exceptions pass.
   template <class Read> auto read_for(const std::string &key, const std::string &file, Read &&read)
   {
     try
       {
         return read(file);
       }
-    catch (const ReadingStopped &)
-      {
-        throw;
-      }
     catch (const std::exception &error)
       {
+        if (dynamic_cast<const std::invalid_argument *>(&error) == nullptr && !is_out_of_memory(error))
+          throw;
         throw_wrong_input("sample/" + key + " = '" + file + "'", error);
       }
   }
@@ -50,9 +48,12 @@ namespace diptych::discrete
   // std::invalid_argument with grains, places and keys.
   FileSample place_grains(const SampleOptions &options, const PreparationSetting &preparation, GrainFile file);
 
-  // The same with the file of `sample/file`. `go_on` is called during reading. If it returns false, ReadingStopped is thrown.
-  FileSample file_sample(const SampleOptions &options, const PreparationSetting &preparation, const GoOn &go_on = {});
+  // The same with the file of `sample/file`. Nothing if `go_on`, asked while it reads, says no.
+  std::optional<FileSample> file_sample(const SampleOptions         &options,
+                                        const PreparationSetting    &preparation,
+                                        const std::function<bool()> &go_on);
 
-  // Reads the whole file of the sample. Throws std::invalid_argument with key, file, place and range if it is wrong.
-  void check_sample_file(const SampleOptions &options, const PreparationSetting &setting, const GoOn &go_on = {});
+  // Throws std::invalid_argument naming key, file, place and range where the file of the sample is wrong. Reads it whole
+  // and calls `check_stop` between its lines.
+  void check_sample_file(const SampleOptions &options, const PreparationSetting &setting, const CheckStop &check_stop = {});
 } // namespace diptych::discrete

@@ -294,9 +294,9 @@ namespace diptych::discrete
            (line.empty() ? ", grain " + std::to_string(grain) + " (counted from 0)" : ", line " + std::to_string(line[grain]));
   }
 
-  GrainFile read_grains_csv(const std::string &path, const double density, const GoOn &go_on)
+  GrainFile read_grains_csv(const std::string &path, const double density, const CheckStop &check_stop)
   {
-    const CsvTable csv = read_csv(path, {{"x", "y", "r"}, {"vx", "vy", "omega", "fixed"}}, go_on);
+    const CsvTable csv = read_csv(path, {{"x", "y", "r"}, {"vx", "vy", "omega", "fixed"}}, check_stop);
     GrainFile      file{path, {}, csv.line};
     for (std::size_t row = 0; row < csv.rows.size(); ++row)
       add_grain_of_row(csv, row, density, file.grains);

@@ -47,7 +47,7 @@ namespace diptych::discrete
   // and r are centre and radius [length; radius 1e-12 to 1e12], vx and vy the velocity [length/time], omega the anticlockwise
   // spin [rad/time]. fixed is a value of Grains::fixed. Rotations start from 0 and masses are density x pi r^2 (density:
   // mass/length^2 per unit thickness). Throws std::invalid_argument with file, line, column, value and range (see read_csv).
-  GrainFile read_grains_csv(const std::string &path, double density, const GoOn &go_on = {});
+  GrainFile read_grains_csv(const std::string &path, double density, const CheckStop &check_stop = {});
 
   // Writes such a file with all columns. The numbers read back with the same bits; rotations and masses are lost. Throws
   // std::runtime_error if the file cannot be written.

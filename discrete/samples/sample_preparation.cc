@@ -375,14 +375,12 @@ namespace diptych::discrete
     if (grains != nullptr)
       sample = ready_sample(options, setting, progress, place_grains(options, setting, {"the sample", *grains, {}, {}}));
     else if (!options.file.empty())
-      try
-        {
-          sample = ready_sample(options, setting, progress, file_sample(options, setting, [&] { return progress(0, 1); }));
-        }
-      catch (const ReadingStopped &)
-        {
+      {
+        std::optional<FileSample> file = file_sample(options, setting, [&] { return progress(0, 1); });
+        if (!file)
           return sample;
-        }
+        sample = ready_sample(options, setting, progress, std::move(*file));
+      }
     else
       {
         sample = options.target_solid_fraction > 0

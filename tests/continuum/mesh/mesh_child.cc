@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "continuum/mesh/mesh.h"
@@ -41,7 +42,10 @@ namespace
       for (volatile int k = 0;; k = k + 1)
         {}
     };
-    EXPECT_THROW((void)made_in_child(endless, [] { return true; }), MeshingStopped);
+    struct Stopped
+    {};
+    EXPECT_THROW((void)made_in_child(endless, [] { throw Stopped(); }), Stopped);
+    EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "the child is still there";
     EXPECT_THROW((void)made_in_child(endless, {}, 1), GmshEnded);
     const auto waiting = []() -> QuadMesh { // uses no CPU time
       pause();

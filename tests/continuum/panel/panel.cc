@@ -83,23 +83,28 @@ namespace
     EXPECT_EQ(panel.report().progress, 0.05);
   }
 
-  // The panel checks for a stop between mesh, unknowns, nodes, matrix and state at rest, and then ends at once.
-  TEST(Panel, AStoppedSetUpEndsAtOnce)
+  // The panel calls check_stop between mesh, unknowns, nodes, matrix and state at rest; what check_stop throws leaves at once.
+  TEST(Panel, ASetUpThatIsStoppedIsLeftAtOnce)
   {
-    const QuadMesh mesh      = rectangle(4, 6, 2.);
-    const Loading  loading   = straight_loading(1, {6, -6}, {0.05});
-    int            questions = 0;
+    const QuadMesh mesh    = rectangle(4, 6, 2.);
+    const Loading  loading = straight_loading(1, {6, -6}, {0.05});
+    int            calls   = 0;
     Hooks          hooks;
-    hooks.stop_requested = [&] { return ++questions < 0; };
+    hooks.check_stop = [&] { ++calls; };
     const Panel whole(mesh, Units(), loading, {}, hooks);
-    const int   n = questions;
+    const int   n = calls;
     EXPECT_GT(n, 5);
+    struct Stopped
+    {};
     for (int last = 1; last <= n; ++last)
       {
-        questions            = 0;
-        hooks.stop_requested = [&] { return ++questions >= last; };
-        EXPECT_THROW(Panel(mesh, Units(), loading, {}, hooks), SetUpStopped);
-        EXPECT_EQ(questions, last);
+        calls            = 0;
+        hooks.check_stop = [&] {
+          if (++calls >= last)
+            throw Stopped();
+        };
+        EXPECT_THROW(Panel(mesh, Units(), loading, {}, hooks), Stopped);
+        EXPECT_EQ(calls, last);
       }
   }
 

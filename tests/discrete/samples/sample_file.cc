@@ -1,5 +1,6 @@
 // diptych: grains from files read back exactly, or are refused with their place
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/samples/placed_grains.h"
 #include "tests/discrete/samples/sample_file_examples.h"
 
 namespace
@@ -54,6 +55,17 @@ namespace
     EXPECT_FALSE(std::filesystem::exists(csv + ".part"));
     std::filesystem::remove(csv);
     EXPECT_THROW(write_grains_csv("/nowhere/at/all.csv", written), std::runtime_error);
+  }
+
+  // What the hook throws is no fault of the file, which would be a std::invalid_argument.
+  TEST(GrainsFromCsv, AReadingThatIsStoppedIsLeftAtOnce)
+  {
+    SampleOptions options;
+    options.file = csv;
+    write_text(csv, "x,y,r\n0,0,1\n5,0,1\n");
+    EXPECT_THROW(check_sample_file(options, {}, [] { throw std::runtime_error("stopped"); }), std::runtime_error);
+    EXPECT_FALSE(file_sample(options, {}, [] { return false; }));
+    EXPECT_EQ(file_sample(options, {}, [] { return true; })->state.grains.size(), 2u);
   }
 
   TEST(GrainsFromCsv, EveryFaultIsNamed)
