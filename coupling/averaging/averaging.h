@@ -14,9 +14,9 @@ namespace diptych::coupling
   //   centroid: a grain and its half branches go to the cell that holds the grain's centre.
   //   laguerre: a grain and its half branches by the area of the grain's power cell in each cell, clipped to the mesh.
   //   kernel: by the kernel's integral over each cell over its integral over the mesh, around the centre or along the half
-  //   branch.
-  //   projection: by the integrals over the cells of c, where (M + l^2 K) c_a = sum of the quantities x N_a. The elements are
-  //     linear on the triangles. With l = width / sqrt(2) the width is the standard deviation of this smoothing, too.
+  //     branch.
+  //   projection: integrals over the cells of c, (M + l^2 K) c_a = sum of the quantities x N_a, with linear elements on the
+  //     triangles. With l = width / sqrt(2) the width is the standard deviation of this smoothing, too.
   // Throws std::invalid_argument if the width is not positive or sizes do not match.
   CellSums distribute(const AveragingOptions &options, const TargetCells &target, const Carriers &carriers);
 } // namespace diptych::coupling

@@ -20,10 +20,10 @@ namespace diptych::coupling
     std::vector<int>             beyond;
   };
 
-  // The cell of disc i holds the points x of the box for which |x - x_i|^2 - r_i^2 is smallest. Returns the first n_cells cells;
-  // the cells of all discs fill the box. Cell i is clipped by the radical axes of the discs around it, ring by ring, until no
-  // further disc can reach it. The axis of disc j is at (D^2 + r_i^2 - r_j^2) / (2 D), D the distance of the centres. Among discs
-  // with the same centre the largest counts; among equal discs the first. Throws std::invalid_argument if sizes do not match.
+  // Points x of the box with |x - x_i|^2 - r_i^2 least for disc i form its cell. Returns the first n_cells cells; the cells of
+  // all discs fill the box. Cell i is clipped by the radical axes of the discs around it, ring by ring, until no further disc can
+  // reach it. The axis of disc j is at (D^2 + r_i^2 - r_j^2) / (2 D), D the distance of the centres. Among discs with the same
+  // centre the largest counts; among equal discs the first. Throws std::invalid_argument if sizes do not match.
   std::vector<PowerCell> power_cells(const std::vector<Eigen::Vector2d> &position,
                                      const std::vector<double>          &radius,
                                      std::size_t                         n_cells,

@@ -23,10 +23,10 @@ namespace diptych::coupling
     double                       outside_weight = 0; // the same sum for the segments outside the mesh
   };
 
-  // |K| sigma_K = -sum_c f_c (x) (segment of the branch in K). The branch x_i - contact point - x_j is cut by the triangles; f_c
-  // is the force on i. The segment points from x_i to x_j, or to the image of x_j that touches i. A body j >= position.size() is
-  // a platen, with x_i - contact point only. Parts outside the mesh go to the nearest boundary cell, so sum_K |K| sigma_K = total
-  // to round-off. position: grain centres [length].
+  // |K| sigma_K = -sum_c f (x) (segment in K). The branch x_i - contact point - x_j of each contact is cut by the triangles K,
+  // and f is the force on i. The segment points from x_i to x_j, or to the image of x_j that touches i. A body j >=
+  // position.size() is a platen, with x_i - contact point only. Parts outside the mesh go to the nearest boundary cell, so that
+  // sum_K |K| sigma_K = total to round-off. position: grain centres [length].
   MappedMoment map_segments(const QuadMesh                            &mesh,
                             const TriangleSearch                      &search,
                             const std::vector<Eigen::Vector2d>        &position,
@@ -35,8 +35,8 @@ namespace diptych::coupling
   // outside_weight / sum of all weights, or 0 if all weights are zero.
   double outside_share(const MappedMoment &mapped);
 
-  // Adds the dynamic part of the internal moments, -spin_term * 1 at each grain's centre, to the triangles and to the total.
-  // spin_term is the mean of (1/2) omega^2 I >= 0 [pressure * length^2].
+  // Adds the dynamic part of the internal moments, -spin_term * 1 at each grain's centre, to the triangles and to the total. Here
+  // spin_term = mean of (1/2) omega^2 I >= 0 [pressure * length^2].
   void add_spin_term(const TriangleSearch               &search,
                      const std::vector<Eigen::Vector2d> &position,
                      const std::vector<double>          &mean_spin_term,
@@ -67,10 +67,10 @@ namespace diptych::coupling
                                                     const std::vector<Eigen::Vector2d>        &position,
                                                     const std::vector<discrete::ContactForce> &contacts);
 
-  // The same from the accelerations and the applied forces of the last step, sum_i N_a(x_i) (m_i a_i - F_i) - sum_platens
-  // N_a(x_c) f. F_i is the containing action plus gravity, f a force of `contacts`, not of the window. Both agree by the balance
-  // of momentum. acceleration: a_i = (velocity - velocity before the step) / step [length/time^2]. A fixed grain enters with its
-  // contact forces.
+  // The same from the accelerations and the applied forces of the last step: sum_i N_a(x_i) (m_i a_i - F_i) - sum_platens
+  // N_a(x_c) f, with F_i the containing action and gravity. f is a force of `contacts`, not of the window. Both results agree by
+  // the balance of momentum. acceleration: a_i = (velocity - velocity before the step) / step [length/time^2]. A fixed grain
+  // enters with its contact forces.
   std::vector<Eigen::Vector2d> nodal_applied_forces(const QuadMesh                     &mesh,
                                                     const TriangleSearch               &search,
                                                     const discrete::Snapshot           &grains,
