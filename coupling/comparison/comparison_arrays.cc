@@ -1,4 +1,4 @@
-// diptych: the arrays of a comparison: comparison.h5 for the report, fields.vtu for ParaView
+// diptych: computes the arrays of a comparison: comparison.h5 for the report, fields.vtu for ParaView
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/comparison/comparison_arrays.h"
 
@@ -106,7 +106,7 @@ namespace diptych::coupling
 
   namespace
   {
-    // Mean increment of each cell's corners.
+    // Mean displacement increment of each cell's corners.
     std::vector<Eigen::Vector2d> moved_cells(const continuum::Snapshot &from, const continuum::Snapshot &to)
     {
       return continuum_fields(from, to).displacement_increment;
@@ -129,7 +129,7 @@ namespace diptych::coupling
       list_increment_attributes(stage.increment, IntoGroup{file, group});
     }
 
-    // Which snapshot stands at a progress.
+    // Index of the snapshot at a progress.
     std::size_t snapshot_at(const Results &results, const double progress)
     {
       std::size_t k = 0;
