@@ -15,10 +15,10 @@ namespace diptych::coupling
   // For a periodic mesh there are three images: the mesh itself and those one period to the left and to the right.
   struct CollaredMesh
   {
-    QuadMesh                  mesh;     // `cell` of each triangle is a cell of the given mesh
-    std::vector<unsigned int> receiver; // n_triangles: the given mesh's triangle that receives its moment: itself, or for a
-                                        // triangle of the collar the one at the boundary edge where it begins
-    std::vector<unsigned int> same_as;  // n_nodes: the node whose periodic image it is, or itself
+    QuadMesh                  mesh;        // `cell` of each triangle is a cell of the given mesh
+    std::vector<unsigned int> receiver;    // n_triangles: the given mesh's triangle that receives its moment: itself, or for a
+                                           // triangle of the collar the one at the boundary edge where it begins
+    std::vector<unsigned int> same_as;     // n_nodes: the node whose periodic image it is, or itself
     std::size_t               n_inner = 0; // triangles from this number on belong to the collar
   };
 
