@@ -1,4 +1,4 @@
-// diptych: extensive quantities of grains distributed over cells, by one of several methods
+// diptych: distributes extensive quantities of grains over cells, by one of several methods
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/averaging.h"
 
@@ -18,17 +18,17 @@ namespace diptych::coupling
         return columns.cols() == 0 || std::size_t(columns.rows()) == n;
       };
       if (c.radius.size() != c.position.size() || !rows_match(c.of_grains, c.position.size()))
-        throw std::invalid_argument("averaging: one radius and one row of quantities a grain are needed");
+        throw std::invalid_argument("averaging needs one radius and one row of quantities per grain");
       if (c.half_size.size() != c.half.size() || !rows_match(c.uniform, c.half.size()) || !rows_match(c.tapered, c.half.size()))
-        throw std::invalid_argument("averaging: one size and one row of quantities a half branch are needed");
+        throw std::invalid_argument("averaging needs one size and one row of quantities per half branch");
       if (c.judge_nodes && c.uniform.cols() < 4)
-        throw std::invalid_argument("averaging: the nodal identity needs the moments of the half branches");
+        throw std::invalid_argument("averaging needs the moments of the half branches to check the nodal identity");
       for (const HalfBranch &half : c.half)
         if (half.grain >= c.position.size())
-          throw std::invalid_argument("averaging: a half branch names grain " + std::to_string(half.grain) + " of " +
+          throw std::invalid_argument("averaging: a half branch belongs to grain " + std::to_string(half.grain) + " of " +
                                       std::to_string(c.position.size()));
       if (!(options.width > 0 && c.mean_diameter > 0))
-        throw std::invalid_argument("averaging_width and the mean diameter must be positive");
+        throw std::invalid_argument("averaging needs a positive averaging_width and a positive mean diameter");
     }
   } // namespace
 
@@ -58,13 +58,13 @@ namespace diptych::coupling
       case AveragingMethod::projection:
         return average_by_projection(target, *carriers, width);
       }
-    throw std::logic_error("averaging: a method without a function");
+    throw std::logic_error("averaging: this method is not implemented");
   }
 
   void refuse_contact(const discrete::ContactForce &contact)
   {
-    throw std::invalid_argument("a contact names grains " + std::to_string(contact.i) + " and " + std::to_string(contact.j) +
-                                ", which are not both there");
+    throw std::invalid_argument("a contact joins grains " + std::to_string(contact.i) + " and " + std::to_string(contact.j) +
+                                ", but at least one of them does not exist");
   }
 
   Carriers moment_carriers(const std::vector<Eigen::Vector2d>        &position,
@@ -121,7 +121,7 @@ namespace diptych::coupling
 
   CellSums sums_by_owner(const TargetCells &target, const Carriers &carriers, const GrainShares &shares)
   {
-    // A grain's halves go where it goes, so their quantities are added up first.
+    // The quantities of a grain's half branches are added first, because they all go to the same cells as the grain.
     Columns uniform = Columns::Zero(Eigen::Index(carriers.position.size()), carriers.uniform.cols());
     Columns tapered = Columns::Zero(Eigen::Index(carriers.position.size()), carriers.tapered.cols());
     double  outside = 0;

@@ -1,4 +1,4 @@
-// diptych: one function a method of averaging; sizes are checked and centres wrapped into the mesh by distribute()
+// diptych: one function per averaging method. distribute() checks the sizes and wraps the centres into the mesh.
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -18,7 +18,7 @@ namespace diptych::coupling
   CellSums average_by_kernel(const TargetCells &target, const Carriers &carriers, KernelShape shape, double width);
   CellSums average_by_projection(const TargetCells &target, const Carriers &carriers, double width);
 
-  // n_cells rows of zeros for the columns of the carriers.
+  // Zeros with n_cells rows and the columns of the carriers.
   CellSums zero_sums(const TargetCells &target, const Carriers &carriers);
 
   // Shares of grains in cells as compressed rows; each row sums to one.
@@ -27,10 +27,10 @@ namespace diptych::coupling
     std::vector<std::size_t>  begin = {0}; // n_grains + 1
     std::vector<unsigned int> cell;
     std::vector<double>       share;
-    std::vector<bool>         outside; // n_grains: assigned to a boundary cell because it has no place in the mesh
+    std::vector<bool>         outside; // n_grains: the grain has no place in the mesh and goes to a boundary cell
 
     void add(const unsigned int c, const double s) { cell.push_back(c), share.push_back(s); }
-    void scale_row(const double factor) // that has not ended
+    void scale_row(const double factor) // scales the row that end_row() has not yet closed
     {
       for (std::size_t k = begin.back(); k < share.size(); ++k)
         share[k] *= factor;
@@ -38,7 +38,7 @@ namespace diptych::coupling
     void end_row(const bool is_outside) { begin.push_back(cell.size()), outside.push_back(is_outside); }
   };
 
-  // Sums of the shares of grains in cells and of their squares.
+  // Sums over the shares of grains in each cell, and over their squares.
   struct JoinedGrains
   {
     std::vector<double> sum, squares; // n_cells
@@ -58,9 +58,9 @@ namespace diptych::coupling
     }
   };
 
-  // n_cells, or nothing where it is not wanted. Shares of one grain in one cell that come in parts are taken together.
+  // CellSums::joined, or empty if it is not wanted. Several shares of one grain in one cell are added first.
   std::vector<double> joined_grains(const TargetCells &target, const Carriers &carriers, const GrainShares &shares);
 
-  // A grain and its halves alike by the grain's shares.
+  // Distributes grains and their half branches by the grains' shares.
   CellSums sums_by_owner(const TargetCells &target, const Carriers &carriers, const GrainShares &shares);
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: how grain quantities go onto cells, as a scene says it
+// diptych: options of the averaging of grain quantities over cells
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -43,10 +43,11 @@ namespace diptych::coupling
   {
     visitor(
       "averaging", o.method, "-",
-      "how grain quantities go onto cells: branches and discs cut by the cells; all to the cell of the grain's centre; by the "
-      "grain's power cell; smoothed by a kernel; projected onto linear elements with a smoothing length");
-    visitor("averaging_kernel", o.kernel, "-", "of averaging = kernel");
+      "method that distributes grain quantities over cells: cut branches and discs at the cells' edges; give all to the cell of "
+      "the grain's centre; share by the grain's power cell; smooth by a kernel; or project onto linear elements with a smoothing "
+      "length");
+    visitor("averaging_kernel", o.kernel, "-", "shape of the smoothing kernel; only for averaging = kernel");
     visitor("averaging_width", o.width, "mean diameters", {0.25, 10.},
-            "standard deviation of the smoothing (along each axis) of averaging = kernel and projection; the others have none");
+            "standard deviation of the smoothing along each axis; only for averaging = kernel and projection");
   }
 } // namespace diptych::coupling

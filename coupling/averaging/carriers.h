@@ -1,4 +1,4 @@
-// diptych: what of the grains is distributed over cells, and the sums there
+// diptych: the grain quantities to be distributed over cells, and their sums over cells
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -13,14 +13,14 @@ namespace diptych::coupling
 {
   using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  // From the centre of its grain to a contact point of it.
+  // The segment from a grain's centre to one of its contact points.
   struct HalfBranch
   {
     unsigned int    grain;
     Eigen::Vector2d vector; // [length]
   };
 
-  // Extensive quantities (mass, momentum, moment, ...) with where they sit; a matrix without columns carries nothing.
+  // Extensive quantities (mass, momentum, moment, ...) and their places. A matrix without columns carries nothing.
   struct Carriers
   {
     std::vector<Eigen::Vector2d> position;          // of grain centres [length]
@@ -30,38 +30,40 @@ namespace diptych::coupling
 
     Columns             of_grains; // n_grains x any
     Columns             uniform;   // n_halves x any, spread evenly along the half branch
-    Columns             tapered;   // n_halves x any, densest at the centre, falling linearly to zero at the contact point
-    std::vector<double> half_size; // n_halves: what outside_share is counted in, >= 0; of a force |f| x length
+    Columns             tapered;   // n_halves x any, densest at the centre, decreasing linearly to zero at the contact point
+    std::vector<double> half_size; // n_halves: weight of a half branch in outside_share, >= 0; |f| x length for a force
 
-    bool count_joined = false; // CellSums::joined is wanted
-    // CellSums::nodal_residual is wanted: the first four columns of `uniform` are moments -force (x) vector.
+    bool count_joined = false; // compute CellSums::joined
+    // Compute CellSums::nodal_residual. The first four columns of `uniform` must be moments -force (x) vector.
     bool judge_nodes = false;
   };
 
-  // n_cells rows, columns as in the carriers. The sum over cells is the sum over carriers to round-off, whatever the method.
+  // Has n_cells rows and the columns of the carriers. With every method the sum over cells equals the sum over carriers to
+  // round-off.
   struct CellSums
   {
     Columns of_grains, uniform, tapered;
-    // Share of half_size that was assigned to a boundary cell because its place is outside the mesh: the piece of the branch
-    // (segments), the centre (centroid), the whole power cell (laguerre), a quadrature point beyond the kernel's reach
+    // Share of half_size that went to a boundary cell because its place is outside the mesh. The place is the piece of the branch
+    // (segments), the centre (centroid) or the whole power cell (laguerre). It is a quadrature point beyond the kernel's reach
     // (kernel) or outside the mesh (projection).
     double outside_share = 0;
-    // segments with judge_nodes: sum_K M_K grad N_a against the sum over halves of f (N_a(centre) - N_a(contact point)), what a
-    // branch within the mesh telescopes to: largest difference at any node, collar included, / largest force. NaN where no
-    // collar can be laid round the mesh, a half leaves it, or without forces.
+    // Only for segments with judge_nodes. Largest difference, over the largest force, between the two sides of the nodal identity
+    // at any node, with the collar's nodes. The sides are sum_K M_K grad N_a and the sum over halves of f (N_a(centre) -
+    // N_a(contact point)), to which a branch within the mesh telescopes. NaN if the mesh can have no collar, a half leaves it, or
+    // there is no force.
     double nodal_residual = NAN;
-    // n_cells, empty if not wanted: (sum of the shares of grains)^2 / sum of their squares, the number of equal grains that a
-    // mean over the cell joins; 0 for a cell without grains. The projection needs one solution a cell for it.
+    // Number of equal grains whose quantities a mean over the cell joins: (sum of the shares of grains)^2 / sum of their squares.
+    // n_cells entries, 0 for a cell without grains; empty if not wanted. The projection solves one system per cell for it.
     std::vector<double> joined;
   };
 
-  // Calls action(grain, vector, force) for each half of the branch of a contact: vector from the grain's centre to the
-  // contact point, force on that grain. A platen has no half. Throws std::invalid_argument for grains that do not exist.
+  // Calls action(grain, vector, force) for each half of a contact's branch. `vector` runs from the grain's centre to the contact
+  // point and `force` acts on this grain. A platen has no half. Throws std::invalid_argument for a grain that does not exist.
   template <class Action>
   void for_each_half(const discrete::ContactForce &contact, const std::vector<Eigen::Vector2d> &position, Action &&action);
 
-  // Half branches of the contacts that carry force, each with its moment -f (x) vector, f on its grain: row index = force
-  // (columns xx, xy, yx, yy of `uniform`), positive in compression [pressure * length^2].
+  // Half branches of the contacts that carry force, each with its moment -f (x) vector, where f acts on its grain. Row index =
+  // force (columns xx, xy, yx, yy of `uniform`), positive in compression [pressure * length^2].
   Carriers moment_carriers(const std::vector<Eigen::Vector2d>        &position,
                            const std::vector<double>                 &radius,
                            const std::vector<discrete::ContactForce> &contacts);

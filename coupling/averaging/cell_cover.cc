@@ -1,4 +1,4 @@
-// diptych: how many grains a cell holds and how much of it they cover
+// diptych: the number of grains in a cell and the area that they cover
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/cell_cover.h"
 
@@ -13,8 +13,8 @@ namespace diptych::coupling
 {
   namespace
   {
-    // Signed area of a disc about the origin inside the triangle origin-a-b: a triangle where a-b runs inside, sectors where it
-    // runs outside the disc.
+    // Signed area of the part of a disc about the origin inside the triangle origin-a-b. It is a triangle where a-b runs inside
+    // the disc, and a sector where a-b runs outside.
     double disc_edge_area(const double radius, const Eigen::Vector2d &a, const Eigen::Vector2d &b)
     {
       const auto sector = [radius](const Eigen::Vector2d &u, const Eigen::Vector2d &v) {
@@ -64,7 +64,7 @@ namespace diptych::coupling
                        const std::vector<double>          &radius)
   {
     if (radius.size() != position.size())
-      throw std::invalid_argument("one radius a grain is needed");
+      throw std::invalid_argument("the cover of the cells needs one radius per grain");
 
     CellCover cover;
     cover.grain_count.assign(mesh.cell.size(), 0);

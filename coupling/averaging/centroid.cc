@@ -1,4 +1,4 @@
-// diptych: averaging by centroid: a grain and its contacts count where its centre lies
+// diptych: averaging by centroid: a grain and its contacts go to the cell that holds the grain's centre
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/averaging_methods.h"
 

@@ -1,4 +1,4 @@
-// diptych: a ring of triangles round a mesh, so that linear shape functions go on where branches leave it
+// diptych: a ring of triangles around a mesh, where linear shape functions continue for branches that leave the mesh
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/collar.h"
 
@@ -24,8 +24,7 @@ namespace diptych::coupling
       return sum / boundary.size();
     }
 
-    // Joins every edge to the images of its ends, which `image` places, by two triangles. Returns the image of
-    // every node.
+    // Joins every edge to the images of its ends by two triangles. `image` places the images. Returns the image of every node.
     template <class Image>
     std::map<unsigned int, unsigned int> add_collar(const std::vector<BoundaryEdge> &edges,
                                                     const Image                     &image,
@@ -52,7 +51,7 @@ namespace diptych::coupling
       return image_of;
     }
 
-    // Left partner of every node of the right side, one period to its left.
+    // For every node of the right side, the node of the left side one period away.
     std::map<unsigned int, unsigned int> left_of(const QuadMesh                  &mesh,
                                                  const std::vector<BoundaryEdge> &boundary,
                                                  const double                     period)
@@ -73,7 +72,7 @@ namespace diptych::coupling
 
     struct PeriodicBoundary
     {
-      std::map<unsigned int, unsigned int> left; // partner of each node of the right side
+      std::map<unsigned int, unsigned int> left; // the left node that belongs to each node of the right side
       std::vector<BoundaryEdge>            lower, upper;
     };
 
@@ -111,7 +110,7 @@ namespace diptych::coupling
       return result;
     }
 
-    // Images one period apart that share the nodes of their sides; inner triangles of all first.
+    // The images one period apart. They share the nodes of their sides. The inner triangles of all images come first.
     CollaredMesh periodic_images(const CollaredMesh &one, const double period, const std::map<unsigned int, unsigned int> &left)
     {
       const unsigned int        n_nodes = one.mesh.node.size();
@@ -121,14 +120,14 @@ namespace diptych::coupling
 
       CollaredMesh result;
       result.n_inner         = 3 * one.n_inner;
-      constexpr int images[] = {0, 1, -1, 2}; // of nodes; the last for the right side of image 1
+      constexpr int images[] = {0, 1, -1, 2}; // images of nodes; the last serves the right side of image 1
       for (const int image : images)
         for (unsigned int n = 0; n < n_nodes; ++n)
           {
             result.mesh.node.emplace_back(one.mesh.node[n].x() + image * period, one.mesh.node[n].y());
             result.same_as.push_back(partner[n] < n_nodes ? partner[n] : n);
           }
-      constexpr unsigned int next[] = {1, 3, 0}; // place in `images` of the right neighbour
+      constexpr unsigned int next[] = {1, 3, 0}; // index in `images` of the right neighbour
       const auto             add    = [&](const std::size_t begin, const std::size_t end) {
         for (unsigned int image = 0; image < 3; ++image)
           for (std::size_t t = begin; t < end; ++t)
@@ -168,7 +167,7 @@ namespace diptych::coupling
     if (!std::isfinite(reach))
       return std::nullopt;
     CollaredMesh result = without_collar(mesh, 0);
-    // Half an edge more, because between two points of it a scaled boundary may be left where it is not convex.
+    // Half an edge is added because between two points the scaled boundary may lie further in where it is not convex.
     const double scale = reach + 0.5 * mean_length(mesh, boundary) / star->clearance;
     add_collar(
       boundary, [&](const Eigen::Vector2d &x) { return Eigen::Vector2d(star->centre + scale * (x - star->centre)); }, result);
@@ -182,7 +181,7 @@ namespace diptych::coupling
     std::optional<PeriodicBoundary> boundary = periodic_boundary(mesh, period);
     if (!boundary)
       return std::nullopt;
-    double bottom = -std::numeric_limits<double>::infinity(), top = -bottom; // where the collar may have to begin
+    double bottom = -std::numeric_limits<double>::infinity(), top = -bottom; // heights at which the collar may have to begin
     for (const auto &edge : boundary->lower)
       bottom = std::max(bottom, mesh.node[edge.from].y());
     for (const auto &edge : boundary->upper)
@@ -195,7 +194,7 @@ namespace diptych::coupling
     const auto   add    = [&](const std::vector<BoundaryEdge> &edges, const double shift) {
       const auto image = add_collar(
              edges, [&](const Eigen::Vector2d &x) { return Eigen::Vector2d(x.x(), x.y() + shift); }, result);
-      for (const auto &edge : edges) // of the ends of the chain, which lie on the sides
+      for (const auto &edge : edges) // for the two ends of the chain, which lie on the sides
         for (const unsigned int node : {edge.from, edge.to})
           if (const auto partner = boundary->left.find(node); partner != boundary->left.end())
             boundary->left[image.at(node)] = image.at(partner->second);

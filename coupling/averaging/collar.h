@@ -1,4 +1,4 @@
-// diptych: a ring of triangles round a mesh, so that linear shape functions go on where branches leave it
+// diptych: a ring of triangles around a mesh, where linear shape functions continue for branches that leave the mesh
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -11,32 +11,32 @@
 
 namespace diptych::coupling
 {
-  // A mesh with the triangles round it. Its nodes and triangles keep their numbers; the collar's come after them. Of a periodic
-  // mesh there are three images, itself and those one period to the left and to the right.
+  // A mesh with a collar, a ring of triangles around it. The mesh's nodes and triangles keep their numbers; the collar's follow.
+  // For a periodic mesh there are three images: the mesh itself and those one period to the left and to the right.
   struct CollaredMesh
   {
-    QuadMesh                  mesh;     // `cell` of every triangle: of the given mesh
-    std::vector<unsigned int> receiver; // n_triangles: the given mesh's triangle that takes over its moment: itself, or the one
-                                        // at the boundary edge that the collar's triangle begins at
-    std::vector<unsigned int> same_as;  // n_nodes: the node whose image it is; itself where it is none
-    std::size_t               n_inner = 0; // triangles from here on belong to the collar
+    QuadMesh                  mesh;        // `cell` of each triangle is a cell of the given mesh
+    std::vector<unsigned int> receiver;    // n_triangles: the given mesh's triangle that receives its moment: itself, or for a
+                                           // triangle of the collar the one at the boundary edge where it begins
+    std::vector<unsigned int> same_as;     // n_nodes: the node whose periodic image it is, or itself
+    std::size_t               n_inner = 0; // triangles from this number on belong to the collar
   };
 
-  // Every boundary edge joined to its image scaled away from the middle of the mesh by so much that all of `points` lie inside,
-  // two triangles each. None where the boundary is not star-shaped: where no place sees every boundary edge from inside.
+  // Joins every boundary edge by two triangles to its image. The image is scaled away from the middle of the mesh, far enough
+  // that all `points` lie inside. Empty if the boundary is not star-shaped, that is, if no place inside sees every boundary edge.
   std::optional<CollaredMesh> with_collar(const QuadMesh &mesh, const std::vector<Eigen::Vector2d> &points);
 
-  // The edges of lower and upper boundary joined to their images below and above; the nodes of left and right side, one period
-  // apart within 1e-6 of it, are the same ones. None where the sides do not match so, or lower and upper boundary are no
-  // functions of x. points: as grains keep them, whole periods left or right of the mesh allowed.
+  // Joins the edges of the lower and upper boundary to their images below and above. The nodes of the left and right side are the
+  // same unknowns; the sides must be one period apart, within 1e-6 of it. Empty if they are not, or if the lower or upper
+  // boundary is not a function of x. points: as the grains store them, possibly whole periods left or right of the mesh.
   std::optional<CollaredMesh> with_periodic_collar(const QuadMesh                     &mesh,
                                                    double                              period,
                                                    const std::vector<Eigen::Vector2d> &points);
 
-  // The mesh alone, or (period > 0) its three images, which share no nodes: for meshes that can have no collar.
+  // For meshes that can have no collar: the mesh only, or (period > 0) its three images, which share no nodes.
   CollaredMesh without_collar(const QuadMesh &mesh, double period);
 
-  // Largest difference of two sums over nodes at any node, images of one node taken together.
+  // Largest difference at any node between two sums over nodes. The values of all images of a node are added first.
   double largest_difference(const CollaredMesh                 &cells,
                             const std::vector<Eigen::Vector2d> &a,
                             const std::vector<Eigen::Vector2d> &b);

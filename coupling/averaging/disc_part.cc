@@ -1,4 +1,4 @@
-// diptych: the part of a disc inside a polygon: area and first moment
+// diptych: area and first moment of the part of a disc inside a polygon
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/disc_part.h"
 
@@ -11,7 +11,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    // Swept from the direction of a to that of b. Moment: integral of r^2 (cos, sin) dr dtheta = r^3/3 [(sin, -cos)].
+    // The sector from the direction of a to that of b. Moment: integral of r^2 (cos, sin) dr dtheta = r^3/3 [(sin, -cos)].
     void add_sector(const double radius, const Eigen::Vector2d &a, const Eigen::Vector2d &b, DiscPart &part)
     {
       const Eigen::Vector2d u = a.normalized(), v = b.normalized();
@@ -26,7 +26,7 @@ namespace diptych::coupling
       part.moment += area / 3 * (a + b);
     }
 
-    // Of the disc about the origin within the triangle origin-a-b, signed.
+    // The signed part of the disc about the origin inside the triangle origin-a-b.
     void add_side(const double radius, const Eigen::Vector2d &a, const Eigen::Vector2d &b, DiscPart &part)
     {
       // |a + t (b - a)|^2 = radius^2

@@ -1,4 +1,4 @@
-// diptych: the part of a disc inside a polygon: area and first moment
+// diptych: area and first moment of the part of a disc inside a polygon
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -11,9 +11,9 @@ namespace diptych::coupling
   struct DiscPart
   {
     double          area   = 0;                       // [length^2]
-    Eigen::Vector2d moment = Eigen::Vector2d::Zero(); // integral of x - centre over it [length^3]
+    Eigen::Vector2d moment = Eigen::Vector2d::Zero(); // integral of x - centre over the part [length^3]
   };
 
-  // Exact, for a simple polygon with its corners counter-clockwise: signed sectors and triangles about the centre, one a side.
+  // Exact for a simple polygon with counter-clockwise corners: sums signed sectors and triangles about the centre, one per side.
   DiscPart disc_part(const Eigen::Vector2d &centre, double radius, const std::vector<Eigen::Vector2d> &polygon);
 } // namespace diptych::coupling

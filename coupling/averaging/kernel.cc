@@ -19,7 +19,7 @@ namespace diptych::coupling
       unsigned int cell;
     };
 
-    // n^2 equal parts, three points a part; barycentric (2/3, 1/6, 1/6) in each.
+    // n^2 equal parts with three points each, at the barycentric coordinates (2/3, 1/6, 1/6).
     void add_points(const std::array<Eigen::Vector2d, 3> &corner,
                     const int                             n,
                     const unsigned int                    cell,
@@ -28,7 +28,8 @@ namespace diptych::coupling
       const Eigen::Vector2d u = (corner[1] - corner[0]) / n, v = (corner[2] - corner[0]) / n;
       const double          third = (u.x() * v.y() - u.y() * v.x()) / 6;
       const auto            part  = [&](const Eigen::Vector2d &middle, const double sign) {
-        // from the middle of the part to its corners: -(u+v)/3, (2u-v)/3, (2v-u)/3, turned round in the inverted parts
+        // The vectors from the middle of a part to its corners are -(u+v)/3, (2u-v)/3 and (2v-u)/3; inverted parts have the
+        // opposite signs.
         for (const Eigen::Vector2d &d : {Eigen::Vector2d(-u - v), Eigen::Vector2d(2 * u - v), Eigen::Vector2d(2 * v - u)})
           {
             const Eigen::Vector2d x = middle + sign / 6 * d;
@@ -65,7 +66,7 @@ namespace diptych::coupling
         deviation(standard_deviation)
   {
     if (!(deviation > 0))
-      throw std::invalid_argument("the standard deviation of a kernel must be positive");
+      throw std::invalid_argument("a kernel needs a positive standard deviation");
     radius = is_gauss ? gauss_reach * deviation : std::sqrt(56. / 5) * deviation;
     peak   = is_gauss ? 1 / (2 * M_PI * deviation * deviation * (1 - std::exp(-0.5 * gauss_reach * gauss_reach)))
                       : 5 / (M_PI * radius * radius);
@@ -136,7 +137,7 @@ namespace diptych::coupling
     const BinRange        all    = bins.range(x - square, x + square);
     for (int row = all.row_begin; row < all.row_end; ++row)
       {
-        // half chord of the kernel's circle at the edge of this row of bins nearest to x
+        // Half the chord of the kernel's circle at that edge of this row of bins which is nearest to x.
         const double          low  = bins.row_low(row);
         const double          away = std::max({0., low - x.y(), x.y() - low - bins.bin_size()});
         const Eigen::Vector2d half(std::sqrt(std::max(0., reach * reach - away * away)), 0);

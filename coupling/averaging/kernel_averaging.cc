@@ -1,4 +1,4 @@
-// diptych: averaging by a kernel: coarse graining that keeps totals up to the edge of the sample
+// diptych: averaging by a kernel: coarse graining that conserves totals up to the edge of the sample
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <numeric>
 
@@ -9,7 +9,8 @@ namespace diptych::coupling
 {
   namespace
   {
-    // Weights around x that sum up to one; false where x is beyond the kernel's reach of the mesh: its nearest boundary cell.
+    // Weights around x that add up to one. Returns false and uses the nearest boundary cell if the mesh is beyond the kernel's
+    // reach.
     bool unit_weights(const TargetCells         &target,
                       const Eigen::Vector2d     &x,
                       KernelQuadrature          &quadrature,

@@ -1,4 +1,4 @@
-// diptych: averaging by power cells: a grain and its contacts count by the share of its power cell in each cell
+// diptych: averaging by power cells: a grain and its contacts go to each cell by the share of the grain's power cell in it
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/averaging_methods.h"
 #include "coupling/averaging/power_cells.h"
@@ -7,7 +7,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    // Of the grains, in a periodic sample with their images one period to either side around them.
+    // The power cells of the grains. In a periodic sample the images one period to either side surround them.
     std::vector<PowerCell> cells_of_grains(const TargetCells &target, const Carriers &carriers)
     {
       std::vector<Eigen::Vector2d> position = carriers.position;
@@ -26,7 +26,7 @@ namespace diptych::coupling
       return power_cells(position, radius, carriers.position.size(), lower, upper);
     }
 
-    // Adds the shares of one power cell; false if it has no area in the mesh.
+    // Adds the shares of one power cell. Returns false if it has no area in the mesh.
     bool add_shares(const TargetCells &target, const PowerCell &cell, GrainShares &shares)
     {
       static thread_local std::vector<unsigned int>    triangles;

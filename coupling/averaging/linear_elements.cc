@@ -14,7 +14,7 @@ namespace diptych::coupling
   {
     const std::vector<Eigen::Vector2d> &node = target.mesh.node;
     const double                        near = 1e-6 * std::sqrt(*std::min_element(target.area.begin(), target.area.end()));
-    // nodes by height, so that the partner is looked for among few
+    // The nodes are sorted by height, so that the search for a partner passes few of them.
     std::vector<unsigned int> by_height(node.size());
     std::iota(by_height.begin(), by_height.end(), 0);
     std::stable_sort(by_height.begin(), by_height.end(),

@@ -11,8 +11,8 @@
 
 namespace diptych::coupling
 {
-  // Number of the unknown of every node; hanging nodes are nodes as all others. In a periodic sample a node of the left side and
-  // the one a period to its right have the same.
+  // Number of the unknown at every node; hanging nodes have their own unknowns. In a periodic sample a node of the left side and
+  // the node one period to its right share one unknown.
   struct Unknowns
   {
     std::vector<unsigned int> of_node;
@@ -20,10 +20,10 @@ namespace diptych::coupling
   };
   Unknowns number_unknowns(const TargetCells &target);
 
-  // M + l^2 K: consistent mass and the Laplacian, no flux through the boundary. length: l.
+  // M + l^2 K: consistent mass matrix and Laplacian without flux through the boundary. length: l.
   Eigen::SparseMatrix<double> helmholtz_matrix(const QuadMesh &mesh, const Unknowns &unknowns, double length);
 
-  // N_a at x of the three nodes of a triangle of target.images. In a triangle that does not hold x, as outside the mesh: at the
-  // point found by dropping the negative ones, so that they add up to one still.
+  // N_a at x for the three nodes of a triangle of target.images. If the triangle does not hold x, negative values are set to zero
+  // and the others are scaled so that they add up to one.
   Eigen::Vector3d shape_values(const TargetCells &target, unsigned int triangle, const Eigen::Vector2d &x);
 } // namespace diptych::coupling

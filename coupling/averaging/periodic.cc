@@ -1,4 +1,4 @@
-// diptych: grains of one stage mapped onto cells, across the edge of a periodic sample, too
+// diptych: maps the grains of one stage onto cells, also in periodic samples
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/periodic.h"
 
@@ -29,7 +29,7 @@ namespace diptych::coupling
       return left;
     }
 
-    // Every grain moved by whole periods to within one of the mesh's left end, its contacts with it.
+    // Moves every grain and its contacts by whole periods to within one period of the mesh's left end.
     Network wrapped(Network network, const double period, const double left)
     {
       std::vector<double> move(network.position.size());
@@ -47,7 +47,7 @@ namespace diptych::coupling
       return network;
     }
 
-    // Where segments of the network's branches end.
+    // The points where segments of the network's branches end.
     std::vector<Eigen::Vector2d> branch_ends(const Network &network)
     {
       std::vector<Eigen::Vector2d> points;
@@ -66,7 +66,7 @@ namespace diptych::coupling
       return points;
     }
 
-    // The cells that a network is mapped onto.
+    // The cells that receive a network.
     struct Ground
     {
       Ground(const QuadMesh &mesh, const double period, const Network &network)
@@ -88,7 +88,7 @@ namespace diptych::coupling
       {}
     };
 
-    // Largest difference between the two sides of the nodal identity at any node / largest contact force.
+    // Largest difference at any node between the two sides of the nodal identity / largest contact force.
     double relative_difference(const Ground                              &ground,
                                const std::vector<Eigen::Vector2d>        &stress_side,
                                const std::vector<Eigen::Vector2d>        &force_side,
@@ -100,7 +100,7 @@ namespace diptych::coupling
       return force > 0 ? largest_difference(ground.cells, stress_side, force_side) / force : NAN;
     }
 
-    // The moments of images and collar given to the mesh's own triangles.
+    // Adds the moments of the images and of the collar to the mesh's own triangles.
     MappedMoment folded(const MappedMoment &mapped, const CollaredMesh &cells, const std::size_t n_triangles)
     {
       MappedMoment result = mapped;

@@ -1,4 +1,4 @@
-// diptych: grains of one stage mapped onto cells, across the edge of a periodic sample, too
+// diptych: maps the grains of one stage onto cells, also in periodic samples
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,27 +8,29 @@
 
 namespace diptych::coupling
 {
-  // The mesh three times: itself, then its images one period to the left and to the right. Triangle t of image k has the
-  // number k * n_triangles + t; the images share no nodes.
+  // Three copies of the mesh: itself, then its images one period to the left and to the right. Triangle t of image k has the
+  // number k * n_triangles + t. The images share no nodes.
   QuadMesh tiled(const QuadMesh &mesh, double period);
 
-  // Window forces and spin terms of a stage on the cells. A branch of a periodic sample that leaves the mesh comes in again on
-  // the other side. What lies outside the mesh is mapped onto a collar round it (collar.h), whose triangles belong to the
-  // cells at the boundary.
+  // Contact forces over the window of a stage, and spin terms, mapped onto the cells. In a periodic sample a branch that leaves
+  // the mesh enters again on the other side. Parts outside the mesh are mapped onto a collar (collar.h), whose triangles belong
+  // to the boundary cells.
   struct MappedGrains
   {
-    MappedMoment moment; // of the mesh's triangles, those of the collar and the spin term included
-    // Nodal identity (segments.h) of the window forces, collar included, boundary and sides of a periodic mesh as well: largest
-    // difference at any node / largest contact force. NaN without a collar, or without forces.
+    MappedMoment moment; // moment of each triangle of the mesh, with the collar's share and the spin term
+    // Residual of the nodal identity (segments.h) for the window forces: largest difference at any node / largest contact force.
+    // It covers the nodes of the collar, the boundary and the periodic sides. NaN without a collar or without forces.
     double nodal_residual = 0;
-    // false: no collar (the boundary is not star-shaped, or a periodic mesh's sides are not one period apart), or a
-    // branch beyond it. What lies outside then belongs to the nearest boundary cell: totals hold, the nodal identity cannot.
+    // False if there is no collar or a branch reaches beyond it. There is none if the boundary is not star-shaped or the sides of
+    // a periodic mesh are not one period apart. Parts outside then belong to the nearest boundary cell, and only the totals are
+    // exact.
     bool has_collar = false;
   };
   MappedGrains map_grains(const QuadMesh &mesh, const discrete::Snapshot &grains);
 
-  // The nodal identity of the last step (`contacts`) with the applied forces, nodal_applied_forces() in the place of sums of
-  // contact forces: it holds by the grains' balance of momentum. acceleration: in that step [length/time^2]. NaN as above.
+  // Residual of the nodal identity for the last step (`contacts`), with nodal_applied_forces() in place of the sums of contact
+  // forces. It vanishes by the grains' balance of momentum. acceleration: in the last step [length/time^2]. NaN as in
+  // MappedGrains.
   double momentum_residual(const QuadMesh                     &mesh,
                            const discrete::Snapshot           &grains,
                            const std::vector<Eigen::Vector2d> &acceleration);

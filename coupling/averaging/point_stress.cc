@@ -13,7 +13,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    // x and its images by whole periods that are within reach of abscissae from low to high.
+    // x and its images by whole periods, as far as they are within reach of abscissae from low to high.
     std::vector<Eigen::Vector2d> images_near(const Eigen::Vector2d &x,
                                              const double           period,
                                              const double           reach,
@@ -40,7 +40,7 @@ namespace diptych::coupling
     KernelQuadrature          quadrature(region, kernel);
     KernelQuadrature::Weights weights;
 
-    // quadrature points of the half branches with their part of the moment
+    // Quadrature points of the half branches, with their part of the moment.
     const Carriers                  carriers = moment_carriers(grains.position, grains.radius, grains.window_forces);
     std::vector<Eigen::Vector2d>    place;
     std::vector<Eigen::RowVector4d> moment;
@@ -56,7 +56,7 @@ namespace diptych::coupling
           }
       }
 
-    double low = INFINITY, high = -INFINITY; // of the places
+    double low = INFINITY, high = -INFINITY; // range of the places
     for (const Eigen::Vector2d &x : place)
       low = std::min(low, x.x()), high = std::max(high, x.x());
     const PointBins              bins(place, 0.5 * kernel.reach());

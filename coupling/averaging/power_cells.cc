@@ -13,7 +13,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    // Keeps what lies where normal . x <= bound. The new edge looks at `neighbour`. scratch keeps its memory between calls.
+    // Keeps the part where normal . x <= bound. `neighbour` lies beyond the new edge. scratch keeps its memory between calls.
     void clip(PowerCell &cell, const Eigen::Vector2d &normal, const double bound, const int neighbour, PowerCell &scratch)
     {
       scratch.corner.clear(), scratch.beyond.clear();
@@ -70,7 +70,7 @@ namespace diptych::coupling
       double       reach = reach_of(cell);
       for (int ring = 0; !cell.corner.empty(); ++ring)
         {
-          // in the rings before this one: all discs closer than ring - 1 bins, and no closer one can have been missed
+          // The rings before this one hold all discs closer than ring - 1 bins, so no closer disc can be missed.
           const double seen = (ring - 1) * discs.bins.bin_size();
           if (seen >= reach + std::sqrt(reach * reach + R * R - r * r))
             break;
@@ -93,11 +93,11 @@ namespace diptych::coupling
                                      const Eigen::Vector2d              &upper)
   {
     if (radius.size() != position.size() || n_cells > position.size())
-      throw std::invalid_argument("power cells need one radius a disc");
+      throw std::invalid_argument("power cells need one radius per disc");
     std::vector<PowerCell> cells;
     if (n_cells == 0)
       return cells;
-    // bins of about one disc each
+    // A bin holds about one disc.
     Eigen::Vector2d low = position.front(), high = low;
     for (const Eigen::Vector2d &x : position)
       low = low.cwiseMin(x), high = high.cwiseMax(x);

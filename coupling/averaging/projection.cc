@@ -1,4 +1,4 @@
-// diptych: averaging by a conservative L2 projection onto linear elements, smoothed over a length
+// diptych: averaging by a conservative L2 projection onto linear elements with a smoothing length
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 #include <numeric>
@@ -13,7 +13,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    // The sums over N_a of the carriers.
+    // Sums over the carriers of their quantities times N_a.
     class NodalLoads
     {
     public:
@@ -23,7 +23,7 @@ namespace diptych::coupling
             unknowns(unknowns)
       {}
 
-      // N_a at x times share times the row, into the columns from `first`.
+      // Adds N_a(x) times share times the row to the columns from `first` on.
       template <class Row>
       void add(const unsigned int     triangle,
                const Eigen::Vector2d &x,
@@ -46,8 +46,9 @@ namespace diptych::coupling
 
     using Solver = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
 
-    // Share of grain i in cell K: sum_a N_a(x_i) y_a, (M + l^2 K) y = integrals of N_a over the cell. Their sum over grains is
-    // sum_a n_a y_a, that of their squares y . B y, n_a = sum_i N_a(x_i) and B_ab = sum_i N_a(x_i) N_b(x_i).
+    // The share of grain i in cell K is sum_a N_a(x_i) y_a, where (M + l^2 K) y = integrals of N_a over the cell. The sum of the
+    // shares over grains is sum_a n_a y_a and that of their squares y . B y. Here n_a = sum_i N_a(x_i) and B_ab = sum_i N_a(x_i)
+    // N_b(x_i).
     std::vector<double> joined_by_projection(const TargetCells &target,
                                              const Carriers    &carriers,
                                              const Unknowns    &unknowns,
@@ -85,7 +86,7 @@ namespace diptych::coupling
       return joined;
     }
 
-    // N_a is linear in a piece: its middle is exact for a uniform density, Simpson's rule for a tapered one.
+    // N_a is linear in a piece. The midpoint rule is therefore exact for a uniform density, and Simpson's rule for a tapered one.
     double add_halves(const TargetCells &target, const Carriers &carriers, const Eigen::Index first, NodalLoads &loads)
     {
       const Eigen::Index                 n_uniform = carriers.uniform.cols(), n_tapered = carriers.tapered.cols();
@@ -114,7 +115,7 @@ namespace diptych::coupling
 
   CellSums average_by_projection(const TargetCells &target, const Carriers &carriers, const double width)
   {
-    // 1 / (1 + l^2 k^2) = 1 - w^2 k^2 / 2 + ... : variance w^2 along each axis
+    // 1 / (1 + l^2 k^2) = 1 - w^2 k^2 / 2 + ... has the variance w^2 along each axis.
     const double       length   = width / std::sqrt(2.);
     const Unknowns     unknowns = number_unknowns(target);
     const Eigen::Index n_grain = carriers.of_grains.cols(), n_uniform = carriers.uniform.cols(),
@@ -129,10 +130,10 @@ namespace diptych::coupling
 
     const Solver solver(helmholtz_matrix(target.mesh, unknowns, length));
     if (solver.info() != Eigen::Success)
-      throw std::runtime_error("averaging = projection: the matrix of the smoothing could not be factorised");
+      throw std::runtime_error("averaging = projection: the smoothing matrix could not be factorised");
     if (carriers.count_joined)
       sums.joined = joined_by_projection(target, carriers, unknowns, solver);
-    const Columns density = solver.solve(Eigen::MatrixXd(loads.load)); // at the nodes, [quantity / length^2]
+    const Columns density = solver.solve(Eigen::MatrixXd(loads.load)); // at the nodes [quantity / length^2]
     for (unsigned int t = 0; t < target.mesh.triangle.size(); ++t)
       for (const unsigned int node : target.mesh.triangle[t].node)
         {

@@ -1,4 +1,4 @@
-// diptych: averaging by segments: branches and discs cut by the cells
+// diptych: averaging by segments: branches and discs are cut at the cells' edges
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <cmath>
@@ -26,9 +26,9 @@ namespace diptych::coupling
       return polygons;
     }
 
-    // Exact areas of the discs in the cells. What lies outside goes to the boundary cell nearest to its own centroid, which the
-    // inside parts tell: the first moments of both about the centre add up to zero. Where the mesh has come to be wider than the
-    // period, its images overlap and discs lie in them twice: their shares are scaled to one.
+    // Exact areas of the discs in the cells. The part outside the mesh goes to the boundary cell nearest to that part's centroid.
+    // The inside parts give this centroid, because the first moments of both parts about the centre add up to zero. If the mesh
+    // has become wider than the period, its images overlap and a disc lies in them twice; its shares are then scaled to one.
     GrainShares disc_shares(const TargetCells &target, const Carriers &carriers)
     {
       const auto                polygons = cell_polygons(target.images);
@@ -48,7 +48,7 @@ namespace diptych::coupling
                 continue;
               const DiscPart part = disc_part(x, radius, polygons[cell]);
               if (std::abs(part.area) < 1e-14 * full)
-                continue; // apart: sectors that cancel
+                continue; // the disc and the polygon are apart, and the sectors cancel
               inside.area += part.area;
               inside.moment += part.moment;
               shares.add(cell % target.n_cells(), part.area / full);
@@ -69,7 +69,7 @@ namespace diptych::coupling
       return (to - from) * (2 - to - from);
     }
 
-    // The mesh with the collar that all halves lie inside, so that cells at the boundary get what map_grains() gives them.
+    // The mesh with a collar that holds all half branches, so that boundary cells receive the same as from map_grains().
     CollaredMesh ground_of(const TargetCells &target, const Carriers &carriers)
     {
       std::vector<Eigen::Vector2d> ends;
@@ -82,7 +82,7 @@ namespace diptych::coupling
       return ground ? *std::move(ground) : without_collar(target.mesh, target.period);
     }
 
-    // Both sides of the nodal identity of the halves' forces, filled while the halves are cut.
+    // Both sides of the nodal identity of the half branches' forces. They are summed while the half branches are cut.
     class NodalIdentity
     {
     public:
@@ -126,10 +126,10 @@ namespace diptych::coupling
       MappedMoment                 mapped;
       std::vector<Eigen::Vector2d> force_side;
       double                       largest_force = 0;
-      bool                         has_left      = false; // a half lay beyond the ground
+      bool                         has_left      = false; // a half branch lay beyond the collar
     };
 
-    // Adds the halves to the sums.
+    // Adds the half branches to the sums.
     void cut_halves(const TargetCells &target, const Carriers &carriers, CellSums &sums)
     {
       const bool                         uniform = carriers.uniform.cols() > 0, tapered = carriers.tapered.cols() > 0;

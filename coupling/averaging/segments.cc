@@ -1,4 +1,4 @@
-// diptych: conservative mapping of contact forces onto cells: branches cut by the mesh
+// diptych: maps contact forces onto cells conservatively, by cutting the branches at the mesh's edges
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/segments.h"
 
@@ -86,12 +86,13 @@ namespace diptych::coupling
         }
     };
 
-    // Bodies are not numbered along space: in the contacts' own order the triangles would have to be fetched again and again.
+    // The contacts are visited in spatial order. Body numbers do not follow space, and in the contacts' own order the triangles
+    // would be loaded from memory again and again.
     std::vector<Eigen::Vector2d> points;
     for (const auto &contact : contacts)
       {
         if (contact.i < 0 || contact.i >= static_cast<int>(position.size()) || contact.j < 0)
-          throw std::invalid_argument("a contact names a grain that does not exist");
+          throw std::invalid_argument("a contact joins a grain that does not exist");
         points.push_back(contact.point);
       }
     for (const unsigned int k : search.in_spatial_order(points))
@@ -117,7 +118,7 @@ namespace diptych::coupling
                      MappedMoment                       &mapped)
   {
     if (mean_spin_term.size() != position.size())
-      throw std::invalid_argument("one spin term a grain is needed");
+      throw std::invalid_argument("the mapping needs one spin term per grain");
     for (std::size_t i = 0; i < position.size(); ++i)
       if (mean_spin_term[i] != 0)
         {
@@ -176,8 +177,9 @@ namespace diptych::coupling
   {
     const std::size_t n = grains.position.size();
     if (acceleration.size() != n || grains.applied_force.size() != n)
-      throw std::invalid_argument("one acceleration and one applied force a grain are needed");
-    std::vector<Eigen::Vector2d> force = contact_sums(n, grains.contacts); // what a fixed grain is held by is not known otherwise
+      throw std::invalid_argument("the nodal forces need one acceleration and one applied force per grain");
+    std::vector<Eigen::Vector2d> force = contact_sums(n, grains.contacts); // the sum of its contact forces is the only known
+                                                                           // force that holds a fixed grain
     for (std::size_t i = 0; i < n; ++i)
       if (grains.fixed.empty() || !grains.fixed[i])
         force[i] = grains.mass[i] * acceleration[i] - grains.applied_force[i];

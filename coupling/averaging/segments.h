@@ -1,4 +1,4 @@
-// diptych: conservative mapping of contact forces onto cells: branches cut by the mesh
+// diptych: maps contact forces onto cells conservatively, by cutting the branches at the mesh's edges
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -12,65 +12,65 @@
 
 namespace diptych::coupling
 {
-  // Moments |K| sigma_K on the triangles of a mesh, raw (unsymmetric): row index = force, positive in compression
-  // [pressure * length^2].
+  // Moments |K| sigma_K of the triangles of a mesh, unsymmetric. Row index = force, positive in compression [pressure *
+  // length^2].
   struct MappedMoment
   {
-    std::vector<Eigen::Matrix2d> triangle_moment;                 // one a triangle
-    Eigen::Matrix2d              total = Eigen::Matrix2d::Zero(); // -sum over contacts of f (x) branch, not through the mesh
-    double                       outside_share = 0;               // of sum |f| * length of segment, what lay outside the mesh
+    std::vector<Eigen::Matrix2d> triangle_moment;                 // one per triangle
+    Eigen::Matrix2d              total = Eigen::Matrix2d::Zero(); // -sum over contacts of f (x) branch, computed without the mesh
+    double                       outside_share = 0;               // share of sum |f| * length of segment outside the mesh
     std::vector<double>          triangle_weight;    // sum of |f| * length of the segments inside [pressure * length^2]
-    double                       outside_weight = 0; // of those outside the mesh
+    double                       outside_weight = 0; // the same sum for the segments outside the mesh
   };
 
-  // |K| sigma_K = -sum_c f (x) (segment in K): the branch x_i - contact point - x_j of each contact cut by the triangles, f the
-  // force on i, segment directed from x_i to x_j, or to the image of it that touches i. A body j >= position.size() is a
-  // platen: only x_i - contact point. What lies outside the mesh goes to the nearest boundary cell, so that
-  // sum_K |K| sigma_K = total to round-off.
-  // position: grain centres [length].
+  // |K| sigma_K = -sum_c f (x) (segment in K). The branch x_i - contact point - x_j of each contact is cut by the triangles K,
+  // and f is the force on i. The segment points from x_i to x_j, or to the image of x_j that touches i. A body j >=
+  // position.size() is a platen, with x_i - contact point only. Parts outside the mesh go to the nearest boundary cell, so that
+  // sum_K |K| sigma_K = total to round-off. position: grain centres [length].
   MappedMoment map_segments(const QuadMesh                            &mesh,
                             const TriangleSearch                      &search,
                             const std::vector<Eigen::Vector2d>        &position,
                             const std::vector<discrete::ContactForce> &contacts);
 
-  // outside_weight / sum of all weights; 0 where there are none.
+  // outside_weight / sum of all weights, or 0 if all weights are zero.
   double outside_share(const MappedMoment &mapped);
 
-  // Adds the dynamic part of the internal moments, -spin_term * 1 at each grain's centre, with
-  // spin_term = mean of (1/2) omega^2 I >= 0 [pressure * length^2], to the triangles and to the total.
+  // Adds the dynamic part of the internal moments, -spin_term * 1 at each grain's centre, to the triangles and to the total. Here
+  // spin_term = mean of (1/2) omega^2 I >= 0 [pressure * length^2].
   void add_spin_term(const TriangleSearch               &search,
                      const std::vector<Eigen::Vector2d> &position,
                      const std::vector<double>          &mean_spin_term,
                      MappedMoment                       &mapped);
 
-  // |sum over triangles - expected| / |expected|, the symmetric parts compared (Frobenius norm). expected: the sum of the grains'
+  // |sum over triangles - expected| / |expected| of the symmetric parts (Frobenius norm). expected: the sum of the grains'
   // internal moments, or mapped.total.
   double total_relative_error(const MappedMoment &mapped, const Eigen::Matrix2d &expected);
 
-  // Stress of the cells [pressure]: the moments of their triangles over the cell's area; unsymmetric.
+  // Unsymmetric stress of the cells [pressure]: the moments of a cell's triangles over its area.
   std::vector<Eigen::Matrix2d> cell_stress(const QuadMesh &mesh, const MappedMoment &mapped);
 
   // sum_K |K| sigma_K grad N_a at every node of the mesh [pressure * length], N_a linear on the triangles.
   std::vector<Eigen::Vector2d> nodal_forces(const QuadMesh &mesh, const MappedMoment &mapped);
 
-  // Adds N_a(point) force to the nodes of the triangle at the point.
+  // Adds N_a(point) force to the nodes of the triangle that holds the point.
   void add_at_nodes(const QuadMesh               &mesh,
                     const TriangleSearch         &search,
                     const Eigen::Vector2d        &force,
                     const Eigen::Vector2d        &point,
                     std::vector<Eigen::Vector2d> &nodal);
 
-  // What nodal_forces() gives when every branch lies inside the mesh (collar.h sees to that), computed without cutting: N_a at
-  // the grain centres times the contact forces on the grains, minus N_a at the contact points times the forces from the platens.
+  // The values that nodal_forces() gives if every branch lies inside the mesh, as collar.h ensures, but computed without cutting
+  // branches. They are the sum of N_a at the grain centres times the contact forces on the grains, minus N_a at the contact
+  // points times the forces from the platens.
   std::vector<Eigen::Vector2d> nodal_contact_forces(const QuadMesh                            &mesh,
                                                     const TriangleSearch                      &search,
                                                     const std::vector<Eigen::Vector2d>        &position,
                                                     const std::vector<discrete::ContactForce> &contacts);
 
-  // The same from what acts on the grains besides contacts, in the last step of a snapshot (its `contacts`, not the window's):
-  // sum_i N_a(x_i) (m_i a_i - F_i) - sum_platens N_a(x_c) f, with F_i the containing action and gravity. Both agree by the
-  // balance of momentum. acceleration: a_i = (velocity - velocity before the step) / step [length/time^2]. A fixed grain counts
-  // with its contact forces.
+  // The same from the accelerations and the applied forces of the last step: sum_i N_a(x_i) (m_i a_i - F_i) - sum_platens
+  // N_a(x_c) f, with F_i the containing action and gravity. f is a force of `contacts`, not of the window. Both results agree by
+  // the balance of momentum. acceleration: a_i = (velocity - velocity before the step) / step [length/time^2]. A fixed grain
+  // enters with its contact forces.
   std::vector<Eigen::Vector2d> nodal_applied_forces(const QuadMesh                     &mesh,
                                                     const TriangleSearch               &search,
                                                     const discrete::Snapshot           &grains,

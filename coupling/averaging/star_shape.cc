@@ -1,4 +1,4 @@
-// diptych: a mesh's boundary seen from one place inside
+// diptych: a mesh's boundary as seen from one place inside
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/star_shape.h"
 
@@ -13,7 +13,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    // The half plane to the left of a-b cut out of a convex polygon.
+    // Keeps the part of a convex polygon in the half plane to the left of a-b.
     void keep_left(const Eigen::Vector2d &a, const Eigen::Vector2d &b, std::vector<Eigen::Vector2d> &polygon)
     {
       std::vector<Eigen::Vector2d> kept;
@@ -43,7 +43,7 @@ namespace diptych::coupling
           star.clearance = std::min(star.clearance, cross(a, b) / (b - a).norm());
           turn += std::atan2(cross(a, b), a.dot(b));
         }
-      if (std::abs(turn - 2 * M_PI) > 1e-6) // holes, or parts that do not touch
+      if (std::abs(turn - 2 * M_PI) > 1e-6) // the boundary has holes or separate parts
         star.clearance = 0;
       std::sort(star.edge.begin(), star.edge.end(),
                 [&](const BoundaryEdge &a, const BoundaryEdge &b) { return angle(a) < angle(b); });

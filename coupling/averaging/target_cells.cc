@@ -1,4 +1,4 @@
-// diptych: cells ready to receive grain quantities, across the edge of a periodic sample, too
+// diptych: the cells that receive grain quantities, with their periodic images
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/target_cells.h"
 

@@ -1,4 +1,4 @@
-// diptych: cells ready to receive grain quantities, across the edge of a periodic sample, too
+// diptych: the cells that receive grain quantities, with their periodic images
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -12,17 +12,18 @@
 
 namespace diptych::coupling
 {
-  // The cells of a mesh with a search through them and, in a periodic sample, through their images one period to either side.
+  // The cells of a mesh, and a search through them. In a periodic sample the search includes the images one period to either
+  // side.
   struct TargetCells
   {
-    // period: width of the periodic cell [length]; 0: not periodic. Throws std::invalid_argument as TriangleSearch does.
+    // period: width of the periodic cell [length], or 0 if the sample is not periodic. Throws as TriangleSearch does.
     explicit TargetCells(const QuadMesh &cells, double period = 0);
 
     QuadMesh            mesh;
     double              period;
     Eigen::Vector2d     lower, upper; // bounding box of the mesh
-    QuadMesh            images;       // the mesh itself where it is not periodic
-    TriangleSearch      search;       // of images
+    QuadMesh            images;       // the mesh itself if it is not periodic
+    TriangleSearch      search;       // searches `images`
     std::vector<double> area;         // of the cells [length^2]
 
     unsigned int n_cells() const { return unsigned(mesh.cell.size()); }
@@ -31,7 +32,7 @@ namespace diptych::coupling
       return images.triangle[triangle_of_images].cell % n_cells();
     }
 
-    // Image of a point within half a period of the middle of the mesh.
+    // The image of a point that lies within half a period of the middle of the mesh.
     Eigen::Vector2d wrapped(const Eigen::Vector2d &x) const
     {
       if (!(period > 0))

@@ -11,44 +11,44 @@
 
 namespace diptych::coupling
 {
-  // What lengths and displacements are measured against.
+  // The reference values for lengths and displacements.
   struct SampleFrame
   {
-    Eigen::Vector2d centre = Eigen::Vector2d::Zero();           // of the sample's bounding box, or of its outline [length]
-    double          width = 0, height = 0;                      // of the sample [length]
+    Eigen::Vector2d centre = Eigen::Vector2d::Zero();           // centre of the sample's bounding box, or of its outline [length]
+    double          width = 0, height = 0;                      // size of the sample [length]
     double          mean_diameter    = 1;                       // [length]
     Eigen::Vector2d platen_increment = Eigen::Vector2d::Zero(); // displacement increment of the upper platen [length]
   };
 
-  // The numbers of a band with their 95 % intervals (band_intervals.h), each in the unit it has in Band. Ends that are not
-  // known are NaN. Angles are unwrapped around the value.
+  // The numbers of a band with their 95 % intervals (band_intervals.h), each in its unit in Band. Unknown ends are NaN. Angles
+  // are unwrapped around the value.
   struct BandIntervals
   {
     Interval angle_deg, half_width, width_10_90, offset, jump, dilation_deg;
-    int      resamples  = 0;   // kept
-    double   lost_share = NAN; // of all resamples: those in which the fit failed or was no band any more; NaN: none were drawn
+    int      resamples  = 0;   // resamples that held the band
+    double   lost_share = NAN; // share of the resamples in which the fit failed or found no band; NaN: no resamples were drawn
   };
 
   // A band along s = (cos, sin)(angle) with normal n = (-sin, cos)(angle), n_y >= 0. Across it the displacement increment is
-  // u = c + G (x - centre) + (J/2) tanh((n.(x - centre) - offset) / half_width): J is what the side n points to moves relative to
-  // the other.
+  // u = c + G (x - centre) + (J/2) tanh((n.(x - centre) - offset) / half_width).
+  // J is the displacement of the side to which n points, relative to the other side.
   struct Band
   {
-    double angle_deg        = 0; // of the band line from the horizontal, in (-90, 90]
+    double angle_deg        = 0; // from the horizontal to the band line, in (-90, 90]
     double half_width       = 0; // delta [length]
     double width_10_90      = 0; // 2.197 delta [length]
     double offset           = 0; // from the sample's centre along n [length]
-    double jump             = 0; // |J| / |platen increment|, with the sign of J.s: positive when the side of n moves along +s
-    double dilation_deg     = 0; // atan2(J.n, |J.s|): positive when the band opens
+    double jump             = 0; // |J| / |platen increment|, with the sign of J.s: positive if the side of n moves along +s
+    double dilation_deg     = 0; // atan2(J.n, |J.s|): positive if the band opens
     double r_squared        = 0; // weighted 1 - SS_res/SS_tot of the longitudinal component u.s at the raw points
     double r_squared_strips = 0; // the same for the means over 16 strips parallel to the band
 
-    std::string no_packs_because = "not judged"; // what speaks against a zone between two packs (packs.h); empty: nothing does
+    std::string no_packs_because = "not judged"; // why it is not a band between two packs (packs.h); empty: it is one
 
-    Interval to_minor_stress_deg; // angle to the minor principal stress beside it, in [0, 90], with the interval of the
-                                  // inclination alone; NaN: not known here
+    Interval to_minor_stress_deg; // angle to the minor principal stress beside the band, in [0, 90]; NaN: not known. Its interval
+                                  // is that of the inclination only.
 
-    BandIntervals interval; // of the numbers above
+    BandIntervals interval; // intervals of the numbers above
 
     bool            between_packs() const { return no_packs_because.empty(); }
     Eigen::Vector2d direction() const { return {std::cos(angle_deg * M_PI / 180), std::sin(angle_deg * M_PI / 180)}; }
@@ -56,8 +56,8 @@ namespace diptych::coupling
     Eigen::Vector2d normal() const { return {-std::sin(angle_deg * M_PI / 180), std::cos(angle_deg * M_PI / 180)}; }
   };
 
-  // Under vertical loading chance decides whether a band leans to the left or to the right. A band of negative angle is mirrored
-  // left to right (about the sample's centre): angle and jump change sign, offset, widths and dilation stay; a band of
-  // positive angle, a level or an upright one is returned as it is. So folded, the bands of several samples can be averaged.
+  // Under vertical loading a band leans left or right by chance. A band of negative angle is mirrored left to right about the
+  // sample's centre: angle and jump change sign; offset, widths and dilation do not. Any other band is returned unchanged. After
+  // this the bands of several samples can be averaged.
   Band folded(const Band &band);
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: how much too narrow the block bootstrap of a band is, from simulated errors of known correlation
+// diptych: factors that widen the bootstrap intervals of a band, from simulated errors of known correlation
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/bands/band_calibration.h"
 
@@ -17,7 +17,8 @@ namespace diptych::coupling
   {
     constexpr int n_simulated = 400;
 
-    // Errors that are smooth over a block lose little by a mean over a third of it; profiles by one over a half width.
+    // A mean over a third of a block loses little of errors that are smooth over a block. A mean over a half width loses little
+    // of the profiles.
     double cell_size(const BandFit &fit, const BootstrapOptions &bootstrap)
     {
       double size = bootstrap.block / 3;
@@ -26,8 +27,8 @@ namespace diptych::coupling
       return size;
     }
 
-    // Derivatives of the model at the points, the rows of u_x first, then those of u_y. Columns: angle, offset, log half width of
-    // each band, then the linear coefficients, u_x and u_y in turn.
+    // Derivatives of the model at the points: the rows of u_x, then those of u_y. Columns: angle, offset and log half width of
+    // each band, then the linear coefficients for u_x and u_y in turn.
     Eigen::MatrixXd model_derivatives(const BandData &data, const BandFit &fit)
     {
       const Eigen::Index n = data.x.size(), n_bands = fit.shape.size();
@@ -54,7 +55,7 @@ namespace diptych::coupling
       return derivative;
     }
 
-    // Derivatives of band_numbers() by the model's parameters, five rows a band.
+    // Derivatives of band_numbers() with respect to the model's parameters, five rows per band.
     Eigen::MatrixXd number_derivatives(const BandFit &fit)
     {
       const Eigen::Index n_bands    = fit.shape.size();
@@ -74,8 +75,9 @@ namespace diptych::coupling
       return derivative;
     }
 
-    // Points x simulations: white noise on a grid of spacing 1.5 w, smoothed with exp(-r^2/(2 w^2)), has the correlation
-    // exp(-r^2/(4 w^2)), whose integral over the plane is 4 pi w^2 = (correlation length)^2. The scale drops out.
+    // Points x simulations. White noise on a grid of spacing 1.5 w is smoothed with exp(-r^2/(2 w^2)). It then has the
+    // correlation exp(-r^2/(4 w^2)), whose integral over the plane is 4 pi w^2 = (correlation length)^2. The amplitude does not
+    // matter.
     Eigen::MatrixXd simulated_errors(const BandData &data, const double correlation_length, const int n, const std::uint64_t seed)
     {
       const double   w = correlation_length / std::sqrt(4 * M_PI), spacing = 1.5 * w;
@@ -103,7 +105,7 @@ namespace diptych::coupling
       Eigen::SparseMatrix<double, Eigen::RowMajor> smoothing(data.x.size(), size.prod());
       smoothing.setFromTriplets(entries.begin(), entries.end());
 
-      // uniform, not normal: each smoothed value sums a dozen of them
+      // Uniform instead of normal numbers suffice, because each smoothed value sums about a dozen of them.
       std::mt19937_64 random(seed);
       Eigen::MatrixXd white(size.prod(), n);
       for (Eigen::Index k = 0; k < white.size(); ++k)
@@ -112,7 +114,7 @@ namespace diptych::coupling
     }
 
     // Variance of each row of `influence` (numbers x 2 n) times the residuals (2 n x simulations) over drawn blocks: the sum of
-    // the squares of the blocks' sums. They sum to zero, because the residuals are those of a fit.
+    // the squares of the blocks' sums. These sums add up to zero because the residuals are those of a fit.
     Eigen::ArrayXXd block_variance(const Eigen::MatrixXd  &influence,
                                    const Eigen::MatrixXd  &residual,
                                    const std::vector<int> &block,

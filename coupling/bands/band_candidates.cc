@@ -1,4 +1,4 @@
-// diptych: where band fits start: scans over lines and pairs of lines
+// diptych: starting points of band fits, from scans over lines and pairs of lines
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/bands/band_candidates.h"
 
@@ -18,10 +18,10 @@ namespace diptych::coupling
 {
   namespace
   {
-    constexpr double pair_half_width     = 5;     // the one of the three that pairs are tried with
-    constexpr int    most_parallel_lines = 10000; // on either side of the centre
+    constexpr double pair_half_width     = 5;     // the half width of the three with which pairs are tried
+    constexpr int    most_parallel_lines = 10000; // to each side of the centre
 
-    // Lines of one angle that cross the sample.
+    // Adds the lines of one angle that cross the sample.
     void add_parallel_lines(const BandFitOptions   &sample,
                             const double            angle,
                             const double            half_width,
@@ -31,8 +31,8 @@ namespace diptych::coupling
       const double spacing = std::max(2., std::min(0.75 * width, std::min(sample.width, sample.height) / 12));
       const double reach   = 1.7 * largest_half_width(sample, angle); // 85 % of half the extent along the normal
       if (!(reach / spacing <= most_parallel_lines))
-        throw std::invalid_argument("the outline of the sample is so long that bands would be looked for along " +
-                                    std::to_string(2 * reach / spacing) + " lines of one angle; at most " +
+        throw std::invalid_argument("the outline of the sample is so long that the band search would scan " +
+                                    std::to_string(2 * reach / spacing) + " lines of each angle; at most " +
                                     std::to_string(2 * most_parallel_lines) + " are possible");
       for (double offset = -reach; offset <= reach; offset += spacing)
         lines.push_back({angle, offset, half_width});
@@ -70,7 +70,7 @@ namespace diptych::coupling
   {
     if (std::abs(std::remainder(a.angle - b.angle, M_PI)) >= angle)
       return true;
-    // offsets change sign with the normal when the angles lie on either side of +-90 degrees
+    // Offsets change sign with the normal if the angles lie on different sides of +-90 degrees.
     const double sign = std::cos(a.angle - b.angle) < 0 ? -1 : 1;
     return std::abs(a.offset - sign * b.offset) >= separation;
   }
@@ -101,14 +101,14 @@ namespace diptych::coupling
 
   Eigen::VectorXd LineScan::affine_free_profile(const BandShape &shape) const
   {
-    // tanh(z) = 1 - 2 / (exp(2 z) + 1), for all blocks at once
+    // tanh(z) = 1 - 2 / (exp(2 z) + 1), for all blocks at once.
     const Eigen::Vector2d normal(-std::sin(shape.angle), std::cos(shape.angle));
     const Eigen::ArrayXd  z      = ((position * normal).array() - shape.offset) / shape.half_width;
     const Eigen::VectorXd column = root_weight.array() * (1 - 2 / ((2 * z).exp() + 1));
     return column - affine * (affine.transpose() * column);
   }
 
-  // A profile q freed of the known bands lowers the sum of squares by |q.u|^2 / |q|^2.
+  // A profile q that is orthogonal to the known bands lowers the sum of squares by |q.u|^2 / |q|^2.
   std::vector<BandShape> LineScan::best_lines(const std::vector<BandShape> &known, const std::size_t n_best) const
   {
     Eigen::MatrixXd product = profiles.transpose() * data;

@@ -1,4 +1,4 @@
-// diptych: shear bands in a displacement field, one operator for grains and nodes
+// diptych: detection of shear bands in a displacement field, the same for grains and nodes
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/bands/band_detection.h"
 
@@ -26,10 +26,10 @@ namespace diptych::coupling
     BandData scaled_data(const DisplacementField &field, const SampleFrame &frame)
     {
       if (field.increment.size() != field.position.size() || field.weight.size() != field.position.size())
-        throw std::invalid_argument("a displacement field needs one increment and one weight a point");
+        throw std::invalid_argument("a displacement field needs one increment and one weight per point");
       const double platen = frame.platen_increment.norm();
       if (!(platen > 0) || !(frame.width > 0) || !(frame.height > 0) || !(frame.mean_diameter > 0))
-        throw std::invalid_argument("bands need a platen increment, an extent of the sample and a mean diameter above zero");
+        throw std::invalid_argument("the band search needs a platen increment, a sample size and a mean diameter above zero");
 
       BandData data;
       for (std::size_t i = 0; i < field.position.size(); ++i)
@@ -40,12 +40,12 @@ namespace diptych::coupling
             data.w.push_back(field.weight[i]);
           }
       if (data.x.size() < std::size_t(fewest_band_points))
-        throw std::invalid_argument("fewer than " + std::to_string(fewest_band_points) +
-                                    " points of positive weight: no band can be looked for");
+        throw std::invalid_argument("the band search needs at least " + std::to_string(fewest_band_points) +
+                                    " points of positive weight");
       return data;
     }
 
-    // Empty when band b of a fit is one; else what is wrong.
+    // Empty if band b of a fit is a band, else the reason why it is not.
     std::string objection(const BandFit &fit, const std::size_t b, const BandFitOptions &sample, const double minimum_jump)
     {
       const BandShape &shape = fit.shape[b];
@@ -63,7 +63,7 @@ namespace diptych::coupling
       return "";
     }
 
-    // Of the first band that is none.
+    // The objection to the first transition that is not a band.
     std::string objection(const BandFit &fit, const BandFitOptions &sample, const double minimum_jump)
     {
       std::string text;
@@ -72,8 +72,8 @@ namespace diptych::coupling
       return text;
     }
 
-    // Starts are compared on block means, which cost a tenth; the best is then fitted to all points, unless there is an objection
-    // to every one. A fit without objection is preferred to one that explains more.
+    // Starts are compared on block means, which cost a tenth. The best one without objection is then fitted to all points; if
+    // there is an objection to every start, the best of them is. A fit without objection is preferred to one that explains more.
     BandFit best_fit(const BandData            &data,
                      const BandData            &blocks,
                      const std::vector<Shapes> &starts,
@@ -141,7 +141,7 @@ namespace diptych::coupling
       band.r_squared_strips = r_squared(strip_value, strip_fitted, strip_weight);
     }
 
-    // The same field with angles in (-90, 90] degrees: half a turn reverses the normal, and with it offset and jump.
+    // The same field with angles in (-90, 90] degrees. Half a turn reverses the normal, and with it offset and jump.
     BandFit with_folded_angles(BandFit fit)
     {
       for (std::size_t b = 0; b < fit.shape.size(); ++b)
@@ -160,7 +160,7 @@ namespace diptych::coupling
       return fit;
     }
 
-    // Lengths of the intervals in mean diameters.
+    // Converts lengths of the intervals from mean diameters.
     Band reported_band(const BandIntervals &numbers, const double mean_diameter)
     {
       Band band;
@@ -178,7 +178,7 @@ namespace diptych::coupling
       return band;
     }
 
-    // A refit must still be a band, however weak: half a jump is one of its possible values.
+    // A refit must still be a band, but its jump may be arbitrarily weak: half a jump is a possible value of the resampling.
     std::vector<BandIntervals> intervals_of(const BandData       &data,
                                             const BandFit        &fit,
                                             const BandFitOptions &sample,
@@ -199,7 +199,7 @@ namespace diptych::coupling
       return fit;
     }
 
-    // The best fit with no, one, two bands, as many as are allowed.
+    // The best fits with no, one and two bands, up to the allowed number.
     std::vector<BandFit> fits_of(const BandData &data, const BandFitOptions &sample, const BandOptions &options)
     {
       const BandData       blocks = block_means(data, std::min(4., std::min(sample.width, sample.height) / 10));
@@ -222,7 +222,7 @@ namespace diptych::coupling
       return fits;
     }
 
-    // How many bands there are, and why not more: one word of objection for each fit, empty where it may be taken.
+    // The chosen number of bands, and why not more: one objection for each fit, empty if the fit is acceptable.
     struct Choice
     {
       std::size_t                best = 0;
@@ -273,7 +273,7 @@ namespace diptych::coupling
     const BandData       data   = scaled_data(field, frame);
     const BandFitOptions sample = fit_options_of(frame, options);
     BandReport           report;
-    // two components in each block of one correlation length
+    // Two components in each block of one correlation length.
     report.n_effective = std::clamp(2 * sample.width * sample.height / std::pow(options.correlation_length, 2), 8.,
                                     2. * data.x.size());
 

@@ -17,7 +17,7 @@ namespace diptych::coupling
       return std::clamp(shape.half_width, options.smallest_half_width, largest);
     }
 
-    // A step within the trust limits: bands neither jump nor leave the admissible widths.
+    // The step is limited, so that bands neither jump nor leave the admissible widths.
     std::vector<BandShape> stepped(const std::vector<BandShape> &shape,
                                    const Eigen::VectorXd        &step,
                                    const BandFitOptions         &options)
@@ -43,7 +43,7 @@ namespace diptych::coupling
       return largest;
     }
 
-    // A half width held at its bound takes no part in the step, else the others would wait for it.
+    // Removes a half width that is held at its bound from the step, because it would block the others.
     void hold_bounded_widths(const std::vector<BandShape> &shape, const BandFitOptions &options, BandProjection &p)
     {
       for (std::size_t b = 0; b < shape.size(); ++b)
@@ -64,7 +64,7 @@ namespace diptych::coupling
         }
     }
 
-    // Newton's step where the second derivative is positive definite, else that of Gauss and Newton, which always leads down.
+    // Newton's step if the second derivative is positive definite. Otherwise the Gauss-Newton step, which always descends.
     Eigen::VectorXd damped_step(const BandProjection &p, const double lambda)
     {
       const auto damped = [lambda](Eigen::MatrixXd matrix, const double floor) {
@@ -79,7 +79,7 @@ namespace diptych::coupling
       return damped(p.gauss_newton, floor).ldlt().solve(p.descent);
     }
 
-    // Levenberg-Marquardt with fixed weights; returns whether the step became smaller than the tolerance.
+    // Levenberg-Marquardt with fixed weights. Returns true if the step became smaller than the tolerance.
     bool minimise(const BandData            &data,
                   const std::vector<double> &weight,
                   const BandFitOptions      &options,
@@ -110,7 +110,7 @@ namespace diptych::coupling
       return small;
     }
 
-    // For two components of equal normal scatter the median of the length is 1.1774 standard deviations.
+    // If both components have equal normal scatter, the median of the length is 1.1774 standard deviations.
     double robust_scale(std::vector<double> misfit, const double floor)
     {
       const auto middle = misfit.begin() + misfit.size() / 2;

@@ -12,13 +12,14 @@ namespace diptych::coupling
 {
   struct BandFitOptions
   {
-    double width = 0, height = 0;      // of the sample [mean diameters]
+    double width = 0, height = 0;      // size of the sample [mean diameters]
     double smallest_half_width = 0.5;  // [mean diameters]
     double huber_threshold     = 2;    // scales
     double scale_floor         = 0.01; // [platen increments]
   };
 
-  // A wider tanh can hardly be told from the affine background: a quarter of the sample's extent along the band's normal.
+  // A quarter of the sample's extent along the band's normal. A wider tanh can hardly be distinguished from the affine
+  // background.
   double largest_half_width(const BandFitOptions &options, double angle);
 
   struct BandFit
@@ -34,17 +35,17 @@ namespace diptych::coupling
     Eigen::Vector2d at(const Eigen::Vector2d &x) const;
   };
 
-  // Minimises sum w rho(|u - c - G x - sum_b a_b tanh((n_b.x - o_b)/delta_b)|), rho of Huber, from the given shapes (none:
-  // affine).
+  // Minimises sum w rho(|u - c - G x - sum_b a_b tanh((n_b.x - o_b)/delta_b)|), rho of Huber. The iteration begins with the given
+  // shapes; without shapes the fit is affine.
   [[nodiscard]] BandFit fit_bands(const BandData &data, const std::vector<BandShape> &start, const BandFitOptions &options);
 
-  // Plain least squares with the weights as they are, from a fit nearby, until angles, offsets / half widths and log half widths
-  // move by less than the tolerance. Robust variance and misfit stay those of the start.
+  // Plain least squares with the given weights, starting from a nearby fit. It ends if angles, offsets / half widths and log half
+  // widths change by less than the tolerance. Robust variance and misfit remain those of the start.
   [[nodiscard]] BandFit refit_bands(const BandData       &data,
                                     const BandFit        &start,
                                     const BandFitOptions &options,
                                     double                tolerance = 1e-3);
 
-  // The weights that Huber's loss gives the data beside a fit.
+  // The weights that Huber's loss gives the data for a fit.
   std::vector<double> huber_weights(const BandData &data, const BandFit &fit, const BandFitOptions &options);
 } // namespace diptych::coupling

@@ -13,8 +13,8 @@ namespace diptych::coupling
 {
   namespace
   {
-    // Fine enough to leave the narrowest profile alone: the mean over a cell of half the half width adds 2.5 % to the variance
-    // of tanh's slope, pi^2/12 delta^2.
+    // Fine enough not to widen the narrowest profile: the mean over a cell of half the half width adds 2.5 % to the variance of
+    // tanh's slope, pi^2/12 delta^2.
     double cell_size(const BandFit &fit)
     {
       double narrowest = INFINITY;
@@ -42,7 +42,7 @@ namespace diptych::coupling
       return data;
     }
 
-    // Deviations of each number of each band: [5 * band + number][resample], NaN where the band is lost.
+    // Deviations of each number of each band, [5 * band + number][resample]; NaN if the band is lost.
     std::vector<std::vector<double>> resampled_deviations(const BandData         &cells,
                                                           const BandFit          &fit,
                                                           const BandFitOptions   &sample,
@@ -70,9 +70,9 @@ namespace diptych::coupling
       return deviations;
     }
 
-    // A refit with the weights as found moves too little. Huber's force psi on a misfit r beyond the threshold k is k r/|r|: its
-    // derivative vanishes along r and is the weight k/|r| across it, half the weight on average, while the refit counts the
-    // whole.
+    // A refit with fixed weights moves too little. For a misfit r beyond the threshold k, Huber's force psi is k r/|r|. Its
+    // derivative is zero along r and equals the weight k/|r| across it, half the weight on average. The refit counts the whole
+    // weight.
     double fixed_weight_factor(const std::vector<double> &plain, const std::vector<double> &huber)
     {
       double whole = 0, moving = 0;

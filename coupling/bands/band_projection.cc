@@ -1,4 +1,4 @@
-// diptych: tanh bands on an affine background after the linear coefficients are eliminated
+// diptych: tanh bands on an affine background, with the linear coefficients eliminated
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/bands/band_projection.h"
 
@@ -15,7 +15,7 @@ namespace diptych::coupling
   {
     using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, 2>;
 
-    // tanh to 1e-16 absolute, which is what a fit needs, at a fourth of std::tanh's cost.
+    // tanh with an absolute error of 1e-16, which suffices for a fit, at a quarter of std::tanh's cost.
     double fast_tanh(const double z)
     {
       return 1 - 2 / (std::exp(2 * z) + 1);
@@ -27,7 +27,7 @@ namespace diptych::coupling
       double z, t, profile;
     };
 
-    // K is fixed at compile time because the loops over all points are where the time goes.
+    // K is fixed at compile time because the loops over all points take most of the time.
     template <int K> class Loops
     {
     public:
@@ -48,8 +48,8 @@ namespace diptych::coupling
           }
       }
 
-      // Columns: affine (3), profiles (K), their derivatives (3 K), data (2): one weighted Gram matrix holds most of what a step
-      // needs. A few points at a time, each column of theirs side by side: sums stay in registers.
+      // Columns: affine (3), profiles (K), their derivatives (3 K), data (2). One weighted Gram matrix holds most of the terms of
+      // a step. It is summed over a few points at a time, each column contiguous, so that the sums stay in registers.
       Eigen::MatrixXd gram_matrix() const
       {
         constexpr int                      n = 5 + 4 * K, n_points = 16;
@@ -75,7 +75,7 @@ namespace diptych::coupling
         return gram;
       }
 
-      // sum w (misfit . a_b) times the second derivatives of the profile of band b, one 3 x 3 block a band.
+      // sum w (misfit . a_b) times the second derivatives of the profile of band b, one 3 x 3 block per band.
       std::array<Eigen::Matrix3d, K> misfit_curvature(const Coefficients &coefficient) const
       {
         std::array<Eigen::Matrix3d, K> sum;
@@ -93,7 +93,8 @@ namespace diptych::coupling
                 const Place &p      = place[i][b];
                 const double factor = weight[i] * coefficient.row(3 + b).dot(misfit) * (1 - p.profile * p.profile);
                 const double bend = -2 * p.profile * factor, inverse = 1 / shape[b].half_width;
-                // z by angle: -t, by offset: -1/delta, by log delta: -z; twice by angle: -(z + o/delta), and so on
+                // First derivatives of z: -t by angle, -1/delta by offset, -z by log delta. The second by angle is -(z +
+                // o/delta), and so on.
                 sum[b](0, 0) += bend * p.t * p.t - factor * (p.z + shape[b].offset * inverse);
                 sum[b](1, 0) += bend * p.t * inverse;
                 sum[b](2, 0) += bend * p.t * p.z + factor * p.t;
@@ -185,7 +186,7 @@ namespace diptych::coupling
       case 2:
         return projection<2>(data, weight, shape);
       default:
-        throw std::invalid_argument("at most two bands can be fitted");
+        throw std::invalid_argument("the fit takes at most two bands");
       }
   }
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: the strip that a band's 10-90 % width covers
+// diptych: the strip covered by a band's 10-90 % width
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -14,7 +14,7 @@ namespace diptych::coupling
   // Points x with |(x - on_band).normal| <= half_thickness.
   struct BandZone
   {
-    Eigen::Vector2d on_band;            // a point of the band's middle line [length]
+    Eigen::Vector2d on_band;            // a point of the band's centre line [length]
     double          angle_deg      = 0; // of the band, from the horizontal
     double          half_thickness = 0; // half the 10-90 % width [length]
 
@@ -22,7 +22,7 @@ namespace diptych::coupling
     Eigen::Vector2d normal() const { return {-along().y(), along().x()}; }
     bool            holds(const Eigen::Vector2d &x) const { return std::abs((x - on_band).dot(normal())) <= half_thickness; }
 
-    // The strip as a rectangle that reaches 2 * reach beyond on_band on either side.
+    // The strip as a rectangle that extends 2 * reach to either side of on_band.
     std::vector<Eigen::Vector2d> rectangle(const double reach) const
     {
       return rectangle_corners(on_band, along(), 4 * reach, 2 * half_thickness);

@@ -1,4 +1,4 @@
-// diptych: whether a band is a zone between the two packs that the platens carry
+// diptych: checks whether a band separates the two packs that the platens carry
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/bands/packs.h"
 
@@ -12,15 +12,16 @@ namespace diptych::coupling
 {
   namespace
   {
-    // Share of a platen's length on the far side of the band. height: of the platen above the sample's centre [length].
+    // Share of a platen's length on the far side of the band. height: y of the platen relative to the sample's centre [length].
     double cut_share(const Band &band, const SampleFrame &frame, const double height)
     {
       const Eigen::Vector2d n = band.normal();
-      if (std::abs(n.x()) < 1e-12) // a level line: all of the platen or nothing
+      if (std::abs(n.x()) < 1e-12) // for a level line: the whole platen or nothing
         return (height > 0) == (n.y() * height > band.offset) ? 0 : 1;
-      const double crossing = (band.offset - n.y() * height) / n.x(); // x of the line there, from the centre
-      const double left     = std::clamp(crossing / frame.width + 0.5, 0., 1.);
-      // n.x > 0: what lies to the right of the crossing is on the side of n, the upper one
+      const double crossing = (band.offset - n.y() * height) / n.x(); // x at which the line crosses the platen, relative to the
+                                                                      // centre
+      const double left = std::clamp(crossing / frame.width + 0.5, 0., 1.);
+      // If n.x > 0, the part to the right of the crossing is on the side of n, the upper side.
       const double upper = n.x() > 0 ? 1 - left : left;
       return height > 0 ? 1 - upper : upper;
     }

@@ -11,12 +11,12 @@ namespace diptych::coupling
   std::vector<double> strip_edges(const SampleFrame &frame, const double angle_deg, const double offset, const int n_strips)
   {
     if (n_strips < 1)
-      throw std::invalid_argument("at least one strip is needed");
+      throw std::invalid_argument("the number of strips must be at least 1");
     const double angle = angle_deg * M_PI / 180;
     const double reach = 0.5 * (frame.width * std::abs(std::sin(angle)) + frame.height * std::abs(std::cos(angle)));
     const double half  = 30 * frame.mean_diameter;
     double       from = std::max(-reach, offset - half), to = std::min(reach, offset + half);
-    if (!(from < to)) // a band outside the sample
+    if (!(from < to)) // the band lies outside the sample
       {
         from = -reach;
         to   = reach;
@@ -53,7 +53,7 @@ namespace diptych::coupling
     if (!(platen > 0))
       throw std::invalid_argument("strips need a platen increment above zero");
     if (edges.size() < 2 || !std::is_sorted(edges.begin(), edges.end()))
-      throw std::invalid_argument("the edges of strips must ascend");
+      throw std::invalid_argument("the edges of the strips must be in ascending order");
 
     const std::size_t   n = edges.size() - 1;
     Strips              strips{angle_deg, edges, std::vector<double>(n, 0.), std::vector<double>(n, 0.), std::vector<int>(n, 0)};

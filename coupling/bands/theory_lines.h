@@ -1,4 +1,4 @@
-// diptych: inclinations of a shear band that theories expect
+// diptych: inclinations of a shear band by theory
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace diptych::coupling
 {
-  // Angle between a band and the direction of the minor principal stress (least compression) [degrees], the same to either
-  // side. Observed bands lie between Roscoe's and Coulomb's line (Vardoulakis & Sulem 1995): a range, no single value.
+  // Angle between a band and the direction of the minor principal stress (smallest compression) [degrees], equal to either side.
+  // Observed bands lie between Roscoe's and Coulomb's line (Vardoulakis & Sulem 1995), so the theories give a range.
   struct TheoryLines
   {
     double coulomb_deg = 45; // 45 + phi/2: plane of greatest stress obliquity
@@ -17,8 +17,8 @@ namespace diptych::coupling
     double arthur_deg  = 45; // 45 + (phi + psi)/4 (Arthur, Dunstan, Al-Ani & Assadi 1977)
   };
 
-  // Friction angle phi in [0, 90), dilatancy angle psi in (-90, 90), positive when the material dilates [degrees]. Throws
-  // std::invalid_argument outside.
+  // Friction angle phi in [0, 90), dilatancy angle psi in (-90, 90), positive if the material dilates [degrees]. Throws
+  // std::invalid_argument outside these ranges.
   inline TheoryLines theory_lines(const double friction_deg, const double dilatancy_deg)
   {
     if (!(friction_deg >= 0 && friction_deg < 90))
@@ -28,8 +28,8 @@ namespace diptych::coupling
     return {45 + friction_deg / 2, 45 + dilatancy_deg / 2, 45 + (friction_deg + dilatancy_deg) / 4};
   }
 
-  // The two conjugate bands that lie at such an angle to the minor principal direction, as angles from the horizontal in
-  // (-90, 90] [degrees], that of the line turned counter-clockwise first.
+  // The two conjugate bands at such an angle to the minor principal direction, as angles from the horizontal in (-90, 90]
+  // [degrees]. The band turned counter-clockwise comes first.
   inline std::array<double, 2> conjugate_angles_deg(const double to_minor_deg, const double minor_direction_deg)
   {
     const auto folded = [](const double angle) { return 90 - std::fmod(std::fmod(90 - angle, 180.) + 180, 180.); };

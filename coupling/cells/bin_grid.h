@@ -1,4 +1,4 @@
-// diptych: a plane cut into square bins, and things sorted into them
+// diptych: a plane divided into square bins, and items sorted into them
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -18,7 +18,7 @@ namespace diptych::coupling
     int column_begin = 0, column_end = 0, row_begin = 0, row_end = 0;
   };
 
-  // Bins row by row from below, ascending items in each: the order is that of the items and of nothing else.
+  // The bins are numbered row by row from below. Items in a bin are in ascending order, so the order depends only on the items.
   class BinGrid
   {
   public:
@@ -38,24 +38,24 @@ namespace diptych::coupling
     double      row_low(const int row) const { return origin.y() + row * size; }
     std::size_t number(const int row, const int column) const { return std::size_t(row) * columns + column; }
 
-    // Of a point in the box.
+    // Number of the bin that holds a point of the box.
     std::size_t bin_of(const Eigen::Vector2d &x) const
     {
       return number(int((x.y() - origin.y()) / size), int((x.x() - origin.x()) / size));
     }
 
-    // Clamped to the grid: empty for a box outside of it.
+    // Bins that a box meets, clamped to the grid. The range is empty for a box outside the grid.
     BinRange range(const Eigen::Vector2d &lower, const Eigen::Vector2d &upper) const
     {
       return {std::max(0, index(lower.x() - origin.x(), columns)), std::min(columns, 1 + index(upper.x() - origin.x(), columns)),
               std::max(0, index(lower.y() - origin.y(), rows)), std::min(rows, 1 + index(upper.y() - origin.y(), rows))};
     }
 
-    // Row and column of any point, beyond the grid, too.
+    // Row and column of any point; the point may lie beyond the grid.
     int row_of(const Eigen::Vector2d &x) const { return int(std::floor((x.y() - origin.y()) / size)); }
     int column_of(const Eigen::Vector2d &x) const { return int(std::floor((x.x() - origin.x()) / size)); }
 
-    // As CountedBins::sort().
+    // See CountedBins::sort().
     template <class BinsOf> void sort(const std::size_t n, BinsOf &&bins_of)
     {
       bins.sort(std::size_t(columns) * rows, n, bins_of);
@@ -74,7 +74,7 @@ namespace diptych::coupling
     }
 
   private:
-    // Clamped before the conversion: far points and NaN must not overflow an int.
+    // The distance is clamped before the conversion because far points and NaN would overflow an int.
     int index(const double distance, const int n) const
     {
       return int(std::min(std::max(std::floor(distance / size), -1.), double(n)));

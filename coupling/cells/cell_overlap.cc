@@ -1,4 +1,4 @@
-// diptych: areas that the cells of two meshes share, and means carried from one to the other
+// diptych: areas that the cells of two meshes share
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/cells/cell_overlap.h"
 

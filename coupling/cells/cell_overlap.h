@@ -1,4 +1,4 @@
-// diptych: areas that the cells of two meshes share, and means carried from one to the other
+// diptych: areas that the cells of two meshes share, and mean values transferred from one mesh to the other
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -13,20 +13,20 @@
 
 namespace diptych::coupling
 {
-  // Compressed rows, one for each cell of the receiving mesh.
+  // Compressed rows, one row for each cell of the receiving mesh.
   struct CellOverlap
   {
     std::vector<std::size_t>  begin;    // n_cells + 1
-    std::vector<unsigned int> cell;     // of the giving mesh, ascending in a row
-    std::vector<double>       area;     // shared [length^2]
-    std::vector<double>       row_area; // of the receiving cells [length^2]
+    std::vector<unsigned int> cell;     // cell of the giving mesh, ascending in each row
+    std::vector<double>       area;     // shared area [length^2]
+    std::vector<double>       row_area; // area of the receiving cell [length^2]
   };
 
-  // Exact, by clipping triangles against each other.
+  // Computes the shared areas exactly: it clips the triangles of one mesh against those of the other.
   CellOverlap cell_overlap(const QuadMesh &receiving, const QuadMesh &giving);
 
-  // Means by shared area of values on the giving mesh, one for each receiving cell. NaN where less than half of the receiving
-  // cell lies in giving cells with a finite value.
+  // Transfers values from the giving mesh to the receiving one. Each receiving cell gets the mean weighted by shared area, or
+  // `missing` where less than half of it lies in giving cells with a finite value.
   template <class Value>
   std::vector<Value> carried_over(const CellOverlap &overlap, const std::vector<Value> &values, const Value &missing)
   {
@@ -39,7 +39,7 @@ namespace diptych::coupling
     std::vector<Value> means;
     for (std::size_t row = 0; row + 1 < overlap.begin.size(); ++row)
       {
-        Value  sum{}; // Eigen leaves its own uninitialised
+        Value  sum{}; // Eigen does not initialise its own types
         double area = 0;
         if constexpr (!std::is_arithmetic_v<Value>)
           sum.setZero();

@@ -1,4 +1,4 @@
-// diptych: the cells that grain quantities are mapped onto, and the triangles they are made of
+// diptych: the cells that receive grain quantities, and their triangles
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/cells/mesh_cells.h"
 
@@ -133,7 +133,7 @@ namespace diptych::coupling
     return {1 - second - third, second, third};
   }
 
-  // grad N_a is normal to the edge opposite corner a, with length edge / (2 area).
+  // grad N_a is normal to the edge opposite corner a. Its length is edge / (2 area).
   Eigen::Matrix<double, 2, 3> shape_gradients(const QuadMesh &mesh, const unsigned int triangle)
   {
     const auto                  n          = triangle_nodes(mesh, triangle);

@@ -1,4 +1,4 @@
-// diptych: the cells that grain quantities are mapped onto, and the triangles they are made of
+// diptych: the cells that receive grain quantities, and their triangles
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -11,37 +11,38 @@
 
 namespace diptych::coupling
 {
-  // Corners counter-clockwise.
+  // The corners are counter-clockwise.
   struct CellTriangle
   {
     std::array<unsigned int, 3> node;
     unsigned int                cell;
   };
 
-  // Quadrilaterals with straight edges, corners counter-clockwise, and the triangles they are divided into: of a cell without
-  // hanging nodes the corners 0-1-2, then 0-2-3. A cell beside smaller ones is a polygon through its neighbours' corners
-  // on its edges (hanging nodes) and has more triangles; every edge of a triangle is then an edge of its neighbour's, too.
+  // Quadrilaterals with straight edges and counter-clockwise corners, divided into triangles. A cell without hanging nodes has
+  // the triangles 0-1-2 and 0-2-3. A cell beside smaller ones is a polygon: its neighbours' corners on its edges are its hanging
+  // nodes, and it has more triangles. Neighbouring triangles therefore always share whole edges.
   struct QuadMesh
   {
     std::vector<Eigen::Vector2d>             node; // [length]
     std::vector<std::array<unsigned int, 4>> cell;
-    std::vector<CellTriangle>                triangle; // those of a cell follow one another, cells ascending
+    std::vector<CellTriangle>                triangle; // sorted by cell
   };
 
-  // Fills mesh.triangle. A node hangs on an edge of a cell where, in the shape `initial` (n_nodes places, in which edges of
-  // divided cells are straight; without it: as it is), it lies between the edge's ends within 1e-9 of its length and no
-  // cell shares the whole edge. Of all divisions of a polygon into triangles the one whose flattest triangle is least flat.
-  // A cell of four nodes that is concave at the end of its diagonal 0-2 has its corners rotated by one. Throws
-  // std::runtime_error naming the cell that cannot be divided into triangles of positive area.
+  // Fills mesh.triangle. A node hangs on a cell's edge if no other cell has this whole edge and, in the initial shape, the node
+  // lies between the ends of the edge within 1e-9 of its length. `initial` holds one place per node, in a shape in which the
+  // edges of divided cells are straight. Without it the current places are used. A polygon is divided so that its flattest
+  // triangle is as round as possible. If a cell of four nodes is not convex and its diagonal 0-2 lies outside, its corners are
+  // rotated by one. Throws std::runtime_error with the cell's number if the cell cannot be divided into triangles of positive
+  // area.
   void triangulate(QuadMesh &mesh);
   void triangulate(QuadMesh &mesh, const std::vector<Eigen::Vector2d> &initial);
 
-  // Current corners of the continuum's cells, same cell order, with their triangles. Only corners are kept and numbered
-  // anew by first appearance; the middle of an edge counts where smaller cells meet there. Throws as triangulate().
+  // Cells of a continuum snapshot in the same order, with their triangles. The mesh keeps only the corners and numbers them by
+  // first appearance. A node in the middle of an edge is kept where smaller cells meet there. Throws as triangulate() does.
   QuadMesh quad_mesh(const continuum::Snapshot &snapshot);
 
-  // Equal rectangles over a box, their sides as near to `size` as whole numbers of them allow; row by row from below. Throws
-  // std::invalid_argument for an empty box, a size that is not positive, or more than 1e8 cells.
+  // Divides a box into equal rectangles, numbered row by row from below. Their sides are as close to `size` as whole numbers of
+  // rectangles allow. Throws std::invalid_argument for an empty box, a size that is not positive, or more than 1e8 cells.
   QuadMesh regular_grid(const Eigen::Vector2d &lower, const Eigen::Vector2d &upper, double size);
 
   std::array<unsigned int, 3>  triangle_nodes(const QuadMesh &mesh, unsigned int triangle);
@@ -49,22 +50,22 @@ namespace diptych::coupling
   Eigen::Vector2d              cell_centre(const QuadMesh &mesh, unsigned int cell); // mean of the four corners
   std::vector<Eigen::Vector2d> cell_centres(const QuadMesh &mesh);                   // n_cells entries
 
-  // n_cells entries [length^2]: of the polygons.
+  // Areas of the polygons, n_cells entries [length^2].
   std::vector<double> cell_areas(const QuadMesh &mesh);
 
-  // Nodes of every cell's polygon, counter-clockwise from its corner 0; hanging nodes included.
+  // Nodes of each cell's polygon with its hanging nodes, counter-clockwise from corner 0.
   std::vector<std::vector<unsigned int>> cell_outlines(const QuadMesh &mesh);
 
-  // An edge that only one triangle has, the mesh to its left.
+  // An edge of one triangle only. The mesh lies on its left.
   struct BoundaryEdge
   {
-    unsigned int from, to, triangle; // nodes; the triangle that has it
+    unsigned int from, to, triangle; // two nodes, and the triangle that has this edge
   };
-  std::vector<BoundaryEdge> boundary_edges(const QuadMesh &mesh); // triangles ascending
+  std::vector<BoundaryEdge> boundary_edges(const QuadMesh &mesh); // sorted by triangle
 
-  // Linear shape functions of a triangle at a point; they add up to 1, also outside it.
+  // Values of a triangle's linear shape functions at a point. They add up to 1, also outside the triangle.
   Eigen::Vector3d shape_values(const QuadMesh &mesh, unsigned int triangle, const Eigen::Vector2d &point);
 
-  // Gradients of the three linear shape functions of a triangle, one a column [1/length].
+  // Gradients of a triangle's three linear shape functions, one column each [1/length].
   Eigen::Matrix<double, 2, 3> shape_gradients(const QuadMesh &mesh, unsigned int triangle);
 } // namespace diptych::coupling

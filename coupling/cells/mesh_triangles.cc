@@ -1,4 +1,4 @@
-// diptych: division of cells into triangles, hanging nodes included
+// diptych: division of cells, with their hanging nodes, into triangles
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <limits>
@@ -20,7 +20,7 @@ namespace diptych::coupling
       throw std::runtime_error("cell " + std::to_string(cell) + " of the deformed mesh is turned inside out");
     }
 
-    // The corners of a cell whose diagonal 0-2 lies inside it.
+    // The corners of a cell, rotated so that the diagonal 0-2 lies inside it.
     std::array<unsigned int, 4> with_inner_diagonal(const std::vector<Eigen::Vector2d> &x,
                                                     const std::array<unsigned int, 4>  &c,
                                                     const std::size_t                   number)
@@ -50,12 +50,12 @@ namespace diptych::coupling
       return single;
     }
 
-    // Nodes between the ends of an edge, from its lower node to its higher one.
+    // The nodes between the ends of each edge, sorted from its lower node to its higher node.
     std::map<Edge, std::vector<unsigned int>> hanging_nodes(const QuadMesh &mesh, const std::vector<Eigen::Vector2d> &place)
     {
       constexpr double          tolerance = 1e-9; // of an edge's length
       const std::vector<Edge>   edges     = edges_of_one_cell(mesh);
-      std::vector<unsigned int> nodes; // ascending in x
+      std::vector<unsigned int> nodes; // sorted by x
       for (const auto &[a, b] : edges)
         nodes.insert(nodes.end(), {a, b});
       std::sort(nodes.begin(), nodes.end());
@@ -106,15 +106,16 @@ namespace diptych::coupling
       return polygon;
     }
 
-    // 0 without area, sqrt(3)/4 where it is equilateral.
+    // Area over the square of the longest edge: 0 for a triangle without area, sqrt(3)/4 for an equilateral one.
     double roundness(const Eigen::Vector2d &a, const Eigen::Vector2d &b, const Eigen::Vector2d &c)
     {
       return signed_area(a, b, c) / std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
     }
 
-    // Divides a polygon of n nodes into n - 2 triangles of positive area: none then overlap and all lie inside it, because
-    // their winding numbers add up to the polygon's. best(i, j) is the roundness of the flattest triangle in the best division
-    // of the part i, i+1, .., j: the largest over k of min(best(i, k), roundness(i, k, j), best(k, j)).
+    // Divides a polygon of n nodes into n - 2 triangles of positive area. Such triangles do not overlap and lie inside the
+    // polygon, because their winding numbers add up to that of the polygon. best(i, j) is the roundness of the flattest triangle
+    // in the best division of the part i, i+1, .., j. It is the largest over k of min(best(i, k), roundness(i, k, j), best(k,
+    // j)).
     std::vector<CellTriangle> divide(const std::vector<Eigen::Vector2d> &x,
                                      const std::vector<unsigned int>    &polygon,
                                      const unsigned int                  number)
@@ -158,7 +159,7 @@ namespace diptych::coupling
   void triangulate(QuadMesh &mesh, const std::vector<Eigen::Vector2d> &initial)
   {
     if (initial.size() != mesh.node.size())
-      throw std::invalid_argument("one initial place a node is needed");
+      throw std::invalid_argument("the mesh needs one initial place per node");
     const auto hanging = hanging_nodes(mesh, initial);
     mesh.triangle.clear();
     for (unsigned int c = 0; c < mesh.cell.size(); ++c)

@@ -12,11 +12,12 @@
 
 namespace diptych::coupling
 {
-  // Deterministic order: bins row by row from below, points ascending in each.
+  // The order is deterministic: bins row by row from below, points ascending in each bin.
   class PointBins
   {
   public:
-    // bin_size > 0; no bins at all for no points. Larger bins where points are so far apart that most would be empty.
+    // bin_size > 0. Without points there are no bins. If the points lie so far apart that most bins would be empty, the bins are
+    // larger than bin_size.
     PointBins(const std::vector<Eigen::Vector2d> &position, const double bin_size)
     {
       if (position.empty())
@@ -33,15 +34,16 @@ namespace diptych::coupling
 
     double bin_size() const { return grid.bin_size(); }
 
-    // Points in the bins at a Chebyshev distance of `ring` bins from the bin of x. Returns false where the ring lies beyond all
-    // bins. All points closer to x than (ring + 1) bin sizes are in the rings 0 .. ring + 1.
+    // Visits the points in bins at a Chebyshev distance of `ring` bins from the bin of x. Returns false if no bin lies at this
+    // distance. All points closer to x than (ring + 1) bin sizes are in the rings 0 .. ring + 1.
     template <class Action> bool for_each_in_ring(const Eigen::Vector2d &x, const int ring, Action &&action) const
     {
       const int row = grid.row_of(x), column = grid.column_of(x);
       bool      any = false;
       for (int r = std::max(0, row - ring); r <= std::min(grid.n_rows() - 1, row + ring); ++r)
         {
-          const int step = r == row - ring || r == row + ring ? 1 : 2 * ring; // whole rows at the ends, two bins between
+          const int step = r == row - ring || r == row + ring ? 1 : 2 * ring; // all columns in the first and last row, two bins
+                                                                              // in the others
           for (int c = column - ring; c <= column + ring; c += std::max(1, step))
             if (c >= 0 && c < grid.n_columns())
               {
@@ -52,7 +54,7 @@ namespace diptych::coupling
       return any;
     }
 
-    // Points in all bins that meet the square of half side `reach` around x.
+    // Visits the points in all bins that meet the square of half side `reach` around x.
     template <class Action> void for_each_near(const Eigen::Vector2d &x, const double reach, Action &&action) const
     {
       const Eigen::Vector2d half = Eigen::Vector2d::Constant(reach);

@@ -1,4 +1,4 @@
-// diptych: plane polygons: area, inside, distance, the part within a convex one
+// diptych: area, clipping and distances of plane polygons
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/cells/polygon.h"
 
@@ -11,7 +11,7 @@ namespace diptych::coupling
 {
   double polygon_area(const std::vector<Eigen::Vector2d> &polygon)
   {
-    double area = 0; // about the first corner: far from the origin the terms would cancel
+    double area = 0; // the terms are taken about the first corner: far from the origin they would cancel
     for (std::size_t k = 2; k < polygon.size(); ++k)
       area += 0.5 * cross(polygon[k - 1] - polygon[0], polygon[k] - polygon[0]);
     return area;

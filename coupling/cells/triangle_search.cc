@@ -1,4 +1,4 @@
-// diptych: which triangle of a mesh holds a point, and which ones a segment runs through
+// diptych: finds the triangle that holds a point, and the triangles that a segment crosses
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/cells/triangle_search.h"
 
@@ -15,7 +15,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    constexpr double edge_tolerance = 1e-12; // of an edge's length: points closer to it count as on it
+    constexpr double edge_tolerance = 1e-12; // times an edge's length: points closer than this are on the edge
 
     bool contains(const std::array<Eigen::Vector2d, 3> &corner, const Eigen::Vector2d &point)
     {
@@ -28,8 +28,8 @@ namespace diptych::coupling
       return true;
     }
 
-    // Part of a-b inside a triangle: first >= second where there is none. An edge cuts exactly where it is crossed; a segment
-    // that keeps within the tolerance of it, as one along the mesh's boundary does, is not cut.
+    // Part of a-b inside a triangle; first >= second if there is none. An edge cuts the segment exactly where it crosses it. A
+    // segment within the tolerance of an edge, such as one along the mesh's boundary, is not cut by this edge.
     std::pair<double, double> clip(const std::array<Eigen::Vector2d, 3> &corner,
                                    const Eigen::Vector2d                &a,
                                    const Eigen::Vector2d                &b)
@@ -94,7 +94,7 @@ namespace diptych::coupling
 
         triangle.lower = triangle.corner[0].cwiseMin(triangle.corner[1]).cwiseMin(triangle.corner[2]);
         triangle.upper = triangle.corner[0].cwiseMax(triangle.corner[1]).cwiseMax(triangle.corner[2]);
-        // so that a point within the edge tolerance is still inside the box
+        // A point within the edge tolerance must still lie inside the box.
         const Eigen::Vector2d margin = Eigen::Vector2d::Constant(1e-9 * (triangle.upper - triangle.lower).sum());
         triangle.lower -= margin;
         triangle.upper += margin;
@@ -107,7 +107,7 @@ namespace diptych::coupling
     for (const auto &edge : boundary)
       boundary_ends.push_back({{mesh.node[edge.from], mesh.node[edge.to]}});
 
-    // bins of about half a cell: a branch of one diameter then meets few triangles
+    // The bins are about half a cell wide, so that a branch of one diameter meets few triangles.
     bins = BinGrid(lower, upper, std::sqrt(total_area / mesh.triangle.size()));
     bins.sort(triangles.size(), [&](const unsigned int t, const auto &into) {
       const BinRange range = bins.range(triangles[t].lower, triangles[t].upper);
@@ -149,7 +149,7 @@ namespace diptych::coupling
   void TriangleSearch::cut(const Eigen::Vector2d &a, const Eigen::Vector2d &b, std::vector<Piece> &pieces) const
   {
     pieces.clear();
-    static thread_local std::vector<double> cuts; // one allocation a thread: this is called for every contact
+    static thread_local std::vector<double> cuts; // allocated once per thread, because this is called for every contact
     cuts.clear();
 
     const Eigen::Vector2d lower = a.cwiseMin(b), upper = a.cwiseMax(b);
@@ -179,7 +179,7 @@ namespace diptych::coupling
     cuts.push_back(1.);
     std::sort(cuts.begin(), cuts.end());
 
-    constexpr double shortest = 1e-13; // cuts of one edge seen from its two sides differ by rounding
+    constexpr double shortest = 1e-13; // rounding makes the cuts of one edge differ between its two triangles
     double           from     = 0;
     for (const double cut : cuts)
       {
@@ -213,7 +213,7 @@ namespace diptych::coupling
   {
     BinGrid ordered = bins;
     ordered.sort(points.size(), [&](const unsigned int k, const auto &into) {
-      const BinRange range = bins.range(points[k], points[k]); // empty outside of the grid
+      const BinRange range = bins.range(points[k], points[k]); // empty outside the grid
       into(bins.number(std::min(range.row_begin, bins.n_rows() - 1), std::min(range.column_begin, bins.n_columns() - 1)));
     });
     return ordered.sorted();

@@ -1,4 +1,4 @@
-// diptych: which triangle of a mesh holds a point, and which ones a segment runs through
+// diptych: finds the triangle that holds a point, and the triangles that a segment crosses
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace diptych::coupling
 {
-  // Finds triangles through a uniform grid of bins. A point on an edge belongs to the triangle of lowest number (tolerance
-  // 1e-12 of the edge); a point outside the mesh to the triangle at the nearest boundary edge.
+  // Finds triangles with a uniform grid of bins. A point on an edge belongs to the triangle of lowest number (tolerance 1e-12
+  // times the edge's length). A point outside the mesh belongs to the triangle at the nearest boundary edge.
   class TriangleSearch
   {
   public:
@@ -23,7 +23,7 @@ namespace diptych::coupling
       bool         inside;
     };
 
-    // A part of a segment a-b: parameters 0 <= from < to <= 1.
+    // A part of a segment a-b, with the parameters 0 <= from < to <= 1.
     struct Piece
     {
       unsigned int triangle;
@@ -36,14 +36,14 @@ namespace diptych::coupling
 
     Place locate(const Eigen::Vector2d &point) const;
 
-    // Cuts a-b where it enters or leaves a triangle. The pieces are in order and each begins where the one before ends, the
-    // first at 0 and the last at 1: their sum is the segment, whatever rounding does to the cuts.
+    // Cuts a-b where it enters or leaves a triangle. Each piece begins where the previous one ends; the first begins at 0 and the
+    // last ends at 1. The pieces therefore add up to the segment, whatever the rounding errors of the cuts.
     void cut(const Eigen::Vector2d &a, const Eigen::Vector2d &b, std::vector<Piece> &pieces) const;
 
     // Triangles whose bounding box meets the given box, ascending, each once.
     void triangles_in_box(const Eigen::Vector2d &lower, const Eigen::Vector2d &upper, std::vector<unsigned int> &triangles) const;
 
-    // Numbers of the points in an order in which neighbours in space follow one another: bin by bin.
+    // The numbers of the points, sorted bin by bin, so that points close in space are close in the list.
     std::vector<unsigned int> in_spatial_order(const std::vector<Eigen::Vector2d> &points) const;
 
     const std::array<Eigen::Vector2d, 3> &corners(const unsigned int triangle) const { return triangles[triangle].corner; }

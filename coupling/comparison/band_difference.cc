@@ -1,4 +1,4 @@
-// diptych: how far the strongest bands of the two panels are apart
+// diptych: differences between the strongest bands of the two panels
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/comparison/band_difference.h"
 

@@ -1,4 +1,4 @@
-// diptych: how far the strongest bands of the two panels are apart
+// diptych: differences between the strongest bands of the two panels
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -7,11 +7,11 @@
 
 namespace diptych::coupling
 {
-  // b - a of independent numbers: the distances of the ends from the values add up in squares.
+  // b - a of independent numbers. The distances from the values to the ends are added in squares.
   Interval difference_of(const Interval &a, const Interval &b);
 
-  // Continuum minus grains, of the strongest band of each; of the angles the turn of lines, anticlockwise. Lengths [length]; NaN
-  // where a panel shows no band.
+  // Continuum minus grains, for the strongest band of each. Angles are rotations of lines, anticlockwise. Lengths [length]. NaN
+  // if a panel has no band.
   struct BandDifference
   {
     Interval angle_deg, half_width, width_10_90, offset, jump, dilation_deg;

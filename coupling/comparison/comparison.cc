@@ -1,4 +1,4 @@
-// diptych: both panels at the same instants, seen through the same operators
+// diptych: comparison of both panels at the same instants, with the same operators
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/comparison/comparison.h"
 
@@ -14,7 +14,7 @@ namespace diptych::coupling
   namespace
   {
 
-    // A panel that ended early leaves its last instant behind, which is no stage of the other.
+    // A panel that ended early stores its last instant, which is not a stage of the other panel.
     std::size_t n_common_snapshots(const Results &results)
     {
       const auto &grains = results.discrete.snapshots;
@@ -45,7 +45,7 @@ namespace diptych::coupling
     void take_differences(StageRecord &stage)
     {
       const double   continuum = stage.continuum.stress_ratio.value;
-      const Interval exact{continuum, continuum, continuum}; // but for the mesh and the step
+      const Interval exact{continuum, continuum, continuum}; // exact, apart from errors of mesh and step
       stage.stress_ratio_difference      = difference_of(stage.discrete.stress_ratio, exact);
       stage.volumetric_strain_difference = stage.continuum.volumetric_strain - stage.discrete.volumetric_strain;
       stage.band_difference              = band_difference(stage.increment);
@@ -65,7 +65,7 @@ namespace diptych::coupling
       return stage;
     }
 
-    // Direction of the least compression in the zone's probe, or the first one there is; NaN without any.
+    // Direction of the smallest compression in the band's probe, or in the first probe; NaN without probes.
     double minor_direction(const PanelRecord &panel)
     {
       const ProbeRecord *probe = panel.probes.empty() ? nullptr : &panel.probes.front();
@@ -75,7 +75,7 @@ namespace diptych::coupling
       return probe == nullptr ? NAN : probe->stress.direction_deg + 90;
     }
 
-    // The angle that theory lines give: between a band and the minor principal stress, in [0, 90].
+    // Sets the angle of the theory lines: between a band and the minor principal stress, in [0, 90].
     void take_angles_to_stress(std::vector<Band> &bands, const PanelRecord &at_the_end)
     {
       for (Band &band : bands)
@@ -93,7 +93,7 @@ namespace diptych::coupling
       take_angles_to_stress(increment.continuum.band.bands, at_the_end.continuum);
     }
 
-    // Stress against the averaging length, at the centres of the last stage's probes.
+    // Stress over the averaging length, at the centres of the last stage's probes.
     ResolutionStudy study_of(const Comparison &c, const discrete::Snapshot &grains, const ComparisonOptions &options)
     {
       std::vector<StudyPoint> points;
@@ -108,7 +108,7 @@ namespace diptych::coupling
       return resolution_study(c.stages.back().fields.mesh, grains, points, options.averaging.kernel);
     }
 
-    // Stages, windows, the coarse run's windows and what comes after them: each one piece of the work.
+    // The pieces of work: stages, windows, the coarse run's windows and the final part.
     class Pieces
     {
     public:

@@ -1,4 +1,4 @@
-// diptych: both panels at the same instants, seen through the same operators
+// diptych: comparison of both panels at the same instants, with the same operators
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -18,28 +18,28 @@ namespace diptych::coupling
 {
   struct CoarseRun
   {
-    double                 element_size = 0; // mean diameters
-    std::vector<Increment> windows;          // continuum side only
+    double                 element_size = 0; // in mean diameters
+    std::vector<Increment> windows;          // with the continuum's part only
     Peak                   peak;
   };
 
-  // Everything the report shows, but for the snapshots that it was made of. Lengths in the scene's own unit.
+  // All results that the report shows, without the snapshots behind them. Lengths are in the scene's unit.
   struct Comparison
   {
-    std::vector<StageRecord>   stages; // stage k of both panels' snapshots, from the first on
+    std::vector<StageRecord>   stages; // stage k of both panels' snapshots, beginning with the first
     std::vector<Increment>     windows;
-    std::optional<CoarseRun>   coarse;     // none where there was no such run
+    std::optional<CoarseRun>   coarse;     // empty without a coarse run
     ResolutionStudy            resolution; // of the last stage's grain stress
-    std::optional<TheoryLines> theory;     // of the continuum's peak angles; none for an elastic law
+    std::optional<TheoryLines> theory;     // from the continuum's peak angles; empty for an elastic law
     HistoryTable               discrete_history, continuum_history;
     DiscreteSummary            discrete;
     ContinuumSummary           continuum;
     CostSummary                cost;
   };
 
-  // Both panels of one scene, without any solver and without files. Stages that only one panel reached are left out. Throws
-  // std::invalid_argument where the panels share no stage beyond the start. `on_progress`, if given, is called with the share
-  // that is done before every stage and window; what it throws ends the comparison.
+  // Compares both panels of one scene, without a solver and without files. Stages that only one panel reached are left out.
+  // Throws std::invalid_argument if the panels share no stage beyond the start. `on_progress`, if given, is called before every
+  // stage and window with the share of the work that is done. An exception from it ends the comparison.
   using OnProgress = std::function<void(double share)>;
   Comparison compare(const Scene &scene, const Results &results, const OnProgress &on_progress = {});
 } // namespace diptych::coupling

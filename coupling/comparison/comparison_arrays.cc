@@ -1,4 +1,4 @@
-// diptych: the arrays of a comparison: comparison.h5 for the report, fields.vtu for ParaView
+// diptych: computes the arrays of a comparison: comparison.h5 for the report, fields.vtu for ParaView
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/comparison/comparison_arrays.h"
 
@@ -104,7 +104,7 @@ namespace diptych::coupling
 
   namespace
   {
-    // Mean increment of each cell's corners.
+    // Mean displacement increment of each cell's corners.
     std::vector<Eigen::Vector2d> moved_cells(const continuum::Snapshot &from, const continuum::Snapshot &to)
     {
       return continuum_fields(from, to).displacement_increment;

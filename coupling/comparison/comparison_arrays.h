@@ -1,4 +1,4 @@
-// diptych: the one list of the arrays of a comparison
+// diptych: the only list of the arrays of a comparison
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -15,8 +15,8 @@
 
 namespace diptych::coupling
 {
-  // Of cells NaN where a panel has no value. Tensors are positive in compression, row index = component of the force; rotations
-  // anticlockwise.
+  // Arrays on cells are NaN where a panel has no value. Tensors are positive in compression, row index = component of the force.
+  // Rotations are anticlockwise.
   namespace arrays
   {
     // s = (s_xx + s_yy)/2 and t/s of the symmetric part; NaN in tension.
@@ -28,69 +28,79 @@ namespace diptych::coupling
     std::vector<double> minor_stress(const std::vector<Eigen::Matrix2d> &stress);
     std::vector<double> stress_direction(const std::vector<Eigen::Matrix2d> &stress);
 
-    std::vector<double>          sizes_over(const std::vector<Eigen::Vector2d> &vectors, double unit);
-    std::vector<double>          difference(const std::vector<double> &a, const std::vector<double> &b); // a - b, where both are
+    std::vector<double> sizes_over(const std::vector<Eigen::Vector2d> &vectors, double unit);
+    std::vector<double> difference(const std::vector<double> &a, const std::vector<double> &b); // a - b if both are known
     std::vector<Eigen::Matrix2d> difference(const std::vector<Eigen::Matrix2d> &a, const std::vector<Eigen::Matrix2d> &b);
 
     // Stress of single grains: moment over the grain's share of the sample's area [pressure].
     std::vector<Eigen::Matrix2d> grain_stress(const discrete::Snapshot &grains);
   } // namespace arrays
 
-  // What an increment's displacements and velocities count in.
+  // Units of an increment's displacements and velocities.
   struct MotionUnits
   {
     double displacement = 1, velocity = 1; // [length], [length/time]
   };
   MotionUnits motion_units(const Increment &increment);
 
-  // Of a stage, on the cells of one mesh or grid.
+  // Lists the arrays of a stage on the cells of one mesh or grid.
   template <class Visit> void list_cell_arrays(const CellFields &f, const MotionUnits &unit, Visit &&visit)
   {
     const GrainFields     &g = f.grains;
     const ContinuumFields &c = f.continuum;
-    visit(ArrayEntry{"discrete_stress", "stress", "pressure", "grains: mean over the stage"}, g.stress);
-    visit(ArrayEntry{"discrete_contact_stress", "contact stress", "pressure", "the same without the dynamic part"},
+    visit(ArrayEntry{"discrete_stress", "stress", "pressure", "grains: mean over the stage, with the dynamic part"}, g.stress);
+    visit(ArrayEntry{"discrete_contact_stress", "contact stress", "pressure",
+                     "grains: mean over the stage, without the dynamic part"},
           g.contact_stress);
     visit(ArrayEntry{"discrete_mean_stress", "mean stress s", "pressure", "grains: (s_1 + s_2)/2"},
           arrays::mean_stress(g.stress));
     visit(ArrayEntry{"discrete_stress_ratio", "stress ratio t/s", "-", "grains: (s_1 - s_2)/(s_1 + s_2)"},
           arrays::stress_ratio(g.stress));
-    visit(ArrayEntry{"discrete_strain_increment", "strain increment", "-", "grains: affine fit over 2.5 d"},
-          strain_increments(g.displacement_gradient));
+    visit(
+      ArrayEntry{"discrete_strain_increment", "strain increment", "-", "grains: affine fit over 2.5 d, positive in compression"},
+      strain_increments(g.displacement_gradient));
     visit(ArrayEntry{"discrete_shear_strain_increment", "shear strain increment", "-", "grains: eps_1 - eps_2"},
           g.shear_strain_increment);
-    visit(ArrayEntry{"discrete_displacement_increment", "displacement increment", "length", "grains: mean by disc area"},
+    visit(ArrayEntry{"discrete_displacement_increment", "displacement increment", "length", "grains: mean weighted by disc area"},
           g.displacement_increment);
-    visit(ArrayEntry{"discrete_displacement_over_platen", "displacement over the platen's", "-", "grains: size of the increment"},
+    visit(ArrayEntry{"discrete_displacement_over_platen", "displacement over the platen's", "-",
+                     "grains: magnitude of the displacement increment"},
           arrays::sizes_over(g.displacement_increment, unit.displacement));
-    visit(ArrayEntry{"discrete_velocity", "velocity", "length/time", "grains: at the end of the stage, mean by mass"},
+    visit(ArrayEntry{"discrete_velocity", "velocity", "length/time", "grains: mean weighted by mass at the end of the stage"},
           g.velocity);
-    visit(ArrayEntry{"discrete_speed_over_platen", "speed over the platen's", "-", "grains: at the end of the stage"},
+    visit(ArrayEntry{"discrete_speed_over_platen", "speed over the platen's", "-",
+                     "grains: magnitude of the velocity at the end of the stage"},
           arrays::sizes_over(g.velocity, unit.velocity));
-    visit(ArrayEntry{"discrete_rotation_increment", "rotation increment", "rad", "grains: mean by disc area"},
-          g.rotation_increment);
+    visit(
+      ArrayEntry{"discrete_rotation_increment", "rotation increment", "rad", "grains: mean weighted by disc area, anticlockwise"},
+      g.rotation_increment);
     visit(
       ArrayEntry{"discrete_spin_increment", "spin increment of the medium", "rad", "grains: half the curl of the displacement"},
       g.spin_increment);
-    visit(ArrayEntry{"discrete_relative_rotation", "rotation minus spin", "rad", "grains: of the same grains"},
+    visit(ArrayEntry{"discrete_relative_rotation", "rotation minus spin", "rad",
+                     "grains: rotation of the grains minus spin of the medium"},
           g.relative_rotation);
     visit(ArrayEntry{"discrete_couple_stress", "couple stress", "pressure length",
-                     "grains: power-conjugate of the gradient of rotation"},
+                     "grains: power-conjugate to the gradient of rotation"},
           g.couple_stress);
-    visit(ArrayEntry{"discrete_couple_stress_size", "size of the couple stress", "pressure length", "grains"},
+    visit(ArrayEntry{"discrete_couple_stress_size", "size of the couple stress", "pressure length",
+                     "grains: magnitude of the couple stress"},
           arrays::sizes_over(g.couple_stress, 1));
     visit(ArrayEntry{"discrete_dissipation", "dissipation", "pressure", "grains: by friction, over the stage, per area"},
           g.dissipation);
-    visit(ArrayEntry{"discrete_coordination_number", "coordination number", "-", "contacts a grain, at the end of the stage"},
+    visit(ArrayEntry{"discrete_coordination_number", "coordination number", "-",
+                     "grains: contacts per grain at the end of the stage"},
           g.coordination_number);
-    visit(ArrayEntry{"discrete_fabric", "fabric", "-", "mean of n (x) n, at the end of the stage"}, g.fabric);
+    visit(ArrayEntry{"discrete_fabric", "fabric", "-", "grains: mean of n (x) n over contact normals n at the end of the stage"},
+          g.fabric);
     visit(ArrayEntry{"discrete_granular_temperature", "granular temperature", "length^2/time^2",
-                     "half the squared velocity about the affine motion"},
+                     "grains: half the squared velocity about the affine motion"},
           g.granular_temperature);
-    visit(ArrayEntry{"discrete_standard_error", "standard error of the mean pressure", "pressure", "grains taken as independent"},
+    visit(ArrayEntry{"discrete_standard_error", "standard error of the mean pressure", "pressure",
+                     "grains: for independent grains, a lower bound"},
           g.standard_error);
-    visit(ArrayEntry{"grain_count", "grains", "-", "sum of the shares of grains in the cell"}, g.grain_count);
-    visit(ArrayEntry{"solid_fraction", "solid fraction", "-", "area of discs / area of the cell"}, g.solid_fraction);
+    visit(ArrayEntry{"grain_count", "grains", "-", "grains: sum of the shares of grains in the cell"}, g.grain_count);
+    visit(ArrayEntry{"solid_fraction", "solid fraction", "-", "grains: area of discs / area of the cell"}, g.solid_fraction);
     visit(ArrayEntry{"continuum_stress", "stress", "pressure", "continuum: mean over the stage"}, c.stress);
     visit(ArrayEntry{"continuum_mean_stress", "mean stress s", "pressure", "continuum: (s_1 + s_2)/2"},
           arrays::mean_stress(c.stress));
@@ -102,25 +112,28 @@ namespace diptych::coupling
           arrays::minor_stress(c.stress));
     visit(ArrayEntry{"continuum_stress_direction", "direction of the major stress", "rad", "continuum: from the horizontal"},
           arrays::stress_direction(c.stress));
-    visit(ArrayEntry{"continuum_strain_increment", "strain increment", "-", "continuum: by the grains' operator"},
+    visit(ArrayEntry{"continuum_strain_increment", "strain increment", "-", "continuum: affine fit over 2.5 d as for the grains"},
           strain_increments(f.continuum_gradient));
     visit(ArrayEntry{"continuum_shear_strain_increment", "shear strain increment", "-", "continuum: eps_1 - eps_2"},
           f.continuum_shear);
-    visit(ArrayEntry{"continuum_displacement_increment", "displacement increment", "length", "continuum: mean of the corners"},
+    visit(ArrayEntry{"continuum_displacement_increment", "displacement increment", "length",
+                     "continuum: mean over the corners of the cell"},
           c.displacement_increment);
     visit(
       ArrayEntry{"continuum_displacement_over_platen", "displacement over the platen's", "-", "continuum: size of the increment"},
       arrays::sizes_over(c.displacement_increment, unit.displacement));
-    visit(ArrayEntry{"continuum_rotation_increment", "rotation increment", "rad", "continuum: Cosserat rotation"},
+    visit(ArrayEntry{"continuum_rotation_increment", "rotation increment", "rad", "continuum: Cosserat rotation, anticlockwise"},
           c.rotation_increment);
     visit(ArrayEntry{"continuum_spin_increment", "spin increment of the medium", "rad",
                      "continuum: half the curl of the displacement"},
           f.continuum_spin);
     visit(ArrayEntry{"continuum_relative_rotation", "rotation minus spin", "rad", "continuum: Cosserat rotation minus spin"},
           arrays::difference(c.rotation_increment, f.continuum_spin));
-    visit(ArrayEntry{"continuum_couple_stress", "couple stress", "pressure length", "continuum: with the sign of the grains'"},
+    visit(ArrayEntry{"continuum_couple_stress", "couple stress", "pressure length",
+                     "continuum: same sign convention as for the grains"},
           c.couple_stress);
-    visit(ArrayEntry{"continuum_couple_stress_size", "size of the couple stress", "pressure length", "continuum"},
+    visit(ArrayEntry{"continuum_couple_stress_size", "size of the couple stress", "pressure length",
+                     "continuum: magnitude of the couple stress"},
           arrays::sizes_over(c.couple_stress, 1));
     visit(ArrayEntry{"continuum_dissipation", "dissipation", "pressure", "continuum: plastic work over the stage, per area"},
           c.dissipation);
@@ -128,25 +141,30 @@ namespace diptych::coupling
           arrays::difference(c.stress, g.stress));
   }
 
-  // Of a stage or a window, below the increment's group.
+  // Lists the arrays of a stage or a window, below the increment's group.
   template <class Visit> void list_increment_arrays(const Increment &i, const discrete::Snapshot &to, Visit &&visit)
   {
     const MotionUnits unit = motion_units(i);
-    visit(ArrayEntry{"discrete/position", "place", "length", "centres of the grains at the end"}, i.discrete.field.position);
-    visit(ArrayEntry{"discrete/radius", "radius", "length", "of the grains"}, to.radius);
-    visit(ArrayEntry{"discrete/displacement_increment", "displacement increment", "length", "of the grains"},
-          i.discrete.field.increment);
-    visit(ArrayEntry{"discrete/displacement_over_platen", "displacement over the platen's", "-", "size of the increment"},
+    visit(ArrayEntry{"discrete/position", "place", "length", "centres of the grains at the end of the increment"},
+          i.discrete.field.position);
+    visit(ArrayEntry{"discrete/radius", "radius", "length", "radius of the grains"}, to.radius);
+    visit(
+      ArrayEntry{"discrete/displacement_increment", "displacement increment", "length", "displacement increment of the grains"},
+      i.discrete.field.increment);
+    visit(ArrayEntry{"discrete/displacement_over_platen", "displacement over the platen's", "-",
+                     "magnitude of the displacement increment of the grains"},
           arrays::sizes_over(i.discrete.field.increment, unit.displacement));
     visit(ArrayEntry{"discrete/shear_strain_increment", "shear strain increment", "-",
-                     "eps_1 - eps_2 around each grain, nan where none is near"},
+                     "eps_1 - eps_2 around each grain; nan if no other grain is near"},
           i.grain_shear);
-    visit(ArrayEntry{"nodes/position", "place", "length", "of the continuum's nodes at the end"}, i.continuum.field.position);
-    visit(ArrayEntry{"nodes/displacement_increment", "displacement increment", "length", "of the continuum's nodes"},
+    visit(ArrayEntry{"nodes/position", "place", "length", "positions of the continuum's nodes at the end of the increment"},
+          i.continuum.field.position);
+    visit(ArrayEntry{"nodes/displacement_increment", "displacement increment", "length",
+                     "displacement increment of the continuum's nodes"},
           i.continuum.field.increment);
   }
 
-  // Of a window, on the cells of the continuum's mesh at its end.
+  // Lists the arrays of a window on the cells of the continuum's mesh at the end of the window.
   template <class Visit>
   void list_window_cell_arrays(const Increment &i, const std::vector<Eigen::Vector2d> &moved, Visit &&visit)
   {
@@ -159,7 +177,7 @@ namespace diptych::coupling
       arrays::sizes_over(moved, motion_units(i).displacement));
   }
 
-  // Of a stage: what the grains are at its end, and the forces that they carried in it.
+  // Lists the grains' arrays of a stage: their state at its end, and their forces over it.
   template <class Visit>
   void list_grain_arrays(const Increment &i, const discrete::Snapshot &from, const discrete::Snapshot &to, Visit &&visit)
   {
@@ -174,70 +192,88 @@ namespace diptych::coupling
         body.push_back({contact.i, contact.j});
       }
     const std::vector<Eigen::Matrix2d> stress = arrays::grain_stress(to);
-    visit(ArrayEntry{"discrete/velocity", "velocity", "length/time", "at the end of the stage"}, to.velocity);
-    visit(ArrayEntry{"discrete/speed_over_platen", "speed over the platen's", "-", "at the end of the stage"},
+    visit(ArrayEntry{"discrete/velocity", "velocity", "length/time", "velocity of the grains at the end of the stage"},
+          to.velocity);
+    visit(ArrayEntry{"discrete/speed_over_platen", "speed over the platen's", "-",
+                     "magnitude of the grains' velocity at the end of the stage"},
           arrays::sizes_over(to.velocity, motion_units(i).velocity));
-    visit(ArrayEntry{"discrete/rotation_increment", "rotation increment", "rad", "of the grains"}, rotation);
-    visit(ArrayEntry{"discrete/mean_internal_moment", "internal moment", "pressure length^2", "mean over the stage"},
+    visit(
+      ArrayEntry{"discrete/rotation_increment", "rotation increment", "rad", "rotation increment of the grains, anticlockwise"},
+      rotation);
+    visit(ArrayEntry{"discrete/mean_internal_moment", "internal moment", "pressure length^2",
+                     "internal moment of each grain, mean over the stage"},
           to.mean_internal_moment);
-    visit(ArrayEntry{"discrete/stress", "stress", "pressure", "internal moment over the grain's share of the sample's area"},
-          stress);
-    visit(ArrayEntry{"discrete/mean_stress", "mean stress s", "pressure", "(s_1 + s_2)/2"}, arrays::mean_stress(stress));
-    visit(ArrayEntry{"discrete/stress_ratio", "stress ratio t/s", "-", "(s_1 - s_2)/(s_1 + s_2)"}, arrays::stress_ratio(stress));
-    visit(ArrayEntry{"discrete/major_stress", "major principal stress", "pressure", "s_1"}, arrays::major_stress(stress));
-    visit(ArrayEntry{"discrete/minor_stress", "minor principal stress", "pressure", "s_2"}, arrays::minor_stress(stress));
-    visit(ArrayEntry{"discrete/stress_direction", "direction of the major stress", "rad", "from the horizontal"},
+    visit(
+      ArrayEntry{"discrete/stress", "stress", "pressure", "internal moment of each grain over its share of the sample's area"},
+      stress);
+    visit(ArrayEntry{"discrete/mean_stress", "mean stress s", "pressure", "single grains: (s_1 + s_2)/2"},
+          arrays::mean_stress(stress));
+    visit(ArrayEntry{"discrete/stress_ratio", "stress ratio t/s", "-", "single grains: (s_1 - s_2)/(s_1 + s_2)"},
+          arrays::stress_ratio(stress));
+    visit(ArrayEntry{"discrete/major_stress", "major principal stress", "pressure", "single grains: s_1"},
+          arrays::major_stress(stress));
+    visit(ArrayEntry{"discrete/minor_stress", "minor principal stress", "pressure", "single grains: s_2"},
+          arrays::minor_stress(stress));
+    visit(ArrayEntry{"discrete/stress_direction", "direction of the major stress", "rad",
+                     "single grains: angle of s_1 from the horizontal"},
           arrays::stress_direction(stress));
     visit(ArrayEntry{"discrete/rattler", "rattlers", "-", "1 where the grain carries no contact force"},
           std::vector<int>(to.rattler.begin(), to.rattler.end()));
-    visit(ArrayEntry{"window/point", "contact point", "length", "of every pair that touched in the stage"}, point);
-    visit(ArrayEntry{"window/force", "contact force", "pressure length", "mean over the stage, on the first body"}, force);
+    visit(ArrayEntry{"window/point", "contact point", "length", "contact point of every pair that touched in the stage"}, point);
+    visit(ArrayEntry{"window/force", "contact force", "pressure length", "contact force on the first body, mean over the stage"},
+          force);
     visit(ArrayEntry{"window/body", "bodies", "-", discrete::contact_bodies}, body);
-    visit(ArrayEntry{"outline/left", "left side", "length", "of the sample's outline, upward"}, to.outline.left);
-    visit(ArrayEntry{"outline/right", "right side", "length", "of the sample's outline, upward"}, to.outline.right);
+    visit(ArrayEntry{"outline/left", "left side", "length", "left side of the sample's outline, upward"}, to.outline.left);
+    visit(ArrayEntry{"outline/right", "right side", "length", "right side of the sample's outline, upward"}, to.outline.right);
   }
 
-  // Below the group of the cells or of the grid.
+  // Lists the arrays below the group of the cells or of the grid.
   template <class Visit> void list_mesh_arrays(const QuadMesh &mesh, Visit &&visit)
   {
-    visit(ArrayEntry{"node_position", "place", "length", "of the nodes"}, mesh.node);
-    visit(ArrayEntry{"nodes", "nodes of a cell", "-", "its corners anticlockwise, counted from 0"}, mesh.cell);
+    visit(ArrayEntry{"node_position", "place", "length", "positions of the nodes"}, mesh.node);
+    visit(ArrayEntry{"nodes", "nodes of a cell", "-", "corners of each cell anticlockwise, counted from 0"}, mesh.cell);
   }
 
-  // Attributes of the group of a stage or a window.
+  // Lists the attributes of the group of a stage or a window.
   template <class Visit> void list_increment_attributes(const Increment &i, Visit &&visit)
   {
     const MotionUnits unit = motion_units(i);
-    visit(NumberEntry{"from", "as walk says", "progress at the beginning"}, i.from);
-    visit(NumberEntry{"to", "as walk says", "progress at the end"}, i.to);
-    visit(NumberEntry{"displacement_unit", "length", "what displacements count in: the upper platen's"}, unit.displacement);
-    visit(NumberEntry{"velocity_unit", "length/time", "what velocities count in: the upper platen's"}, unit.velocity);
-    visit(NumberEntry{"centre", "length", "of the sample, which offsets of bands count from"}, i.frame.centre);
+    visit(NumberEntry{"from", "as walk says", "progress at the beginning of the increment"}, i.from);
+    visit(NumberEntry{"to", "as walk says", "progress at the end of the increment"}, i.to);
+    visit(NumberEntry{"displacement_unit", "length", "unit of displacements: the displacement of the upper platen"},
+          unit.displacement);
+    visit(NumberEntry{"velocity_unit", "length/time", "unit of velocities: the velocity of the upper platen"}, unit.velocity);
+    visit(NumberEntry{"centre", "length", "centre of the sample, the origin of the offsets of bands"}, i.frame.centre);
   }
 
-  // Attributes of the whole file. `start`: the grains before the loading.
+  // Lists the attributes of the whole file. `start`: the grains before the loading.
   template <class Visit> void list_file_attributes(const Scene &scene, const discrete::Snapshot &start, Visit &&visit)
   {
     const auto  &left   = start.outline.left;
     const double height = left.empty() ? NAN : left.back().y() - left.front().y();
     visit(NumberEntry{"mean_diameter", "length", "mean diameter d of the grains"}, scene.sample.mean_diameter);
-    visit(NumberEntry{"pressure", "pressure", "P of the lateral action"}, scene.loading.pressure);
-    visit(NumberEntry{"height0", "length", "between the platens, before the loading"}, start.upper_y - start.lower_y);
-    visit(NumberEntry{"width0", "length", "area of the outline over its height, before the loading"}, start.area / height);
-    visit(NumberEntry{"walk", "-", "what progress is: axial_strain, shear_strain or time"},
+    visit(NumberEntry{"pressure", "pressure", "lateral pressure P on the sample"}, scene.loading.pressure);
+    visit(NumberEntry{"height0", "length", "distance between the platens before the loading"}, start.upper_y - start.lower_y);
+    visit(NumberEntry{"width0", "length", "area of the sample's outline over its height before the loading"},
+          start.area / height);
+    visit(NumberEntry{"walk", "-", "meaning of progress: axial_strain, shear_strain or time"},
           std::string(discrete::name_of(discrete::walk_of(scene.loading.mode))));
   }
 
-  // Of a panel's whole history, one entry a row of its .csv.
+  // Lists the arrays of a panel's whole history, one entry per row of its .csv.
   template <class Visit> void list_history_arrays(const HistoryTable &history, const double width, Visit &&visit)
   {
-    visit(ArrayEntry{"progress", "progress", "as walk says", "of the loading"}, column(history, "progress"));
-    visit(ArrayEntry{"stress_ratio_mean", "stress ratio t/s", "-", "running mean"}, running_mean(history, "stress_ratio", width));
-    visit(ArrayEntry{"lower_fy_mean", "force of the lower platen", "pressure length", "running mean"},
+    visit(ArrayEntry{"progress", "progress", "as walk says", "progress of the loading"}, column(history, "progress"));
+    visit(ArrayEntry{"stress_ratio_mean", "stress ratio t/s", "-", "running mean of the stress ratio"},
+          running_mean(history, "stress_ratio", width));
+    visit(ArrayEntry{"lower_fy_mean", "force of the lower platen", "pressure length",
+                     "running mean of the vertical force of the lower platen"},
           running_mean(history, "lower_fy", width));
-    visit(ArrayEntry{"upper_fy_mean", "force of the upper platen", "pressure length", "running mean"},
+    visit(ArrayEntry{"upper_fy_mean", "force of the upper platen", "pressure length",
+                     "running mean of the vertical force of the upper platen"},
           running_mean(history, "upper_fy", width));
-    visit(ArrayEntry{"platen_difference", "difference of the platen forces", "-", "|lower + upper| / their mean size"},
+    visit(ArrayEntry{"platen_difference", "difference of the platen forces", "-",
+                     "|lower + upper| of the vertical platen forces / their mean size"},
           platen_differences(history));
   }
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: the comparison as files
+// diptych: writes a comparison to files
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/comparison/comparison_output.h"
 
@@ -19,7 +19,7 @@ namespace diptych::coupling
   {
     using nlohmann::json;
 
-    // What each number is, by its place.
+    // The description of each number, by its place.
     json descriptions()
     {
       json result = json::object();
@@ -43,7 +43,7 @@ namespace diptych::coupling
       return requested;
     }
 
-    // A line of the .csv for every known number of a JSON value; an interval stands in one line with its ends.
+    // Collects one line of the .csv for every known number of a JSON value. An interval and its ends share one line.
     class CsvLines
     {
     public:
@@ -55,7 +55,7 @@ namespace diptych::coupling
         out << header_of(comparison_columns()) << '\n';
       }
 
-      // `line`: where the numbers belong; `place`: of the value in the list of numbers.
+      // `line`: the first columns of the line; `place`: place of the value in the list of numbers.
       void add(const json &value, const std::string &line, const std::string &place, const std::string &quantity)
       {
         if (value.is_object() && value.contains("value") && value.contains("low"))
@@ -73,7 +73,7 @@ namespace diptych::coupling
             }
       }
 
-      // Every panel of stages or windows.
+      // Adds both panels of stages or windows.
       void add_increments(const json &increments, const std::string &place, const std::string &prefix)
       {
         for (const json &increment : increments)

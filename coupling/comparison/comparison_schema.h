@@ -1,4 +1,4 @@
-// diptych: what each number of a comparison is
+// diptych: descriptions of the numbers of a comparison
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -6,6 +6,6 @@
 
 namespace diptych::coupling
 {
-  // Of comparison.json, in the order of comparison_numbers.h.
+  // The numbers of comparison.json, in the order of comparison_numbers.h.
   NumberSchema comparison_schema();
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: displacement increments of both panels between two instants, seen through the same operators
+// diptych: displacement increments of both panels between two instants, and their bands and strips
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/comparison/increment.h"
 
@@ -22,7 +22,7 @@ namespace diptych::coupling
       return largest > 0 ? largest : frame.mean_diameter;
     }
 
-    // Both panels' strips lie along the grains' band; where they show none along the continuum's, else along the
+    // The strips of both panels lie along the grains' band. Without one they lie along the continuum's band, otherwise along the
     // platen's travel.
     Strips cut_strips(const DisplacementField &field, const Increment &increment)
     {

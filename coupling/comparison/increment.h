@@ -1,4 +1,4 @@
-// diptych: displacement increments of both panels between two instants, seen through the same operators
+// diptych: displacement increments of both panels between two instants, and their bands and strips
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -15,35 +15,35 @@
 
 namespace diptych::coupling
 {
-  // Displacement increments of one panel between two stages.
+  // Displacement increment of one panel between two stages.
   struct PanelIncrement
   {
     DisplacementField   field;
     BandReport          band;
     Strips              strips;
-    std::vector<double> cell_shear; // shear strain increment at the cell centres of the continuum's mesh, n_cells
+    std::vector<double> cell_shear; // n_cells shear strain increments at the cell centres of the continuum's mesh
   };
 
   struct Increment
   {
     double from = 0, to = 0; // progress
-    double duration = 0;     // of the grains' loading in between [time]
-    // What displacements count in: the upper platen's increment, or, where it rests, the 98th percentile of the grains' [length].
+    double duration = 0;     // of the grains' loading between the instants [time]
+    // Unit of displacements: the upper platen's increment, or the 98th percentile of the grains' if the platen rests [length].
     double              displacement_unit = 0;
     SampleFrame         frame;
-    QuadMesh            mesh;  // of the continuum at `to`
-    CellCover           cover; // by the grains at `to`
+    QuadMesh            mesh;  // the continuum's mesh at `to`
+    CellCover           cover; // cover of the cells by the grains at `to`
     PanelIncrement      discrete, continuum;
-    std::vector<double> grain_shear; // shear strain increment at the grains
+    std::vector<double> grain_shear; // shear strain increments at the grains
   };
 
-  // Box of the sample at `to`, by the outline of its grains, and how far the upper platen went.
+  // The sample's box at `to`, from the outline of its grains, and the displacement of the upper platen.
   SampleFrame sample_frame(const discrete::Snapshot &from, const discrete::Snapshot &to);
 
-  // seed: of the resamples that give the bands' intervals.
+  // seed: draws the resamples for the intervals of the bands.
   Increment make_increment(const StagePair &pair, const BandOptions &options, std::uint64_t seed);
 
-  // The continuum alone, in the frame of another increment.
+  // The continuum only, in the frame of another increment.
   PanelIncrement continuum_increment(const continuum::Snapshot &from,
                                      const continuum::Snapshot &to,
                                      const SampleFrame         &frame,

@@ -1,4 +1,4 @@
-// diptych: how far the normal resultants on the two platens are apart (Moreau 1997)
+// diptych: difference between the normal forces of the two platens (Moreau 1997)
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/comparison/platen_balance.h"
 

@@ -1,4 +1,4 @@
-// diptych: how far the normal resultants on the two platens are apart (Moreau 1997)
+// diptych: difference between the normal forces of the two platens (Moreau 1997)
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -9,18 +9,18 @@
 
 namespace diptych::coupling
 {
-  // Of (lower + upper) / mean size of the vertical resultants on the sample, which only inertia makes differ from 0.
+  // Statistics of (lower + upper) / mean size of the vertical forces on the sample. Only inertia makes it differ from 0.
   struct PlatenBalance
   {
-    int      steps                 = 0;   // counted
-    double   share_below_1_percent = NAN; // of these steps
-    double   largest               = NAN; // size
-    Interval mean;                        // signed, batch means of ten runs of steps
+    int      steps                 = 0;   // number of steps
+    double   share_below_1_percent = NAN; // share of these steps
+    double   largest               = NAN; // largest magnitude
+    Interval mean;                        // with sign; batch means over ten runs of steps
   };
 
-  // |lower + upper| / mean size of the two, of every row; NaN where there is no force.
+  // |lower + upper| / mean size of the two forces, for every row; NaN if there is no force.
   std::vector<double> platen_differences(const HistoryTable &history);
 
-  // Steps beyond `from` of the progress; columns lower_fy and upper_fy. NaN where there are none.
+  // Uses the steps beyond `from` of the progress, and the columns lower_fy and upper_fy. NaN if there are none.
   PlatenBalance platen_balance(const HistoryTable &history, double from = 0.002);
 } // namespace diptych::coupling

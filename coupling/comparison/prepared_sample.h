@@ -1,4 +1,4 @@
-// diptych: what a comparison asks of a sample, looked at before anything runs
+// diptych: checks of the prepared sample that a comparison needs, made before anything runs
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace diptych::coupling
 {
-  // Throws SceneError where the prepared sample has too few grains for a band to be looked for, or where nothing of a probe that
-  // the scene places lies in it. Band and probes that the loading takes out of the sample are found when they are compared.
+  // Throws SceneError if the prepared sample has too few grains for the band detection, or if a probe of the scene lies outside
+  // it. A band or probe that leaves the sample during the loading is found only by the comparison.
   void require_comparable_sample(const Scene &scene, const discrete::Snapshot &prepared);
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: what is compared at one stage
+// diptych: the results of the comparison at one stage
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/comparison/stage_record.h"
 
@@ -28,9 +28,9 @@ namespace diptych::coupling
       record.stress_verdict     = stress_verdict(record.stress_differences.back());
     }
 
-    // |sum of m_i a_i (x) x_i| / |sum of M_i|, symmetric parts, of the last step: by how much the sum of the grains' moments
-    // misses what the forces from outside say of a body at rest (Moreau 1997, section 2). m a = contact forces + applied force;
-    // places from the middle of the grains.
+    // |sum of m_i a_i (x) x_i| / |sum of M_i| of the last step, symmetric parts. For a body at rest the external forces give the
+    // sum of the grains' moments; this is the relative deviation from it (Moreau 1997, section 2). m a = contact forces + applied
+    // force. Places are relative to the middle of the grains.
     double acceleration_share(const discrete::Snapshot &grains)
     {
       const int                    n     = int(grains.position.size());
@@ -60,14 +60,14 @@ namespace diptych::coupling
       return line_turn(major_direction(stress) + 90, 0);
     }
 
-    // What all probes of a stage look at.
+    // Input that all probes of a stage share.
     struct ProbeView
     {
       std::vector<Eigen::Vector2d> outline;
       GrainNetwork                 network;
       BootstrapOptions             bootstrap;
       const SampleFrame           &frame;
-      const std::vector<Band>     &bands; // of the grains
+      const std::vector<Band>     &bands; // the grains' bands
     };
 
     void take_rectangles(const ProbeView &view, const ProbeOptions &options, StageRecord &record)
@@ -77,7 +77,7 @@ namespace diptych::coupling
       for (const ProbeRegion &region : regions)
         {
           if (region.polygon.empty() && !options.probe_rectangles.empty())
-            throw std::invalid_argument("comparison/probe_rectangles: nothing of " + region.name + " lies in the sample");
+            throw std::invalid_argument("comparison/probe_rectangles: " + region.name + " lies outside the sample");
           blocks.push_back(probe_blocks(region, view.network, view.bootstrap.block));
           record.discrete.probes.push_back(
             {region, grain_probe_stress(region, view.network.position, view.network.radius, view.network.moment),
@@ -93,7 +93,7 @@ namespace diptych::coupling
     {
       const Circle circle = place_circle(view.outline, view.frame, view.bands, options);
       if (!(circle.radius > 0) && !options.probe_circle.empty())
-        throw std::invalid_argument("comparison/probe_circle: nothing of it lies in the sample");
+        throw std::invalid_argument("comparison/probe_circle: the circle lies outside the sample");
       if (!(circle.radius > 0))
         return;
       record.discrete.circle  = grain_circular_probe(circle, view.network, view.bootstrap);
@@ -101,7 +101,8 @@ namespace diptych::coupling
                                                     record.fields.own.stress);
     }
 
-    // By friction and by impacts, as the continuum's plastic work is by all that dissipates. Empty where the file does not tell.
+    // Dissipation by friction and by impacts, because the continuum's plastic work covers all dissipation. Empty if the file has
+    // none.
     std::vector<double> dissipation_of_pairs(const discrete::Snapshot &grains)
     {
       std::vector<double>        sum    = grains.window_dissipation;

@@ -1,4 +1,4 @@
-// diptych: what is compared at one stage
+// diptych: the results of the comparison at one stage
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -25,7 +25,7 @@ namespace diptych::coupling
   {
     ProbeRegion region;
     ProbeStress stress;
-    // of grains only
+    // Only for grains.
     ProbeFabric    fabric;
     ProbeIntervals intervals;
     GrainPressure  pressure;
@@ -33,24 +33,26 @@ namespace diptych::coupling
 
   struct PanelRecord
   {
-    Interval        stress_ratio; // mean over the last averaging_strain; the grains' with the interval of batch means
+    Interval        stress_ratio; // mean over the last averaging_strain; for grains with the interval of batch means
     double          volumetric_strain = 0;
-    Eigen::Vector2d lower_force, upper_force;  // on the sample, averaged likewise [pressure * length]
+    Eigen::Vector2d lower_force, upper_force;  // forces on the sample, averaged in the same way [pressure * length]
     double          dynamic_share       = 0;   // grains: spin term / mean stress, over the stage
     double          acceleration_share  = NAN; // grains: acceleration term / mean stress, in the last step
-    double          minor_direction_deg = NAN; // of the least compression of the mean stress over the stage, in (-90, 90]
+    double          minor_direction_deg = NAN; // direction of the smallest compression of the mean stress over the stage, in
+                                               // (-90, 90]
     std::vector<ProbeRecord>        probes;
     CircularProbe                   circle;
-    std::optional<DissipationSplit> dissipation; // by the grains' band; none where they show none
-    std::optional<BandTraction>     traction;    // likewise
+    std::optional<DissipationSplit> dissipation; // inside and outside the grains' band; empty if the grains have no band
+    std::optional<BandTraction>     traction;    // along the grains' band; empty if the grains have no band
   };
 
   struct MappingRecord
   {
-    std::string method; // of the averaging
+    std::string method; // averaging method
     double      total_relative_error = 0, outside_share = 0;
-    double      window_time    = 0;   // over which the grains' forces are averaged: impulses / this time
-    double      nodal_residual = NAN; // of `segments` on the mesh; NaN for other methods, or where periodic.h says so
+    double      window_time    = 0;   // time over which the grains' forces are averaged: impulses / this time
+    double      nodal_residual = NAN; // residual of `segments` on the mesh; NaN for other methods, and in the cases named in
+                                      // periodic.h
   };
 
   struct StageRecord
@@ -59,20 +61,20 @@ namespace diptych::coupling
     Increment   increment;                                                  // since the preceding stage
     PanelRecord discrete, continuum;
 
-    std::vector<ProbeDifference> probe_differences; // of the grains
-    std::optional<ForceChains>   force_chains;      // of single grains, by the grains' band
+    std::vector<ProbeDifference> probe_differences; // differences between probes of the grains
+    std::optional<ForceChains>   force_chains;      // of single grains, inside and outside the grains' band
 
     CellFields                    fields; // on the continuum's mesh
     CellFields                    grid;   // on the regular grid
     MappingRecord                 mapping;
-    std::vector<StressDifference> stress_differences; // cells, 3 d, 6 d
+    std::vector<StressDifference> stress_differences; // for cells, 3 d, 6 d
     std::string                   stress_verdict;
 
     Interval       stress_ratio_difference;            // continuum minus grains
-    double         volumetric_strain_difference = NAN; // likewise
+    double         volumetric_strain_difference = NAN; // continuum minus grains
     BandDifference band_difference;
   };
 
-  // increment: of the stage. Histories and intervals of the stress ratio are the caller's.
+  // increment: the stage's increment. The caller adds histories and the intervals of the stress ratio.
   StageRecord stage_record(Increment increment, const StagePair &stage, const Scene &scene);
 } // namespace diptych::coupling

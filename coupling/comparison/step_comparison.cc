@@ -1,4 +1,4 @@
-// diptych: one sample loaded with several lengths of the step, compared
+// diptych: comparison of runs of one sample with different lengths of the step
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/comparison/step_comparison.h"
 
@@ -21,10 +21,10 @@ namespace diptych::coupling
 
     const std::vector<std::string> cumulated = {"external_work", "friction_dissipation", "impact_dissipation"};
 
-    constexpr int    n_instants = 200; // at which runs are compared
+    constexpr int    n_instants = 200; // number of instants at which runs are compared
     constexpr double margin     = 0.05;
 
-    // A cumulated column at an instant, along the broken line through its rows, from 0 at the start.
+    // Value of a cumulated column at an instant: on the broken line through its rows, which begins with 0.
     double value_at(const HistoryTable &table, const std::string &name, const double time)
     {
       const std::vector<double> &x = column(table, "time"), &y = column(table, name);
@@ -42,7 +42,7 @@ namespace diptych::coupling
       return value_at(table, name, time);
     }
 
-    // Instants that all runs have reached, from one averaging window on.
+    // Instants that all runs have reached, beginning after one averaging window.
     std::vector<double> instants(const std::vector<StepRun> &runs, const double window)
     {
       double end = column(runs.front().history, "time").back();
@@ -62,7 +62,7 @@ namespace diptych::coupling
       throw std::invalid_argument("a study of the step needs at least two runs");
     const HistoryTable &finest = runs.back().history;
     const double        end    = column(finest, "time").back();
-    // In time: all is compared at equal times.
+    // The window in units of time, because all quantities are compared at equal times.
     const double              window = end * std::min(1., width / std::abs(column(finest, "progress").back()));
     const std::vector<double> x      = instants(runs, window);
     std::vector<std::string>  names{"stress_ratio"};
@@ -110,9 +110,9 @@ namespace diptych::coupling
 
   std::vector<NumberEntry> step_study_columns()
   {
-    std::vector<NumberEntry>   columns{{"step", "time", "length of the step that the run was asked for"},
-                                     {"time", "time", "since the start of the loading"},
-                                     {"progress", "as walk says", "what the loading has walked along its path"},
+    std::vector<NumberEntry>   columns{{"step", "time", "requested length of the step of the run"},
+                                     {"time", "time", "time since the start of the loading"},
+                                     {"progress", "as walk says", "progress of the loading"},
                                      {"stress_ratio_mean", "-", "running mean of the stress ratio"}};
     const discrete::HistoryRow row;
     for (const std::string &name : repeated)

@@ -25,7 +25,7 @@ namespace diptych::coupling
       return sum;
     }
 
-    // The initial stress is isotropic: which principal stress lies between the others has no meaning there.
+    // The initial stress is isotropic, so it is meaningless there which principal stress is the intermediate one.
     std::vector<double> loaded(const HistoryTable &history, const std::string &name)
     {
       const std::vector<double> &values = column(history, name);

@@ -13,8 +13,9 @@
 
 namespace diptych::coupling
 {
-  // T/S of a walk along strain, that of the beginning told apart: it hangs on the start and on how far the contacts are solved.
-  // Early: up to 0.3 %; then to the end. NaN where the history ends before, or walks along time.
+  // T/S of a loading along strain. The beginning is separate because it depends on the start and on the accuracy of the contact
+  // solver. Early: up to 0.3 % strain; later: from there to the end. NaN if the history ends before, or if the loading is along
+  // time.
   struct Strength
   {
     double early = NAN, later = NAN;
@@ -28,7 +29,7 @@ namespace diptych::coupling
     double        mean_inertial_number = NAN;
     double        energy_residual = NAN, momentum_residual = NAN, residual = NAN;
     double        solver_noise       = NAN; // residual x step [d sqrt(rho/P)] / mean inertial number
-    double        grain_stress_error = NAN; // error over residual x residual; NaN where it was not measured
+    double        grain_stress_error = NAN; // error / residual x residual; NaN if it was not measured
     Peak          peak;                     // of the running mean of t/s
     Strength      strength;
     double        final_volumetric_strain = NAN, spin_term_share = NAN;
@@ -46,21 +47,21 @@ namespace diptych::coupling
     Strength    strength;
     double      final_volumetric_strain = NAN, share_zz_not_intermediate = NAN, viscous_share = NAN, unstable_share = NAN;
     double      max_equivalent_plastic_strain = NAN;
-    double      platen_unbalance              = NAN; // of the vertical forces, at the end, relative to their mean size
+    double      platen_unbalance              = NAN; // sum of the vertical forces at the end, relative to their mean size
     std::string law;
-    std::optional<double> internal_length; // [mean diameters]; none: the law has none, the mesh sets its band
+    std::optional<double> internal_length; // [mean diameters]; empty: the law has none, and the mesh sets the width of its band
     std::string           parameters_from;
     ContinuumFacts        facts;
   };
 
-  // CPU seconds of phases; none: it did not run.
+  // CPU seconds of phases; empty if the phase did not run.
   struct CostSummary
   {
     std::optional<double> preparation_cpu_s, discrete_cpu_s, continuum_cpu_s, comparison_cpu_s;
     double                peak_memory_mb = 0;
   };
 
-  // `history`: of the rows; `last`: the last instant that is compared.
+  // `history`: the table of the rows; `last`: the last instant that is compared.
   DiscreteSummary  summary_of(const Scene              &scene,
                               const DiscreteResults    &results,
                               const discrete::Snapshot &last,

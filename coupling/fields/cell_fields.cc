@@ -1,4 +1,4 @@
-// diptych: every field of both panels on one set of cells
+// diptych: the fields of both panels on one set of cells
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/fields/cell_fields.h"
 
@@ -12,7 +12,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    // The affine fit at the cells' centres that GrainFields has of the grains.
+    // Adds the continuum's affine fit at the cells' centres, which GrainFields has for the grains.
     void add_kinematics(const StagePair &stage, CellFields &fields)
     {
       fields.continuum_gradient = displacement_gradient(displacement_field(stage.nodes_from, stage.nodes_to),
@@ -32,7 +32,7 @@ namespace diptych::coupling
       return regular_grid(lower, upper, size);
     }
 
-    // Whether a cell lies in the mesh to at least nine tenths.
+    // True for cells of which at least nine tenths lie in the mesh.
     std::vector<bool> mostly_inside(const CellOverlap &overlap)
     {
       std::vector<bool> inside;
@@ -96,7 +96,8 @@ namespace diptych::coupling
     fields.continuum = averaged_continuum({on_mesh.mesh, on_mesh.own}, fields.mesh, scale_of(stage), averaging);
     add_kinematics(stage, fields);
     for (std::size_t k = 0; k < fields.mesh.cell.size(); ++k)
-      if (!fields.own.stress[k].allFinite()) // outside the mesh: a fit would extrapolate, a kernel fade out
+      if (!fields.own.stress[k].allFinite()) // the cell lies outside the mesh, where a fit would extrapolate and a kernel would
+                                             // fade
         {
           fields.continuum_shear[k] = fields.continuum_spin[k] = fields.continuum.dissipation[k] = NAN;
           fields.continuum.rotation_increment[k]                                                 = NAN;

@@ -1,4 +1,4 @@
-// diptych: the continuum's fields seen through the averaging that the grains went through
+// diptych: the continuum's fields after the averaging that is applied to the grains
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/fields/continuum_averaging.h"
 
@@ -22,7 +22,7 @@ namespace diptych::coupling
               carried_over<double>(overlap, fields.dissipation, NAN)};
     }
 
-    // Points that stand for a triangle in a smoothing: centroids of its parts, none with an edge longer than `spacing`.
+    // Points that represent a triangle in the smoothing: the centroids of its parts, none with an edge longer than `spacing`.
     struct AreaPoint
     {
       Eigen::Vector2d position;
@@ -51,7 +51,7 @@ namespace diptych::coupling
       return points;
     }
 
-    // What smooths the grains smooths the continuum: its densities times area as carriers at points.
+    // Smooths the continuum with the grains' kernel: its densities times area are carriers at points.
     ContinuumFields smoothed(const OwnFields        &own,
                              const QuadMesh         &receiving,
                              const SampleScale      &scale,

@@ -1,4 +1,4 @@
-// diptych: the continuum's fields seen through the averaging that the grains went through
+// diptych: the continuum's fields after the averaging that is applied to the grains
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -11,19 +11,20 @@ namespace diptych::coupling
   struct OwnFields
   {
     const QuadMesh        &mesh;
-    const ContinuumFields &fields; // constant on its cells
+    const ContinuumFields &fields; // constant on each cell of the mesh
   };
 
   struct SampleScale
   {
     double mean_diameter = 1; // [length]
-    double period        = 0; // of a periodic sample [length], else 0
+    double period        = 0; // width of a periodic sample [length], else 0
   };
 
-  // A difference of the panels means something only where both went through the same cells or kernel. kernel, projection: the
-  // continuum's densities (stress, couple stress, dissipation) times area are carriers like the grains' own, displacement and
-  // rotation means weighted by area. The other methods only cut: means by the area that the cells share, NaN in
-  // receiving cells of which less than half lies in the mesh.
+  // A difference between the panels is meaningful only if both were averaged over the same cells or by the same kernel.
+  //   kernel, projection: the continuum's densities (stress, couple stress, dissipation) times area are distributed like the
+  //     grains' quantities. Displacement and rotation are means weighted by area.
+  //   other methods: means weighted by the area that the cells share. NaN in receiving cells of which less than half lies in the
+  //   mesh.
   ContinuumFields averaged_continuum(const OwnFields        &own,
                                      const QuadMesh         &receiving,
                                      const SampleScale      &scale,

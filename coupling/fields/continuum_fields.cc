@@ -1,4 +1,4 @@
-// diptych: what the continuum did on its cells between two stages
+// diptych: the continuum's fields between two stages
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/fields/continuum_fields.h"
 
@@ -20,7 +20,7 @@ namespace diptych::coupling
       {
         const continuum::CellState &before = from.cell_state[earlier_cell[k]], &after = to.cell_state[k];
         fields.stress.push_back(0.5 * (before.stress + after.stress).topLeftCorner<2, 2>());
-        fields.couple_stress.push_back(-after.couple_stress); // the snapshot's has the sign of mechanics
+        fields.couple_stress.push_back(-after.couple_stress); // the snapshot has the sign convention of mechanics
         fields.dissipation.push_back(after.dissipation - before.dissipation);
 
         Eigen::Vector2d increment = Eigen::Vector2d::Zero();

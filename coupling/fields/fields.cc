@@ -1,4 +1,4 @@
-// diptych: what the grains did on cells between two stages, every field by the same averaging
+// diptych: the grains' fields on cells between two stages, all by the same averaging
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/fields/fields.h"
 
@@ -14,7 +14,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    // Columns of Carriers::of_grains. A sum of a vector or symmetric tensor takes the columns from its first on.
+    // Columns of Carriers::of_grains. The components of a vector or symmetric tensor follow in the next columns.
     namespace grain
     {
       enum : Eigen::Index
@@ -25,7 +25,7 @@ namespace diptych::coupling
         fluctuating_mass = momentum + 2,
         fluctuation,
         disc_area,
-        weight,       // disc area of grains that are no rattlers: of the two below
+        weight,       // disc area of grains that are not rattlers; weight of the two following fields
         displacement, // x, y
         rotation = displacement + 2,
         contacts,
@@ -83,8 +83,8 @@ namespace diptych::coupling
       return q;
     }
 
-    // Halves of the window's forces with moment and dissipation, then halves of the contacts that bear force in the last
-    // step with their fabric.
+    // Adds half branches of the window's forces with moment and dissipation. Then adds those of the contacts that carry force in
+    // the last step, with their fabric.
     void add_halves(const discrete::Snapshot &s, std::vector<unsigned int> &n_contacts, Carriers &c)
     {
       const int  n_grains        = int(s.position.size());
@@ -101,7 +101,8 @@ namespace diptych::coupling
             row.segment<4>(half::moment) = Eigen::RowVector4d(-f.x() * l.x(), -f.x() * l.y(), -f.y() * l.x(), -f.y() * l.y());
             row[half::dissipation]       = has_dissipation ? share * s.window_dissipation[k] : 0;
             uniform.push_back(row);
-            // (x_c - x) x f falls from l x f at the centre to zero at the contact point: its integral is half of that
+            // (x_c - x) x f decreases linearly from l x f at the centre to zero at the contact point, so its integral is half of
+            // l x f.
             tapered.push_back(-0.5 * (l.x() * f.y() - l.y() * f.x()) * l.transpose());
             c.half.push_back({i, l});
             c.half_size.push_back(f.norm() * l.norm());
@@ -243,7 +244,7 @@ namespace diptych::coupling
   {
     if (from.rotation.size() != to.rotation.size() || to.mean_internal_moment.size() != to.position.size() ||
         to.mean_spin_term.size() != to.position.size())
-      throw std::invalid_argument("fields between two stages need the same grains at both, with their moments");
+      throw std::invalid_argument("fields between two stages need snapshots of the same grains, with their moments");
     const TargetCells target(mesh, to.cell_width);
     Carriers          carriers = carriers_of(target, from, to);
     carriers.judge_nodes       = judge_nodes;

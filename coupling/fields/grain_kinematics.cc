@@ -1,4 +1,4 @@
-// diptych: increments and velocities of grains as fields, across the edge of a periodic sample, too
+// diptych: displacement increments and velocity fluctuations of grains, also in periodic samples
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/fields/grain_kinematics.h"
 
@@ -12,7 +12,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    // Wrapped centres, then images of those within reach of the mesh; `grain` of each.
+    // Wrapped centres, then images within reach of the mesh. `grain` is the number of the grain of each.
     struct Images
     {
       std::vector<Eigen::Vector2d> position;
@@ -35,8 +35,8 @@ namespace diptych::coupling
       return images;
     }
 
-    // Squared residual of grain i in the affine least squares around it, over 1 - h with the leverage
-    // h = 1/n + mean_x . (sum x' (x) x')^-1 mean_x, x' = x - mean_x, grain i at x = 0.
+    // Squared residual of grain i in the affine least squares fit around it, divided by 1 - h. The leverage is h = 1/n + mean_x .
+    // (sum x' (x) x')^-1 mean_x with x' = x - mean_x and grain i at x = 0.
     double squared_residual(const Images &images, const PointBins &bins, const discrete::Snapshot &s, const unsigned int i)
     {
       const double           radius = strain_radius(s.mean_diameter);
@@ -48,7 +48,8 @@ namespace diptych::coupling
         const Eigen::Vector2d x = images.position[k] - centre;
         if (x.squaredNorm() > radius * radius)
           return;
-        const Eigen::Vector2d v = s.velocity[images.grain[k]] - s.velocity[i]; // so that no digits are lost to a common motion
+        const Eigen::Vector2d v = s.velocity[images.grain[k]] - s.velocity[i]; // relative to grain i, because a common velocity
+                                                                               // would cost digits
         ++n, sum_x += x, sum_v += v;
         xx += x * x.transpose(), vx += v * x.transpose();
       });
@@ -61,7 +62,7 @@ namespace diptych::coupling
         return NAN;
       const Eigen::Vector2d lever    = xx.inverse() * mean_x;
       const double          leverage = 1. / n + mean_x.dot(lever);
-      // The fit at x = 0, where the velocity of grain i counts as 0. A grain apart from the others fits itself.
+      // The fit at x = 0, relative to the velocity of grain i. A grain apart from the others fits itself.
       return leverage < 1 - 1e-9 ? (mean_v - vx * lever).squaredNorm() / (1 - leverage) : NAN;
     }
   } // namespace

@@ -1,4 +1,4 @@
-// diptych: what an earlier mesh had at the nodes and cells of a later, refined one
+// diptych: values of an earlier mesh at the nodes and cells of a later, refined mesh
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/fields/node_transfer.h"
 
@@ -35,8 +35,8 @@ namespace diptych::coupling
       return places;
     }
 
-    // Newton's iteration for x = sum_a (1 + xi xi_a)(1 + eta eta_a)/4 x_a: edges are straight in the initial shape, also those
-    // of cells that were divided.
+    // Newton's iteration for x = sum_a (1 + xi xi_a)(1 + eta eta_a)/4 x_a. Edges are straight in the initial shape, also those of
+    // divided cells.
     Eigen::Vector2d reference_place(const std::array<Eigen::Vector2d, 4> &corner, const Eigen::Vector2d &x)
     {
       Eigen::Vector2d r = Eigen::Vector2d::Zero();
@@ -69,7 +69,7 @@ namespace diptych::coupling
       return difference <= 1e-9 * size;
     }
 
-    // The cells of a snapshot in its initial shape.
+    // The cells of a snapshot, in the initial shape.
     class InitialCells
     {
     public:
@@ -93,7 +93,7 @@ namespace diptych::coupling
       TriangleSearch search;
     };
 
-    // The nodes of `from` that each node of `to` takes its value from, with their weights.
+    // For each node of `to`, the nodes of `from` whose values it combines, with their weights.
     struct Interpolation
     {
       std::vector<std::array<unsigned int, 9>> node;
@@ -111,8 +111,8 @@ namespace diptych::coupling
           const Eigen::Vector2d r    = reference_place(
                {{old_places[cell[0]], old_places[cell[1]], old_places[cell[2]], old_places[cell[3]]}}, x);
           if (!(r.cwiseAbs().maxCoeff() < 1 + 1e-6))
-            throw std::invalid_argument("a node of the later mesh, at first at (" + std::to_string(x.x()) + ", " +
-                                        std::to_string(x.y()) + "), lies in no cell of the earlier one");
+            throw std::invalid_argument("a node of the later mesh, initially at (" + std::to_string(x.x()) + ", " +
+                                        std::to_string(x.y()) + "), lies in no cell of the earlier mesh");
           result.node.push_back(cell);
           result.weight.emplace_back();
           for (std::size_t a = 0; a < 9; ++a)

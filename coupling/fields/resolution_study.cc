@@ -1,4 +1,4 @@
-// diptych: how the grains' stress depends on the length over which it is averaged
+// diptych: dependence of the grains' stress on the averaging length
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/fields/resolution_study.h"
 
@@ -16,9 +16,9 @@ namespace diptych::coupling
   namespace
   {
     constexpr double scatter_grid   = 2;    // mean diameters
-    constexpr double tolerance      = 0.05; // of the plateau
+    constexpr double tolerance      = 0.05; // largest deviation in a plateau, relative to the mean
     constexpr double least_ratio    = 2;
-    constexpr double least_t_over_s = 0.1; // a smaller mean of t/s counts as this: an isotropic state is steady, too
+    constexpr double least_t_over_s = 0.1; // a smaller mean of t/s counts as this, so that an isotropic state can be steady, too
 
     double mean_of(const Eigen::Matrix2d &stress)
     {
@@ -56,12 +56,12 @@ namespace diptych::coupling
       row.scatter_t = relative_scatter(t, area);
     }
 
-    // Squares over the bounding box of a region, each with the area that it shares with the region; `covered`: by grains, and in
-    // the region to at least a half.
+    // Squares over the bounding box of a region, each with the area that it shares with the region. `covered`: grains cover the
+    // square and at least half of it lies in the region.
     struct Grid
     {
       QuadMesh                  mesh;
-      std::vector<double>       area; // shared [length^2]
+      std::vector<double>       area; // shared with the region [length^2]
       std::vector<unsigned int> covered;
     };
 
@@ -140,8 +140,8 @@ namespace diptych::coupling
       return row;
     }
 
-    // Largest deviation of s or t/s of any point from its mean over the rows first .. last, relative; infinity for missing
-    // values.
+    // Largest relative deviation of s or t/s from their mean over the rows first .. last, over all points. Infinity if a value is
+    // missing.
     double largest_deviation(const std::vector<ResolutionRow> &rows, const std::size_t first, const std::size_t last)
     {
       double largest = 0;
@@ -171,8 +171,8 @@ namespace diptych::coupling
              << " mean diameters: s and t/s at every "
              << "point stay within " << 100 * tolerance << " % of their mean";
       else
-        text << "no plateau: over no range of w of a factor of " << least_ratio << " do s and t/s at every point stay within "
-             << 100 * tolerance << " % of their mean";
+        text << "no plateau: there is no range of w of a factor of " << least_ratio
+             << " in which s and t/s at every point stay within " << 100 * tolerance << " % of their mean";
       return text.str();
     }
   } // namespace

@@ -1,4 +1,4 @@
-// diptych: displacement increments at points, and the strain increment around any point
+// diptych: displacement increments at points, and the strain increment around a point
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/fields/strain_increment.h"
 
@@ -15,7 +15,8 @@ namespace diptych::coupling
 {
   namespace
   {
-    // G minimises sum w |u - c - G (x - x_0)|^2: with means taken off, G = (sum w u' (x) x') (sum w x' (x) x')^-1.
+    // G minimises sum w |u - c - G (x - x_0)|^2. With u' and x' the differences from the means, G = (sum w u' (x) x') (sum w x'
+    // (x) x')^-1.
     Eigen::Matrix2d gradient_around(const DisplacementField &field,
                                     const PointBins         &bins,
                                     const Eigen::Vector2d   &centre,
@@ -25,7 +26,7 @@ namespace diptych::coupling
       int             n     = 0;
       Eigen::Vector2d sum_x = Eigen::Vector2d::Zero(), sum_u = Eigen::Vector2d::Zero();
       const auto      for_each_inside = [&](const auto &action) {
-        // a little more than the radius, so that rounding loses no point on the circle
+        // The search radius is slightly larger, so that rounding loses no point on the circle.
         bins.for_each_near(centre, radius * (1 + 1e-9), [&](const unsigned int i) {
           if (field.weight[i] > 0 && (field.position[i] - centre).squaredNorm() <= radius * radius)
             action(i);
@@ -47,7 +48,7 @@ namespace diptych::coupling
         xx += field.weight[i] * x * x.transpose();
         ux += field.weight[i] * (field.increment[i] - mean_u) * x.transpose();
       });
-      // 4 det / trace^2 = 1 for an isotropic cloud, 0 for points on a line
+      // 4 det / trace^2 is 1 for an isotropic cloud and 0 for points on a line.
       if (!(4 * xx.determinant() > 1e-3 * xx.trace() * xx.trace()))
         return Eigen::Matrix2d::Constant(NAN);
       return ux * xx.inverse();
@@ -56,7 +57,7 @@ namespace diptych::coupling
     DisplacementField increments(const discrete::Snapshot &from, const discrete::Snapshot &to)
     {
       if (from.displacement.size() != to.displacement.size())
-        throw std::invalid_argument("displacement increments need the same grains at both instants");
+        throw std::invalid_argument("displacement increments need snapshots of the same grains at both instants");
       DisplacementField field;
       field.position = to.position;
       field.increment.resize(to.displacement.size());
@@ -99,7 +100,7 @@ namespace diptych::coupling
     if (!(radius > 0))
       throw std::invalid_argument("the radius of the affine fits must be positive");
     if (field.increment.size() != field.position.size() || field.weight.size() != field.position.size())
-      throw std::invalid_argument("a displacement field needs one increment and one weight a point");
+      throw std::invalid_argument("a displacement field needs one increment and one weight per point");
     if (field.position.empty())
       return std::vector<Eigen::Matrix2d>(sample_points.size(), Eigen::Matrix2d::Constant(NAN));
 

@@ -1,4 +1,4 @@
-// diptych: displacement increments at points, and the strain increment around any point
+// diptych: displacement increments at points, and the strain increment around a point
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -11,33 +11,34 @@
 
 namespace diptych::coupling
 {
-  // Displacement increments of grains or of nodes between two instants, at the later positions. One entry a point.
+  // Displacement increments of grains or nodes between two instants, at the later positions. One entry per point.
   struct DisplacementField
   {
     std::vector<Eigen::Vector2d> position;  // [length]
     std::vector<Eigen::Vector2d> increment; // [length]
-    std::vector<double>          weight;    // area the point stands for; 0: ignore
+    std::vector<double>          weight;    // area that the point represents; 0: ignore the point
   };
 
-  // Grains weigh their disc's area; rattlers of either instant weigh nothing, but where at the earlier one nothing touches yet
-  // (a table of grains, loaded as it stands) the later one decides. Throws std::invalid_argument when the numbers of
-  // grains differ. The mesh of the continuum may have been refined between the instants (node_transfer.h).
+  // The weight of a grain is its disc's area. A grain that is a rattler at either instant has weight 0. If no grain has a contact
+  // at the earlier instant, as in an imported table of grains, only the later instant counts. Throws std::invalid_argument if the
+  // numbers of grains differ. The mesh of the continuum may be refined between the instants (node_transfer.h).
   DisplacementField displacement_field(const discrete::Snapshot &from, const discrete::Snapshot &to);
   DisplacementField displacement_field(const continuum::Snapshot &from, const continuum::Snapshot &to);
 
-  // Radius of the affine fits that every shear strain increment is made with [length].
+  // Radius of the affine fits behind all shear strain increments [length].
   inline double strain_radius(const double mean_diameter)
   {
     return 2.5 * mean_diameter;
   }
 
-  // Gradient of the displacement increment around each sample point, G_kl = d u_k / d x_l: affine least squares over the points
-  // of the field within the radius. NaN where fewer than 4 points of positive weight are found or they lie nearly on a line.
+  // Gradient of the displacement increment around each sample point, G_kl = d u_k / d x_l. It is fitted by affine least squares
+  // to the points of the field within the radius. NaN if fewer than 4 points of positive weight are found or they lie nearly on a
+  // line.
   std::vector<Eigen::Matrix2d> displacement_gradient(const DisplacementField            &field,
                                                      const std::vector<Eigen::Vector2d> &sample_points,
                                                      double                              radius);
 
-  // eps_1 - eps_2 >= 0 of the symmetric displacement gradient, as above.
+  // eps_1 - eps_2 >= 0 of the symmetric part of this gradient.
   std::vector<double> shear_strain_increment(const DisplacementField            &field,
                                              const std::vector<Eigen::Vector2d> &sample_points,
                                              double                              radius);

@@ -1,4 +1,4 @@
-// diptych: how far the stresses of the two panels are apart, beside what sampling alone would give
+// diptych: difference between the stresses of the two panels, beside the scatter that sampling would give
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/fields/stress_difference.h"
 
@@ -21,7 +21,7 @@ namespace diptych::coupling
       return 0.5 * (m + m.transpose());
     }
 
-    // sum over cells of A |residual|^2 of the quadratic fit to the components xx, yy, sqrt(2) xy, with n / (n - 6).
+    // Sum over cells of A |residual|^2 of the quadratic fit to the components xx, yy and sqrt(2) xy, times n / (n - 6).
     double scatter(const QuadMesh                     &mesh,
                    const std::vector<double>          &area,
                    const std::vector<unsigned int>    &kept,
@@ -87,9 +87,9 @@ namespace diptych::coupling
     std::ostringstream out;
     out.precision(2);
     if (!std::isfinite(widest.relative_l2) || !std::isfinite(widest.sampling_alone))
-      return "too few cells of " + widest.label + " to tell the panels' stresses from sampling scatter";
+      return "too few cells of " + widest.label + " to distinguish a difference of the panels' stresses from sampling scatter";
     out << "at " << widest.label << " the stresses differ by " << 100 * widest.relative_l2
-        << " % where the grains alone scatter by " << 100 * widest.sampling_alone << " %: ";
+        << " %, and the grains' own scatter is " << 100 * widest.sampling_alone << " %: ";
     if (widest.relative_l2 <= widest.sampling_alone)
       out << "no difference beyond sampling";
     else

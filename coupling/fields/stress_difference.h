@@ -1,4 +1,4 @@
-// diptych: how far the stresses of the two panels are apart, beside what sampling alone would give
+// diptych: difference between the stresses of the two panels, beside the scatter that sampling would give
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -11,28 +11,29 @@
 
 namespace diptych::coupling
 {
-  // Both panels on the same cells, n_cells entries each; NaN where a panel has no value [pressure].
+  // Stresses of both panels on the same cells [pressure]. n_cells entries each, NaN where a panel has no value.
   struct StressPair
   {
     std::vector<Eigen::Matrix2d> grains, continuum;
-    std::vector<double>          standard_error; // of a grain cell, Frobenius norm, its grains taken as independent
+    std::vector<double>          standard_error; // of a cell's grain stress, Frobenius norm, for independent grains
   };
 
   struct StressDifference
   {
-    std::string label;                // "cells", "3 d", "6 d"
-    double      size           = 0;   // of the cells [length]
-    int         cells          = 0;   // that carry both values
-    double      relative_l2    = NAN; // sqrt(sum A |a - b|^2 / sum A |b|^2) of the symmetric parts, b the continuum's
-    double      direction_deg  = NAN; // root mean square angle between the major principal directions, by area
-    double      sampling_alone = NAN; // the same norm of the grains' scatter about their own smooth field
-    double      lowest_scatter = NAN; // what independent grains would give: neighbours share force chains, so a lower bound
+    std::string label;             // "cells", "3 d", "6 d"
+    double      size        = 0;   // side of the cells [length]
+    int         cells       = 0;   // number of cells with both values
+    double      relative_l2 = NAN; // sqrt(sum A |a - b|^2 / sum A |b|^2) of the symmetric parts, a of the grains, b of the
+                                   // continuum
+    double direction_deg  = NAN;   // root mean square angle between the major principal directions, weighted by area
+    double sampling_alone = NAN;   // the same norm for the grains' scatter about their own smooth field
+    double lowest_scatter = NAN;   // the same for independent grains; neighbours share force chains, so this is a lower bound
   };
 
-  // The smooth field is a quadratic polynomial in x and y fitted to each component of the grains' cells by least squares; its
-  // residual is scaled by n / (n - 6). What the sample really has beyond a quadratic (a narrow band) counts as scatter there.
+  // The smooth field is a quadratic polynomial in x and y, fitted by least squares to each component of the grains' cells. Its
+  // residual is scaled by n / (n - 6). Real features beyond a quadratic, such as a narrow band, count as scatter.
   StressDifference stress_difference(const QuadMesh &mesh, const StressPair &stress);
 
-  // What the widest cells say: whether the panels differ by more than sampling explains.
+  // States whether the panels differ by more than sampling explains, from the widest cells.
   std::string stress_verdict(const StressDifference &widest);
 } // namespace diptych::coupling

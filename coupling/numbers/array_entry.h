@@ -1,4 +1,4 @@
-// diptych: what is said of every array of a result, and listed arrays into a group of an HDF5 file
+// diptych: description of each array of a result, and a writer of arrays to HDF5
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -14,17 +14,17 @@
 
 namespace diptych::coupling
 {
-  // Arrays that are told to others have a function beside them, template <class Visit> void list_...(what, Visit &&visit), which
-  // calls visit(ArrayEntry{...}, values) for each: values are numbers, vectors or tensors, rows of whole numbers (std::array) or
-  // rows of numbers (std::vector).
+  // Each type with public arrays has a function beside it, template <class Visit> void list_...(what, Visit &&visit). It calls
+  // visit(ArrayEntry{...}, values) for each array. values are numbers, vectors or tensors, rows of integers (std::array) or rows
+  // of numbers (std::vector).
   struct ArrayEntry
   {
-    const char *key;   // of the dataset, and of the array of a .vtu file
-    const char *title; // short, for a picture
+    const char *key;   // name of the dataset, and of the array in a .vtu file
+    const char *title; // short text for a figure
     const char *unit, *meaning;
   };
 
-  // Writes listed arrays below a group, and what is listed as a NumberEntry as attributes of the group.
+  // Writes listed arrays below a group, and listed numbers (NumberEntry) as attributes of the group.
   struct IntoGroup
   {
     discrete::Hdf5Writer &file;
@@ -49,7 +49,7 @@ namespace diptych::coupling
 
     template <class T> void write(const std::string &name, const std::vector<T> &values) const
     {
-      file.write(name, values); // vectors and tensors of the plane
+      file.write(name, values); // plane vectors and tensors
     }
     template <class Whole, std::size_t n> void write(const std::string &name, const std::vector<std::array<Whole, n>> &rows) const
     {

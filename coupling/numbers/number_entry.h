@@ -1,4 +1,4 @@
-// diptych: what is said of every number of a result: its key, unit, kind and meaning
+// diptych: description of each number of a result: key, unit, kind and meaning
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -11,9 +11,9 @@ namespace diptych::coupling
   enum class Kind
   {
     number,  // may be averaged over realisations
-    line,    // angle of a line or axis, which repeats after 180 degrees
-    setting, // a place, a choice, the size of a computation: the same in every realisation, or without a mean
-    clock    // what a clock measured
+    line,    // angle of a line or axis, with a period of 180 degrees
+    setting, // a place, a choice or the size of a computation: the same in every realisation, or without a mean
+    clock    // a measured duration
   };
   constexpr auto choices(Kind)
   {
@@ -21,19 +21,21 @@ namespace diptych::coupling
                       std::pair{Kind::clock, "clock"}};
   }
 
-  // A record whose numbers are told to others has a function beside it
-  //   template <class Visitor> void list_numbers(const Record &record, Visitor &visitor)
-  // which calls visitor(NumberEntry{...}, member) for each number, text or list of numbers, visitor.group(key, meaning, member)
-  // for a record (or one that may be missing) and visitor.list(key, meaning, member) for a list of records. It is the only place
-  // that knows keys and units: JSON, CSV, ensembles, the page and `diptych explain results` come from it.
+  // A record with public numbers has a function beside it:
+  // template <class Visitor> void list_numbers(const Record &record, Visitor &visitor)
+  // It calls
+  //   visitor(NumberEntry{...}, member) for each number, text or list of numbers,
+  //   visitor.group(key, meaning, member) for a record (or an optional one),
+  //   visitor.list(key, meaning, member) for a list of records.
+  // Keys and units are defined only here. JSON, CSV, ensembles, the page and `diptych explain results` use this function.
   struct NumberEntry
   {
     const char *key, *unit, *meaning;
     Kind        kind         = Kind::number;
-    bool        in_diameters = false; // the member is a length, told in mean diameters
+    bool        in_diameters = false; // the member is a length that is written in mean diameters
   };
 
-  // First line of a table with these columns.
+  // Header line of a table with these columns.
   template <class Columns> std::string header_of(const Columns &columns)
   {
     std::string line;

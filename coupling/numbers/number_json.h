@@ -1,4 +1,4 @@
-// diptych: listed numbers to JSON and back
+// diptych: conversion of listed numbers to JSON and back
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -85,15 +85,15 @@ namespace diptych::coupling
     }
   };
 
-  // Plain members back from an object; those that it lacks, or has as null, stay as they are. Throws nlohmann::json::exception
-  // where it is none, or a member is of another type.
+  // Reads plain members from an object. Members that are missing or null in it keep their values. Throws
+  // nlohmann::json::exception if it is not an object, or if a member has another type.
   struct NumbersFromJson
   {
     const nlohmann::json &in;
 
     template <class T> void operator()(const NumberEntry &entry, T &value) const
     {
-      const auto found = in.is_object() ? in.find(entry.key) : in.at(entry.key).end(); // throws: it is no object
+      const auto found = in.is_object() ? in.find(entry.key) : in.at(entry.key).end(); // throws if `in` is not an object
       if (found == in.end() || found->is_null())
         return;
       if constexpr (std::is_same_v<T, std::optional<double>>)

@@ -1,4 +1,4 @@
-// diptych: every number that a record lists, whether or not there is one in it
+// diptych: descriptions of all numbers that a record can list
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -16,7 +16,7 @@ namespace diptych::coupling
 {
   struct NumberDescription
   {
-    std::string place; // keys on the way, as stages/discrete/probes/t_over_s; a list's entries stand under the list's key
+    std::string place; // keys on the path, as stages/discrete/probes/t_over_s; entries of a list are below the list's key
     std::string shape; // number, number with its 95 % interval, list, vector, tensor, text, yes or no
     std::string unit, meaning;
     Kind        kind = Kind::number;
@@ -26,7 +26,7 @@ namespace diptych::coupling
   struct CollectNumbers
   {
     NumberSchema &schema;
-    std::string   place; // with a slash at its end, or empty
+    std::string   place; // ends with a slash, or is empty
 
     template <class T> void operator()(const NumberEntry &entry, const T &)
     {

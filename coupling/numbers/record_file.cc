@@ -1,4 +1,4 @@
-// diptych: files in JSON that this program wrote, read back with doubt
+// diptych: reads the JSON files of this program, with checks
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/numbers/record_file.h"
 
@@ -17,7 +17,7 @@ namespace diptych::coupling
 
   json read_record_file(const std::string &path)
   {
-    constexpr int most_levels = 64; // values are walked recursively
+    constexpr int most_levels = 64; // because the values are visited recursively
     const auto    not_endless = [](const int depth, json::parse_event_t, const json &) {
       if (depth > most_levels)
         throw std::invalid_argument("nests more than " + std::to_string(most_levels) + " levels");
@@ -30,7 +30,7 @@ namespace diptych::coupling
         json record = json::parse(discrete::read_text(path), not_endless);
         if (record.is_object())
           return record;
-        throw std::invalid_argument("is no JSON object");
+        throw std::invalid_argument("is not a JSON object");
       }
     catch (const json::exception &error)
       {
@@ -44,7 +44,7 @@ namespace diptych::coupling
 
   std::string plain_text(const json::exception &error)
   {
-    const std::string what = error.what(); // name and number stand in brackets before it
+    const std::string what = error.what(); // the library's name and number precede the text in brackets
     const std::size_t end  = what.find("] ");
     return end == std::string::npos ? what : what.substr(end + 2);
   }

@@ -1,4 +1,4 @@
-// diptych: files in JSON that this program wrote, read back with doubt
+// diptych: reads the JSON files of this program, with checks
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -9,14 +9,14 @@
 
 namespace diptych::coupling
 {
-  // Throws std::invalid_argument naming the file where it is missing or no JSON object.
+  // Throws std::invalid_argument with the file's name if it is missing or not a JSON object.
   nlohmann::json read_record_file(const std::string &path);
 
-  // What the library says, without its own name and number.
+  // The library's message, without its own name and number.
   std::string plain_text(const nlohmann::json::exception &error);
 
-  // What `take` makes of a record of the file. An entry that is missing or of another type is std::invalid_argument naming the
-  // file.
+  // The result of `take` for a record of the file. Throws std::invalid_argument with the file's name if an entry is missing or
+  // has another type.
   template <class Take> auto from_record(const std::string &path, Take &&take)
   {
     try

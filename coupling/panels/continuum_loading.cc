@@ -1,4 +1,4 @@
-// diptych: the grains' loading as the continuum takes it
+// diptych: the continuum's counterpart of the grains' loading
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/panels/continuum_loading.h"
 
@@ -25,8 +25,8 @@ namespace diptych::coupling
 
     [[noreturn]] void refuse(const std::string &key, const std::string &value, const std::string &why)
     {
-      throw SceneError(key + " = " + value + ": the continuum panel has no counterpart: " + why +
-                       "; the grains alone run with `diptych discrete`");
+      throw SceneError(key + " = " + value + " has no counterpart in the continuum panel: " + why +
+                       "; `diptych discrete` runs the grains without the continuum");
     }
 
     struct DriveKey
@@ -38,7 +38,7 @@ namespace diptych::coupling
       std::string text() const { return text_of(option); }
     };
 
-    // As State::walls: lower and upper platen, left and right wall; [x, y] each.
+    // In the order of State::walls: lower and upper platen, left and right wall; [x, y] each.
     std::array<std::array<DriveKey, 2>, 4> drives_of(const Scene &scene)
     {
       std::array<std::array<DriveKey, 2>, 4> drives;
@@ -54,7 +54,7 @@ namespace diptych::coupling
       return discrete::strain_rate(discrete_loading(scene.loading), scene.sample.mean_diameter, scene.sample.density);
     }
 
-    // int_0^t v: v linear between the table's times and constant before the first and after the last.
+    // int_0^t v, where v is linear between the table's times and constant before the first and after the last.
     double displacement(const TimeTable &velocity, const double t)
     {
       const auto since_first = [&](const double end) {
@@ -82,7 +82,7 @@ namespace diptych::coupling
       return {};
     }
 
-    // The velocity where it is one number, whatever the time.
+    // The velocity if it is a single number, independent of time.
     std::optional<double> constant_velocity(const DriveKey &key)
     {
       const discrete::Drive drive = discrete::read_drive(key.key, key.option);
@@ -134,7 +134,7 @@ namespace diptych::coupling
       return continuum::SidePressure{};
     }
 
-    // What the mode says; drives of the scene come on top.
+    // Sets the motion of the mode; the scene's drives are added to it.
     void set_mode(const LoadingOptions &o, const ContinuumSample &sample, continuum::Loading &loading)
     {
       const auto travel = [](const double rate) {
@@ -156,19 +156,23 @@ namespace diptych::coupling
       const DriveKey   &progress = mode == LoadingMode::descent ? drives[1][1] : drives[1][0];
       if (mode != LoadingMode::time && !progress.is_auto())
         refuse(progress.key, progress.text(),
-               "loading/mode = " + discrete::name_of(mode) + " moves that itself; time is for walls of all kinds");
+               "loading/mode = " + discrete::name_of(mode) +
+                 " moves the platen in this component; use loading/mode = time for other motions");
       const bool smooth = scene.continuum.platens == continuum::Platens::smooth;
       for (const auto *platen : {&drives[0], &drives[1]})
         if (smooth && !(*platen)[0].is_auto())
-          refuse((*platen)[0].key, (*platen)[0].text(), "continuum/platens = smooth leaves the horizontal motion alone");
+          refuse((*platen)[0].key, (*platen)[0].text(),
+                 "a smooth platen (continuum/platens) does not move the sample horizontally");
       const auto is_force = [&](const DriveKey &key) {
         return std::holds_alternative<AppliedForce>(discrete::read_drive(key.key, key.option));
       };
       const bool pressed = mode == LoadingMode::plane_shear && drives[1][1].is_auto();
       if (is_force(drives[0][1]) && (pressed || is_force(drives[1][1])))
-        refuse(drives[0][1].key, drives[0][1].text(), "the upper platen moves freely in that component, too");
+        refuse(drives[0][1].key, drives[0][1].text(),
+               "the upper platen moves freely in this component, and one platen must be held");
       if (is_force(drives[0][0]) && is_force(drives[1][0]) && scene.discrete.lateral.lateral != Lateral::rigid_walls)
-        refuse(drives[0][0].key, drives[0][0].text(), "the upper platen moves freely in that component, too");
+        refuse(drives[0][0].key, drives[0][0].text(),
+               "the upper platen moves freely in this component, and one platen must be held");
     }
 
     void check_side_drives(const Scene &scene)
@@ -176,10 +180,10 @@ namespace diptych::coupling
       const auto drives = drives_of(scene);
       for (const DriveKey &key : {drives[2][0], drives[2][1], drives[3][1]})
         if (!key.is_auto() && constant_velocity(key) != 0.)
-          refuse(key.key, key.text(), "side walls are smooth, and only the right one moves, to left and right");
+          refuse(key.key, key.text(), "side walls are smooth, and only the right one moves, horizontally");
       const DriveKey &right = drives[3][0];
       if (!right.is_auto() && !constant_velocity(right))
-        refuse(right.key, right.text(), "a constant velocity is, or the pressure (discrete/side_motion)");
+        refuse(right.key, right.text(), "give a constant velocity, or the pressure (discrete/side_motion)");
     }
 
     void check_sides(const Scene &scene)
@@ -188,12 +192,14 @@ namespace diptych::coupling
       if (periodic && scene.discrete.lateral.side_motion == SideMotion::pressure &&
           scene.continuum.platens == continuum::Platens::rough)
         refuse("continuum/platens", "rough",
-               "a period that is free under the pressure (discrete/side_motion = pressure) needs platens that stretch: smooth");
+               "a free period under pressure (discrete/side_motion = pressure) needs continuum/platens = smooth");
       if (periodic && scene.continuum.refinement == continuum::Refinement::adaptive)
-        refuse("continuum/refinement", "adaptive", "periodic sides (discrete/lateral) must match node by node: uniform");
+        refuse("continuum/refinement", "adaptive",
+               "periodic sides (discrete/lateral) must match node by node; use continuum/refinement = uniform");
       if (scene.continuum.platens == continuum::Platens::smooth &&
           (scene.loading.mode == LoadingMode::shear || scene.loading.mode == LoadingMode::plane_shear))
-        refuse("loading/mode", discrete::name_of(scene.loading.mode), "continuum/platens = smooth do not shear; rough does");
+        refuse("loading/mode", discrete::name_of(scene.loading.mode),
+               "smooth platens cannot shear the sample; use continuum/platens = rough");
     }
 
     void check_rectangle(const Scene &scene)
@@ -202,17 +208,17 @@ namespace diptych::coupling
       const double              edge = first_edge(scene, o.element_size);
       if (edge > std::min(o.rectangle_width, o.rectangle_height))
         throw SceneError("continuum/element_size = " + text_of(o.element_size) + ": elements of " + text_of(edge) +
-                         " [length] at first do not fit into continuum/rectangle_width = " + text_of(o.rectangle_width) +
+                         " [length] before refinement do not fit into continuum/rectangle_width = " + text_of(o.rectangle_width) +
                          " and rectangle_height = " + text_of(o.rectangle_height));
       if (o.platen_width > 0 && o.platen_width < 1e-3 * edge)
         throw SceneError("continuum/platen_width = " + text_of(o.platen_width) +
-                         " is less than a thousandth of an element at first: " + text_of(edge) + " [length]");
+                         " is less than a thousandth of an element before refinement: " + text_of(edge) + " [length]");
       if (o.platen_width > o.rectangle_width)
         throw SceneError("continuum/platen_width = " + text_of(o.platen_width) +
                          " must not exceed continuum/rectangle_width = " + text_of(o.rectangle_width));
     }
 
-    // What a generated sample will have is known to some percent, an imported one as it stands.
+    // The size of a generated sample is known to a few percent, that of an imported one exactly.
     void check_outline(const Scene &scene)
     {
       if (scene.discrete.method.method == discrete::Method::imported)
@@ -221,7 +227,7 @@ namespace diptych::coupling
         require_elements_fit(scene, 1.3 * discrete::expected_size(scene.sample).y());
     }
 
-    // A mesh of the user's is read whole, before a result folder is opened for it.
+    // The mesh file is read completely before a result folder is opened for it.
     void check_mesh_key(const Scene &scene)
     {
       const continuum::MeshOption &mesh = scene.continuum.mesh;
@@ -229,10 +235,10 @@ namespace diptych::coupling
       const continuum::LawOptions &law  = scene.continuum.material;
       if (mesh.kind != Kind::outline && law.hardening == continuum::HardeningKind::critical_state && !law.solid_fraction_start)
         throw SceneError("continuum/solid_fraction_start = auto with continuum/mesh = " + text_of(mesh) +
-                         ": there are no grains whose density could be mapped; give a number");
+                         ": only continuum/mesh = outline has grains whose density can be mapped; give a number");
       if (mesh.kind != Kind::outline && scene.continuum.initial_stress == continuum::InitialStress::mapped)
         throw SceneError("continuum/initial_stress = mapped with continuum/mesh = " + text_of(mesh) +
-                         ": only outline, the mesh of the grain sample, has its stress");
+                         ": only continuum/mesh = outline has grains whose stress can be mapped");
       if (mesh.kind == Kind::outline)
         check_outline(scene);
       if (mesh.kind == Kind::rectangle)
@@ -253,8 +259,8 @@ namespace diptych::coupling
 
   namespace
   {
-    // The upper platen takes the way of the imported one, on the mesh's height; the right wall its mean pressure frame by frame,
-    // or its way where discrete/side_motion = velocity. Between frames all is linear.
+    // The upper platen follows that of the imported sample, scaled to the mesh's height. The right wall has the imported mean
+    // pressure frame by frame, or the imported motion if discrete/side_motion = velocity. Between frames all values are linear.
     void follow_imported_walls(const Scene &scene, const ContinuumSample &sample, continuum::Loading &loading)
     {
       const ImportedWalls walls   = imported_walls(load_imported(scene));
@@ -276,11 +282,12 @@ namespace diptych::coupling
 
     void check_load_steps(const Scene &scene)
     {
-      constexpr double most   = 1e7; // a day and more of the smallest mesh
+      constexpr double most   = 1e7; // more than a day with the smallest mesh
       const double     fewest = stages(scene.loading).back() / scene.continuum.max_step;
       if (fewest > most)
         throw SceneError("continuum/max_step = " + text_of(scene.continuum.max_step) + ": the loading would take " +
-                         text_of(std::ceil(fewest)) + " load steps or more, at most 1e+07: raise it, or lower loading/" +
+                         text_of(std::ceil(fewest)) +
+                         " load steps or more, and at most 1e+07 are allowed; increase it, or reduce loading/" +
                          (scene.loading.mode == LoadingMode::time ? "duration" : "axial_strain"));
     }
   } // namespace
@@ -297,7 +304,7 @@ namespace diptych::coupling
                                       {"comparison/coarse_element_size", scene.comparison.coarse_element_size}})
         if (const double edge = first_edge(scene, size); edge > height)
           throw SceneError(std::string(key) + " = " + text_of(size) + ": elements of " + text_of(edge) +
-                           " [length] at first do not fit into a sample of at most " + text_of(height) + " in height");
+                           " [length] before refinement do not fit into a sample of at most " + text_of(height) + " in height");
   }
 
   void require_continuum(const Scene &scene)
@@ -305,7 +312,7 @@ namespace diptych::coupling
     if (scene.discrete.method.method == discrete::Method::imported)
       (void)load_imported(scene);
     if (scene.sample.rough_platens)
-      refuse("sample/rough_platens", "true", "what grains hand to those that are part of a platen is not mapped");
+      refuse("sample/rough_platens", "true", "the forces on grains that are part of a platen are not mapped");
     check_sides(scene);
     check_platen_drives(scene);
     check_side_drives(scene);
@@ -346,7 +353,7 @@ namespace diptych::coupling
   void require_platen_travel(const Scene &scene)
   {
     if (scene.loading.mode != LoadingMode::time || scene.discrete.method.method == discrete::Method::imported)
-      return; // the others move it
+      return; // these loadings always move the platen
     const continuum::Loading loading = continuum_loading(scene, {1, 1, 1});
     const auto               rests   = [&](const double from, const double to) {
       return std::all_of(loading.platens[1].begin(), loading.platens[1].end(), [&](const continuum::Drive &drive) {
@@ -357,10 +364,11 @@ namespace diptych::coupling
     for (const double to : loading.stages)
       {
         if (rests(from, to))
-          throw SceneError("discrete/drive_upper_x = " + text_of(scene.discrete.drives.upper_x) +
-                           ", discrete/drive_upper_y = " + text_of(scene.discrete.drives.upper_y) +
-                           ": the upper platen rests from time " + text_of(from) + " to " + text_of(to) +
-                           ", and by its way the two panels are compared; `diptych discrete` and `diptych continuum` run");
+          throw SceneError(
+            "discrete/drive_upper_x = " + text_of(scene.discrete.drives.upper_x) +
+            ", discrete/drive_upper_y = " + text_of(scene.discrete.drives.upper_y) + ": the upper platen rests from time " +
+            text_of(from) + " to " + text_of(to) +
+            ", but its displacement is the unit of the comparison; `diptych discrete` and `diptych continuum` accept it");
         from = to;
       }
   }

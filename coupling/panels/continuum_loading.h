@@ -1,4 +1,4 @@
-// diptych: the grains' loading as the continuum takes it
+// diptych: the continuum's counterpart of the grains' loading
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -12,31 +12,31 @@
 
 namespace diptych::coupling
 {
-  // Throws SceneError naming a key that asks for what the continuum panel does not have, and what it has. Reads, but does not
-  // write files.
+  // Throws SceneError if the continuum panel has no counterpart of a key's value. The message names the key and what is allowed.
+  // Reads files, but writes none.
   void require_continuum(const Scene &scene);
 
   double height_of(const discrete::Outline &outline);
 
-  // Throws SceneError where elements that the scene asks for are larger than that [length].
+  // Throws SceneError if the scene's elements are larger than `height` [length].
   void require_elements_fit(const Scene &scene, double height);
 
-  // Throws SceneError where the scene leaves the upper platen where it is over a whole stage: the two panels' displacements are
-  // compared in units of its way.
+  // Throws SceneError if the upper platen rests during a whole stage, because its displacement is the unit of both panels'
+  // displacements.
   void require_platen_travel(const Scene &scene);
 
-  // What the loading must know of the continuum's sample.
+  // Properties of the continuum's sample that the loading needs.
   struct ContinuumSample
   {
     double height         = 0; // [length]
-    double platen_width   = 0; // of the upper one [length]
+    double platen_width   = 0; // width of the upper platen [length]
     double solid_fraction = 0; // for the weight [-]
   };
 
   // Height of a mesh and width of its upper platen.
   ContinuumSample measured(const continuum::QuadMesh &mesh, double solid_fraction);
 
-  // The grains' loading on the continuum's sample, along the same progress: axial strain, shear strain or time; walls that move
-  // as times say are at time = progress / strain rate.
+  // The grains' loading applied to the continuum's sample, along the same progress: axial strain, shear strain or time. Walls
+  // that follow a time table use time = progress / strain rate.
   continuum::Loading continuum_loading(const Scene &scene, const ContinuumSample &sample);
 } // namespace diptych::coupling

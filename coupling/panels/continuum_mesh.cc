@@ -1,4 +1,4 @@
-// diptych: the sample that the continuum panel runs on, and its meshes
+// diptych: the sample and the meshes of the continuum panel
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/panels/continuum_mesh.h"
 

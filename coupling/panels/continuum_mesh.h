@@ -1,4 +1,4 @@
-// diptych: the sample that the continuum panel runs on, and its meshes
+// diptych: the sample and the meshes of the continuum panel
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -13,38 +13,39 @@
 
 namespace diptych::coupling
 {
-  // One run of the continuum panel, in a folder of its own.
+  // One run of the continuum panel, with a separate folder.
   struct ContinuumPart
   {
-    std::string name;             // of its facts and its phase in provenance.json
-    std::string title;            // for messages
-    std::string directory;        // of its files
+    std::string name;             // name of its facts and of its phase in provenance.json
+    std::string title;            // text for messages
+    std::string directory;        // folder of its files
     double      element_size = 0; // [mean diameters]
     bool        is_coarse    = false;
 
     std::string checkpoint() const { return continuum_checkpoint(directory); }
   };
 
-  // The run on the scene's mesh and the one on the coarse mesh. A mesh of the user's has no coarse one, nor has a rectangle that
-  // is too small for it.
+  // The runs on the scene's mesh and on the coarse mesh. There is no coarse run for a mesh file, or for a rectangle that is too
+  // small for it.
   std::vector<ContinuumPart> continuum_parts(const Scene &scene);
 
-  // Elements of the first mesh [length]; refinement = adaptive divides them down to the element size [mean diameters].
+  // Size of the elements before refinement [length]. refinement = adaptive divides them down to the element size [mean
+  // diameters].
   double first_edge(const Scene &scene, double element_size);
 
-  // The prepared grain sample with the forces that carry it. Nothing, with a message, where it does not get quiet or the
+  // The prepared grain sample with the forces that carry it. Empty, with a message, if it does not come to rest or the
   // preparation is interrupted.
   std::optional<discrete::Snapshot> prepared_grains(const Scene &scene, bool quiet);
 
   // Area of the grains over that of their outline.
   double solid_fraction(const discrete::Snapshot &grains);
 
-  // A .msh or .geo file. Throws std::invalid_argument naming it, StoppedOnRequest.
+  // Reads a .msh or .geo file. Throws std::invalid_argument with the file's name, or StoppedOnRequest.
   continuum::QuadMesh users_mesh(const std::string &file);
 
-  // The part's mesh. `grains` is not looked at unless continuum/mesh = outline.
+  // The part's mesh. `grains` is used only if continuum/mesh = outline.
   continuum::QuadMesh mesh_of(const Scene &scene, const ContinuumPart &part, const discrete::Snapshot *grains);
 
-  // What a checkpoint must agree on: places and connections of all vertices, bit by bit.
+  // Hash of the places and connections of all vertices. A checkpoint must have the same one, bit by bit.
   std::string identity_of(const continuum::QuadMesh &mesh);
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: the prepared grains' stress as the continuum's initial stress
+// diptych: initial stress of the continuum from the prepared grains
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/panels/initial_stress.h"
 
@@ -22,7 +22,7 @@ namespace diptych::coupling
       return 2 * std::accumulate(grains.radius.begin(), grains.radius.end(), 0.) / double(grains.radius.size());
     }
 
-    // Those without an edge on the mesh's rim, which runs between grains; all of them where there is no other.
+    // Cells without an edge on the mesh's rim, because the rim runs between grains; all cells if there are no others.
     std::vector<bool> inner_cells(const QuadMesh &mesh)
     {
       std::vector<bool> inside(mesh.cell.size(), true);
@@ -43,7 +43,7 @@ namespace diptych::coupling
       return bins;
     }
 
-    // The mean over the area becomes `mean`.
+    // Scales the values so that their mean over the area is `mean`.
     void scale_to(const double mean, const std::vector<double> &area, std::vector<double> &values)
     {
       const double sum = std::inner_product(values.begin(), values.end(), area.begin(), 0.);

@@ -1,4 +1,4 @@
-// diptych: tractions on planes parallel to a band, strip by strip across it
+// diptych: tractions on planes parallel to a band, one value per strip
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/probes/band_traction.h"
 
@@ -12,8 +12,8 @@ namespace diptych::coupling
 {
   namespace
   {
-    constexpr double clear_of_outline = 2; // mean diameters: outermost grains carry their contacts on one side only
-    constexpr double shortest_strip   = 8; // mean diameters
+    constexpr double clear_of_outline = 2; // in mean diameters; outermost grains have contacts on one side only
+    constexpr double shortest_strip   = 8; // in mean diameters
 
     Eigen::Vector2d along_of(const TractionStrips &strips)
     {
@@ -52,7 +52,7 @@ namespace diptych::coupling
       return std::max(0., to - from);
     }
 
-    // Standard deviation over the strips that carry a value.
+    // Standard deviation over the strips that have a value.
     double deviation(const std::vector<double> &values)
     {
       double sum = 0, squares = 0;
@@ -94,12 +94,12 @@ namespace diptych::coupling
       traction.independent_shear  = root_mean_square(traction.shear_error) / size;
     }
 
-    // A strip cut into blocks along the band; force-weighted sums of each.
+    // A strip cut into blocks along the band, with force-weighted sums for each block.
     struct StripBlocks
     {
       Box                          box;
       double                       length;   // of a block
-      std::vector<Eigen::Vector2d> traction; // components along and across the band, of each block
+      std::vector<Eigen::Vector2d> traction; // components along and across the band, for each block
     };
 
     StripBlocks empty_blocks(const TractionStrips &strips, const std::size_t k, const double block)
@@ -111,7 +111,7 @@ namespace diptych::coupling
               std::vector<Eigen::Vector2d>(n, Eigen::Vector2d::Zero())};
     }
 
-    // a, b: ends of a branch, force: on what lies at a; all in the band's axes. The second column of -f (x) (b - a) / area.
+    // Adds the second column of -f (x) (b - a) / area, in the band's axes. a, b: ends of a branch; force: on the body at a.
     void add_branch(const Eigen::Vector2d &a, const Eigen::Vector2d &b, const Eigen::Vector2d &force, StripBlocks &strip)
     {
       const double low = std::min(a.x(), b.x()) - strip.box.low.x(), high = std::max(a.x(), b.x()) - strip.box.low.x();
@@ -155,7 +155,7 @@ namespace diptych::coupling
                                along, strips.to[k] - strips.from[k], strips.edges[k + 1] - strips.edges[k]);
     }
 
-    // NaN where no cell carries a value.
+    // NaN if no cell has a value.
     Eigen::Matrix2d mean_over_rectangle(const std::vector<Eigen::Vector2d> &box,
                                         const QuadMesh                     &mesh,
                                         const TriangleSearch               &search,
@@ -186,7 +186,7 @@ namespace diptych::coupling
                                  const double                        share)
   {
     if (edges.size() < 2 || !std::is_sorted(edges.begin(), edges.end()))
-      throw std::invalid_argument("the edges of strips must ascend");
+      throw std::invalid_argument("the edges of the strips must be in ascending order");
     TractionStrips        strips{frame.centre, angle_deg, edges, {}, {}};
     const Eigen::Vector2d along = along_of(strips), normal(-along.y(), along.x());
     const double          gap   = clear_of_outline * frame.mean_diameter;
@@ -210,7 +210,7 @@ namespace diptych::coupling
   BandTraction grain_band_traction(const TractionStrips &strips, const GrainNetwork &network, const double block)
   {
     if (!(block > 0))
-      throw std::invalid_argument("blocks need a side above 0");
+      throw std::invalid_argument("the side of a block must be above 0");
     const std::size_t        n = strips.from.size();
     std::vector<StripBlocks> of_strip(n);
     for (std::size_t k = 0; k < n; ++k)
@@ -248,7 +248,7 @@ namespace diptych::coupling
                                   const std::vector<Eigen::Matrix2d> &stress)
   {
     if (stress.size() != mesh.cell.size())
-      throw std::invalid_argument("one stress a cell is needed");
+      throw std::invalid_argument("the traction along a band needs one stress per cell");
     const Eigen::Vector2d along = along_of(strips), normal(-along.y(), along.x());
     BandTraction          result;
     result.edges = strips.edges;

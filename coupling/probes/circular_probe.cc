@@ -1,4 +1,4 @@
-// diptych: resultant force across the diameters of a circle against what the circle's mean stress predicts (Moreau 1997)
+// diptych: resultant forces across the diameters of a circle, compared with those from the circle's mean stress (Moreau 1997)
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/probes/circular_probe.h"
 
@@ -24,13 +24,14 @@ namespace diptych::coupling
       return {{std::cos(angle), std::sin(angle)}, {-std::sin(angle), std::cos(angle)}};
     }
 
-    // sum of q / sum of p as a relative norm.
+    // sqrt(sum of q / sum of p), a relative norm.
     double relative_norm(const double q, const double p)
     {
       return p > 0 ? std::sqrt(q / p) : NAN;
     }
 
-    // Part of a branch within the circle: parameters from < to, none where from >= to. |a + t d|^2 = R^2 about the centre.
+    // Part of a branch within the circle, with the parameters from < to; none if from >= to. Solves |a + t d|^2 = R^2 about the
+    // centre.
     std::array<double, 2> within(const Circle &circle, const Branch &branch)
     {
       const Eigen::Vector2d a = branch.from - circle.centre, d = branch.to - branch.from;
@@ -76,7 +77,7 @@ namespace diptych::coupling
             sum += part * cells.of(t);
             area += part;
           }
-      return sum / area; // NaN where no cell has a value
+      return sum / area; // NaN if no cell has a value
     }
 
     Eigen::Matrix2d mean_stress_along(const Circle &circle, const Diameter &d, const CellStress &cells)
@@ -94,7 +95,7 @@ namespace diptych::coupling
       return sum / length;
     }
 
-    // Forces across equal blocks of a diameter, from -radius to radius along it: of the side behind the normal on the other.
+    // Forces across equal blocks of a diameter, from -radius to radius along it, of the side behind the normal on the other side.
     std::vector<Eigen::Vector2d> block_forces(const Circle              &circle,
                                               const Diameter            &d,
                                               const std::vector<Branch> &all,
@@ -116,11 +117,11 @@ namespace diptych::coupling
       return force;
     }
 
-    // Mean over the blocks and its standard error, components x and y; block length = diameter / n. No error for n < 3.
+    // Mean over the blocks and its standard error, components x and y; block length = diameter / n. There is no error for n < 3.
     struct Traction
     {
       Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-      Eigen::Matrix2d covariance; // of the mean
+      Eigen::Matrix2d covariance; // covariance of the mean
     };
     Traction traction_of(const std::vector<Eigen::Vector2d> &force, const double block_length)
     {
@@ -140,7 +141,7 @@ namespace diptych::coupling
     CircularProbe empty_probe(const Circle &circle, const int n_angles)
     {
       if (n_angles < 2)
-        throw std::invalid_argument("a circular probe needs two diameters or more");
+        throw std::invalid_argument("a circular probe needs at least two diameters");
       CircularProbe probe;
       probe.circle = circle;
       if (circle.radius > 0)
@@ -158,7 +159,7 @@ namespace diptych::coupling
       probe.predicted_tangential.push_back(predicted.dot(d.along));
     }
 
-    // Squares of every angle: of the difference and of the prediction. Angles without a traction count nowhere.
+    // Squares of the difference and of the prediction, for every angle. Angles without a traction do not count.
     struct Squares
     {
       std::vector<double> difference, predicted;
@@ -179,7 +180,7 @@ namespace diptych::coupling
       return result;
     }
 
-    // Diameters an angle a apart are R a apart at the rim: neighbours closer there than a block belong together.
+    // Diameters at an angle a to each other are R a apart at the rim. Neighbours closer there than a block belong to one block.
     Interval angle_block_interval(const Squares &all, const double radius, const BootstrapOptions &options)
     {
       const int           n_angles = static_cast<int>(all.difference.size());
@@ -198,7 +199,7 @@ namespace diptych::coupling
         return relative_norm(sum_q, sum_p);
       };
       const double                 value = norm(std::vector<int>(q.size(), 1));
-      std::vector<Eigen::Vector3d> influence; // of a block on sum q - value^2 sum p
+      std::vector<Eigen::Vector3d> influence; // influence of a block on sum q - value^2 sum p
       std::vector<Eigen::Vector2i> place;
       for (std::size_t b = 0; b < q.size(); ++b)
         {
@@ -245,7 +246,7 @@ namespace diptych::coupling
                                      const int               n_angles)
   {
     if (!(options.block > 0))
-      throw std::invalid_argument("blocks need a side above 0");
+      throw std::invalid_argument("the side of a block must be above 0");
     CircularProbe probe = empty_probe(circle, n_angles);
     if (!(circle.radius > 0))
       return probe;
@@ -279,7 +280,7 @@ namespace diptych::coupling
                                     const int                           n_angles)
   {
     if (stress.size() != mesh.cell.size())
-      throw std::invalid_argument("one stress a cell is needed");
+      throw std::invalid_argument("a circular probe needs one stress per cell");
     CircularProbe probe = empty_probe(circle, n_angles);
     if (!(circle.radius > 0))
       return probe;

@@ -1,4 +1,4 @@
-// diptych: how much is dissipated inside the band, beside the share of the area that the band covers
+// diptych: energy dissipated inside and outside the band, beside the share of the area that the band covers
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/probes/dissipation_split.h"
 
@@ -35,9 +35,9 @@ namespace diptych::coupling
                                              const std::vector<double>          &dissipation)
   {
     if (dissipation.size() != points.size())
-      throw std::invalid_argument("one dissipated energy a contact is needed");
+      throw std::invalid_argument("the split of the dissipation needs one dissipated energy per contact");
     if (outline.size() < 3)
-      throw std::invalid_argument("the outline of the sample needs three points or more");
+      throw std::invalid_argument("the outline of the sample needs at least three points");
     DissipationSplit split;
     for (std::size_t k = 0; k < points.size(); ++k)
       (zone.holds(points[k]) ? split.inside : split.outside) += dissipation[k];
@@ -48,7 +48,7 @@ namespace diptych::coupling
   DissipationSplit cell_dissipation_split(const BandZone &zone, const QuadMesh &mesh, const std::vector<double> &dissipation)
   {
     if (dissipation.size() != mesh.cell.size())
-      throw std::invalid_argument("one dissipation a cell is needed");
+      throw std::invalid_argument("the split of the dissipation needs one value per cell");
     const std::vector<Eigen::Vector2d> strip = zone.rectangle(largest_distance(zone.on_band, mesh.node));
     DissipationSplit                   split;
     double                             area_inside = 0, area = 0;

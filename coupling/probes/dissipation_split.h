@@ -1,4 +1,4 @@
-// diptych: how much is dissipated inside the band, beside the share of the area that the band covers
+// diptych: energy dissipated inside and outside the band, beside the share of the area that the band covers
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -11,22 +11,22 @@
 
 namespace diptych::coupling
 {
-  // Energies per unit thickness [pressure * length^2]. Shares are of the whole sample; NaN where nothing is dissipated.
+  // Energies per unit thickness [pressure * length^2]. Shares refer to the whole sample; NaN if nothing is dissipated.
   struct DissipationSplit
   {
     double inside = 0, outside = 0;
     double share_inside = NAN, area_share = NAN;
-    double density_ratio = NAN; // dissipated per area, inside over outside
+    double density_ratio = NAN; // dissipation per area, inside over outside
   };
 
-  // Contacts by their point. dissipation: n_contacts energies; outline: of the sample, counter-clockwise. Throws
-  // std::invalid_argument where there is not one energy a point, or no outline.
+  // A contact is inside if its point is. dissipation: n_contacts energies; outline: outline of the sample, counter-clockwise.
+  // Throws std::invalid_argument if there is not one energy per point, or no outline.
   DissipationSplit contact_dissipation_split(const BandZone                     &zone,
                                              const std::vector<Eigen::Vector2d> &outline,
                                              const std::vector<Eigen::Vector2d> &points,
                                              const std::vector<double>          &dissipation);
 
-  // Cells by the exact part of their area. dissipation: n_cells energies per area [pressure]; cells without a value (NaN) count
-  // neither in the energy nor in the area. Throws std::invalid_argument where there is not one value a cell.
+  // A cell counts with the exact part of its area inside. dissipation: n_cells energies per area [pressure]. Cells without a
+  // value (NaN) count neither in the energy nor in the area. Throws std::invalid_argument if there is not one value per cell.
   DissipationSplit cell_dissipation_split(const BandZone &zone, const QuadMesh &mesh, const std::vector<double> &dissipation);
 } // namespace diptych::coupling

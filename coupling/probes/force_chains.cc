@@ -1,4 +1,4 @@
-// diptych: do the force chains see the shear zone? Stress of single grains and contact forces inside against outside it
+// diptych: stresses of single grains and contact forces inside and outside the shear band: do the force chains differ there?
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/probes/force_chains.h"
 
@@ -23,10 +23,10 @@ namespace diptych::coupling
     struct Values
     {
       std::vector<Value>           all;   // ascending, relative to their mean
-      std::vector<Eigen::Vector2i> place; // column and row of the tiles that hold any, numbered from 0
+      std::vector<Eigen::Vector2i> place; // column and row of the tiles that hold a value, numbered from 0
     };
 
-    // Collects what lies far enough from the outline.
+    // Collects the values that lie far enough from the outline.
     class Collection
     {
     public:
@@ -90,8 +90,8 @@ namespace diptych::coupling
       return result;
     }
 
-    // Cumulative share inside minus outside at every value, tiles counted as often as `times` says. Among equal values only the
-    // last entry is the distributions' own: the others are set to it.
+    // Cumulative share inside minus outside at every value; `times` says how often each tile counts. For equal values only the
+    // last entry belongs to the distributions, so the others are set to it.
     std::vector<double> cumulative_difference(const std::vector<Value> &all, const std::vector<int> &times)
     {
       double total[2] = {0, 0}, sum[2] = {0, 0};
@@ -111,7 +111,8 @@ namespace diptych::coupling
       return difference;
     }
 
-    // Neighbouring tiles' correlation in the difference of the two distributions, at the quartiles of both together.
+    // Stretching factor for the correlation of neighbouring tiles, from the difference of the two distributions at their common
+    // quartiles.
     double stretch_by_neighbours(const Values &values, const int n_inside, const int n_outside)
     {
       const std::vector<Value>    &all = values.all;
@@ -133,7 +134,7 @@ namespace diptych::coupling
     {
       double largest = 0;
       for (const double v : values)
-        largest = std::isnan(v) ? NAN : std::max(largest, std::abs(v)); // all are NaN, or none is
+        largest = std::isnan(v) ? NAN : std::max(largest, std::abs(v)); // either all are NaN or none
       return largest;
     }
 
@@ -163,7 +164,7 @@ namespace diptych::coupling
       return text;
     }
 
-    // 95 % quantile of the largest difference that chance makes.
+    // 95 % quantile of the largest difference that arises by chance.
     double scatter(const Values &values, const ForceChains &chains, const BootstrapOptions &options)
     {
       const int                 n_tiles = static_cast<int>(values.place.size());

@@ -1,4 +1,4 @@
-// diptych: do the force chains see the shear zone? Stress of single grains and contact forces inside against outside it
+// diptych: stresses of single grains and contact forces inside and outside the shear band: do the force chains differ there?
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -15,35 +15,36 @@
 
 namespace diptych::coupling
 {
-  // Where the distributions have their values.
+  // Shares at which a distribution is given.
   constexpr std::array<double, 11> chain_quantiles = {{0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95}};
 
-  // Values relative to the mean over inside and outside together.
+  // Values relative to the common mean over inside and outside.
   struct ChainDistribution
   {
-    int                    count = 0;                          // grains or contacts
-    double                 mean = NAN, share_above_mean = NAN; // of 1, the common mean
-    std::array<double, 11> values = {};                        // at chain_quantiles
+    int                    count = 0;                          // number of grains or contacts
+    double                 mean = NAN, share_above_mean = NAN; // share above 1, the common mean
+    std::array<double, 11> values = {};                        // values at chain_quantiles
   };
 
-  // largest_distance: D = largest difference of the two cumulative distributions (Kolmogorov and Smirnov), +- the 95 % quantile c
-  // of what it is for resampled blocks about the sample's own difference, stretched for few and for correlated blocks. The true
-  // difference lies in D +- c (triangle inequality) in 95 % of samples, and where there is none D stays below c in as many.
+  // largest_distance: D = largest difference between the two cumulative distributions (Kolmogorov and Smirnov). Its interval is D
+  // +- c. c is the 95 % quantile of the same distance between the difference for resampled blocks and the sample's own, stretched
+  // for a small number of blocks and for correlated blocks. The true difference lies in D +- c (triangle inequality) in 95 % of
+  // samples. If there is no difference, D stays below c in as many samples.
   struct ForceChains
   {
     ChainDistribution inside, outside;
     Interval          largest_distance;
-    int               blocks = 0; // that hold something inside, or something outside: the smaller number
+    int               blocks = 0; // blocks with a value inside, or with one outside: the smaller number
     std::string       verdict;
   };
 
-  // A zone that no pattern sees, to this much of all grains.
+  // The pattern ignores the band if it differs by at most this share of all grains.
   constexpr double chain_margin = 0.1;
 
-  // Grains: |major principal stress| of single grains (moment / disc area); contacts: size of the force, those that bear one.
-  // Inside: centre or contact point in the zone. Only what lies farther than `margin` [length] from the outline's edges counts:
-  // chains end at platens and free sides. Verdict: "differs" (D - c > 0), "ignores the zone" (D + c <= chain_margin), else "no
-  // difference seen". Each grain counts once, those without force too.
+  // Grains: |major principal stress| of single grains (moment / disc area), each grain once, also those without force. Contacts:
+  // magnitude of the force, for contacts that carry one. Inside: the grain's centre or the contact point lies in the band. Only
+  // grains and contacts farther than `margin` [length] from the outline's edges count, because chains end at platens and free
+  // sides. The verdict is "differs" (D - c > 0), "ignores the zone" (D + c <= chain_margin) or "no difference seen".
   ForceChains grain_force_chains(const BandZone                     &zone,
                                  const std::vector<Eigen::Vector2d> &outline,
                                  const GrainNetwork                 &network,

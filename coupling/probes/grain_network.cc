@@ -1,4 +1,4 @@
-// diptych: grains with their moments and contact forces as the probes see them, across the edge of a periodic sample, too
+// diptych: grains with their moments and contact forces for the probes, also in periodic samples
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/probes/grain_network.h"
 
@@ -9,7 +9,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    // Where i and j move by different numbers of periods, another image of j touches i.
+    // If i and j move by different numbers of periods, another image of j touches i.
     void follow_grains(const std::vector<double> &moved, std::vector<discrete::ContactForce> &contacts)
     {
       for (discrete::ContactForce &contact : contacts)
@@ -48,7 +48,7 @@ namespace diptych::coupling
     for (const auto &contact : contacts)
       {
         if (contact.i < 0 || contact.i >= n || contact.j < 0)
-          throw std::invalid_argument("a contact names a grain that does not exist");
+          throw std::invalid_argument("a contact joins a grain that does not exist");
         if (contact.force.isZero(0))
           continue;
         const Eigen::Vector2d image(contact.shift, 0);

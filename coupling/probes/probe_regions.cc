@@ -1,4 +1,4 @@
-// diptych: where the rectangular probes lie: in the zone and in the packs on either side (Moreau 1997), or as the scene says
+// diptych: places of the rectangular probes: in the band and in the packs on either side (Moreau 1997), or as given by the scene
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/probes/probe_regions.h"
 
@@ -24,7 +24,7 @@ namespace diptych::coupling
       return rectangle_corners(r.centre, r.along, r.length, r.thickness);
     }
 
-    // Corners first: they reject most. Points along the edges then see dents of the outline.
+    // Checks the corners first, because they reject most rectangles. Points along the edges then find dents of the outline.
     bool fits_inside(Rectangle rectangle, const double gap, const Polygon &outline)
     {
       rectangle.length += 2 * gap;
@@ -40,7 +40,7 @@ namespace diptych::coupling
       return true;
     }
 
-    // Oblique rectangle on the middle of the band's chord through the sample, shrunk until it lies inside.
+    // Oblique rectangle at the middle of the band's chord through the sample, reduced until it lies inside.
     Rectangle zone_rectangle(const Polygon &outline, const SampleFrame &frame, const Band &band, const ProbeOptions &options)
     {
       const Eigen::Vector2d along = band.direction(), on_band = frame.centre + band.offset * band.normal();
@@ -57,7 +57,7 @@ namespace diptych::coupling
       return {};
     }
 
-    // The largest horizontal rectangle on one side of the zone, not larger than the zone's, as far from the zone as it goes.
+    // The largest horizontal rectangle on one side of the zone's, not larger than it and as far from it as possible.
     Rectangle pack_rectangle(const Polygon      &outline,
                              const SampleFrame  &frame,
                              const Band         &band,
@@ -126,7 +126,7 @@ namespace diptych::coupling
       return probes;
     }
 
-    // What of each rectangle of the scene lies in the sample.
+    // The parts of the scene's rectangles that lie in the sample.
     std::vector<ProbeRegion> given_probes(const Polygon &outline, const SampleFrame &frame, const std::vector<double> &numbers)
     {
       std::vector<ProbeRegion> probes;
@@ -172,7 +172,7 @@ namespace diptych::coupling
                                         const ProbeOptions                 &options)
   {
     if (outline.size() < 3 || !(frame.width > 0) || !(frame.height > 0))
-      throw std::invalid_argument("probes need an outline of three points or more and an extent of the sample");
+      throw std::invalid_argument("probes need an outline of at least three points and a sample of positive size");
     check_probe_options(options);
     if (!options.probe_rectangles.empty())
       return given_probes(outline, frame, options.probe_rectangles);

@@ -1,4 +1,4 @@
-// diptych: where the rectangular probes lie: in the zone and in the packs on either side (Moreau 1997), or as the scene says
+// diptych: places of the rectangular probes: in the band and in the packs on either side (Moreau 1997), or as given by the scene
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -16,25 +16,27 @@ namespace diptych::coupling
 {
   struct ProbeRegion
   {
-    std::string                  name;          // "upper", "zone", "lower"; "probe 1", ... where the scene gives them
+    std::string                  name;          // "upper", "zone", "lower", or "probe 1", ... for probes of the scene
     std::vector<Eigen::Vector2d> polygon;       // corners, counter-clockwise [length]
-    double                       angle_deg = 0; // of its sides of length, from the horizontal
+    double                       angle_deg = 0; // angle of the side `length` from the horizontal
     bool                         is_zone   = false;
   };
 
   // Closed outline, counter-clockwise: left side downward, right side upward.
   std::vector<Eigen::Vector2d> outline_polygon(const discrete::Outline &outline);
 
-  // Middle of the band's chord through the sample; none where the band's middle line misses the sample.
+  // Middle of the band's chord through the sample; none if the band's centre line misses the sample.
   std::optional<Eigen::Vector2d> band_middle(const std::vector<Eigen::Vector2d> &outline,
                                              const SampleFrame                  &frame,
                                              const Band                         &band);
 
-  // upper, zone, lower, in this order, inside the outline. The zone's is oblique, centred on the middle of the first band's
-  // chord, as thick as the band's 10-90 % width up to 0.3 of the chord; the packs' are horizontal, the largest up to the zone's
-  // area that clear it, as far from it as they go. bands empty: three horizontal rectangles one above another. A pack for which
-  // no rectangle of the minimum side fits has an empty polygon. options.probe_rectangles in the place of them all: what of each
-  // lies in the sample, empty where nothing does. Throws as check_probe_options().
+  // The probes upper, zone and lower, in this order, inside the outline. The zone's rectangle lies along the first band and is
+  // centred on its chord. It is as thick as the band's 10-90 % width, at most 0.3 of the chord. The packs' rectangles are
+  // horizontal and do not touch the zone's. They are the largest that fit, up to the zone's area, and as far from it as possible.
+  // Without bands there are three horizontal rectangles one above another. The polygon is empty if no rectangle of the minimum
+  // side fits in a pack.
+  // options.probe_rectangles replaces them all. Each then has the part that lies in the sample, possibly empty. Throws as
+  // check_probe_options() does.
   std::vector<ProbeRegion> place_probes(const std::vector<Eigen::Vector2d> &outline,
                                         const SampleFrame                  &frame,
                                         const std::vector<Band>            &bands,

@@ -1,4 +1,4 @@
-// diptych: how sure the probes are: intervals, dispersion of single grains, differences between zone and packs
+// diptych: statistics of the probes: intervals, dispersion of single grains, differences between band and packs
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/probes/probe_statistics.h"
 
@@ -15,7 +15,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    // Numbers of every resample, each minus the number of the sample itself, stretched (block_bootstrap.h).
+    // The numbers of every resample minus those of the sample, stretched (block_bootstrap.h).
     struct ProbeReplicas
     {
       ProbeNumbers              value;
@@ -24,7 +24,7 @@ namespace diptych::coupling
 
     using NumberOf = double ProbeNumbers::*;
 
-    // How a number's deviations are treated: angles turn, and the neighbours of the fabric are not those of the stress.
+    // Treatment of a number's deviations: angles are periodic, and fabric and stress have different factors for neighbours.
     struct Treatment
     {
       NumberOf member;
@@ -43,7 +43,7 @@ namespace diptych::coupling
       return {t(0, 0), t(1, 1), (t(0, 1) + t(1, 0)) / std::sqrt(2.)};
     }
 
-    // Of the ratios sum M / sum area and sum n (x) n / sum contacts: a block's influence is M - ratio * area.
+    // Factors for the ratios sum M / sum area and sum n (x) n / sum contacts. The influence of a block is M - ratio * area.
     struct NeighbourFactors
     {
       double stress, fabric;
@@ -109,12 +109,12 @@ namespace diptych::coupling
     Interval difference(const ProbeReplicas &a, const ProbeReplicas &b, const NumberOf member)
     {
       const double value = a.value.*member - b.value.*member;
-      if (a.deviation.size() != b.deviation.size()) // one of them has too few blocks
+      if (a.deviation.size() != b.deviation.size()) // one of the two has too few blocks
         return {value, NAN, NAN};
       return interval_from(value, minus(column(a, member), column(b, member)));
     }
 
-    // The later outweighs the earlier.
+    // A later finding outweighs an earlier one.
     enum class Finding
     {
       none,
@@ -194,7 +194,7 @@ namespace diptych::coupling
   ProbeNumbers probe_numbers(const ProbeBlocks &blocks, const std::vector<int> &times)
   {
     if (times.size() != blocks.block.size())
-      throw std::invalid_argument("one count a block is needed");
+      throw std::invalid_argument("the numbers of a probe need one count per block");
     ProbeBlock sum;
     for (std::size_t k = 0; k < times.size(); ++k)
       {
@@ -268,7 +268,7 @@ namespace diptych::coupling
                                                  const ProbeMargins             &margins)
   {
     if (blocks.size() != probes.size())
-      throw std::invalid_argument("blocks of every probe are needed");
+      throw std::invalid_argument("the differences of probes need the blocks of every probe");
     const auto        zone  = std::find_if(probes.begin(), probes.end(), [](const auto &p) { return p.is_zone; });
     const std::size_t first = zone == probes.end() ? 0 : zone - probes.begin();
 

@@ -1,4 +1,4 @@
-// diptych: how sure the probes are: intervals, dispersion of single grains, differences between zone and packs
+// diptych: statistics of the probes: intervals, dispersion of single grains, differences between band and packs
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace diptych::coupling
 {
-  // Sums over what a block of a probe holds: grains by their centre, contacts (those that bear force) by their point.
+  // Sums over one block of a probe. Grains count by their centre, and contacts that carry force by their point.
   struct ProbeBlock
   {
     Eigen::Matrix2d moment    = Eigen::Matrix2d::Zero(); // [pressure * length^2]
@@ -27,27 +27,27 @@ namespace diptych::coupling
 
   struct ProbeBlocks
   {
-    std::vector<ProbeBlock> block;              // those that hold a grain or a contact
-    double                  solid_fraction = 0; // of the probe, exact
+    std::vector<ProbeBlock> block;              // blocks that hold a grain or a contact
+    double                  solid_fraction = 0; // exact solid fraction of the probe
   };
 
-  // What one state of the blocks tells; the definitions of ProbeStress and ProbeFabric.
+  // The numbers of a probe for one draw of its blocks, defined as in ProbeStress and ProbeFabric.
   struct ProbeNumbers
   {
-    double s1 = NAN, s2 = NAN, t_over_s = NAN, direction_deg = NAN; // of the stress
+    double s1 = NAN, s2 = NAN, t_over_s = NAN, direction_deg = NAN; // numbers of the stress
     double anisotropy = NAN, fabric_direction_deg = NAN;
-    double fabric_to_stress_deg = NAN; // fabric's major direction, anticlockwise from the stress's, in (-90, 90]
+    double fabric_to_stress_deg = NAN; // from the stress's major direction anticlockwise to the fabric's, in (-90, 90]
   };
 
-  // 95 % each. Directions are unwrapped around the value; +-90 degrees is all there can be.
+  // 95 % intervals. Directions are unwrapped around the value; at most they reach +-90 degrees from it.
   struct ProbeIntervals
   {
     Interval s1, s2, t_over_s, direction_deg, anisotropy, fabric_direction_deg, fabric_to_stress_deg;
     int      blocks = 0;
   };
 
-  // Pressure of single grains: trace of the moment / 2 / disc area, so that its mean by area times the solid fraction is s. Each
-  // grain counts once, rattlers too. Percentiles by linear interpolation.
+  // Pressure of single grains: trace of the moment / 2 / disc area. Its mean weighted by area, times the solid fraction, is s.
+  // Here each grain counts once, also rattlers. Percentiles are interpolated linearly.
   struct GrainPressure
   {
     double                mean = NAN, deviation = NAN;               // [pressure]
@@ -56,7 +56,7 @@ namespace diptych::coupling
   };
   constexpr std::array<int, 5> percentile_levels = {{5, 25, 50, 75, 95}};
 
-  // Differences below these count as none.
+  // Differences below these margins count as none.
   struct ProbeMargins
   {
     double t_over_s      = 0.05;
@@ -68,24 +68,23 @@ namespace diptych::coupling
   struct ProbeDifference
   {
     std::string first, second;
-    Interval    t_over_s, anisotropy, direction_deg; // direction of the stress
+    Interval    t_over_s, anisotropy, direction_deg; // direction of the major principal stress
     std::string verdict;
   };
 
-  // The probe cut into blocks of at least `block` [length] along its sides. Empty probe: no blocks.
+  // The probe cut along its sides into blocks of at least `block` [length]. An empty probe has no blocks.
   ProbeBlocks probe_blocks(const ProbeRegion &probe, const GrainNetwork &network, double block);
 
-  // Each block counted as often as `times` says (n_blocks entries).
+  // `times` says how often each block counts (n_blocks entries).
   ProbeNumbers probe_numbers(const ProbeBlocks &blocks, const std::vector<int> &times);
 
   ProbeIntervals probe_intervals(const ProbeBlocks &blocks, const BootstrapOptions &options);
 
   GrainPressure grain_pressure(const ProbeRegion &probe, const GrainNetwork &network);
 
-  // The probe of the zone (where there is none: the first) minus each of the others. The verdict says of each quantity
-  // "differs" (the interval leaves out 0), "does not differ" (it lies within the margin on both sides) or "cannot tell"; its
-  // first words are "differ" if one of them does, "do not differ" if none does, else "cannot tell". Probes are resampled each by
-  // itself.
+  // The probe in the band (or the first probe) minus each of the others. Each probe is resampled separately. The verdict gives
+  // for each quantity "differs" (the interval does not contain 0), "does not differ" (the interval lies within the margin) or
+  // "cannot tell". It begins with "differ" if one quantity differs, "do not differ" if none does, else "cannot tell".
   std::vector<ProbeDifference> probe_differences(const std::vector<ProbeRegion> &probes,
                                                  const std::vector<ProbeBlocks> &blocks,
                                                  const BootstrapOptions         &options,

@@ -30,15 +30,15 @@ namespace diptych::coupling
     return result;
   }
 
-  // Moments are attributed to whole grains, the rectangle cuts through grains. Dividing by the area of the grains counted, and
-  // multiplying by the solid fraction measured exactly in the rectangle, removes the rim's scatter of order perimeter * d / area.
+  // Moments belong to whole grains, but the rectangle cuts grains. Division by the area of the counted grains and multiplication
+  // by the exact solid fraction of the rectangle removes the scatter at the rim, which is of order perimeter * d / area.
   ProbeStress grain_probe_stress(const ProbeRegion                  &probe,
                                  const std::vector<Eigen::Vector2d> &position,
                                  const std::vector<double>          &radius,
                                  const std::vector<Eigen::Matrix2d> &moment)
   {
     if (radius.size() != position.size() || moment.size() != position.size())
-      throw std::invalid_argument("one radius and one moment a grain are needed");
+      throw std::invalid_argument("the stress of a probe needs one radius and one moment per grain");
     if (probe.polygon.empty())
       return {};
 
@@ -82,7 +82,7 @@ namespace diptych::coupling
     result.direction_deg    = major_direction(result.fabric);
     result.anisotropy       = 2 * principal_difference(result.fabric);
     result.anisotropy_error = std::sqrt(2 / n);
-    // beyond 90 degrees an axis is not known at all
+    // Beyond 90 degrees the direction of an axis is unknown.
     result.direction_error_deg = std::min(90., 1 / (result.anisotropy * std::sqrt(2 * n)) / degree);
     return result;
   }
@@ -90,7 +90,7 @@ namespace diptych::coupling
   ProbeStress cell_probe_stress(const ProbeRegion &probe, const QuadMesh &mesh, const std::vector<Eigen::Matrix2d> &stress)
   {
     if (stress.size() != mesh.cell.size())
-      throw std::invalid_argument("one stress a cell is needed");
+      throw std::invalid_argument("the stress of a probe needs one stress per cell");
     const std::vector<double> areas = cell_areas(mesh);
     Eigen::Matrix2d           sum   = Eigen::Matrix2d::Zero();
     double                    area  = 0;

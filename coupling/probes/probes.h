@@ -13,26 +13,27 @@
 
 namespace diptych::coupling
 {
-  // Positive in compression; of the symmetric part s1 >= s2.
+  // Positive in compression. s1 >= s2 are the principal values of the symmetric part.
   struct ProbeStress
   {
     Eigen::Matrix2d stress = Eigen::Matrix2d::Constant(NAN); // [pressure]
     double          s1 = NAN, s2 = NAN;
-    double          direction_deg = NAN; // of s1 from the horizontal, in (-90, 90]
+    double          direction_deg = NAN; // angle of s1 from the horizontal, in (-90, 90]
     double          t_over_s      = NAN; // (s1 - s2) / (s1 + s2)
-    int             count         = 0;   // grains or cells averaged over
+    int             count         = 0;   // number of grains or cells in the mean
   };
 
-  // Of the contacts that transmit force, contact point in the probe. F = mean of n (x) n.
+  // From the contacts that transmit force and have their point in the probe. F = mean of n (x) n.
   struct ProbeFabric
   {
     Eigen::Matrix2d     fabric              = Eigen::Matrix2d::Constant(NAN);
-    double              direction_deg       = NAN; // of F's major axis, in (-90, 90]
-    double              direction_error_deg = NAN; // 1 / (a sqrt(2 N)): a lower bound, contacts taken as independent
+    double              direction_deg       = NAN; // direction of F's major axis, in (-90, 90]
+    double              direction_error_deg = NAN; // 1 / (a sqrt(2 N)) for independent contacts: a lower bound
     double              anisotropy          = NAN; // a = 2 (F1 - F2)
     double              anisotropy_error    = NAN; // sqrt(2 / N)
-    std::array<int, 24> normals_24          = {};  // both directions of each normal; sector k covers 15 k .. 15 (k + 1) degrees
-    int                 contacts            = 0;   // N
+    std::array<int, 24> normals_24          = {};  // both directions of each normal; sector k extends from 15 k to 15 (k + 1)
+                                                   // degrees
+    int contacts = 0;                              // N
   };
 
   ProbeStress probe_stress(const Eigen::Matrix2d &stress, int count);

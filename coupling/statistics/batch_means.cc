@@ -1,4 +1,4 @@
-// diptych: 95 % interval of the mean of a series whose neighbours are correlated
+// diptych: 95 % interval of the mean of a series with correlated neighbours
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/statistics/batch_means.h"
 
@@ -41,9 +41,9 @@ namespace diptych::coupling
   Interval batch_mean_interval(const std::vector<double> &values, const std::vector<double> &weights, const int n_batches)
   {
     if (n_batches < 1)
-      throw std::invalid_argument("one batch or more is needed, not " + std::to_string(n_batches));
+      throw std::invalid_argument("the number of batches must be at least 1, not " + std::to_string(n_batches));
     if (weights.size() != values.size())
-      throw std::invalid_argument("one weight a value is needed");
+      throw std::invalid_argument("a series needs one weight per value");
     if (std::any_of(weights.begin(), weights.end(), [](const double w) { return !(w >= 0); }))
       throw std::invalid_argument("the weights of a series must not be negative");
     const double total = std::accumulate(weights.begin(), weights.end(), 0.);
@@ -54,7 +54,7 @@ namespace diptych::coupling
     double              before = 0, all = 0;
     for (std::size_t k = 0; k < values.size(); ++k)
       {
-        // the batch that holds the middle of the value's weight
+        // The value goes to the batch that holds the middle of its weight.
         const int batch = std::min(n_batches - 1, static_cast<int>((before + 0.5 * weights[k]) / total * n_batches));
         sum[batch] += weights[k] * values[k];
         weight[batch] += weights[k];

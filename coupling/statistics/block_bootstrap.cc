@@ -13,7 +13,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    constexpr int fewest_resamples = 40; // below, the 2.5 % quantile is an extreme value
+    constexpr int fewest_resamples = 40; // with fewer, the 2.5 % quantile is an extreme value
   }                                      // namespace
 
   int Tiles::tile(const Eigen::Vector2d &point) const
@@ -28,7 +28,7 @@ namespace diptych::coupling
   Tiles tiles_over(const std::vector<Eigen::Vector2d> &polygon, const double angle_deg, const double block)
   {
     if (polygon.empty() || !(block > 0))
-      throw std::invalid_argument("blocks need a polygon and a side above 0");
+      throw std::invalid_argument("blocks need a polygon, and a side above 0");
     const double          angle = angle_deg * M_PI / 180;
     const Eigen::Vector2d along(std::cos(angle), std::sin(angle)), across(-along.y(), along.x());
     Eigen::Array2d        low = Eigen::Array2d::Constant(INFINITY), high = -low;
@@ -39,7 +39,7 @@ namespace diptych::coupling
         high = high.max(local);
       }
 
-    constexpr double rounding = 1e-9; // a box of exactly four blocks has four
+    constexpr double rounding = 1e-9; // so that a box of exactly four blocks gets four
     constexpr double most     = 1e8;
     if (const Eigen::Array2d blocks = 1 + (high - low) / block; !(blocks.prod() <= most))
       throw std::invalid_argument("a polygon would have " + std::to_string(blocks.prod()) + " blocks; at most 1e8 are possible");

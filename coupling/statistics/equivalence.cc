@@ -1,4 +1,4 @@
-// diptych: statistics over realisations, and whether two panels are equivalent within a margin
+// diptych: statistics over realisations, and the equivalence of two panels within a margin
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/statistics/equivalence.h"
 
@@ -46,7 +46,7 @@ namespace diptych::coupling
       return s;
     }
 
-    // Comparisons with NaN are false: what is not known is no verdict.
+    // Comparisons with NaN are false, so an unknown interval gives no verdict.
     Verdict verdict_of(const Equivalence &e, const double margin)
     {
       if (e.difference_90.low > -margin && e.difference_90.high < margin)
@@ -63,8 +63,8 @@ namespace diptych::coupling
       return result;
     }
 
-    // The ratios q of means that Student's test of mean(b - q a) = 0 does not reject:
-    // (mean_b - q mean_a)^2 <= (t^2/n) (s_bb - 2 q s_ab + q^2 s_aa), an interval where mean_a is told from 0.
+    // The ratios q of means that Student's test of mean(b - q a) = 0 does not reject. They satisfy (mean_b - q mean_a)^2 <=
+    // (t^2/n) (s_bb - 2 q s_ab + q^2 s_aa), an interval if mean_a differs significantly from 0.
     Interval fieller_interval(const std::vector<double> &a, const std::vector<double> &b, const double confidence)
     {
       const int    n      = int(a.size());
@@ -128,7 +128,7 @@ namespace diptych::coupling
       interval.high      = value + std::hypot(interval.high - value, half);
     };
     constexpr double normal_95 =
-      1.6448536269514722; // 95 %; Student's shrinks more from 97.5 to 95 %, so this is on the safe side
+      1.6448536269514722; // 95 % quantile. Student's quantile shrinks more from 97.5 to 95 %, so this is conservative.
     widen(result.difference, quantile * deviation);
     widen(result.difference_90, quantile * normal_95 / normal_quantile * deviation);
     result.verdict = verdict_of(result, margin);
@@ -144,7 +144,7 @@ namespace diptych::coupling
   {
     if (first.size() != second.size())
       throw std::invalid_argument("compare_relative: " + std::to_string(first.size()) + " values against " +
-                                  std::to_string(second.size()) + "; each needs its pair");
+                                  std::to_string(second.size()) + "; both lists need the same length");
     Equivalence result;
     result.n = int(first.size());
     if (first.empty())

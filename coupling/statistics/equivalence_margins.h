@@ -1,10 +1,11 @@
-// diptych: up to where panels count as equivalent, as a scene says it
+// diptych: options for the margins within which panels count as equivalent
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
 namespace diptych::coupling
 {
-  // How far the continuum may be from the grains and still count as equivalent. Chosen by the user, before looking at results.
+  // The largest deviation of the continuum from the grains that still counts as equivalent. Choose these before you look at
+  // results.
   struct EquivalenceMargins
   {
     double angle             = 3;
@@ -16,12 +17,16 @@ namespace diptych::coupling
   template <class Visitor> void visit_parameters(EquivalenceMargins &o, Visitor &&visitor)
   {
     visitor("margin_angle", o.angle, "degrees", {1e-6, 90.},
-            "ensembles of seeds: inclinations of the bands that differ by less count as equivalent");
+            "largest difference of the bands' inclinations that counts as equivalent in an ensemble of seeds");
     visitor("margin_thickness", o.thickness, "-", {1e-6, 10.},
-            "likewise 10-90 % widths of the bands, relative to the mean of the grains");
-    visitor("margin_peak_stress_ratio", o.peak_stress_ratio, "-", {1e-6, 10.},
-            "likewise peak stress ratios and strengths (T/S beyond 0.3 % strain), relative to the mean of the grains");
-    visitor("margin_volumetric_strain", o.volumetric_strain, "-", {1e-9, 1.},
-            "likewise volumetric strains at the end, as they are");
+            "largest difference of the bands' 10-90 % widths that counts as equivalent in an ensemble of seeds, relative to the "
+            "mean of the grains");
+    visitor(
+      "margin_peak_stress_ratio", o.peak_stress_ratio, "-", {1e-6, 10.},
+      "largest difference of peak stress ratios, and of strengths (T/S beyond 0.3 % strain), that counts as equivalent in an "
+      "ensemble of seeds, relative to the mean of the grains");
+    visitor(
+      "margin_volumetric_strain", o.volumetric_strain, "-", {1e-9, 1.},
+      "largest difference of the volumetric strains at the end that counts as equivalent in an ensemble of seeds (absolute)");
   }
 } // namespace diptych::coupling

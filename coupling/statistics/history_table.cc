@@ -1,4 +1,4 @@
-// diptych: columns of a history, and means over a range of the progress
+// diptych: columns of a history, and means over a range of progress
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/statistics/history_table.h"
 
@@ -10,7 +10,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    // Value at x of the broken line through (xs, ys); xs ascending.
+    // Value at x of the broken line through (xs, ys), with xs ascending.
     double interpolate(const std::vector<double> &xs, const std::vector<double> &ys, const double x)
     {
       if (x <= xs.front())

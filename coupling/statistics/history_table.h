@@ -1,4 +1,4 @@
-// diptych: columns of a history, and means over a range of the progress
+// diptych: columns of a history, and means over a range of progress
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -10,9 +10,9 @@
 
 namespace diptych::coupling
 {
-  using HistoryTable = std::map<std::string, std::vector<double>>; // by column name, one entry a row
+  using HistoryTable = std::map<std::string, std::vector<double>>; // by column name, one entry per row
 
-  // The numbers of rows whose type has a visit_columns beside it.
+  // The numeric columns of rows. visit_columns() must exist for the type of the rows.
   template <class Row> HistoryTable history_table(const std::vector<Row> &rows)
   {
     HistoryTable table;
@@ -24,38 +24,37 @@ namespace diptych::coupling
     return table;
   }
 
-  // Column by name; throws std::invalid_argument when it is missing.
+  // Column by name. Throws std::invalid_argument if it is missing.
   const std::vector<double> &column(const HistoryTable &table, const std::string &name);
 
-  // progress > from, of a progress that is a sum of steps: what their rounding adds does not count.
+  // True if progress > from. progress is a sum of steps, and their rounding does not count.
   inline bool is_beyond(const double progress, const double from)
   {
     return progress > from + 1e-9 * std::abs(from);
   }
 
-  // Mean of a column over [from, to] of the column `progress`: integral of the broken line through its rows, held constant
-  // beyond the ends. So that rows at uneven progress count by what they stand for.
+  // Mean of a column over [from, to] of the column `progress`: integral of the broken line through its rows, constant beyond the
+  // ends. Rows at uneven progress are thus weighted by the range that they represent.
   double mean_over_progress(const HistoryTable &table, const std::string &name, double from, double to);
 
-  // The same over any ascending column.
+  // The same mean over any ascending column.
   struct ColumnPair
   {
     std::string abscissa, ordinate;
   };
   double mean_over(const HistoryTable &table, const ColumnPair &names, double from, double to);
 
-  // T/S: the mean of t over [from, to] of the progress over that of s, from the columns sxx, sxy, syx where there is one, and
-  // syy. Unlike the mean of t/s it does not count moments of little load as much as others. NaN where the history does not reach
-  // `to`.
+  // T/S: the mean of t over [from, to] of the progress over that of s, from the columns sxx, sxy, syx (if present) and syy.
+  // Unlike the mean of t/s it gives less weight to moments of small load. NaN if the history does not reach `to`.
   double ratio_of_means(const HistoryTable &table, double from, double to);
 
-  // At every row the mean over the `width` of progress that ends there; NaN before the first full width. O(rows).
+  // For each row, the mean over the preceding `width` of progress; NaN before the first full width. Needs O(rows) operations.
   std::vector<double> running_mean(const HistoryTable &table, const std::string &name, double width);
 
-  // The broken line through (x, y), x ascending, at the points of a grid; NaN beyond its ends.
+  // The broken line through (x, y), x ascending, evaluated at the points of a grid; NaN beyond its ends.
   std::vector<double> resampled(const std::vector<double> &x, const std::vector<double> &y, const std::vector<double> &grid);
 
-  // Largest of the running means, and the progress at which its range ends.
+  // Largest of the running means, and the progress at the end of its range.
   struct Peak
   {
     double value = 0, progress = 0;

@@ -6,8 +6,8 @@
 
 namespace diptych::coupling
 {
-  // A value and the ends of its 95 % interval, all in the unit of the value. An end that is not known is NaN (null in JSON).
-  // For angles low and high are unwrapped around the value: low <= value <= high normally, and they may leave the value's range.
+  // A value and the ends of its 95 % interval, all in the unit of the value. An unknown end is NaN (null in JSON). Normally low
+  // <= value <= high. For angles low and high are unwrapped around the value and may leave its range.
   struct Interval
   {
     double value = std::numeric_limits<double>::quiet_NaN();
@@ -15,7 +15,7 @@ namespace diptych::coupling
     double high  = std::numeric_limits<double>::quiet_NaN();
   };
 
-  // In another unit: factor > 0.
+  // Conversion to another unit, factor > 0.
   inline Interval times(const double factor, const Interval &interval)
   {
     return {factor * interval.value, factor * interval.low, factor * interval.high};

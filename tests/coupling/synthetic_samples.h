@@ -1,4 +1,4 @@
-// diptych: meshes, contact networks and displacement fields of known truth for the tests of coupling/
+// diptych: meshes, contact networks and displacement fields of known truth for tests of coupling/
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -18,7 +18,7 @@ namespace diptych::coupling::synthetic
 {
   inline double uniform(std::mt19937_64 &random, const double low, const double high)
   {
-    return low + (high - low) * ((random() >> 11) * 0x1p-53); // the same on every standard library
+    return low + (high - low) * ((random() >> 11) * 0x1p-53); // gives the same on every standard library
   }
 
   inline double normal(std::mt19937_64 &random)
@@ -26,7 +26,7 @@ namespace diptych::coupling::synthetic
     return std::sqrt(-2 * std::log(1 - uniform(random, 0, 1))) * std::cos(2 * M_PI * uniform(random, 0, 1));
   }
 
-  // columns x rows cells over a box; inner nodes moved at random by up to the given share of a cell.
+  // columns x rows cells over a box. Inner nodes are moved at random by up to the given share of a cell.
   inline QuadMesh box_mesh(const Eigen::Vector2d &lower,
                            const Eigen::Vector2d &upper,
                            const unsigned int     columns,
@@ -60,8 +60,8 @@ namespace diptych::coupling::synthetic
     std::vector<discrete::ContactForce> contacts;
   };
 
-  // n grains at random in a box, each with two contacts at random points between it and others nearby; every tenth contact is
-  // with a platen. Forces are random: nothing is in equilibrium.
+  // n grains at random in a box, each with two contacts at random points between it and nearby grains. Every tenth contact is
+  // with a platen. The forces are random, so nothing is in equilibrium.
   inline Network random_network(const Eigen::Vector2d &lower, const Eigen::Vector2d &upper, const int n, const std::uint64_t seed)
   {
     std::mt19937_64 random(seed);
@@ -70,7 +70,7 @@ namespace diptych::coupling::synthetic
       return Eigen::Vector2d(x, uniform(random, lower.y(), upper.y()));
     };
     Network network;
-    // neighbours in the list are neighbours in space: the list runs along a random walk
+    // The list follows a random walk, so that neighbours in the list are neighbours in space.
     Eigen::Vector2d x = point();
     for (int i = 0; i < n; ++i)
       {
@@ -96,7 +96,7 @@ namespace diptych::coupling::synthetic
     return network;
   }
 
-  // Truth of a band as struct Band reports it, lengths in units of the mean diameter 1.
+  // True values of a band, defined as in struct Band, with lengths in units of the mean diameter 1.
   struct Truth
   {
     double angle_deg, half_width, offset, jump, dilation_deg;
@@ -114,7 +114,7 @@ namespace diptych::coupling::synthetic
 
   inline const std::vector<Eigen::Vector2d> box_52_75 = {{0, 0}, {52, 0}, {52, 75}, {0, 75}};
 
-  // Lower left corner at the origin.
+  // The lower left corner is at the origin.
   inline SampleFrame frame_of(const double width, const double height, const Eigen::Vector2d &platen_increment)
   {
     SampleFrame frame;
@@ -136,7 +136,7 @@ namespace diptych::coupling::synthetic
     return 0.5 * frame.platen_increment.norm() * std::tanh((coordinate - truth.offset) / truth.half_width) * jump;
   }
 
-  // Bands on an affine background with normal noise, its deviation a share of the platen increment.
+  // Bands on an affine background with normal noise. The noise's deviation is a share of the platen increment.
   inline DisplacementField grain_field(const SampleFrame        &frame,
                                        const std::vector<Truth> &bands,
                                        const double              noise,
@@ -165,9 +165,9 @@ namespace diptych::coupling::synthetic
     return field;
   }
 
-  // Adds noise that is smooth over a length L: correlation exp(-pi r^2/L^2), so that its integral over the plane is L^2 (one
-  // independent sample per L x L). White noise on a grid of spacing w = L/sqrt(4 pi), smoothed with exp(-r^2/(2 w^2)); the
-  // squares of these weights sum to pi. The deviation is a share of the platen increment.
+  // Adds noise that is smooth over a length L: correlation exp(-pi r^2/L^2), whose integral over the plane is L^2 (one
+  // independent sample per L x L). White noise on a grid of spacing w = L/sqrt(4 pi) is smoothed with exp(-r^2/(2 w^2)). The
+  // squares of these weights add up to pi. The deviation is a share of the platen increment.
   inline void add_correlated_noise(DisplacementField  &field,
                                    const SampleFrame  &frame,
                                    const double        length,
@@ -206,7 +206,7 @@ namespace diptych::coupling::synthetic
         }
   }
 
-  // Nodes of a regular grid over the frame, area as weight; no background, no noise.
+  // Nodes of a regular grid over the frame, weighted by area, without background and noise.
   inline DisplacementField node_field(const SampleFrame        &frame,
                                       const std::vector<Truth> &bands,
                                       const int                 columns,

@@ -1,4 +1,4 @@
-// diptych: invariants that every method of averaging keeps on every mesh
+// diptych: tests of the invariants of every averaging method on every mesh
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/averaging.h"
 
@@ -23,7 +23,7 @@ namespace
         }
   }
 
-  // |sum over cells - sum over carriers| of every column, relative to the sum of absolute values over carriers.
+  // |sum over cells - sum over carriers| of every column, relative to the sum of the absolute values over carriers.
   double loss(const Columns &cells, const Columns &carriers)
   {
     double largest = 0;
@@ -37,8 +37,8 @@ namespace
     return std::max({loss(sums.of_grains, c.of_grains), loss(sums.uniform, c.uniform), loss(sums.tapered, c.tapered)});
   }
 
-  // Mass, momentum and moments, contacts with platens included; also where a third of the sample lies outside the mesh.
-  TEST(Averaging, CellsAddUpToWhatTheGrainsCarry)
+  // Mass, momentum and moments, with the contacts at platens. In the second case a third of the sample lies outside the mesh.
+  TEST(Averaging, CellsAddUpToTheGrains)
   {
     const Carriers inside  = random_carriers(random_network({0, 0}, {20, 30}, 600, 1), 2);
     const Carriers outside = random_carriers(random_network({-3, -3}, {23, 33}, 600, 3), 4);
@@ -52,11 +52,11 @@ namespace
     });
   }
 
-  // Grains whose own abscissa lies in another period than the mesh, and contacts across its sides.
-  TEST(Averaging, CellsOfAPeriodicSampleAddUpToWhatTheGrainsCarry)
+  // Some grains have an abscissa in another period than the mesh, and some contacts cross its sides.
+  TEST(Averaging, CellsOfAPeriodicSampleAddUpToTheGrains)
   {
     const Network still = random_network({0, 0}, {20, 30}, 600, 5);
-    // network in which a grain at x stands at x - 7 or x + 13: the old sides are in the middle
+    // A grain at x moves to x - 7 or x + 13, so that the old sides lie in the middle.
     Network moved = made_periodic(still, 20, 6);
     for (Eigen::Vector2d &x : moved.position)
       x.x() -= 7;
@@ -69,8 +69,9 @@ namespace
     });
   }
 
-  // The continuum widens by itself: its mesh is a hundredth wider or narrower than the grains' cell, its images overlap or gape.
-  TEST(Averaging, CellsAddUpWhereTheMeshIsNotAsWideAsThePeriod)
+  // The continuum can change its width. Its mesh is then a hundredth wider or narrower than the grains' cell, and its images
+  // overlap or leave gaps.
+  TEST(Averaging, CellsAddUpIfTheMeshIsNotAsWideAsThePeriod)
   {
     for (const double period : {19.8, 20.2})
       {
@@ -81,7 +82,7 @@ namespace
       }
   }
 
-  // In a periodic sample the sides are nowhere: moving the grains by one column of a regular grid moves the sums by one column.
+  // A periodic sample has no sides: if the grains move by one column of a regular grid, the sums move by one column.
   TEST(Averaging, PeriodicSampleHasNoSeam)
   {
     const unsigned int columns = 10, rows = 12;
@@ -110,7 +111,7 @@ namespace
       }
   }
 
-  // Grains and halves coloured in three, each colour's quantities averaged alone: the parts add up cell by cell.
+  // The grains and half branches belong to three groups. Each group is averaged alone, and the parts must add up cell by cell.
   TEST(Averaging, PartsOfTheSampleAddUp)
   {
     const Carriers all = random_carriers(random_network({0, 0}, {20, 30}, 300, 11), 12);
@@ -134,9 +135,9 @@ namespace
     });
   }
 
-  // Every second cell cut in four. Methods that divide the plane among grains: the parts add up to the cell. The kernel's
-  // quadrature points differ: 1e-3 of the largest cell. The projection has other functions, so that only totals are equal.
-  TEST(Averaging, RefinementLeavesCellsAndTotalsAsTheyWere)
+  // Every second cell is cut into four. For methods that divide the plane among grains, the parts add up to the cell. The kernel
+  // has other quadrature points: 1e-3 of the largest cell. The projection has other functions, so only its totals agree.
+  TEST(Averaging, RefinementPreservesCellsAndTotals)
   {
     const QuadMesh coarse = box_mesh({0, 0}, {20, 30}, 9, 13, 0.2);
     const Refined  fine   = refined(coarse, [](const Eigen::Vector2d &x) { return std::fmod(x.x() + x.y(), 5) < 2.5; });
@@ -162,7 +163,7 @@ namespace
       }
   }
 
-  // Sample and mesh moved away: the same sums.
+  // Moving sample and mesh together leaves the sums unchanged.
   TEST(Averaging, OriginDoesNotMatter)
   {
     const Network         network = random_network({0, 0}, {20, 30}, 500, 15);
@@ -182,8 +183,8 @@ namespace
     });
   }
 
-  // Sample and mesh turned by 0.7: scalars stay, vectors and tensors turn.
-  TEST(Averaging, TurningTheSampleTurnsEveryTensor)
+  // Sample and mesh are rotated by 0.7: scalars do not change, vectors and tensors rotate.
+  TEST(Averaging, RotatingTheSampleRotatesEveryTensor)
   {
     const Eigen::Matrix2d turn    = Eigen::Rotation2Dd(0.7).toRotationMatrix();
     const Network         network = random_network({0, 0}, {20, 30}, 500, 17);
@@ -193,7 +194,7 @@ namespace
     for (auto &c : turned.contacts)
       c.point = turn * c.point, c.force = turn * c.force;
     const Carriers carriers                = random_carriers(network, 18);
-    Carriers       turned_carriers         = random_carriers(turned, 18); // turns the moments with the forces and branches
+    Carriers       turned_carriers         = random_carriers(turned, 18); // rotates the moments with the forces and branches
     turned_carriers.of_grains.rightCols(2) = carriers.of_grains.rightCols(2) * turn.transpose();
     turned_carriers.tapered                = carriers.tapered * turn.transpose();
     for_each_case([&](const AveragingOptions &options, const QuadMesh &mesh) {
@@ -215,8 +216,8 @@ namespace
     });
   }
 
-  // Velocities v = b + A x of the grains, mass weighted: every method gives b + A (centre of mass of the cell's grains) to
-  // round-off, so that a uniform velocity is reproduced exactly, and an added velocity V adds V.
+  // The grains' velocities are v = b + A x, weighted by mass. Every method must give b + A (centre of mass of the cell's grains)
+  // to round-off. A uniform velocity is therefore reproduced exactly, and an added velocity V adds V.
   TEST(Averaging, AffineVelocityIsReproducedAtTheCentreOfMass)
   {
     const Network         network = random_network({0, 0}, {20, 30}, 800, 19);
@@ -246,8 +247,8 @@ namespace
     });
   }
 
-  // Random stress waves about a pressure of 1, every grain in equilibrium: sum |K| sigma = -sum f (x) x over the forces of the
-  // box on the sample, f at x.
+  // Random stress waves about a pressure of 1, with every grain in equilibrium. Then sum |K| sigma = -sum f (x) x over the forces
+  // f of the box on the sample at x.
   TEST(Averaging, InEquilibriumTheBoundaryForcesGiveTheTotal)
   {
     const auto network = diptych::benchmarks::airy_network({0, 0}, {20, 30}, diptych::benchmarks::pressure_wave(0.3, 12), 21);
@@ -263,7 +264,7 @@ namespace
       EXPECT_NEAR(total[1], boundary(0, 1), 1e-10 * boundary.norm());
       EXPECT_NEAR(total[2], boundary(1, 0), 1e-10 * boundary.norm());
       EXPECT_NEAR(total[3], boundary(1, 1), 1e-10 * boundary.norm());
-      // phi = -r^2/2 + ...: the pressure of the whole box is 1 up to the wave's mean, below 0.3 x 2 / (k 20) = 0.06
+      // phi = -r^2/2 + ...: the pressure of the whole box is 1 up to the mean of the wave, below 0.3 x 2 / (k 20) = 0.06.
       EXPECT_NEAR(0.5 * (total[0] + total[3]) / 600, 1, 0.06);
     });
   }

@@ -1,4 +1,4 @@
-// diptych: meshes, samples and methods that every invariant of averaging is tested on
+// diptych: meshes, samples and methods for the tests of averaging
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -24,8 +24,8 @@ namespace diptych::coupling::synthetic
     return o.method == AveragingMethod::kernel ? method + " " + discrete::name_of(o.kernel) : method;
   }
 
-  // Every cell for which `chosen` says so cut into four by the middles of its edges and its centre; its neighbours are left
-  // with hanging nodes. children[c]: the cells that cell c became.
+  // Cuts every cell whose centre satisfies `chosen` into four, by the middles of its edges and its centre. Its neighbours then
+  // have hanging nodes. children[c]: the cells that replace cell c.
   struct Refined
   {
     QuadMesh                               mesh;
@@ -70,7 +70,7 @@ namespace diptych::coupling::synthetic
     QuadMesh    mesh;
   };
 
-  // Over the box [0, 20] x [0, 30].
+  // Meshes over the box [0, 20] x [0, 30].
   inline std::vector<NamedMesh> averaging_meshes()
   {
     const QuadMesh quads = box_mesh({0, 0}, {20, 30}, 11, 16, 0.25);
@@ -79,7 +79,8 @@ namespace diptych::coupling::synthetic
             {"regular grid", regular_grid({0, 0}, {20, 30}, 2.4)}};
   }
 
-  // The network's contacts across the sides of a cell of the given width, and grains that have wandered out of it.
+  // Adds shifts across the sides of a cell of the given width to the network's contacts, and moves grains out of it by whole
+  // periods.
   inline Network made_periodic(Network network, const double width, const std::uint64_t seed)
   {
     std::mt19937_64     random(seed);
@@ -91,7 +92,7 @@ namespace diptych::coupling::synthetic
       }
     for (discrete::ContactForce &c : network.contacts)
       {
-        // the whole contact moves with i; j, where it is a grain, has moved by its own shift
+        // The whole contact moves with i. A grain j has its own shift.
         c.point.x() += shift[c.i];
         if (c.j < int(shift.size()))
           c.shift = shift[c.i] - shift[c.j];
@@ -99,7 +100,7 @@ namespace diptych::coupling::synthetic
     return network;
   }
 
-  // Random quantities of every kind: grains carry mass, momentum, and a number that changes sign.
+  // Random quantities of every kind. Grains have a mass, a momentum and a number of either sign.
   inline Carriers random_carriers(const Network &network, const std::uint64_t seed)
   {
     std::mt19937_64 random(seed);
@@ -114,7 +115,8 @@ namespace diptych::coupling::synthetic
     return c;
   }
 
-  // Largest difference of two sets of sums, relative to the largest sum of the first; columns of unlike size apart.
+  // Largest difference between two sets of sums, relative to the largest sum of the first. The three kinds of columns are
+  // compared separately.
   inline double difference(const CellSums &a, const CellSums &b)
   {
     const auto relative = [](const Columns &x, const Columns &y) {

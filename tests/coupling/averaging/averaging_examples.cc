@@ -1,4 +1,4 @@
-// diptych: averaging where the answer is known
+// diptych: tests of averaging for cases with a known answer
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 #include <stdexcept>
@@ -15,7 +15,7 @@ namespace
   using namespace diptych::coupling::synthetic;
 
   // Grains on every node and in the middle of every edge of a grid.
-  TEST(Averaging, GrainOnAnEdgeIsCountedOnce)
+  TEST(Averaging, CountsAGrainOnAnEdgeOnce)
   {
     const QuadMesh mesh = box_mesh({0, 0}, {6, 6}, 3, 3);
     Network        network;
@@ -34,9 +34,9 @@ namespace
       }
   }
 
-  // Hexagonal lattice of diameter 1 in a cell with periodic sides, every contact with the normal force 1. Cells of whole
-  // lattice periods, 2 wide and two rows high, far from the upper and the lower end: sigma = sqrt(3) 1 (three contacts a
-  // grain of area sqrt(3)/2, sum n (x) n = 3/2 1) and solid fraction pi / (2 sqrt 3) = 0.9069.
+  // A hexagonal lattice of diameter 1 in a cell with periodic sides; every contact has the normal force 1. The mesh's cells cover
+  // whole lattice periods, 2 wide and two rows high, far from the upper and lower end. Each grain of area sqrt(3)/2 has three
+  // contacts with sum n (x) n = 3/2 1. Therefore sigma = sqrt(3) 1, and the solid fraction is pi / (2 sqrt 3) = 0.9069.
   TEST(Averaging, HexagonalLatticeIsUniformInCellsOfWholePeriods)
   {
     const double row_height = std::sqrt(3.) / 2;
@@ -66,7 +66,7 @@ namespace
     for (AveragingOptions options : averaging_methods)
       {
         SCOPED_TRACE(name_of(options));
-        options.width       = 0.7; // ends of the sample are 20 mean diameters = 40 l away from the cells looked at
+        options.width       = 0.7; // the ends of the sample are 20 mean diameters = 40 l away from the tested cells
         const CellSums sums = distribute(options, target, c);
         const double   area = 2 * 2 * row_height;
         for (Eigen::Index k = 12 * columns / 2; k < 18 * columns / 2; ++k)
@@ -80,8 +80,8 @@ namespace
       }
   }
 
-  // One half branch from (0.5, 0.5) to (2.5, 0.5), cells with edges at x = 1 and 2, t = 1/4 and 3/4: uniform 1/4, 1/2, 1/4;
-  // tapered 2t - t^2: 7/16, 8/16, 1/16.
+  // One half branch from (0.5, 0.5) to (2.5, 0.5) in cells with edges at x = 1 and 2, that is t = 1/4 and 3/4. Uniform: 1/4, 1/2,
+  // 1/4. Tapered, 2t - t^2: 7/16, 8/16, 1/16.
   TEST(Averaging, SegmentsCutUniformAndTaperedQuantitiesExactly)
   {
     const QuadMesh mesh = box_mesh({0, 0}, {3, 1}, 3, 1);
@@ -100,8 +100,8 @@ namespace
       }
   }
 
-  // The moments of cells are those of map_grains(), which keeps triangles apart; also of what lies outside the mesh, and in a
-  // periodic sample.
+  // The moments of cells must equal those of map_grains(), which keeps triangles separate. This includes parts outside the mesh
+  // and periodic samples.
   TEST(Averaging, SegmentsAgreesWithTheMappingOntoTriangles)
   {
     const Network network = random_network({-2, -2}, {22, 32}, 800, 23);
@@ -132,8 +132,8 @@ namespace
         }
   }
 
-  // A disc of radius 1 centred on the mesh's left side: half of it outside, and all of that half belongs to the cells at the
-  // side; a quarter of another one sticks out at the corner.
+  // A disc of radius 1 is centred on the mesh's left side: its outer half belongs to the cells at this side. A quarter of another
+  // disc lies outside at the corner.
   TEST(Averaging, DiscOutsideTheMeshGoesToTheNearestBoundaryCell)
   {
     const QuadMesh mesh = box_mesh({0, 0}, {6, 6}, 3, 3);
@@ -147,7 +147,7 @@ namespace
     EXPECT_NEAR(distribute({}, TargetCells(mesh), c).of_grains(8, 0), 1, 1e-12);
   }
 
-  TEST(Averaging, WrongInputIsRefused)
+  TEST(Averaging, RejectsWrongInput)
   {
     const TargetCells target(box_mesh({0, 0}, {6, 6}, 3, 3));
     Carriers          c = random_carriers(random_network({0, 0}, {6, 6}, 20, 1), 1);

@@ -1,4 +1,4 @@
-// diptych: areas of discs in cells
+// diptych: tests of the areas of discs in cells
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/cell_cover.h"
 
@@ -21,9 +21,9 @@ namespace
     EXPECT_NEAR(disc_polygon_area({0.5, 0.5}, 0.3, square), M_PI * 0.09, 1e-14);     // inside
     EXPECT_NEAR(disc_polygon_area({0.5, 0}, 0.3, square), 0.5 * M_PI * 0.09, 1e-14); // half
     EXPECT_NEAR(disc_polygon_area({1, 1}, 0.3, square), 0.25 * M_PI * 0.09, 1e-14);  // quarter
-    EXPECT_NEAR(disc_polygon_area({0.5, 0.5}, 2, square), 1, 1e-14);                 // the square inside the disc
+    EXPECT_NEAR(disc_polygon_area({0.5, 0.5}, 2, square), 1, 1e-14);                 // the square lies inside the disc
     EXPECT_NEAR(disc_polygon_area({2, 2}, 0.5, square), 0, 1e-14);                   // apart
-    // segment of height h = 0.1 of a disc of radius 0.3: r^2 acos(1 - h/r) - (r - h) sqrt(2 r h - h^2)
+    // A segment of height h = 0.1 of a disc of radius 0.3: r^2 acos(1 - h/r) - (r - h) sqrt(2 r h - h^2).
     const double segment = 0.09 * std::acos(1 - 0.1 / 0.3) - 0.2 * std::sqrt(2 * 0.3 * 0.1 - 0.01);
     EXPECT_NEAR(disc_polygon_area({0.5, -0.2}, 0.3, square), segment, 1e-14);
   }
@@ -48,8 +48,8 @@ namespace
       }
   }
 
-  // Square lattice of touching discs (solid fraction pi/4) over the mesh's left part only: the cells it reaches into by a quarter
-  // of their width carry no value, those filled by three quarters do.
+  // A square lattice of touching discs (solid fraction pi/4) covers only the mesh's left part. Cells that it fills to a quarter
+  // of their width have no value; cells that it fills to three quarters do.
   TEST(CellCover, CellFilledToLessThanHalfIsNotCovered)
   {
     const QuadMesh               mesh = synthetic::box_mesh({0, 0}, {16, 16}, 4, 4);

@@ -1,4 +1,4 @@
-// diptych: the nodal identity holds at every node, whatever lies outside the mesh
+// diptych: tests of the nodal identity at every node for samples that extend beyond the mesh
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/collar.h"
 
@@ -35,7 +35,7 @@ namespace
     return total;
   }
 
-  // A wave that is as large as a quarter of a cell of 1.7 and bends edges.
+  // A wave as large as a quarter of a cell of 1.7, which bends edges.
   Eigen::Vector2d wave(const Eigen::Vector2d &x)
   {
     return {0.4 * std::sin(0.9 * x.y() + 0.3), 0.4 * std::sin(0.8 * x.x() - 0.2)};
@@ -46,8 +46,8 @@ namespace
     return x.x() + 0.4 * x.y() < 14;
   }
 
-  // Forces at random: nothing is in equilibrium. Round-off: sums of some 10 terms of 1e-16 relative.
-  TEST(Collar, NodalIdentityHoldsAtEveryNodeWhereTheSampleSticksOutOfTheMesh)
+  // The forces are random, so nothing is in equilibrium. Round-off: sums of some 10 terms of 1e-16 relative.
+  TEST(Collar, NodalIdentityHoldsAtEveryNodeIfTheSampleExtendsBeyondTheMesh)
   {
     const auto network = synthetic::random_network({0, 0}, {20, 30}, 800, 4);
     const auto refined = synthetic::refined_mesh({3, 2}, {17, 21}, {{8, 11}}, left_of_a_diagonal, wave);
@@ -62,7 +62,7 @@ namespace
       }
   }
 
-  // Weights of segments outside are those that map_segments() finds without a collar.
+  // The weights of outside segments must equal those that map_segments() finds without a collar.
   TEST(Collar, OutsideShareDoesNotDependOnTheCollar)
   {
     const auto     network = synthetic::random_network({0, 0}, {20, 30}, 800, 5);
@@ -71,9 +71,9 @@ namespace
     EXPECT_NEAR(map_grains(mesh, snapshot_of(network)).moment.outside_share, alone, 1e-12);
   }
 
-  // From (1, 1) to a platen's contact point at (1, -1), the mesh ending at y = 0: the half outside belongs to the cell below
-  // which it lies, the first of three 2 wide: 5 x 2.
-  TEST(Collar, APieceOutsideBelongsToTheCellAtTheBoundary)
+  // A branch from (1, 1) to a platen's contact point at (1, -1), with the mesh ending at y = 0. The outer half belongs to the
+  // cell above it, the first of three cells 2 wide: 5 x 2.
+  TEST(Collar, PieceOutsideBelongsToTheBoundaryCell)
   {
     const QuadMesh     mesh = synthetic::box_mesh({0, 0}, {6, 2}, 3, 1);
     synthetic::Network network;
@@ -88,8 +88,8 @@ namespace
     EXPECT_LT(mapped.nodal_residual, 1e-14);
   }
 
-  // An L of two arms 1 wide and 12 long: its middle (3.0, 3.0) lies outside it, the square in its corner sees everything.
-  TEST(Collar, AnLIsSeenFromItsCorner)
+  // An L of two arms 1 wide and 12 long. Its middle (3.0, 3.0) lies outside it; the square in its corner sees everything.
+  TEST(Collar, FindsTheCornerOfAnLShapedMesh)
   {
     QuadMesh mesh = regular_grid({0, 0}, {12, 12}, 1);
     mesh.cell.erase(std::remove_if(mesh.cell.begin(), mesh.cell.end(),
@@ -104,8 +104,8 @@ namespace
     EXPECT_GT(mapped.moment.outside_share, 0.5);
   }
 
-  // A U is not star-shaped: no place in it sees both arms. Totals hold all the same.
-  TEST(Collar, AMeshThatIsNotStarShapedKeepsItsTotalsAndSaysSo)
+  // A U is not star-shaped, because no place in it sees both arms. The totals must still be exact.
+  TEST(Collar, MeshThatIsNotStarShapedHasTotalsButNoCollar)
   {
     QuadMesh mesh = regular_grid({0, 0}, {9, 9}, 1);
     mesh.cell.erase(std::remove_if(mesh.cell.begin(), mesh.cell.end(),
@@ -123,7 +123,7 @@ namespace
     EXPECT_LT((sum(mapped.moment) - mapped.moment.total).norm(), 1e-12 * mapped.moment.total.norm());
   }
 
-  // A network on one period: every grain some whole periods away, every contact across the edge its own shift.
+  // A network over one period, with every grain shifted by whole periods and every contact across the edge by its own shift.
   discrete::Snapshot periodic_network(const double period)
   {
     const auto         network = synthetic::random_network({0, 0}, {period, 30}, 800, 8);
@@ -147,8 +147,8 @@ namespace
     return s;
   }
 
-  // Sides straight or curved, one period apart, also whole periods away; grains above and below the mesh; hanging nodes on one
-  // side of the edge.
+  // The sides are straight or curved and one period apart. The mesh may be whole periods away. Grains lie above and below the
+  // mesh, and one side of the edge has hanging nodes.
   TEST(Collar, NodalIdentityHoldsAcrossTheEdgeOfAPeriodicSample)
   {
     const double period  = 20;
@@ -165,7 +165,7 @@ namespace
       }
   }
 
-  TEST(Collar, APeriodicMeshOfAnotherWidthKeepsItsTotalsAndSaysSo)
+  TEST(Collar, PeriodicMeshOfAnotherWidthHasTotalsButNoCollar)
   {
     const MappedGrains mapped = map_grains(regular_grid({0, 0}, {19.5, 30}, 1.5), periodic_network(20));
     EXPECT_FALSE(mapped.has_collar);
@@ -173,11 +173,11 @@ namespace
     EXPECT_LT((sum(mapped.moment) - mapped.moment.total).norm(), 1e-12 * mapped.moment.total.norm());
   }
 
-  // A real sample after a few steps of shear, with the velocities before the last of them.
+  // A real sample after a few steps of shear, with the velocities before the last step.
   struct Sheared
   {
     discrete::Snapshot           grains;
-    std::vector<Eigen::Vector2d> acceleration; // of the last step
+    std::vector<Eigen::Vector2d> acceleration; // in the last step
   };
 
   Sheared sheared(const discrete::Lateral lateral, const double gravity)
@@ -198,7 +198,7 @@ namespace
     setting.time.gravity_x = preparation.gravity.x();
     setting.time.gravity_y = preparation.gravity.y();
     setting.solver.tolerance =
-      1e-3; // the identity does not ask for a good solution: impulses give the velocities, whatever they are
+      1e-3; // the identity needs no accurate solution, because the impulses determine the velocities in any case
     const auto            reference = discrete::make_reference(state, 1, 0.);
     const Eigen::Vector2d velocity(0.02, -0.02);
     state.walls[1].velocity = velocity;
@@ -219,7 +219,7 @@ namespace
     return result;
   }
 
-  // The grains' box less `inset` at the platens, and at the sides where there are any.
+  // The box of the grains, reduced by `inset` at the platens and at any sides.
   std::pair<Eigen::Vector2d, Eigen::Vector2d> box(const discrete::Snapshot &s, const double inset)
   {
     Eigen::Vector2d lower = s.position[0], upper = lower;
@@ -238,8 +238,8 @@ namespace
     return largest;
   }
 
-  // The step's velocities are v + h M^-1 (F + sum of contact forces), so that m a - F stands for the contact forces to round-off:
-  // both sides differ by sums of 1e-16 x some 10 forces. Platens and contacts beyond the mesh included.
+  // The step's velocities are v + h M^-1 (F + sum of contact forces). Therefore m a - F equals the contact forces to round-off,
+  // and both sides differ by sums of 1e-16 x some 10 forces. Platens and contacts beyond the mesh are included.
   void expect_momentum_balance(const Sheared &sample, const bool inset)
   {
     const auto [lower, upper] = box(sample.grains, inset ? 1.3 : -0.5);
@@ -262,7 +262,7 @@ namespace
     double        action = 0;
     for (const auto &f : sample.grains.applied_force)
       action = std::max(action, std::abs(f.x()));
-    EXPECT_GT(action, 0.1); // of a band w = 3 at P = 1 over five grains: 0.6 on average
+    EXPECT_GT(action, 0.1); // a strip w = 3 at P = 1 over five grains gives 0.6 on average
     expect_momentum_balance(sample, false);
     expect_momentum_balance(sample, true);
   }
@@ -280,9 +280,9 @@ namespace
     expect_momentum_balance(sample, true);
   }
 
-  // An end grain carries 0.6 on average (w P over five grains); the node nearest to it has at least a third of that, and others
+  // An end grain carries 0.6 on average (w P over five grains). The nearest node has at least a third of that, and other grains
   // on the same side add to it.
-  TEST(Collar, MomentumBalanceMissesAnAppliedForceThatIsLeftOut)
+  TEST(Collar, MomentumBalanceFailsWithoutAnAppliedForce)
   {
     Sheared sample            = sheared(discrete::Lateral::end_grains, 0);
     const auto [lower, upper] = box(sample.grains, 1);

@@ -12,8 +12,8 @@
 
 namespace diptych::coupling::synthetic
 {
-  // Normal forces of the contacts at 0, 60 and 120 degrees that make up a symmetric stress S on discs of diameter 1. Each disc
-  // has one contact of each direction e_k and the area sqrt(3)/2, so S sqrt(3)/2 = sum f_k e_k (x) e_k.
+  // Normal forces at the contacts at 0, 60 and 120 degrees for a symmetric stress S on discs of diameter 1. Each disc has one
+  // contact in each direction e_k and the area sqrt(3)/2, so S sqrt(3)/2 = sum f_k e_k (x) e_k.
   inline std::array<double, 3> lattice_forces(const Eigen::Matrix2d &stress)
   {
     const Eigen::Matrix2d s = std::sqrt(0.75) * stress;
@@ -21,8 +21,8 @@ namespace diptych::coupling::synthetic
       {s(0, 0) - s(1, 1) / 3, 2. / 3 * s(1, 1) + 2 / std::sqrt(3.) * s(0, 1), 2. / 3 * s(1, 1) - 2 / std::sqrt(3.) * s(0, 1)}};
   }
 
-  // Rows along x from (0, 0) on, every other one moved by 1/2; discs of diameter 1. All contacts carry force: of equal discs with
-  // equal forces each is in equilibrium away from the lattice's rim. force(direction, row of the lower disc).
+  // Rows along x from (0, 0) on, every second one moved by 1/2, with discs of diameter 1. All contacts carry force. With equal
+  // forces each disc away from the lattice's rim is in equilibrium. force(direction, row of the lower disc).
   template <class Force> GrainNetwork hexagonal_network(const int columns, const int rows, const Force &force)
   {
     GrainNetwork network;
@@ -37,7 +37,7 @@ namespace diptych::coupling::synthetic
     const auto join = [&](const int i, const int j, const double size) {
       const Eigen::Vector2d normal = (network.position[i] - network.position[j]).normalized();
       network.forces.push_back({i, j, 0.5 * (network.position[i] + network.position[j]), normal, size * normal});
-      for (const int grain : {i, j}) // half a branch each: f (x) n / 2
+      for (const int grain : {i, j}) // each grain has half a branch: f (x) n / 2
         network.moment[grain] += 0.5 * size * normal * normal.transpose();
     };
     for (int row = 0; row < rows; ++row)

@@ -1,4 +1,4 @@
-// diptych: constants of the kernels in two dimensions, and their integrals over cells
+// diptych: tests of the kernels' constants in two dimensions, and of their integrals over cells
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/kernel.h"
 
@@ -15,7 +15,7 @@ namespace
   using namespace diptych;
   using namespace diptych::coupling;
 
-  // integral of f(r) 2 pi r dr up to the kernel's reach, by 20000 midpoints: good to 1e-8
+  // Integral of f(r) 2 pi r dr up to the kernel's reach, from 20000 midpoints, accurate to 1e-8.
   template <class Function> double plane_integral(const double reach, Function &&f)
   {
     constexpr int n   = 20000;
@@ -28,9 +28,8 @@ namespace
     return sum;
   }
 
-  // Lucy: 5/(pi R^2) (1 + 3q)(1 - q)^3 has the integral 10 (1/2 - 6/4 + 8/5 - 3/6) = 1 and half the mean square radius
-  // 5 R^2 (1/4 - 1 + 8/7 - 3/8) = 5 R^2 / 56. What Gauss loses beyond 4 w: 9 exp(-8) = 3.0e-3 of the mean square
-  // radius.
+  // Lucy: 5/(pi R^2) (1 + 3q)(1 - q)^3 has the integral 10 (1/2 - 6/4 + 8/5 - 3/6) = 1. Half its mean square radius is 5 R^2 (1/4
+  // - 1 + 8/7 - 3/8) = 5 R^2 / 56. Gauss loses 9 exp(-8) = 3.0e-3 of the mean square radius beyond 4 w.
   TEST(Kernel, IsNormalisedInThePlaneAndItsWidthIsItsStandardDeviation)
   {
     for (const KernelShape name : {KernelShape::gauss, KernelShape::lucy})
@@ -61,8 +60,8 @@ namespace
       }
   }
 
-  // Before it is scaled, the sum over cells is the integral of the kernel over the mesh, 1 deep inside: within 1e-3 for widths
-  // from a quarter of a cell to more than two cells, on the most distorted of the test meshes, too.
+  // Before it is scaled, the sum over cells is the integral of the kernel over the mesh, which is 1 deep inside. It must be so
+  // within 1e-3 for widths from a quarter of a cell to more than two cells, also on the most distorted test mesh.
   TEST(Kernel, SumOverCellsDeepInsideIsOne)
   {
     for (const KernelShape name : {KernelShape::gauss, KernelShape::lucy})
@@ -84,9 +83,9 @@ namespace
           }
   }
 
-  // Gauss over the cell [a, b] x [c, d] is a product of error functions; the quadrature gives the integrals over single cells
-  // within 1e-3 of the whole, too.
-  TEST(Kernel, IntegralOverACellIsThatOfErrorFunctions)
+  // The integral of Gauss over the cell [a, b] x [c, d] is a product of error functions. The quadrature must give the integrals
+  // over single cells within 1e-3 of the whole, too.
+  TEST(Kernel, IntegralOverACellIsAProductOfErrorFunctions)
   {
     const QuadMesh            mesh = regular_grid({0, 0}, {20, 30}, 2);
     const TargetCells         target(mesh);
@@ -105,8 +104,8 @@ namespace
       }
   }
 
-  // At a straight side half of the kernel lies outside, at a corner three quarters; all of the carrier stays in the mesh.
-  TEST(Kernel, AtTheEdgeTheRestIsScaledUp)
+  // At a straight side half of the kernel lies outside, and at a corner three quarters. The whole carrier must stay in the mesh.
+  TEST(Kernel, ScalesUpTheInnerPartAtTheEdge)
   {
     const QuadMesh            mesh = regular_grid({0, 0}, {20, 30}, 1);
     const TargetCells         target(mesh);
@@ -125,7 +124,7 @@ namespace
     c.of_grains     = Columns::Identity(2, 2);
     const auto sums = distribute({AveragingMethod::kernel, KernelShape::gauss, 1}, target, c).of_grains;
     EXPECT_NEAR(sums.col(0).sum(), 1, 1e-13);
-    EXPECT_NEAR(sums(29 * 20, 1), 1, 1e-13); // beyond reach: the nearest boundary cell
+    EXPECT_NEAR(sums(29 * 20, 1), 1, 1e-13); // beyond the reach: nearest boundary cell
   }
 
   TEST(Kernel, RuleAlongASegmentKeepsUniformAndTaperedTotals)

@@ -1,4 +1,4 @@
-// diptych: power cells of discs
+// diptych: tests of the power cells of discs
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/power_cells.h"
 
@@ -34,7 +34,7 @@ namespace
     return discs;
   }
 
-  // Radii up to three spacings, so that many discs are hidden and axes lie far from their centres.
+  // The radii reach three spacings, so that many discs are hidden and axes lie far from their centres.
   TEST(PowerCells, DivideTheBoxWithoutGapOrOverlap)
   {
     for (const double largest_radius : {0.1, 0.7, 3.})
@@ -73,7 +73,7 @@ namespace
       }
   }
 
-  // Both discs of an edge know each other by it, and both see the same edge.
+  // Both discs at an edge list each other, and both have the same edge.
   TEST(PowerCells, NeighboursShareTheirEdges)
   {
     const Discs                           discs = random_discs(300, 0.7, 4);
@@ -92,7 +92,7 @@ namespace
         }
   }
 
-  // Equal discs on a hexagonal lattice of spacing 1: regular hexagons of area sqrt(3)/2 inside.
+  // Equal discs on a hexagonal lattice of spacing 1 have regular hexagons of area sqrt(3)/2 inside the lattice.
   TEST(PowerCells, HexagonalLatticeHasHexagons)
   {
     Discs discs;
@@ -103,9 +103,9 @@ namespace
     EXPECT_NEAR(polygon_area(cells[40].corner), std::sqrt(3.) / 2, 1e-12);
   }
 
-  // Radii 1 and 3 at a distance of 6: the axis lies (36 + 1 - 9)/12 = 7/3 from the smaller one. At a distance of 1 it would lie
-  // at -3.5, behind the smaller disc: which keeps no area of a box that ends at -2.
-  TEST(PowerCells, AxisLiesWhereBothPowersAreEqual)
+  // Radii 1 and 3 at a distance of 6: the axis lies (36 + 1 - 9)/12 = 7/3 from the smaller disc. At a distance of 1 it would lie
+  // at -3.5, behind the smaller disc. This disc then has no area in a box that ends at -2.
+  TEST(PowerCells, AxisHasEqualPowersOfBothDiscs)
   {
     const auto apart = power_cells({{0, 0}, {6, 0}}, {1, 3}, 2, {-2, -2}, {8, 2});
     EXPECT_NEAR(polygon_area(apart[0].corner), 4 * (2 + 7. / 3), 1e-12);
@@ -118,9 +118,9 @@ namespace
     EXPECT_THROW((void)power_cells({{0, 0}}, {1, 1}, 1, {-2, -2}, {8, 2}), std::invalid_argument);
   }
 
-  // A power cell that spans two cells of the mesh by 3 to 1 gives its grain's mass to them by 3 to 1: two grains at x = 1 and 7
-  // in a box of width 8 and cells of width 3 and 1: the axis is at x = 4.
-  TEST(Laguerre, SharesAreThoseOfThePowerCell)
+  // A power cell that covers two cells of the mesh by 3 to 1 must distribute its grain's mass by 3 to 1. Two grains at x = 1 and
+  // 7 lie in a box of width 8 with cells of width 3 and 1, so the axis is at x = 4.
+  TEST(Laguerre, SharesFollowThePowerCell)
   {
     QuadMesh mesh;
     mesh.node = {{0, 0}, {3, 0}, {5, 0}, {8, 0}, {0, 2}, {3, 2}, {5, 2}, {8, 2}};
@@ -137,7 +137,7 @@ namespace
     EXPECT_NEAR(out(2, 1), 0.75, 1e-13);
   }
 
-  // A half disc of radius 1: area pi/2, first moment 2/3 away from its diameter; a quarter: pi/4 and 1/3, 1/3.
+  // A half disc of radius 1 has the area pi/2 and the first moment 2/3 away from its diameter; a quarter has pi/4 and (1/3, 1/3).
   TEST(DiscPart, AreaAndMomentOfHalfAndQuarter)
   {
     const std::vector<Eigen::Vector2d> square = {{0, 0}, {3, 0}, {3, 3}, {0, 3}};

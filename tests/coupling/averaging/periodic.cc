@@ -1,4 +1,4 @@
-// diptych: stress of a periodic sample on cells
+// diptych: tests of the stress of a periodic sample on cells
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/periodic.h"
 
@@ -28,8 +28,8 @@ namespace
     return mesh;
   }
 
-  // n discs of diameter 1 side by side at half height, the last touching the first across the edge, all pressed by `force`.
-  // `drift`: how far the first one has wandered out of the cell.
+  // n discs of diameter 1 side by side at half height, all pressed by `force`. The last one touches the first across the edge.
+  // `drift`: displacement of the first disc out of the cell.
   discrete::Snapshot ring(const int n, const double force, const double drift)
   {
     discrete::Snapshot s;
@@ -53,9 +53,9 @@ namespace
     return s;
   }
 
-  // A force f across every vertical section of height 1: sigma_xx = f in every cell, whatever period a grain's own abscissa
-  // lies in.
-  TEST(PeriodicMapping, ARingOfDiscsIsUniformlyStressed)
+  // A force f across every vertical section of height 1 gives sigma_xx = f in every cell, whatever the period of a grain's
+  // abscissa.
+  TEST(PeriodicMapping, RingOfDiscsHasUniformStress)
   {
     const QuadMesh mesh = cells(6, 1);
     for (const double drift : {0., -6., 6., -24., 600.})
@@ -72,7 +72,7 @@ namespace
       }
   }
 
-  // Six discs of area pi/4 in six cells of area 1, the first one half outside on the left.
+  // Six discs of area pi/4 in six cells of area 1; half of the first one lies outside on the left.
   TEST(PeriodicMapping, DiscsCoverBothSidesOfTheEdge)
   {
     for (const double drift : {0., -6., 60.})
@@ -88,9 +88,9 @@ namespace
       }
   }
 
-  TEST(PeriodicMapping, AMeshWithHangingNodesHasItsNodalIdentityAndItsTotal)
+  TEST(PeriodicMapping, MeshWithHangingNodesKeepsNodalIdentityAndTotal)
   {
-    // [0, 2] x [0, 2]: three cells of 1 x 1, the last one divided in four
+    // [0, 2] x [0, 2]: four cells of 1 x 1, of which the last one is divided into four.
     QuadMesh mesh;
     mesh.node = {{0, 0}, {1, 0}, {2, 0},   {0, 1},   {1, 1},     {2, 1},   {0, 2},
                  {1, 2}, {2, 2}, {1.5, 1}, {1, 1.5}, {1.5, 1.5}, {2, 1.5}, {1.5, 2}};

@@ -1,4 +1,4 @@
-// diptych: smoothing by the projection onto linear elements
+// diptych: tests of the smoothing by the projection onto linear elements
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 
@@ -19,9 +19,9 @@ namespace
     return distribute({AveragingMethod::projection, KernelShape::gauss, width}, TargetCells(mesh, period), c).of_grains;
   }
 
-  // c - l^2 laplacian c = delta, l = w / sqrt 2: c = K_0(r/l) / (2 pi l^2), of integral 1 and standard deviation w along each
-  // axis. Sums over cells of 0.4 = w/5, moments of their centres: second order in h/w with small constants, 1 %; what is
-  // beyond 10 = 7 l away: 7 exp(-7) = 0.6 %.
+  // c - l^2 laplacian c = delta with l = w / sqrt 2 has the solution c = K_0(r/l) / (2 pi l^2), of integral 1 and standard
+  // deviation w along each axis. Sums over cells of 0.4 = w/5 are used with the moments of their centres. These are second order
+  // in h/w with small constants, 1 %. The part beyond 10 = 7 l is 7 exp(-7) = 0.6 %.
   TEST(Projection, WidthIsTheStandardDeviation)
   {
     const QuadMesh  mesh = synthetic::box_mesh({-10, -10}, {10, 10}, 51, 51);
@@ -35,8 +35,8 @@ namespace
     EXPECT_NEAR(std::sqrt(square.y() - mean.y() * mean.y()), 2, 0.02);
   }
 
-  // No flux leaves the mesh, so that an even load gives an even density up to its sides. Even load: carriers in the middles of
-  // the triangles' edges, each with a third of the triangle's area, a rule that is exact for quadratic functions.
+  // No flux leaves the mesh, so an even load gives an even density up to the sides. For an even load there are carriers in the
+  // middles of the triangles' edges, each with a third of the triangle's area. This rule is exact for quadratic functions.
   TEST(Projection, EvenLoadGivesAnEvenDensityUpToTheEdge)
   {
     const QuadMesh               mesh = synthetic::box_mesh({0, 0}, {8, 8}, 8, 8);
@@ -53,8 +53,8 @@ namespace
       EXPECT_NEAR(sums(k, 0), 1, 1e-12);
   }
 
-  // Hanging nodes are nodes of the smaller and of the larger cells: without smoothing (w -> 0) a linear density is reproduced
-  // across them, because it is one of the functions. Loads in the middles of the edges, as above.
+  // Hanging nodes are nodes of the smaller and of the larger cells. Without smoothing (w -> 0) a linear density is reproduced
+  // across them, because it is one of the functions. The loads are in the middles of the edges, as above.
   TEST(Projection, LinearDensityIsReproducedAcrossHangingNodes)
   {
     const QuadMesh mesh = synthetic::refined(synthetic::box_mesh({0, 0}, {8, 8}, 8, 8, 0.2), [](const Eigen::Vector2d &x) {
@@ -78,8 +78,8 @@ namespace
       EXPECT_NEAR(sums(k, 0), exact[k], 1e-10);
   }
 
-  // In a periodic sample the unknowns of both sides are the same: a load at the left side spreads to the cells at the right.
-  TEST(Projection, SidesOfAPeriodicSampleAreOne)
+  // In a periodic sample both sides have the same unknowns: a load at the left side spreads to the cells on the right.
+  TEST(Projection, JoinsTheSidesOfAPeriodicSample)
   {
     const QuadMesh mesh     = synthetic::box_mesh({0, 0}, {10, 4}, 10, 4);
     const Columns  periodic = projected(mesh, {{0, 2}}, 1, 10), free = projected(mesh, {{0, 2}}, 1);
@@ -89,7 +89,8 @@ namespace
         const double x = cell_centre(mesh, k).x();
         left += x < 1 ? periodic(k, 0) : 0, right += x > 9 ? periodic(k, 0) : 0, right_of_free += x > 9 ? free(k, 0) : 0;
       }
-    // line source of exp(-|x| / l) / (2 l): 1 - exp(-sqrt 2) = 0.757 within 1 of it, half of that on either side; h/l = 1.4: 10 %
+    // A line source has exp(-|x| / l) / (2 l): 1 - exp(-sqrt 2) = 0.757 lies within 1 of it, half on either side. h/l = 1.4
+    // allows 10 %.
     EXPECT_NEAR(left, 0.378, 0.04);
     EXPECT_NEAR(right, left, 0.01);
     EXPECT_LT(right_of_free, 1e-4);

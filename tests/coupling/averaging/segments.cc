@@ -1,4 +1,4 @@
-// diptych: invariants of the segments mapping
+// diptych: tests of the invariants of the segments mapping
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/segments.h"
 
@@ -35,7 +35,8 @@ namespace
     return norm;
   }
 
-  // Grain 0 left of grain 1, pressed together by F = 3: sigma_xx |K| = F times the branch 1 is positive, nothing else.
+  // Grain 0 lies left of grain 1, and both are pressed together by F = 3. Only sigma_xx |K| = F times the branch 1 is not zero,
+  // and it is positive.
   TEST(Segments, TwoDiscsPressedTogetherAreInCompression)
   {
     const QuadMesh     mesh = synthetic::box_mesh({0, 0}, {4, 4}, 3, 3);
@@ -59,7 +60,7 @@ namespace
     EXPECT_LT((sum(mapped_on(mesh, network)) - expected).norm(), 1e-14);
   }
 
-  // The direct sum, with sum M_i = -sum_c (x_c - x_i) (x) f over all contacts of all grains as the other way to it.
+  // The expected value is the direct sum, and, independently, sum M_i = -sum_c (x_c - x_i) (x) f over all contacts of all grains.
   TEST(Segments, CellsAddUpToTheGrainsInternalMoments)
   {
     for (const std::uint64_t seed : {1, 2, 3})
@@ -80,7 +81,7 @@ namespace
       }
   }
 
-  TEST(Segments, TotalHoldsWhenPartOfTheSampleLiesOutsideTheMesh)
+  TEST(Segments, TotalIsExactIfPartOfTheSampleLiesOutsideTheMesh)
   {
     const auto network = synthetic::random_network({0, 0}, {20, 30}, 800, 4);
     const auto mapped  = mapped_on(synthetic::box_mesh({3, 2}, {17, 21}, 9, 9, 0.3), network);
@@ -89,8 +90,8 @@ namespace
     EXPECT_LT(mapped.outside_share, 0.7);
   }
 
-  // From (1, 1) to a platen's contact point at (1, -1), the mesh ending at y = 0: half of the segment is outside and goes to the
-  // cell below which it lies.
+  // A branch from (1, 1) to a platen's contact point at (1, -1), with the mesh ending at y = 0. The outer half of the segment
+  // goes to the cell above it.
   TEST(Segments, PieceOutsideGoesToTheNearestBoundaryCell)
   {
     const QuadMesh     mesh = synthetic::box_mesh({0, 0}, {6, 2}, 3, 1);
@@ -120,7 +121,7 @@ namespace
       EXPECT_LT((after.triangle_moment[t] - before.triangle_moment[t]).norm(), 1e-11 * largest(before.triangle_moment));
   }
 
-  TEST(Segments, TurningTheSampleTurnsEveryTensor)
+  TEST(Segments, RotatingTheSampleRotatesEveryTensor)
   {
     auto       network = synthetic::random_network({0, 0}, {20, 30}, 800, 6);
     QuadMesh   mesh    = synthetic::box_mesh({0, 0}, {20, 30}, 13, 17, 0.3);
@@ -142,8 +143,8 @@ namespace
                 1e-11 * largest(before.triangle_moment));
   }
 
-  // Each cell cut into four by its edges' middles and its centre: the four add up to the cell, cell by cell.
-  TEST(Segments, RefinementLeavesEveryCellsMomentUnchanged)
+  // Each cell is cut into four by the middles of its edges and its centre. The four must add up to the cell.
+  TEST(Segments, RefinementPreservesTheMomentOfEveryCell)
   {
     const auto     network = synthetic::random_network({0, 0}, {20, 30}, 800, 7);
     const QuadMesh coarse  = synthetic::box_mesh({0, 0}, {20, 30}, 8, 11, 0.2);
@@ -177,8 +178,8 @@ namespace
       }
   }
 
-  // Along x = 1, shared by cells 0 and 1, and along the diagonal of cell 0: wholly in one triangle, and only there.
-  TEST(Segments, BranchAlongAnEdgeIsCountedOnce)
+  // Branches along x = 1, shared by cells 0 and 1, and along the diagonal of cell 0. Each must lie in one triangle only.
+  TEST(Segments, CountsABranchAlongAnEdgeOnce)
   {
     const QuadMesh     mesh = synthetic::box_mesh({0, 0}, {3, 1}, 3, 1);
     synthetic::Network network;
@@ -190,7 +191,7 @@ namespace
       EXPECT_EQ(mapped.triangle_moment[t].norm(), 0);
   }
 
-  // sum_K |K| sigma_K grad N_a = sum_i N_a(x_i) (contact force on i) - sum_platens N_a(x_c) f: the virtual power of linear
+  // sum_K |K| sigma_K grad N_a = sum_i N_a(x_i) (contact force on i) - sum_platens N_a(x_c) f is the virtual power of linear
   // elements.
   TEST(Segments, NodalForcesAreTheContactForcesInWeakForm)
   {
@@ -208,7 +209,7 @@ namespace
     EXPECT_LT(largest_error, 1e-12 * largest_force);
   }
 
-  // Contacts of two groups mapped apart add up to the whole: the moment is an additive measure.
+  // Two groups of contacts, mapped separately, add up to the whole: the moment is an additive measure.
   TEST(Segments, PartsOfTheNetworkAddUp)
   {
     const auto     network = synthetic::random_network({0, 0}, {20, 30}, 800, 9);
@@ -224,8 +225,9 @@ namespace
                 1e-12 * largest(whole.triangle_moment));
   }
 
-  // Hexagonal lattice of diameter 1, every contact with the normal force F = 1: per grain, of area sqrt(3)/2, three contacts with
-  // sum n (x) n = 3/2 1, so sigma = sqrt(3) 1 in every cell of whole lattice periods: 2 diameters wide, two rows high.
+  // A hexagonal lattice of diameter 1; every contact has the normal force F = 1. Each grain of area sqrt(3)/2 has three contacts
+  // with sum n (x) n = 3/2 1. Therefore sigma = sqrt(3) 1 in every cell of whole lattice periods: 2 diameters wide, two rows
+  // high.
   TEST(Segments, HexagonalLatticeHasUniformStressInCellsOfWholePeriods)
   {
     const double       row_height = std::sqrt(3.) / 2;
@@ -253,13 +255,13 @@ namespace
 
     const QuadMesh mesh   = synthetic::box_mesh({2.13, 1.37}, {2.13 + 18, 1.37 + 18 * row_height}, 9, 9);
     const auto     stress = cell_stress(mesh, mapped_on(mesh, network));
-    for (unsigned int r = 1; r < 8; ++r) // boundary cells also hold what lies outside
+    for (unsigned int r = 1; r < 8; ++r) // boundary cells also hold parts outside the mesh
       for (unsigned int c = 1; c < 8; ++c)
         EXPECT_LT((stress[9 * r + c] - std::sqrt(3.) * Eigen::Matrix2d::Identity()).norm(), 1e-12);
   }
 
-  // A free disc spinning: internal moment exactly -(1/2) I omega^2 1, in the cell of its centre.
-  TEST(Segments, SpinTermStandsAtTheGrainsCentre)
+  // A free spinning disc has the internal moment -(1/2) I omega^2 1, in the cell of its centre.
+  TEST(Segments, AddsTheSpinTermAtTheGrainsCentre)
   {
     const QuadMesh       mesh = synthetic::box_mesh({0, 0}, {3, 1}, 3, 1);
     const TriangleSearch search(mesh);
@@ -270,7 +272,7 @@ namespace
     EXPECT_THROW(add_spin_term(search, {{1.5, 0.4}}, {}, mapped), std::invalid_argument);
   }
 
-  TEST(Segments, ContactOfAnUnknownGrainIsRefused)
+  TEST(Segments, RejectsAContactOfAnUnknownGrain)
   {
     const QuadMesh mesh = synthetic::box_mesh({0, 0}, {3, 1}, 3, 1);
     EXPECT_THROW(map_segments(mesh, TriangleSearch(mesh), {{1, 0.5}}, {ContactForce{1, 2, {1, 0}, {0, 1}, {0, 1}}}),

@@ -1,4 +1,4 @@
-// diptych: bands of known truth are found again, and none where there is none
+// diptych: tests that known bands are found, and none where there is none
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/bands/band_detection.h"
 
@@ -51,13 +51,13 @@ namespace
                                          synthetic::frame_52_75());
           ASSERT_EQ(report.bands.size(), 1u) << report.verdict;
           EXPECT_TRUE(report.converged);
-          // the least squares estimate itself scatters: by 1.9 % in half width in the worst of these cases at 5 % noise
+          // even the least squares estimate scatters: by 1.9 % in half width in the worst of these cases at 5 % noise
           expect_band(report.bands[0], GetParam(), 0.3, noise < 0.03 ? 0.05 : 0.08);
           EXPECT_GT(report.bands[0].r_squared, 0.9);
         }
   }
 
-  // Nodes on a regular grid with area weights: the same operator, the same answer.
+  // Nodes on a regular grid with area weights must give the same result.
   TEST_P(BandOfKnownTruth, IsTheSameOnNodesOfARegularGrid)
   {
     const SampleFrame frame = synthetic::frame_52_75();
@@ -99,7 +99,7 @@ namespace
     expect_band(report.bands[0], truth);
   }
 
-  TEST(Band, WeakConjugateBandDoesNotTurnTheMainOne)
+  TEST(Band, WeakConjugateBandDoesNotRotateTheMainOne)
   {
     const Truth main = {-46, 6, 2, 0.9, 5}, weak = {50, 4, -3, -0.2, 5};
     for (const std::uint64_t seed : {21, 22})
@@ -121,8 +121,8 @@ namespace
     expect_band(report.bands[1], b, 0.6, 0.08);
   }
 
-  // A frame 2^30 diameters wide has room for 1e8 parallel lines of one angle.
-  TEST(Band, AFrameOfNoSampleIsRefused)
+  // A frame 2^30 diameters wide would need 1e8 parallel lines of one angle.
+  TEST(Band, RejectsAFrameLargerThanAnySample)
   {
     SampleFrame frame = synthetic::frame_52_75();
     frame.width       = 1 << 30;
@@ -139,7 +139,7 @@ namespace
       }
   }
 
-  // Noise that is one and the same over blocks of 8 diameters, as grains move: no band either.
+  // The noise is constant over blocks of 8 diameters, as for grains. There must be no band either.
   TEST(Band, CorrelatedNoiseIsDiffuse)
   {
     int found = 0;
@@ -157,7 +157,7 @@ namespace
     EXPECT_EQ(found, 0);
   }
 
-  // Everything scaled: lengths by 0.01, displacements with them.
+  // Everything is scaled: lengths by 0.01, and displacements with them.
   TEST(Band, UnitsDoNotMatter)
   {
     const Truth truth = {-46, 6, 2, 0.9, 8};
@@ -180,7 +180,7 @@ namespace
     EXPECT_NEAR(small.bands[0].jump, large.bands[0].jump, 1e-5);
   }
 
-  TEST(Band, InputThatCannotHoldABandIsRefused)
+  TEST(Band, RejectsInputThatCannotHoldABand)
   {
     SampleFrame frame = synthetic::frame_52_75();
     const auto  field = synthetic::grain_field(frame, {}, 0.02, 1, 20);

@@ -1,4 +1,4 @@
-// diptych: intervals of bands hold what they promise
+// diptych: tests of the coverage of the intervals of bands
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/bands/band_detection.h"
 #include "coupling/bands/band_intervals.h"
@@ -61,9 +61,10 @@ namespace
     return interval.high - interval.low;
   }
 
-  // Noise of 5 % with one independent sample per 8 x 8 and per 10 x 10 d in turn. Of 100 intervals that cover in 95 %, 95 +- 2.2
-  // do: three deviations leave 88 or more. They are not wider than that needs: normal intervals are 2 x 1.96 deviations long;
-  // where the noise is shorter than the block, and for the uncertainty of few blocks, they may be half as long again.
+  // Noise of 5 % with one independent sample per 8 x 8 and per 10 x 10 d in turn. Of 100 intervals with a coverage of 95 %, 95 +-
+  // 2.2 cover the truth; three deviations leave 88 or more. The intervals must not be too wide: normal intervals are 2 x 1.96
+  // deviations long. They may be half as long again if the noise is shorter than the block, and because of the small number of
+  // blocks.
   TEST(BandIntervals, CoverTheTruthUnderCorrelatedNoise)
   {
     constexpr int               n     = 100;
@@ -90,7 +91,7 @@ namespace
       }
   }
 
-  // The lengths of the intervals that full refits to the same draws give: on all points, Huber's weights found anew.
+  // Interval lengths of full refits to the same draws, with all points and newly found Huber weights.
   std::array<double, 3> full_lengths(const BandData &data, const BandFit &fit, const BootstrapOptions &bootstrap)
   {
     const double                       x = 0.5 * frame.width, y = 0.5 * frame.height;
@@ -119,9 +120,9 @@ namespace
     return lengths;
   }
 
-  // A single draw moves a full refit and a cheap one by amounts that differ by up to a third of a deviation (other weights,
-  // cells), and the 2.5 % quantile of 100 draws is the third of them: by a fifth of a deviation at either end or a tenth of the
-  // length. The mean of three fields is right to 0.1/sqrt(3), two deviations of which are 0.12.
+  // A single draw moves a full refit and a cheap one by amounts that differ by up to a third of a deviation, because of weights
+  // and cells. The 2.5 % quantile of 100 draws is the third of them: a fifth of a deviation at either end, or a tenth of the
+  // length. The mean of three fields is accurate to 0.1/sqrt(3), and two deviations of that are 0.12.
   TEST(BandIntervals, CheapRefitsAgreeWithFullOnes)
   {
     std::array<double, 3> ratio = {};
@@ -140,7 +141,7 @@ namespace
       EXPECT_NEAR(r, 1, 0.12);
   }
 
-  // A fit without misfit stays the same whatever is drawn.
+  // A fit without misfit is the same for every draw.
   TEST(BandIntervals, VanishWithoutNoise)
   {
     const BandReport report = find_bands(synthetic::grain_field(frame, {oblique}, 0, 1), frame);
@@ -148,15 +149,14 @@ namespace
     const BandIntervals &band = report.bands[0].interval;
     EXPECT_EQ(band.resamples, 200);
     EXPECT_EQ(band.lost_share, 0);
-    // cells of 2 d average tanh over themselves, which leaves a misfit of (2^2/24) x slope of the slope, at most 0.4 % of the
-    // jump here
+    // Cells of 2 d average the tanh. This leaves a misfit of (2^2/24) x the second derivative, at most 0.4 % of the jump here.
     EXPECT_LT(length(band.angle_deg), 0.1);
     EXPECT_LT(length(band.half_width), 0.1);
     EXPECT_LT(length(band.offset), 0.05);
     EXPECT_LT(length(band.jump), 0.01);
   }
 
-  // Same seed, same bits; the fit itself does not depend on the seed.
+  // The same seed gives the same bits. The fit itself does not depend on the seed.
   TEST(BandIntervals, AreAFunctionOfTheSeed)
   {
     const auto field = noisy_field(oblique, 9, 0.05, 3);
@@ -186,7 +186,7 @@ namespace
     holds(band.interval.dilation_deg, band.dilation_deg);
   }
 
-  // Everything is linear for small noise: twice the noise, twice the interval. The width enters by its logarithm.
+  // For small noise everything is linear: twice the noise gives twice the interval. The width enters by its logarithm.
   TEST(BandIntervals, GrowWithTheNoise)
   {
     const auto of = [](const double noise) { return find_bands(noisy_field(oblique, 9, noise, 3), frame).bands[0].interval; };
@@ -196,7 +196,7 @@ namespace
                 2, 0.2);
   }
 
-  // Lengths x 0.01 with the mean diameter: intervals of lengths follow, angles and jumps stay.
+  // Lengths are scaled by 0.01 with the mean diameter. Intervals of lengths scale with them; angles and jumps do not.
   TEST(BandIntervals, UnitsDoNotMatter)
   {
     auto        field  = noisy_field(oblique, 9, 0.05, 3);
@@ -215,7 +215,7 @@ namespace
     EXPECT_NEAR(length(small.interval.jump), length(large.interval.jump), 1e-3);
   }
 
-  // At 90 degrees the angle is folded; the interval is not.
+  // At 90 degrees the angle is folded, but the interval is not.
   TEST(BandIntervals, UprightBandHasAnUnbrokenInterval)
   {
     for (const std::uint64_t seed : {1, 2, 3})
@@ -229,8 +229,8 @@ namespace
       }
   }
 
-  // A transition nearly as wide as can be told from the background, under much noise: many resamples show none.
-  TEST(BandIntervals, AreUnknownWhereResamplesLoseTheBand)
+  // A transition that is almost too wide for a band, under strong noise: many resamples show none.
+  TEST(BandIntervals, AreUnknownIfResamplesLoseTheBand)
   {
     const Truth         wide  = {-46, 20, 0, 0.9, 0};
     const BandData      data  = scaled(noisy_field(wide, 10, 0.04, 9));
@@ -262,7 +262,7 @@ namespace
         }
   }
 
-  // Blocks of one correlation length miss a part of the covariance whatever the number: all factors are above 1.
+  // Blocks of one correlation length miss a part of the covariance for any number of blocks, so all factors are above 1.
   TEST(BandIntervals, BlocksAloneAreTooNarrow)
   {
     const BandData data    = scaled(noisy_field(oblique, 9, 0.05, 3));

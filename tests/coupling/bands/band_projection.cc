@@ -1,4 +1,4 @@
-// diptych: derivatives of the projected least squares problem against differences
+// diptych: tests of the derivatives of the projected least squares problem, by differences
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/bands/band_projection.h"
 
@@ -26,7 +26,7 @@ namespace
     return data;
   }
 
-  // Parameter k of the shapes (angle, offset, log half width of each band) moved.
+  // The shapes with parameter k (angle, offset, log half width of each band) changed by `step`.
   std::vector<BandShape> moved(std::vector<BandShape> shape, const int k, const double step)
   {
     BandShape &band = shape[k / 3];
@@ -40,8 +40,8 @@ namespace
   }
 
   // Away from the minimum and with noise of a fifth of the platen increment, so that the misfit matters. Central differences with
-  // steps of 1e-4 are right to (step^2/6) x third derivative: 1e-6 of the largest entry leaves a factor of a hundred.
-  TEST(BandProjection, DerivativesAreThoseOfTheSumOfSquares)
+  // steps of 1e-4 have an error of (step^2/6) x third derivative. 1e-6 of the largest entry leaves a margin of a hundred.
+  TEST(BandProjection, DerivativesAgreeWithDifferencesOfTheSumOfSquares)
   {
     const BandData data = noisy_data();
     for (const int n_bands : {1, 2})
@@ -61,7 +61,7 @@ namespace
       }
   }
 
-  // Without a misfit the two forms of the second derivative are the same.
+  // Without a misfit both forms of the second derivative are equal.
   TEST(BandProjection, GaussNewtonIsExactWithoutMisfit)
   {
     BandData                     data  = noisy_data();

@@ -1,4 +1,4 @@
-// diptych: how well bands are found again under noise, outliers and other bands, and where that ends
+// diptych: tests of the accuracy of bands under noise, outliers and other bands, and of its limits
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/bands/band_detection.h"
 
@@ -24,7 +24,7 @@ namespace
     return find_bands(field, sample, options);
   }
 
-  // Deviations from the truth of the band that lies nearest to it.
+  // Deviations from the truth, for the band that is nearest to it.
   struct Misses
   {
     double angle_deg, width, offset; // [degrees], share of the half width, [mean diameters]
@@ -39,15 +39,15 @@ namespace
     return {angle(nearest), nearest.half_width / truth.half_width - 1, nearest.offset - truth.offset};
   }
 
-  // What is asked for: the angle to 0.3 degrees and the half width to 5 %.
+  // The requirement: angle within 0.3 degrees and half width within 5 %.
   bool is_met(const Misses &m)
   {
     return std::abs(m.angle_deg) < 0.3 && std::abs(m.width) < 0.05;
   }
 
-  // Standard deviations of angle, half width and offset of the weighted least squares fit of one band, A^-1 B A^-1 with
-  // A = sum w J^T J and B = sum_ij w_i w_j C_ij J_i^T J_j; C: covariance of the noise, white (length 0) or exp(-pi r^2/length^2).
-  // For a band that slides along itself; J by differences of the truth.
+  // Standard deviations of angle, half width and offset of the weighted least squares fit of one band: A^-1 B A^-1 with A = sum w
+  // J^T J and B = sum_ij w_i w_j C_ij J_i^T J_j. C is the covariance of the noise, white (length 0) or exp(-pi r^2/length^2). The
+  // band slides along itself; J comes from differences of the truth.
   Misses expected_scatter(const DisplacementField &field, const Truth &truth, const double noise, const double length)
   {
     const int       n = field.position.size();
@@ -98,9 +98,9 @@ namespace
   class NoisyBand : public testing::TestWithParam<Truth>
   {
   protected:
-    // Root mean squares of the misses over realisations must be what least squares lets expect. For 24 of them such a root
-    // scatters by 1/sqrt(48) = 14 %: three deviations are 43 %. The noise is such that the demands lie at two expected deviations
-    // or more, so that 95 % or more meet them: 20 of 24 is two and a half deviations below.
+    // Root mean squares of the deviations over realisations must equal the expectation for least squares. For 24 realisations
+    // such a root scatters by 1/sqrt(48) = 14 %; three deviations are 43 %. The noise is chosen so that the limits lie at two
+    // expected deviations or more, and 95 % or more meet them. 20 of 24 is two and a half deviations below.
     void check(const double noise, const double length) const
     {
       constexpr int     n = 24;
@@ -144,7 +144,7 @@ namespace
                            NoisyBand,
                            testing::Values(Truth{-46, 6, 2, 0.9, 0}, Truth{30, 3, -5, -0.8, 0}, Truth{-45, 9, 1, 1.05, 0}));
 
-  // The residuals of grains: 4 to 6 % of the platen's increment, one independent sample per 8 to 10 d.
+  // The residuals of grains are 4 to 6 % of the platen's increment, with one independent sample per 8 to 10 d.
   TEST(BandTruth, NumberOfBandsIsRightUnderTheNoiseOfGrains)
   {
     const std::vector<std::vector<Truth>> cases = {
@@ -159,8 +159,8 @@ namespace
         }
   }
 
-  // The same noise with and without a crossing band of 30 % of the jump: the main band's fit differs only by what five more
-  // unknowns do. Seen one by one, these shifts scatter by 0.06 degrees and 0.3 %; the mean of eight by a third of that.
+  // The same noise with and without a crossing band of 30 % of the jump. The main band's fit differs only by the effect of five
+  // more unknowns. Single shifts scatter by 0.06 degrees and 0.3 %; the mean of eight scatters by a third of that.
   TEST(BandTruth, WeakConjugateBandDoesNotBiasTheMainOne)
   {
     const Truth   main = {-46, 6, 2, 0.9, 5}, weak = {50, 4, -3, -0.27, 5};
@@ -182,7 +182,7 @@ namespace
     EXPECT_NEAR(shift.width, 0, 0.004);
   }
 
-  // Noise of 2 %, 5 % of the grains with anything up to three platen increments.
+  // Noise of 2 %, and 5 % of the grains with increments of up to three platen increments.
   TEST(BandTruth, AberrantGrainsDoNotMoveTheBand)
   {
     const Truth truth = {-46, 6, 2, 0.9, 8};
@@ -217,8 +217,8 @@ namespace
       }
   }
 
-  // The corner lies 44.7 d from the centre along the normal of a band at -46 degrees: 26 cos 44 + 37.5 cos 46. At an offset of
-  // 30 d the band cuts a triangle of 6 % of the area off; at 38 d, of 1 %, and only the number of bands is held to it.
+  // The corner lies 44.7 d from the centre along the normal of a band at -46 degrees: 26 cos 44 + 37.5 cos 46. At an offset of 30
+  // d the band cuts off a triangle of 6 % of the area. At 38 d it is 1 %, and only the number of bands is tested.
   TEST(BandTruth, BandsThatCutACornerOffAreFound)
   {
     const Truth near = {-46, 4, 30, 0.9, 5}, far = {-46, 4, 38, 0.9, 5};
@@ -231,7 +231,7 @@ namespace
       }
   }
 
-  // Platens that move down, sideways or up; samples that are tall, squat or small.
+  // Platens move down, sideways or up; samples are tall, squat or small.
   TEST(BandTruth, FrameDoesNotMatter)
   {
     const std::vector<SampleFrame> frames = {synthetic::frame_of(40, 80, {0, -0.5}), synthetic::frame_of(75, 52, {0.7, -0.7}),
@@ -246,8 +246,8 @@ namespace
         }
   }
 
-  // A quarter turn of everything turns the band by 90 degrees; the fit ends within its tolerance of 1e-4.
-  TEST(BandTruth, QuarterTurnTurnsTheBand)
+  // A quarter turn of everything rotates the band by 90 degrees. The fit ends within its tolerance of 1e-4.
+  TEST(BandTruth, QuarterTurnRotatesTheBandByNinetyDegrees)
   {
     const SampleFrame     square       = synthetic::frame_of(60, 60, {0.5, -0.5});
     const auto            field        = synthetic::grain_field(square, {{-50, 5, 3, 0.8, 6}}, 0.03, 1000);
@@ -264,7 +264,7 @@ namespace
     ASSERT_EQ(b.bands.size(), 1u);
     EXPECT_NEAR(b.bands[0].angle_deg, a.bands[0].angle_deg + 90, 0.01);
     EXPECT_NEAR(b.bands[0].half_width, a.bands[0].half_width, 1e-3);
-    // from -50 to 40 degrees the normal (sin 50, cos 50) becomes (-sin 40, cos 40): the turned one
+    // From -50 to 40 degrees the normal (sin 50, cos 50) becomes (-sin 40, cos 40), which is the rotated normal.
     EXPECT_NEAR(b.bands[0].offset, a.bands[0].offset, 1e-3);
     EXPECT_NEAR(b.bands[0].jump, a.bands[0].jump, 1e-3);
     EXPECT_NEAR(b.bands[0].dilation_deg, a.bands[0].dilation_deg, 0.01);
@@ -285,7 +285,7 @@ namespace
     ASSERT_EQ(b.bands.size(), 1u);
     EXPECT_LT(b.bands[0].angle_deg, -56);
     const Band one = folded(a.bands[0]), other = folded(b.bands[0]);
-    EXPECT_NEAR(one.angle_deg, a.bands[0].angle_deg, 0); // leans to the right already
+    EXPECT_NEAR(one.angle_deg, a.bands[0].angle_deg, 0); // already leans to the right
     EXPECT_NEAR(other.angle_deg, one.angle_deg, 0.01);
     EXPECT_NEAR(other.half_width, one.half_width, 1e-3);
     EXPECT_NEAR(other.offset, one.offset, 1e-3);
@@ -309,10 +309,11 @@ namespace
     EXPECT_EQ(right.interval.jump.high, 0.9);
     EXPECT_EQ(right.offset, 3);
     EXPECT_EQ(right.interval.offset.low, 2);
-    EXPECT_EQ(folded(right).angle_deg, 50); // once is enough
+    EXPECT_EQ(folded(right).angle_deg, 50); // a second folding changes nothing
   }
 
-  // Shear of the whole sample with correlated noise; a transition of 2 x 30 d over a sample that reaches 45 d from its middle.
+  // Shear of the whole sample with correlated noise, and a transition of 2 x 30 d over a sample that extends 45 d from its
+  // middle.
   TEST(BandTruth, FieldsWithoutABandAreDiffuse)
   {
     for (const SampleFrame &sample : {frame, synthetic::frame_of(40, 80, {0, -0.5}), synthetic::frame_of(37, 53, {0.5, -0.5})})

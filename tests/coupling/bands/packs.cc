@@ -1,4 +1,4 @@
-// diptych: what counts as a zone between two packs, and what a tanh leaves of a smooth field
+// diptych: tests of the conditions for two packs, and of remainders of a smooth field that a tanh fits
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 
@@ -24,34 +24,35 @@ namespace
 
   void expect_reason(const std::string &found, const std::string &wanted)
   {
-    EXPECT_NE(found.find(wanted), std::string::npos) << "'" << found << "' does not say '" << wanted << "'";
+    EXPECT_NE(found.find(wanted), std::string::npos) << "'" << found << "' lacks '" << wanted << "'";
   }
 
-  // 52 x 75, 45 degrees through the middle: it meets the sides 26 below and above the centre, the platens are 37.5 away.
-  TEST(Packs, ALineThatLeavesByBothSidesDividesTheSampleIntoTwo)
+  // 52 x 75, a line at 45 degrees through the middle. It meets the sides 26 below and above the centre; the platens are 37.5
+  // away.
+  TEST(Packs, LineThroughBothSidesDividesTheSampleIntoTwo)
   {
     EXPECT_EQ(objection_to_packs(band_at(-45, 0, 1), frame_52_75(), true), "");
-    // 8.1 along the normal is 11.5 along the side: the line ends on the very corner
+    // 8.1 along the normal is 11.5 along the side, so the line ends exactly at the corner.
     EXPECT_EQ(objection_to_packs(band_at(-45, 8.1, 1), frame_52_75(), true), "");
     EXPECT_EQ(objection_to_packs(band_at(0, 3, 1), frame_of(52, 75, {0.5, 0}), true), "");
     EXPECT_EQ(objection_to_packs(band_at(0, -3, 1), frame_of(52, 75, {0.5, 0}), true), "");
   }
 
-  // A tenth of 52 may be cut off: at 45 degrees the offset may be (37.5 - 26 + 5.2) / sqrt 2 = 11.81, either way.
-  TEST(Packs, ALineThatCutsOffMoreThanATenthOfAPlatenNamesIt)
+  // A tenth of 52 may be cut off: at 45 degrees the offset may be (37.5 - 26 + 5.2) / sqrt 2 = 11.81 to either side.
+  TEST(Packs, NamesThePlatenOfWhichMoreThanATenthIsCutOff)
   {
     EXPECT_EQ(objection_to_packs(band_at(-45, 11.8, 1), frame_52_75(), true), "");
     EXPECT_EQ(objection_to_packs(band_at(-45, -11.8, 1), frame_52_75(), true), "");
     expect_reason(objection_to_packs(band_at(-45, 11.9, 1), frame_52_75(), true), "% of the upper platen");
     expect_reason(objection_to_packs(band_at(-45, -11.9, 1), frame_52_75(), true), "% of the lower platen");
-    // 20 along the normal is 28.28 along the platen, 11.5 of that above it: 16.78 of 52
+    // 20 along the normal is 28.28 along the platen, of which 11.5 lie above it: 16.78 of 52.
     expect_reason(objection_to_packs(band_at(-45, 20, 1), frame_52_75(), true), "cuts off 32.28 % of the upper platen");
     expect_reason(objection_to_packs(band_at(0, 40, 1), frame_52_75(), true), "100 % of the upper platen");
   }
 
-  // The diagonal of a sample half as wide again as it is high joins the platens' far corners; at 45 degrees both are cut by
-  // (90 - 60)/2 of 90.
-  TEST(Packs, ADiagonalOfAWideSampleIsNoZoneBetweenThem)
+  // In a sample 1.5 times as wide as high, the diagonal joins the platens' far corners. At 45 degrees both platens are cut by (90
+  // - 60)/2 of 90.
+  TEST(Packs, DiagonalOfAWideSampleDoesNotSeparatePacks)
   {
     const std::string reasons = objection_to_packs(band_at(-45, 0, 1.4), frame_of(90, 60, {0.5, -0.5}), true);
     expect_reason(reasons, "16.67 % of the upper platen");
@@ -69,7 +70,7 @@ namespace
     expect_reason(objection_to_packs(band_at(-45, 0, 1), frame_52_75(), false), "not converged");
   }
 
-  TEST(Packs, TheDetectorSaysIt)
+  TEST(Packs, VerdictOfTheDetectionHasTheReasons)
   {
     const SampleFrame tall = frame_52_75();
     const BandReport  zone = find_bands(grain_field(tall, {{-45, 5, 1, 0.9, 8}}, 0.03, 1), tall);
@@ -85,9 +86,9 @@ namespace
     expect_reason(diagonal.verdict, "more than 1.2");
   }
 
-  // What a Cosserat continuum shows beside its band: a smooth turn of the packs that a tanh of a third of the sample's width
-  // fits. In its middle it shears 0.27/(2 x 14) = 0.0096 of the travel per d; the sample on average 1/75 = 0.0133.
-  TEST(Packs, WhatShearsLessThanTheSampleOnAverageIsNoBand)
+  // A Cosserat continuum shows this beside its band: a smooth rotation of the packs, which a tanh of a third of the sample's
+  // width fits. In its middle it shears 0.27/(2 x 14) = 0.0096 of the travel per d; the sample shears 1/75 = 0.0133 on average.
+  TEST(Packs, TransitionThatShearsLessThanTheSampleIsNotABand)
   {
     const SampleFrame frame  = frame_52_75();
     const BandReport  report = find_bands(node_field(frame, {{-46, 9, 0, 1.1, 9}, {37, 14, -0.7, -0.27, 12}}, 40, 56), frame);
@@ -97,7 +98,7 @@ namespace
     EXPECT_EQ(find_bands(node_field(frame, {{-46, 5, 0, 1.1, 9}, {37, 4, -0.7, -0.27, 12}}, 40, 56), frame).bands.size(), 2u);
   }
 
-  TEST(Packs, AnXStaysAnX)
+  TEST(Packs, CrossingPairRemainsTwoBands)
   {
     const SampleFrame frame  = frame_of(52, 75, {0, -0.7});
     const BandReport  report = find_bands(grain_field(frame, {{55, 5, 0, -0.5, 8}, {-57, 5, 0, 0.5, 8}}, 0.03, 3), frame);

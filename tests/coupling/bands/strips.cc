@@ -1,4 +1,4 @@
-// diptych: the strips of Moreau's figure
+// diptych: tests of the strips of Moreau's figure
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/bands/strips.h"
 
@@ -12,7 +12,8 @@ namespace
 {
   using namespace diptych::coupling;
 
-  // At 45 degrees a box of 52 x 75 reaches (52 + 75) / (2 sqrt 2) = 44.9 along the normal: +-30 around the band fits on one side.
+  // At 45 degrees a box of 52 x 75 extends (52 + 75) / (2 sqrt 2) = 44.9 along the normal. +-30 around the band fits on one side
+  // only.
   TEST(Strips, CoverThirtyDiametersOnEachSideAsFarAsTheSampleReaches)
   {
     const auto edges = strip_edges(synthetic::frame_52_75(), -45, 20);
@@ -23,7 +24,7 @@ namespace
       EXPECT_NEAR(edges[k + 1] - edges[k], (edges.back() - edges.front()) / 16, 1e-12);
   }
 
-  // Each strip's mean of the noiseless field is the profile at its middle, to the profile's curvature.
+  // Each strip's mean of the noiseless field is the profile at its middle, up to the profile's curvature.
   TEST(Strips, MeansFollowTheProfile)
   {
     const SampleFrame      frame = synthetic::frame_52_75();

@@ -1,4 +1,4 @@
-// diptych: Coulomb, Roscoe and Arthur lines against Mohr circles
+// diptych: tests of Coulomb's, Roscoe's and Arthur's lines, with Mohr circles
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/bands/theory_lines.h"
 
@@ -13,9 +13,9 @@ namespace
 
   constexpr double degree = M_PI / 180;
 
-  // s1 = 3 s3 is failure at phi = 30 degrees: (s1 - s3)/(s1 + s3) = sin phi. On a plane at the angle a to the minor direction,
-  // its normal at a to the major one, Mohr's circle gives sigma = s + t cos 2a and tau = t sin 2a. tau/sigma is largest on
-  // Coulomb's plane, and there it is tan phi.
+  // s1 = 3 s3 is failure at phi = 30 degrees: (s1 - s3)/(s1 + s3) = sin phi. Consider a plane at the angle a to the minor
+  // direction, whose normal is at a to the major direction. Mohr's circle gives sigma = s + t cos 2a and tau = t sin 2a.
+  // tau/sigma is largest on Coulomb's plane, where it is tan phi.
   TEST(TheoryLines, CoulombPlaneHasTheGreatestObliquity)
   {
     const auto obliquity = [](const double a_deg) {
@@ -29,8 +29,8 @@ namespace
     EXPECT_GT(obliquity(coulomb), obliquity(coulomb + 1));
   }
 
-  // Strain increments of the dilatancy angle psi: e1 + e3 = -sin psi (e1 - e3). The stretch of a line at the angle a to the
-  // minor direction is e3 cos^2 a + e1 sin^2 a; it vanishes on Roscoe's line.
+  // Strain increments of the dilatancy angle psi: e1 + e3 = -sin psi (e1 - e3). A line at the angle a to the minor direction
+  // stretches by e3 cos^2 a + e1 sin^2 a, which is zero on Roscoe's line.
   TEST(TheoryLines, RoscoeLineDoesNotStretch)
   {
     const double psi = 12, e1 = 1 - std::sin(psi * degree), e3 = -1 - std::sin(psi * degree);
@@ -44,7 +44,8 @@ namespace
     EXPECT_NEAR(lines.arthur_deg, 0.5 * (lines.coulomb_deg + lines.roscoe_deg), 1e-12);
   }
 
-  // Vertical compression: the minor direction is horizontal; bands at +-60. Turned by 40 degrees: 100 is -80, and -20.
+  // Under vertical compression the minor direction is horizontal and the bands are at +-60. Rotated by 40 degrees they are at
+  // 100, which is -80, and at -20.
   TEST(TheoryLines, ConjugateBandsLieToEitherSideOfTheMinorDirection)
   {
     const auto upright = conjugate_angles_deg(60, 0), turned = conjugate_angles_deg(60, 40), level = conjugate_angles_deg(90, 0);
@@ -52,11 +53,11 @@ namespace
     EXPECT_NEAR(upright[1], -60, 1e-12);
     EXPECT_NEAR(turned[0], -80, 1e-12);
     EXPECT_NEAR(turned[1], -20, 1e-12);
-    EXPECT_NEAR(level[0], 90, 1e-12); // (-90, 90]
+    EXPECT_NEAR(level[0], 90, 1e-12); // range (-90, 90]
     EXPECT_NEAR(level[1], 90, 1e-12);
   }
 
-  TEST(TheoryLines, AnglesOutsideTheirRangeAreRefused)
+  TEST(TheoryLines, RejectsAnglesOutsideTheirRange)
   {
     EXPECT_THROW(theory_lines(90, 0), std::invalid_argument);
     EXPECT_THROW(theory_lines(-1, 0), std::invalid_argument);

@@ -1,4 +1,4 @@
-// diptych: areas shared by the cells of two meshes
+// diptych: tests of the areas shared by the cells of two meshes
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/cells/cell_overlap.h"
 
@@ -11,9 +11,9 @@ namespace
 {
   using namespace diptych::coupling;
 
-  // Grids of 2 x 2 and 3 x 3 cells on the square of side 6: the cells 3 and 2 wide. The lower left coarse cell [0,3]^2 shares
-  // 2 x 2, 1 x 2, 2 x 1 and 1 x 1 with the fine cells 0, 1, 3 and 4.
-  TEST(CellOverlap, SharedAreasOfTwoGridsAreThoseOfTheirRectangles)
+  // Grids of 2 x 2 and 3 x 3 cells on a square of side 6, with cells 3 and 2 wide. The lower left coarse cell [0,3]^2 shares
+  // areas of 2 x 2, 1 x 2, 2 x 1 and 1 x 1 with the fine cells 0, 1, 3 and 4.
+  TEST(CellOverlap, SharedAreasOfTwoGridsEqualThoseOfTheirRectangles)
   {
     const QuadMesh    coarse = regular_grid({0, 0}, {6, 6}, 3), fine = regular_grid({0, 0}, {6, 6}, 2);
     const CellOverlap overlap = cell_overlap(coarse, fine);
@@ -28,14 +28,14 @@ namespace
   }
 
   // 1e9 x 1e9 cells of side 1.
-  TEST(CellOverlap, AGridOfMoreCellsThanMemoryHoldsIsRefused)
+  TEST(CellOverlap, RejectsAGridOfMoreCellsThanMemoryHolds)
   {
     EXPECT_THROW((void)regular_grid({0, 0}, {1e9, 1e9}, 1), std::invalid_argument);
   }
 
-  // A square turned by 45 degrees with its corners in the middles of the sides of a square of side 2 has half its area, and a
-  // quarter of that in each of the four unit cells.
-  TEST(CellOverlap, ATurnedCellSharesAQuarterOfItsAreaWithEachQuadrant)
+  // The diamond's corners are the middles of the sides of a square of side 2, so it has half the square's area. Each of the four
+  // unit cells holds a quarter of the diamond.
+  TEST(CellOverlap, RotatedCellSharesAQuarterOfItsAreaWithEachQuadrant)
   {
     QuadMesh diamond;
     diamond.node = {{1, 0}, {2, 1}, {1, 2}, {0, 1}};
@@ -47,19 +47,19 @@ namespace
       EXPECT_NEAR(area, 0.5, 1e-14);
   }
 
-  TEST(CellOverlap, MeansAreWeightedBySharedAreaAndMissingWhereHalfTheCellHasNoValue)
+  TEST(CellOverlap, MeansAreWeightedBySharedAreaAndMissingIfHalfTheCellHasNoValue)
   {
     const CellOverlap   overlap = cell_overlap(regular_grid({0, 0}, {6, 6}, 3), regular_grid({0, 0}, {6, 6}, 2));
     std::vector<double> values  = {1, 2, 3, 4, 5, 6, 7, 8, 9};
     // (4 * 1 + 2 * 2 + 2 * 4 + 1 * 5) / 9
     EXPECT_NEAR(carried_over<double>(overlap, values, NAN)[0], 21. / 9, 1e-14);
-    values[0] = NAN; // 5 of 9 are left
+    values[0] = NAN; // 5 of 9 remain
     EXPECT_NEAR(carried_over<double>(overlap, values, NAN)[0], 17. / 5, 1e-14);
-    values[1] = NAN; // 3 of 9
+    values[1] = NAN; // 3 of 9 remain
     EXPECT_TRUE(std::isnan(carried_over<double>(overlap, values, NAN)[0]));
   }
 
-  TEST(CellOverlap, TensorsAreCarriedComponentByComponent)
+  TEST(CellOverlap, TransfersTensorsComponentByComponent)
   {
     const CellOverlap            overlap = cell_overlap(regular_grid({0, 0}, {4, 2}, 2), regular_grid({0, 0}, {4, 2}, 1));
     std::vector<Eigen::Matrix2d> values(8);

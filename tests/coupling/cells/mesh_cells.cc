@@ -1,4 +1,4 @@
-// diptych: every point and every piece of a segment belongs to exactly one triangle
+// diptych: tests that every point and every piece of a segment belongs to exactly one triangle
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/cells/mesh_cells.h"
 #include "coupling/cells/triangle_search.h"
@@ -24,7 +24,7 @@ namespace
     EXPECT_NEAR(sum, 12 * 18, 1e-11);
   }
 
-  // Shape functions add up to 1, so their gradients add up to 0; and sum_a x_a (x) grad N_a = 1.
+  // Shape functions add up to 1, so their gradients add up to 0. Moreover sum_a x_a (x) grad N_a = 1.
   TEST(MeshCells, ShapeGradientsReproduceAffineFields)
   {
     const QuadMesh mesh = synthetic::box_mesh({0, 0}, {3, 2}, 3, 2, 0.3);
@@ -42,7 +42,7 @@ namespace
       }
   }
 
-  TEST(MeshCells, CentroidOfEveryTriangleIsFoundInIt)
+  TEST(MeshCells, LocatesTheCentroidOfEveryTriangleInIt)
   {
     const QuadMesh       mesh = synthetic::box_mesh({0, 0}, {30, 20}, 25, 17, 0.24);
     const TriangleSearch search(mesh);
@@ -55,7 +55,7 @@ namespace
       }
   }
 
-  // Points on edges and corners, rounded this way or that: the lowest of the triangles that share them.
+  // Points on edges and corners, with rounding errors of either sign, belong to the lowest of the triangles that share them.
   TEST(MeshCells, PointOnAnEdgeBelongsToTheLowestTriangle)
   {
     const QuadMesh            mesh = synthetic::box_mesh({0, 0}, {7, 5}, 7, 5, 0.24);
@@ -67,7 +67,7 @@ namespace
     for (unsigned int n = 0; n < mesh.node.size(); ++n)
       EXPECT_EQ(search.locate(mesh.node[n]).triangle, lowest_at_node[n]);
 
-    for (unsigned int c = 0; c < mesh.cell.size(); ++c) // the diagonal is shared by the cell's two triangles
+    for (unsigned int c = 0; c < mesh.cell.size(); ++c) // the two triangles of the cell share the diagonal
       for (int k = 1; k < 10; ++k)
         {
           const Eigen::Vector2d &a = mesh.node[mesh.cell[c][0]], &b = mesh.node[mesh.cell[c][2]];
@@ -85,7 +85,7 @@ namespace
     EXPECT_EQ(mesh.triangle[search.locate({-3, -4}).triangle].cell, 0u);
   }
 
-  TEST(MeshCells, PiecesOfASegmentFollowOneAnotherWithoutGap)
+  TEST(MeshCells, PiecesOfASegmentLeaveNoGap)
   {
     const QuadMesh                     mesh = synthetic::box_mesh({0, 0}, {10, 10}, 9, 9, 0.3);
     const TriangleSearch               search(mesh);
@@ -104,7 +104,7 @@ namespace
       }
   }
 
-  // Corner 1 pulled across the diagonal 0-2: the other diagonal splits the cell.
+  // Corner 1 is pulled across the diagonal 0-2, so the other diagonal splits the cell.
   TEST(MeshCells, ConcaveCellIsSplitAlongItsInnerDiagonal)
   {
     diptych::continuum::Snapshot snapshot;
@@ -120,8 +120,8 @@ namespace
     EXPECT_THROW(quad_mesh(snapshot), std::runtime_error);
   }
 
-  // Nodes moved by up to 0.3 except on the outline, the hanging ones off their chords: still every edge that has one triangle
-  // only lies on the outline, 2 (20 + 30) long, and the polygons fill the box.
+  // Nodes are moved by up to 0.3 except on the outline; the hanging ones leave their chords. Every edge of one triangle only must
+  // still lie on the outline, 2 (20 + 30) long, and the polygons must fill the box.
   TEST(MeshCells, CellsMeetWithoutGapAtDisplacedHangingNodes)
   {
     const auto diagonal = [](const Eigen::Vector2d &x) { return std::abs(x.x() - 0.7 * x.y()) < 3; };
@@ -149,9 +149,10 @@ namespace
     EXPECT_NEAR(area, 600, 1e-10);
   }
 
-  // Beside two smaller cells the cell [0, 1] x [0, 1] has a hanging node at (1, 0.5), which the displacement 0.1 takes to
-  // (1.1, 0.5): a triangle of area 0.5 x 1 x 0.1 more, half of it less for each neighbour. Corner 0 comes first.
-  TEST(MeshCells, CoarseCellRunsThroughItsHangingNodeWhereverThatMoves)
+  // The cell [0, 1] x [0, 1] lies beside two smaller cells and has a hanging node at (1, 0.5). The displacement 0.1 moves this
+  // node to (1.1, 0.5). The cell gains a triangle of area 0.5 x 1 x 0.1, and each neighbour loses half of it. Corner 0 comes
+  // first.
+  TEST(MeshCells, CoarseCellFollowsItsHangingNodeWhereverItMoves)
   {
     diptych::continuum::Snapshot snapshot;
     snapshot.position = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {1.1, 0.5}, {1.5, 0}, {1.5, 0.5}, {1.5, 1}};
@@ -169,14 +170,14 @@ namespace
     EXPECT_EQ(mesh.node[outlines[0][2]], snapshot.position[4]);
     EXPECT_EQ(outlines[1].size(), 4u);
 
-    // beyond the far side: the polygon cuts itself
+    // The node moves beyond the far side and the polygon intersects itself.
     snapshot.position[4]     = {-0.5, 0.5};
     snapshot.displacement[4] = {-1.5, 0};
     EXPECT_THROW(quad_mesh(snapshot), std::runtime_error);
   }
 
-  // The middle one of nine cells, the other eight cut into four: a square with a node in the middle of every edge. Its best
-  // division has four triangles at the corners and two in the square of the middles, all of them halves of squares.
+  // The middle one of nine cells is a square with a node in the middle of every edge, because the other eight are cut into four.
+  // Its best division has four triangles at the corners and two in the inner square, all of them halves of squares.
   TEST(MeshCells, CellWithFourHangingNodesIsDividedIntoHalvesOfSquares)
   {
     const auto     outer = [](const Eigen::Vector2d &x) { return (x - Eigen::Vector2d(3, 3)).norm() > 0.5; };
@@ -185,7 +186,7 @@ namespace
     const auto     areas = cell_areas(mesh);
     unsigned int   n     = 0;
     for (unsigned int t = 0; t < mesh.triangle.size(); ++t)
-      if (areas[mesh.triangle[t].cell] > 2) // 2 x 2, the others 1 x 1
+      if (areas[mesh.triangle[t].cell] > 2) // 2 x 2; the other cells are 1 x 1
         {
           double longest = 0;
           for (int k = 0; k < 3; ++k)
@@ -197,7 +198,7 @@ namespace
     EXPECT_EQ(n, 6u);
   }
 
-  // 10 x 7 in cells of about 3: 3 columns 3.33 wide and 2 rows 3.5 high.
+  // 10 x 7 in cells of about 3: three columns 3.33 wide and two rows 3.5 high.
   TEST(MeshCells, RegularGridFillsItsBoxWithEqualCells)
   {
     const QuadMesh mesh = regular_grid({-1, 2}, {9, 9}, 3);
@@ -212,7 +213,7 @@ namespace
     EXPECT_EQ(regular_grid({0, 0}, {1, 1}, 100).cell.size(), 1u);
   }
 
-  TEST(MeshCells, EmptyMeshIsRefused)
+  TEST(MeshCells, RejectsAnEmptyMesh)
   {
     EXPECT_THROW(TriangleSearch{QuadMesh{}}, std::invalid_argument);
   }

@@ -10,8 +10,8 @@
 
 namespace diptych::coupling::synthetic
 {
-  // columns x rows cells over a box, those with their centre where `divided` says so cut into four, then every node moved.
-  // Beside a divided cell an undivided one has a hanging node, which a displacement that is not linear moves off the chord.
+  // columns x rows cells over a box. The cells whose centre satisfies `divided` are cut into four, and then every node moves. An
+  // undivided cell beside a divided one has a hanging node; a displacement that is not linear moves this node off the chord.
   inline QuadMesh refined_mesh(const Eigen::Vector2d                                         &lower,
                                const Eigen::Vector2d                                         &upper,
                                const std::array<unsigned int, 2>                             &cells,

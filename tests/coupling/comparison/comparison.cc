@@ -1,4 +1,4 @@
-// diptych: results in memory compared: what is known beforehand comes out
+// diptych: tests of the comparison of results in memory, with a known outcome
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
 
@@ -9,14 +9,14 @@ namespace
   using namespace diptych::coupling;
   using namespace diptych::coupling::synthetic;
 
-  // Made once: a second of work.
+  // Computed once, because it takes a second.
   const Comparison &example()
   {
     static const Comparison c = compare(example_scene(), example_results());
     return c;
   }
 
-  TEST(Compare, EveryStageAndWindowThatBothPanelsReached)
+  TEST(Compare, HasEveryStageAndWindowThatBothPanelsReached)
   {
     ASSERT_EQ(example().stages.size(), 2u);
     ASSERT_EQ(example().windows.size(), 1u);
@@ -30,13 +30,13 @@ namespace
     shorter.continuum.snapshots.pop_back();
     const Comparison c = compare(example_scene(), shorter);
     EXPECT_EQ(c.stages.size(), 1u);
-    EXPECT_EQ(c.windows.size(), 0u); // it ends with the second stage
+    EXPECT_EQ(c.windows.size(), 0u); // the window ends with the second stage
     shorter.continuum.snapshots.resize(1);
     EXPECT_THROW((void)compare(example_scene(), shorter), std::invalid_argument);
   }
 
-  // tanh(x / 3) reaches a tenth and nine tenths of its jump 2.197 x 3 apart.
-  TEST(Compare, BothPanelsShowTheBandThatTheyWereGiven)
+  // tanh(x / 3) goes from a tenth to nine tenths of its jump over 2.197 x 3.
+  TEST(Compare, FindsTheGivenBandInBothPanels)
   {
     for (const PanelIncrement *panel : {&example().windows[0].discrete, &example().windows[0].continuum})
       {
@@ -49,7 +49,7 @@ namespace
         EXPECT_NEAR(band.jump, 1, 0.001);
         EXPECT_NEAR(band.dilation_deg, 0, 0.1);
         EXPECT_TRUE(band.between_packs()) << band.no_packs_because;
-        // the major stress is vertical, the minor one horizontal
+        // The major stress is vertical, the minor one horizontal.
         EXPECT_NEAR(band.to_minor_stress_deg.value, 45, 0.02);
       }
     const BandDifference d = band_difference(example().windows[0]);
@@ -57,7 +57,7 @@ namespace
     EXPECT_NEAR(d.half_width.value, 0, 0.02);
   }
 
-  TEST(Compare, TheFrameIsTheOutlinesBoxAndThePlatensTravel)
+  TEST(Compare, FrameHasTheOutlinesBoxAndThePlatensTravel)
   {
     const Increment &window = example().windows[0];
     EXPECT_EQ(window.frame.width, 40);
@@ -68,9 +68,9 @@ namespace
     EXPECT_EQ(window.mesh.cell.size(), 20u * 28);
   }
 
-  // In the band's middle the displacement along it grows by |travel| / 3 x 1/2 per unit across: eps_1 - eps_2 = that gradient.
-  // Ten half widths away nothing shears.
-  TEST(Compare, ShearStrainIsThatOfTheProfile)
+  // In the band's middle the displacement along it grows by |travel| / 3 x 1/2 per unit across, so eps_1 - eps_2 equals this
+  // gradient. Ten half widths away there is no shear.
+  TEST(Compare, ShearStrainFollowsTheProfile)
   {
     const Increment         &window = example().windows[0];
     const DisplacementField &f      = window.discrete.field;
@@ -80,7 +80,7 @@ namespace
         const double across = (f.position[i] - window.frame.centre).dot(Eigen::Vector2d(1, 1)) / std::sqrt(2.);
         if (std::abs(across) < 0.8)
           {
-            EXPECT_NEAR(window.grain_shear[i] / peak, 1, 0.25); // the fit over 2.5 d sees the curvature
+            EXPECT_NEAR(window.grain_shear[i] / peak, 1, 0.25); // the fit over 2.5 d includes the curvature
           }
         if (std::abs(across) > 25)
           {
@@ -89,8 +89,8 @@ namespace
       }
   }
 
-  // The grains' moments add up to diag(1, 2) x area less what the rows' ends lack, half a diameter at each: 39 of 40.
-  TEST(Compare, MappingKeepsTheTotalAndStressDiffersByWhatWasPutIn)
+  // The grains' moments add up to diag(1, 2) x area, less half a diameter at each end of the rows: 39 of 40.
+  TEST(Compare, MappingKeepsTheTotalAndStressDiffersAsGiven)
   {
     const StageRecord &stage = example().stages[1];
     EXPECT_LT(stage.mapping.total_relative_error, 1e-12);
@@ -104,12 +104,12 @@ namespace
       total += area[k] * stage.fields.grains.stress[k];
     EXPECT_NEAR(total(0, 0), sigma_xx * 39 * 56, 1e-9);
     EXPECT_NEAR(total(1, 1), sigma_yy * 40 * 56, 1e-9);
-    // a cell inside: exactly the lattice's stress
+    // A cell inside has exactly the lattice's stress.
     const std::size_t inside = 14 * 20 + 10;
     EXPECT_NEAR(stage.fields.grains.stress[inside](0, 0), sigma_xx, 1e-6);
     EXPECT_NEAR(stage.fields.grains.stress[inside](1, 1), sigma_yy, 1e-6);
     EXPECT_NEAR(stage.fields.continuum.stress[inside](1, 1), continuum_over_grains * sigma_yy, 1e-12);
-    // |0.25 sigma| / |1.25 sigma| but for the rows' ends
+    // |0.25 sigma| / |1.25 sigma|, apart from the ends of the rows.
     ASSERT_EQ(stage.stress_differences.size(), 3u);
     EXPECT_NEAR(stage.stress_differences[0].relative_l2, 0.2, 0.01);
   }
@@ -124,12 +124,12 @@ namespace
     EXPECT_NEAR(stage.discrete.upper_force.y(), -80, 1e-12);
     EXPECT_NEAR(stage.continuum.lower_force.y(), 99, 1e-12);
     EXPECT_EQ(stage.discrete.dynamic_share, 0);
-    // forces balance on every grain but at the ends of rows, 39 apart, which are pushed outward by 1: 56 x 39 against moments of
-    // 56 x 39 along x and 2 x 56 x 40 along y
+    // Forces balance on every grain except at the ends of rows, 39 apart, which are pushed outward by 1. 56 x 39 is compared with
+    // moments of 56 x 39 along x and 2 x 56 x 40 along y.
     EXPECT_NEAR(stage.discrete.acceleration_share, 39 / std::hypot(39, 80), 1e-12);
     EXPECT_NEAR(std::abs(stage.discrete.minor_direction_deg), 0, 1e-9);
     EXPECT_NEAR(std::abs(stage.continuum.minor_direction_deg), 0, 1e-9);
-    // what the window's contacts dissipate is 0.01 each, split by the band's strip; the continuum's: 0.01 a unit of area
+    // The window's contacts dissipate 0.01 each, split by the band's strip. The continuum dissipates 0.01 per unit of area.
     ASSERT_TRUE(stage.discrete.dissipation && stage.continuum.dissipation);
     EXPECT_NEAR(stage.discrete.dissipation->inside + stage.discrete.dissipation->outside,
                 0.01 * double(example_results().discrete.snapshots[2].window_forces.size()), 1e-9);
@@ -137,7 +137,7 @@ namespace
     EXPECT_NEAR(stage.continuum.dissipation->inside + stage.continuum.dissipation->outside, 0.02 * 40 * 56, 1e-4);
   }
 
-  TEST(Compare, NothingIsMadeOfACoarseRunThatDidNotTakePlace)
+  TEST(Compare, WithoutACoarseRunThereAreNoCoarseResults)
   {
     EXPECT_FALSE(example().coarse);
     Results results    = example_results();
@@ -149,7 +149,7 @@ namespace
     EXPECT_EQ(c.coarse->peak.value, c.continuum.peak.value);
   }
 
-  TEST(Compare, AnElasticLawHasNoTheoryLines)
+  TEST(Compare, ElasticLawHasNoTheoryLines)
   {
     ASSERT_TRUE(example().theory.has_value());
     Scene scene         = example_scene();

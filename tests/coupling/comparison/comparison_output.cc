@@ -1,4 +1,4 @@
-// diptych: the one list of numbers and arrays: what is written is described, and what is described is written
+// diptych: tests that every written number and array is described, and every described one is written
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <fstream>
 #include <set>
@@ -45,7 +45,7 @@ namespace
     return w;
   }
 
-  // Places of all leaves; the entries of a list stand under the list's key.
+  // Places of all leaves. The entries of a list are below the list's key.
   void collect(const json &value, const std::string &place, std::set<std::string> &places)
   {
     if (value.is_object() && !(value.contains("value") && value.contains("low")))
@@ -78,7 +78,7 @@ namespace
       EXPECT_EQ(described.count(place), 1u) << place;
   }
 
-  TEST(ComparisonOutput, TheFileCarriesItsOwnDescriptions)
+  TEST(ComparisonOutput, FileHasTheDescriptionsOfItsNumbers)
   {
     const json &angle = written().document["numbers"]["windows/discrete/bands/angle_deg"];
     EXPECT_EQ(angle["unit"], "degrees");
@@ -89,7 +89,7 @@ namespace
     EXPECT_EQ(written().document["walk"], "axial_strain");
   }
 
-  TEST(ComparisonOutput, UnknownNumbersAreNullAndLengthsCountInDiameters)
+  TEST(ComparisonOutput, UnknownNumbersAreNullAndLengthsAreInDiameters)
   {
     const json &window = written().document["windows"][0];
     EXPECT_NEAR(window["discrete"]["bands"][0]["half_width_d"]["value"].get<double>(), 3, 0.01);
@@ -97,7 +97,7 @@ namespace
     EXPECT_TRUE(written().document["discrete_summary"]["grain_stress_error"].is_null());
 
     json          out = json::object();
-    NumbersToJson writer{out, 2}; // mean diameter 2
+    NumbersToJson writer{out, 2}; // the mean diameter is 2
     writer({"size_d", "mean diameters", "a length", Kind::number, true}, 3.);
     writer({"plain", "length", "a length"}, 3.);
     writer({"unknown", "-", "nothing"}, std::nan(""));
@@ -105,7 +105,7 @@ namespace
   }
 
   // Columns: from, to, panel, quantity, value, low, high, unit.
-  TEST(ComparisonOutput, ALineOfTheTableTellsItsUnit)
+  TEST(ComparisonOutput, EveryLineOfTheTableHasItsUnit)
   {
     std::istringstream in(written().csv);
     std::string        line;
@@ -149,7 +149,7 @@ namespace
     EXPECT_EQ(file.text_attribute("/", "walk"), "axial_strain");
   }
 
-  // s = 1.5, t = 0.5 about 45 degrees; and a stress that is skew besides: its symmetric part counts.
+  // s = 1.5 and t = 0.5 at 45 degrees. For an unsymmetric stress only the symmetric part counts.
   TEST(ComparisonOutput, PrincipalStressesOfKnownTensors)
   {
     Eigen::Matrix2d plain, skew, tension;
@@ -167,11 +167,11 @@ namespace
       }
     EXPECT_TRUE(std::isnan(arrays::stress_ratio(stress)[2]));
     EXPECT_EQ(arrays::sizes_over({{3, 4}}, 2), (std::vector<double>{2.5}));
-    // a grain's moment over its share of the area: the lattice's stress
+    // A grain's moment over its share of the area is the lattice's stress.
     EXPECT_NEAR(arrays::grain_stress(example_grains(1))[20 * 40 + 20](1, 1), sigma_yy, 1e-12);
   }
 
-  TEST(ComparisonOutput, AnEmptyFolderHoldsNoResults)
+  TEST(ComparisonOutput, EmptyFolderHasNoResults)
   {
     const files::Folder folder("no_results");
     files::expect_error_naming({folder.path}, [&] { (void)load_results(folder.path); });

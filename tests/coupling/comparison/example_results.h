@@ -1,4 +1,4 @@
-// diptych: results of both panels in memory whose comparison is known beforehand
+// diptych: results of both panels in memory with a known comparison
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -9,15 +9,15 @@
 
 namespace diptych::coupling::synthetic
 {
-  // 40 x 56 grains of diameter 1 on a square lattice between platens at 0 and 56, two stages of 1 %. Both panels move alike: the
-  // upper platen right and down by 0.56e-6 a stage, so little that all stays in its place, a band of -45 degrees through the
-  // middle, half width 3, that carries all of it.
+  // 40 x 56 grains of diameter 1 on a square lattice between platens at 0 and 56, with two stages of 1 %. Both panels move alike:
+  // per stage the upper platen moves right and down by 0.56e-6, so little that all places stay the same. A band of -45 degrees
+  // through the middle, half width 3, carries the whole motion.
   constexpr int      example_columns = 40, example_rows = 56;
   inline const Truth example_band = {-45, 3, 0, 1, 0};
-  constexpr double   sigma_xx = 1, sigma_yy = 2; // of the grains; of the continuum 1.25 times that
+  constexpr double   sigma_xx = 1, sigma_yy = 2; // of the grains; the continuum has 1.25 times these stresses
   constexpr double   continuum_over_grains = 1.25;
 
-  inline const Eigen::Vector2d example_step(0.56e-6, -0.56e-6); // of the upper platen, a stage
+  inline const Eigen::Vector2d example_step(0.56e-6, -0.56e-6); // motion of the upper platen per stage
 
   inline Eigen::Vector2d example_travel(const int stage)
   {
@@ -30,7 +30,7 @@ namespace diptych::coupling::synthetic
            (band_displacement(example_band, frame_of(example_columns, example_rows, example_step), x) + 0.5 * example_step);
   }
 
-  // Horizontal contacts carry sigma_xx x 1, vertical ones sigma_yy x 1: the moment of a grain is diag(sigma_xx, sigma_yy) x 1.
+  // Horizontal contacts carry sigma_xx x 1, vertical ones sigma_yy x 1. The moment of a grain is diag(sigma_xx, sigma_yy) x 1.
   inline void add_lattice_forces(discrete::Snapshot &s)
   {
     const int  n     = example_columns * example_rows;
@@ -49,7 +49,7 @@ namespace diptych::coupling::synthetic
             touch(i, n + 1, {0, 1}, sigma_yy);
           if (r == 0)
             touch(i, n, {0, -1}, sigma_yy);
-          // the two ends of a row lack one neighbour each
+          // The two ends of a row lack one neighbour each.
           const double halves = (c > 0) + (c + 1 < example_columns);
           s.internal_moment.push_back(Eigen::Vector2d(0.5 * halves * sigma_xx, sigma_yy).asDiagonal());
         }
@@ -70,7 +70,7 @@ namespace diptych::coupling::synthetic
       for (int c = 0; c < example_columns; ++c)
         {
           const Eigen::Vector2d x(c + 0.5, r + 0.5);
-          s.position.push_back(x); // small displacements beside the lattice are left out of the places
+          s.position.push_back(x); // the places omit displacements, which are small beside the lattice
           s.displacement.push_back(example_displacement(x, stage));
         }
     s.velocity.assign(n, Eigen::Vector2d::Zero());
@@ -149,7 +149,7 @@ namespace diptych::coupling::synthetic
     return scene;
   }
 
-  // t/s = (2 - 1)/(2 + 1) in both; volume -1 % of the grains, -0.8 % of the continuum at the end.
+  // t/s = (2 - 1)/(2 + 1) in both panels. The volumetric strain at the end is -1 % for the grains and -0.8 % for the continuum.
   inline Results example_results()
   {
     Results results;

@@ -1,4 +1,4 @@
-// diptych: what a study of the step says of synthetic histories
+// diptych: tests of the step study on synthetic histories
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 #include <filesystem>
@@ -18,7 +18,7 @@ namespace
   using namespace diptych::coupling;
   using diptych::discrete::Walk;
 
-  // A loading to 4 % in n rows: stress ratio 0.3, work 10 x strain, of which friction takes 8 and impacts 1.
+  // A loading to 4 % in n rows with the stress ratio 0.3 and the work 10 x strain. Friction takes 8 of it and impacts 1.
   HistoryTable history(const int n)
   {
     HistoryTable table;
@@ -61,8 +61,8 @@ namespace
     return comparison.verdict.find(words) != std::string::npos;
   }
 
-  // Straight lines through rows at other strains are the same lines.
-  TEST(StepComparison, EqualRunsDoNotDifferHoweverTheirRowsLie)
+  // Straight lines are the same for rows at other strains.
+  TEST(StepComparison, EqualRunsDoNotDifferForRowsAtOtherStrains)
   {
     const StepComparison c = compare_steps(three_runs(), 0.005, Walk::axial_strain);
     EXPECT_LT(c.largest, 1e-12);
@@ -76,7 +76,7 @@ namespace
   }
 
   // 10 % of 0.4 at the end, where the finest run has its largest value, 0.4.
-  TEST(StepComparison, TenPerCentMoreWorkMattersAndIsNamedWithItsStrain)
+  TEST(StepComparison, TenPerCentMoreWorkMattersAndIsReportedWithItsStrain)
   {
     std::vector<StepRun> runs = three_runs();
     for (double &work : runs[0].history["external_work"])
@@ -92,8 +92,8 @@ namespace
     EXPECT_TRUE(says(c, "10 % (external_work, at 4 % axial strain")) << c.verdict;
   }
 
-  // A bump of dissipation about 2 %, triangular, 1 % wide and 0.1 high: the strain named is that of its top.
-  TEST(StepComparison, TheStrainOfTheLargestDifferenceIsFound)
+  // A triangular bump of dissipation about 2 %, 1 % wide and 0.1 high. The reported strain is that of its top.
+  TEST(StepComparison, FindsTheStrainOfTheLargestDifference)
   {
     std::vector<StepRun> runs = three_runs();
     for (std::size_t k = 0; k < 100; ++k)
@@ -103,12 +103,12 @@ namespace
       }
     const StepComparison c = compare_steps(runs, 0.005, Walk::axial_strain);
     EXPECT_NEAR(quantity(c, "impact_dissipation").at_progress, 0.02, 2e-4);
-    EXPECT_NEAR(c.largest, 0.1 / 0.4, 0.01); // dissipations are measured against the work
+    EXPECT_NEAR(c.largest, 0.1 / 0.4, 0.01); // dissipations are relative to the work
     EXPECT_TRUE(says(c, "impact_dissipation, at 2")) << c.verdict;
   }
 
-  // Stress ratios that jump by +-30 % from row to row have the mean of every window of many rows: 0.5 % are 12 rows, of which
-  // one half of a row at the ends may be left over, at most 0.3/12/2 of 1.
+  // Stress ratios that jump by +-30 % from row to row have equal means over windows of many rows. 0.5 % are 12 rows, of which
+  // half a row at the ends may remain, at most 0.3/12/2 of 1.
   TEST(StepComparison, SingleStepsMayScatter)
   {
     std::vector<StepRun> runs = three_runs();
@@ -117,11 +117,11 @@ namespace
     const StepComparison c = compare_steps(runs, 0.005, Walk::axial_strain);
     EXPECT_LT(c.largest, 0.3 / 12);
     EXPECT_TRUE(says(c, "does not matter")) << c.verdict;
-    // Without the mean they would not pass: one row's width shows the scatter.
+    // Without the mean they would fail: a window of one row shows the scatter.
     EXPECT_GT(compare_steps(runs, 0.0004, Walk::axial_strain).largest, 0.1);
   }
 
-  // A shift that lasts is not scatter.
+  // A lasting shift is not scatter.
   TEST(StepComparison, AShiftedStressRatioMatters)
   {
     std::vector<StepRun> runs = three_runs();
@@ -132,12 +132,12 @@ namespace
     EXPECT_TRUE(says(c, "matters, largest difference 6 % (stress_ratio")) << c.verdict;
   }
 
-  // What the loading walks along is named, whatever it is.
+  // The verdict names the loading variable.
   TEST(StepComparison, ShearIsComparedAlongItsTravel)
   {
     std::vector<StepRun> runs = three_runs();
     for (double &work : runs[0].history["external_work"])
-      work *= work > 0.2 ? 2 : 1; // the first half is the same
+      work *= work > 0.2 ? 2 : 1; // the first half is unchanged
     const StepComparison c = compare_steps(runs, 0.005, Walk::shear_strain);
     EXPECT_TRUE(says(c, "the step matters")) << c.verdict;
     EXPECT_TRUE(says(c, "% shear strain")) << c.verdict;
@@ -145,7 +145,7 @@ namespace
     EXPECT_TRUE(says(compare_steps(runs, 0.005, Walk::time), "at time 0.0")) << compare_steps(runs, 0.005, Walk::time).verdict;
   }
 
-  TEST(StepComparison, OneRunIsNoStudy)
+  TEST(StepComparison, RejectsASingleRun)
   {
     EXPECT_THROW((void)compare_steps({{0.1, history(10)}}, 0.005, Walk::axial_strain), std::invalid_argument);
   }

@@ -1,4 +1,4 @@
-// diptych: counts, extremes and costs of a whole run; differences of bands
+// diptych: tests of counts, extremes and costs of a whole run, and of differences of bands
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
 
@@ -15,17 +15,17 @@ namespace
     return summary_of(scene, results.discrete, results.discrete.snapshots.back(), history_table(results.discrete.rows));
   }
 
-  TEST(Summary, OfTheGrainsHistory)
+  TEST(Summary, SummarisesTheGrainsHistory)
   {
     const DiscreteSummary s = grains_summary(example_scene());
     EXPECT_EQ(s.grains, 40 * 56);
     EXPECT_EQ(s.steps, 40);
     EXPECT_EQ(s.sweeps, 4000);
     EXPECT_EQ(s.max_penetration, 0.006);
-    EXPECT_EQ(s.energy_residual, 1e-12); // the largest size
+    EXPECT_EQ(s.energy_residual, 1e-12); // the largest magnitude
     EXPECT_EQ(s.residual, 4e-4);
     EXPECT_NEAR(s.mean_inertial_number, 1e-3, 1e-16);
-    EXPECT_EQ(s.kinetic_energy_ratio_median, 21); // of 1 to 40, the upper of the two in the middle
+    EXPECT_EQ(s.kinetic_energy_ratio_median, 21); // of 1 to 40, the upper of the two middle values
     EXPECT_EQ(s.kinetic_energy_ratio_largest, 40);
     EXPECT_EQ(s.contacts, 4040);
     EXPECT_EQ(s.coordination_number, 2 * 4040. / (40 * 56));
@@ -35,7 +35,7 @@ namespace
     EXPECT_EQ(s.balance.mean.value, 0); // 80 up, 80 down
   }
 
-  // residual 4e-4 x step 0.1 / inertial number 1e-3, the step in d sqrt(rho/P): twice that under four times the pressure.
+  // residual 4e-4 x step 0.1 / inertial number 1e-3. The step is in d sqrt(rho/P), so four times the pressure doubles it.
   TEST(Summary, SolverNoiseCountsTheStepInTheScenesTime)
   {
     Scene scene = example_scene();
@@ -46,7 +46,7 @@ namespace
     EXPECT_NEAR(grains_summary(scene).solver_noise, 0.04, 1e-15);
   }
 
-  TEST(Summary, OfTheContinuumsHistory)
+  TEST(Summary, SummarisesTheContinuumsHistory)
   {
     Scene                  scene   = example_scene();
     const Results          results = example_results();
@@ -85,7 +85,7 @@ namespace
     return increment;
   }
 
-  // The ends' distances add up in squares: 5 - 4 down by hypot(0.5, 2), up by hypot(1, 1).
+  // The squares of the distances to the ends are added: 5 - 4 down by hypot(0.5, 2), up by hypot(1, 1).
   TEST(Summary, DifferencesOfBandsAddTheirDistancesInSquares)
   {
     const BandDifference d = band_difference(with_bands({-45, -46, -44}, {-46, -46, -46}));
@@ -94,7 +94,7 @@ namespace
     EXPECT_NEAR(d.half_width.high, 1 + std::hypot(1., 1.), 1e-15);
   }
 
-  TEST(Summary, ATurnAcrossTheVerticalIsSmall)
+  TEST(Summary, RotationAcrossTheVerticalIsSmall)
   {
     const BandDifference d = band_difference(with_bands({89, 88, 90}, {-89, -90, -88}));
     EXPECT_NEAR(d.angle_deg.value, 2, 1e-12);

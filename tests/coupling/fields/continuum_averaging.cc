@@ -1,4 +1,4 @@
-// diptych: the continuum's fields through the averaging of the grains
+// diptych: tests of the continuum's fields after the averaging of the grains
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/fields/continuum_averaging.h"
 
@@ -34,7 +34,7 @@ namespace
   {
     AveragingOptions options;
     options.method = name;
-    return options; // width 1.5
+    return options; // width is 1.5
   }
 
   unsigned int cell_at(const QuadMesh &mesh, const Eigen::Vector2d &x)
@@ -42,7 +42,7 @@ namespace
     return mesh.triangle[TriangleSearch(mesh).locate(x).triangle].cell;
   }
 
-  TEST(ContinuumAveraging, MethodsThatOnlyCutLeaveTheOwnMeshAlone)
+  TEST(ContinuumAveraging, MethodsThatOnlyCutPreserveValuesOnTheSameMesh)
   {
     const QuadMesh        mesh   = regular_grid({0, 0}, {10, 10}, 2);
     const ContinuumFields fields = fields_on(mesh, [](const auto &x) { return x.x(); });
@@ -54,8 +54,8 @@ namespace
       }
   }
 
-  // Smoothing moves stress about and keeps its integral: sum of area x sigma_xx = 20 x integral of x from 0 to 20 = 4000,
-  // whatever the receiving cells.
+  // Smoothing redistributes stress but keeps its integral: sum of area x sigma_xx = 20 x integral of x from 0 to 20 = 4000, on
+  // any receiving cells.
   TEST(ContinuumAveraging, SmoothingKeepsTheTotal)
   {
     const QuadMesh        mesh   = regular_grid({0, 0}, {20, 20}, 1);
@@ -73,10 +73,10 @@ namespace
         }
   }
 
-  // A Gaussian of standard deviation w damps cos(k x) by exp(-w^2 k^2 / 2): 0.895 at w = 1.5 and a wave length of 20; the
-  // Helmholtz smoothing by 1 / (1 + w^2 k^2 / 2) = 0.900. Values that are constant on cells of 1, and means over such cells, damp
-  // by sin(k/2)/(k/2) = 0.996 each. What is constant stays. Kernel integrals are good to 1e-3.
-  TEST(ContinuumAveraging, SmoothingDampsAWaveAsItsKernelSays)
+  // A Gaussian of standard deviation w damps cos(k x) by exp(-w^2 k^2 / 2), 0.895 for w = 1.5 and a wave length of 20. The
+  // Helmholtz smoothing damps it by 1 / (1 + w^2 k^2 / 2) = 0.900. Values that are constant on cells of 1, and means over such
+  // cells, damp it by sin(k/2)/(k/2) = 0.996 each. A constant does not change. Kernel integrals are accurate to 1e-3.
+  TEST(ContinuumAveraging, SmoothingDampsAWaveByTheKernelsFactor)
   {
     const QuadMesh        mesh = regular_grid({0, 0}, {40, 40}, 1);
     const double          k = 2 * M_PI / 20, cells = std::sin(k / 2) / (k / 2);
@@ -92,7 +92,7 @@ namespace
       }
   }
 
-  TEST(ContinuumAveraging, OnAGridBeyondTheMeshCellsOutsideHaveNoValue)
+  TEST(ContinuumAveraging, GridCellsOutsideTheMeshHaveNoValue)
   {
     const QuadMesh        mesh = regular_grid({0, 0}, {4, 4}, 1), grid = regular_grid({0, 0}, {8, 4}, 2);
     const ContinuumFields seen = averaged_continuum({mesh, fields_on(mesh, [](const auto &) { return 1.; })}, grid, {},

@@ -1,4 +1,4 @@
-// diptych: increments of the continuum's cells between two stages
+// diptych: tests of the increments of the continuum's cells between two stages
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/fields/continuum_fields.h"
 
@@ -11,7 +11,8 @@ namespace
   using namespace diptych;
   using namespace diptych::coupling;
 
-  // n x n nine-node cells on the square of side 2, moved by u = t (x, -y), turned by t (1 + x + y), x and y of the initial shape.
+  // n x n nine-node cells on the square of side 2. They move by u = t (x, -y) and rotate by t (1 + x + y), x and y in the initial
+  // shape.
   continuum::Snapshot squeezed(const int n, const double t)
   {
     continuum::Snapshot s;
@@ -32,15 +33,15 @@ namespace
                               node(i + 1, j + 2), node(i, j + 1), node(i + 1, j + 1)}});
           continuum::CellState state;
           state.stress.diagonal() = Eigen::Vector3d(1, 2 + t, 1.5);
-          state.dissipation       = 10 * t + (i < n ? 0 : 1); // the right half dissipated more before
+          state.dissipation       = 10 * t + (i < n ? 0 : 1); // the right half had dissipated more before
           state.couple_stress     = {t, 0};
           s.cell_state.push_back(state);
         }
     return s;
   }
 
-  // From t = 0.1 to 0.2: stress in the middle, dissipation 10 x 0.1, mean displacement increment 0.1 (x, -y) at the centre of
-  // the initial cell, rotation 0.1 (1 + x + y) there; the couple stress changes its sign to that of compression.
+  // From t = 0.1 to 0.2: stress in the middle, dissipation 10 x 0.1. The mean displacement increment is 0.1 (x, -y) at the centre
+  // of the initial cell, and the rotation there 0.1 (1 + x + y). The couple stress changes its sign to that of compression.
   void expect_increments(const ContinuumFields &f, const int n)
   {
     for (int k = 0; k < n * n; ++k)
@@ -59,7 +60,7 @@ namespace
     expect_increments(continuum_fields(squeezed(2, 0.1), squeezed(2, 0.2)), 2);
   }
 
-  TEST(ContinuumFields, CellsDividedInBetweenHadWhatTheirParentsHad)
+  TEST(ContinuumFields, DividedCellsTakeTheEarlierValuesOfTheirParents)
   {
     expect_increments(continuum_fields(squeezed(2, 0.1), squeezed(4, 0.2)), 4);
   }

@@ -1,4 +1,4 @@
-// diptych: fields of grains on cells between two stages
+// diptych: tests of the grains' fields on cells between two stages
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/fields/fields.h"
 
@@ -18,7 +18,7 @@ namespace
   using namespace diptych::coupling;
   using namespace diptych::coupling::synthetic;
 
-  // A snapshot of discs at rest with density 1 that bear the given forces now and over the window.
+  // A snapshot of discs at rest with density 1. The given forces are those of the last step and of the window.
   discrete::Snapshot snapshot_of(const std::vector<Eigen::Vector2d>        &position,
                                  const std::vector<double>                 &radius,
                                  const std::vector<discrete::ContactForce> &contacts)
@@ -46,7 +46,7 @@ namespace
     return snapshot_of(network.position, network.radius, network.contacts);
   }
 
-  // Hexagonal lattice of discs of diameter 1, rows x columns of them, with periodic sides; unit normal forces.
+  // Hexagonal lattice of discs of diameter 1, rows x columns, with periodic sides and unit normal forces.
   discrete::Snapshot hexagonal(const int columns, const int rows)
   {
     const double                        row_height = std::sqrt(3.) / 2;
@@ -88,8 +88,8 @@ namespace
     return to;
   }
 
-  // u = G x with every disc turning by half the curl, as the medium does: gradient, strain and spin are those of G to
-  // round-off, the relative rotation and the granular temperature zero, with every method and on every mesh.
+  // u = G x, and every disc rotates by half the curl, as the medium does. Gradient, strain and spin must be those of G to
+  // round-off, and relative rotation and granular temperature zero, with every method and on every mesh.
   TEST(GrainFields, AffineMotionIsReproduced)
   {
     Eigen::Matrix2d gradient;
@@ -111,7 +111,7 @@ namespace
                 EXPECT_LT((f.displacement_gradient[k] - gradient).norm(), 1e-12);
                 EXPECT_NEAR(f.shear_strain_increment[k], std::hypot(0.05, 0.04), 1e-12);
                 EXPECT_NEAR(f.spin_increment[k], spin, 1e-12);
-                if (!std::isnan(f.rotation_increment[k])) // centroid: a cell without a centre
+                if (!std::isnan(f.rotation_increment[k])) // for centroid: a cell without a centre
                   {
                     EXPECT_NEAR(f.rotation_increment[k], spin, 1e-12);
                     EXPECT_NEAR(f.relative_rotation[k], 0, 1e-12);
@@ -122,8 +122,8 @@ namespace
         }
   }
 
-  // Across the sides of a periodic sample too: a shear u_x = a y, and a shift of all grains by a period in between.
-  TEST(GrainFields, ShearOfAPeriodicSampleIsReproducedAtItsSides)
+  // The same across the sides of a periodic sample: a shear u_x = a y, and all grains shifted by a period.
+  TEST(GrainFields, ReproducesShearAtTheSidesOfAPeriodicSample)
   {
     const discrete::Snapshot from = hexagonal(12, 20);
     discrete::Snapshot       to   = moved(from, [](const Eigen::Vector2d &x) { return Eigen::Vector2d(0.1 * x.y(), 0); });
@@ -138,8 +138,8 @@ namespace
       }
   }
 
-  // A common velocity changes the velocity by itself and nothing else.
-  TEST(GrainFields, NothingElseKnowsOfACommonVelocity)
+  // A common velocity adds to the velocity and changes nothing else.
+  TEST(GrainFields, CommonVelocityChangesNothingElse)
   {
     const auto wave = [](const Eigen::Vector2d &x) { return Eigen::Vector2d(std::sin(x.x() + x.y()), std::cos(2 * x.y())); };
     const Eigen::Vector2d    common(40, -30);
@@ -162,9 +162,9 @@ namespace
         }
   }
 
-  // Velocities of independent normal components of deviation 2 on a shear: |v'|^2/2 has the mean 4 and the deviation 4. Mass
-  // weights m of r = 0.3 .. 0.7 count 600 grains as 600 <m>^2/<m^2> = 500; 10 samples: 4/sqrt(5000), three times 4.2 % of the
-  // mean. Without the leverages it would be some 3 of 17 = 18 % too low.
+  // Velocities are independent normal components of deviation 2 on a shear, so |v'|^2/2 has the mean 4 and the deviation 4. With
+  // mass weights m of r = 0.3 .. 0.7, 600 grains count as 600 <m>^2/<m^2> = 500. Ten samples give 4/sqrt(5000), and three times
+  // that is 4.2 % of the mean. Without the leverages the mean would be about 3 of 17 = 18 % too low.
   TEST(GrainFields, GranularTemperatureIsTheVarianceAboutTheAffineMotion)
   {
     std::mt19937_64 random(3);
@@ -183,7 +183,7 @@ namespace
     EXPECT_NEAR(mean, 4, 0.042 * 4);
   }
 
-  // Sums over cells against the grains: stress with and without the dynamic part, mass, solid area, contacts, dissipation.
+  // Sums over cells equal those over grains: stress with and without the dynamic part, mass, solid area, contacts, dissipation.
   TEST(GrainFields, CellsAddUpToTheGrains)
   {
     std::mt19937_64    random(4);
@@ -197,7 +197,7 @@ namespace
         spin_term += s.mean_spin_term[i], solid += M_PI * s.radius[i] * s.radius[i];
       }
     s.mean_internal_moment = discrete::internal_moments(s.position, s.window_forces, s.mean_spin_term);
-    double ends            = 0; // of contacts on grains
+    double ends            = 0; // number of contact ends on grains
     for (const auto &c : s.contacts)
       ends += c.j < int(s.position.size()) ? 2 : 1;
 
@@ -210,7 +210,7 @@ namespace
           EXPECT_LT(f.total_relative_error, 1e-12);
           EXPECT_NEAR(f.outside_share, 0, 1e-12);
           double sum_spin = 0, sum_dissipation = 0, sum_solid = 0, sum_ends = 0, count = 0;
-          bool   complete = true; // no cell without value
+          bool   complete = true; // true if every cell has a value
           for (std::size_t k = 0; k < area.size(); ++k)
             {
               complete = complete && f.covered[k] && !std::isnan(f.coordination_number[k]);
@@ -230,8 +230,8 @@ namespace
         }
   }
 
-  // A lattice far from its ends: six contacts a grain, normals in three directions 60 degrees apart: F = 1/2 1, solid
-  // fraction pi / (2 sqrt 3), no couple stress.
+  // A lattice far from its ends: six contacts per grain, with normals in three directions 60 degrees apart. F = 1/2 1, the solid
+  // fraction is pi / (2 sqrt 3), and there is no couple stress.
   TEST(GrainFields, HexagonalLattice)
   {
     const discrete::Snapshot s    = hexagonal(12, 40);
@@ -252,8 +252,9 @@ namespace
       }
   }
 
-  // Two discs of radius r = 0.5 side by side, a tangential force T = 3 upward on the left one. (x_c - x) x f = (0.5 - x) T with
-  // x from the left centre, ds = dx: -T r^2/2 on the left half, +T r^2/2 on the right one, each in a cell of area 4.
+  // Two discs of radius r = 0.5 side by side, with a tangential force T = 3 upward on the left one. (x_c - x) x f = (0.5 - x) T,
+  // with x from the left centre and ds = dx. This gives -T r^2/2 on the left half and +T r^2/2 on the right half, each in a cell
+  // of area 4.
   TEST(GrainFields, CoupleStressOfATangentialForce)
   {
     discrete::ContactForce c{0, 1, {2, 1}, {-1, 0}, {0, 3}};
@@ -264,9 +265,9 @@ namespace
     EXPECT_NEAR(f.couple_stress[0].y(), 0, 1e-14);
   }
 
-  // Three cells of 6 x 6, two of them full of discs on a square lattice (solid fraction pi/4), one with a single disc: less than
+  // Three cells of 6 x 6: two are full of discs on a square lattice (solid fraction pi/4). One has a single disc and is less than
   // half as dense as the sample.
-  TEST(GrainFields, CellsThatGrainsHardlyCoverCarryNoValue)
+  TEST(GrainFields, CellsWithLittleCoverHaveNoValue)
   {
     std::vector<Eigen::Vector2d> position;
     for (int x = 0; x < 12; ++x)
@@ -280,18 +281,18 @@ namespace
     EXPECT_TRUE(std::isnan(f.velocity[2].x()) && std::isnan(f.stress[2](0, 0)) && std::isnan(f.standard_error[2]));
     EXPECT_NEAR(f.solid_fraction[2], M_PI / 4 / 36, 1e-12);
     EXPECT_NEAR(f.grain_count[0], 36, 1e-12);
-    EXPECT_TRUE(std::isnan(f.dissipation[0])); // the snapshot does not know it: no entries for its forces
+    EXPECT_TRUE(std::isnan(f.dissipation[0])); // unknown, because the snapshot has no dissipation for its forces
   }
 
-  // Grains whose pressure moments are independent random numbers of deviation 1: the scatter of a cell's mean over 100
-  // realisations is the standard error that each of them gives on average, within three times the 1/sqrt(2 x 99) = 7 % of a
-  // measured deviation.
+  // The grains' pressure moments are independent random numbers of deviation 1. The scatter of a cell's mean over 100
+  // realisations must equal their average standard error. The tolerance is three times 1/sqrt(2 x 99) = 7 % of a measured
+  // deviation.
   TEST(GrainFields, StandardErrorIsTheScatterOfIndependentGrains)
   {
     discrete::Snapshot s = disordered(5);
     s.contacts.clear(), s.window_forces.clear();
     const QuadMesh mesh   = regular_grid({0, 0}, {20, 30}, 5);
-    constexpr int  n_runs = 100, cell = 2 * 4 + 1; // away from the edge
+    constexpr int  n_runs = 100, cell = 2 * 4 + 1; // a cell away from the edge
     for (const AveragingOptions &options : averaging_methods)
       {
         std::mt19937_64 random(6);
@@ -301,7 +302,7 @@ namespace
             for (std::size_t i = 0; i < s.position.size(); ++i)
               {
                 const double pressure     = -std::log(1 - uniform(random, 0, 1)); // exponential: mean and deviation 1
-                s.mean_spin_term[i]       = -pressure; // enters stress as -1 times it, distributed like grains
+                s.mean_spin_term[i]       = -pressure; // enters the stress with the factor -1, distributed like grains
                 s.mean_internal_moment[i] = pressure * Eigen::Matrix2d::Identity();
               }
             const GrainFields f = grain_fields(mesh, s, s, options);
@@ -315,7 +316,7 @@ namespace
       }
   }
 
-  TEST(GrainFields, SnapshotsOfDifferentGrainsAreRefused)
+  TEST(GrainFields, RejectsSnapshotsOfDifferentGrains)
   {
     const discrete::Snapshot s     = disordered(6);
     discrete::Snapshot       fewer = s;

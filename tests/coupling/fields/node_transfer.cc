@@ -1,4 +1,4 @@
-// diptych: displacement increments between meshes that differ
+// diptych: tests of displacement increments between different meshes
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/fields/node_transfer.h"
 
@@ -17,7 +17,7 @@ namespace
 
   using Field = std::function<Eigen::Vector2d(const Eigen::Vector2d &)>;
 
-  // n x n nine-node cells of a quadrilateral with straight, not parallel edges, moved by a displacement.
+  // n x n nine-node cells of a quadrilateral with straight edges that are not parallel, moved by a displacement.
   continuum::Snapshot grid(const int n, const Field &displacement)
   {
     const Eigen::Vector2d corner[4] = {{0, 0}, {4, 0.5}, {3.5, 3}, {-0.5, 2.5}};
@@ -41,13 +41,13 @@ namespace
     return s;
   }
 
-  // Large enough that a search at the deformed places would find other cells.
+  // The displacement is so large that a search at the deformed places would find other cells.
   Eigen::Vector2d affine(const Eigen::Vector2d &x)
   {
     return {0.7 + 0.3 * x.x() - 0.2 * x.y(), -0.4 + 0.1 * x.x() - 0.5 * x.y()};
   }
 
-  TEST(NodeTransfer, AnAffineFieldIsFoundAtTheNodesOfAFinerMesh)
+  TEST(NodeTransfer, ReproducesAnAffineFieldAtTheNodesOfAFinerMesh)
   {
     const auto from = grid(3, affine), to = grid(6, [](const Eigen::Vector2d &x) { return Eigen::Vector2d(2 * affine(x)); });
     const auto found = displacement_at_nodes_of(from, to);
@@ -59,8 +59,8 @@ namespace
       EXPECT_LT((field.increment[k] - found[k]).norm(), 1e-12);
   }
 
-  // On cells of a unit square the quadratic x y is in the space of biquadratic functions.
-  TEST(NodeTransfer, DividedCellsTakeOverTheirBiquadraticField)
+  // On cells of a unit square the quadratic x y is one of the biquadratic functions.
+  TEST(NodeTransfer, DividedCellsKeepTheBiquadraticField)
   {
     const auto square = [](const int n) {
       continuum::Snapshot s = grid(n, [](const Eigen::Vector2d &) { return Eigen::Vector2d(0, 0); });
@@ -77,10 +77,10 @@ namespace
     const auto found = displacement_at_nodes_of(from, to);
     for (std::size_t k = 0; k < found.size(); ++k)
       EXPECT_LT((found[k] - to.displacement[k]).norm(), 1e-12);
-    EXPECT_EQ(displacement_at_nodes_of(from, back), from.displacement); // the same mesh: its own nodes, bit by bit
+    EXPECT_EQ(displacement_at_nodes_of(from, back), from.displacement); // for the same mesh, its own nodes bit by bit
   }
 
-  TEST(NodeTransfer, ANodeOutsideTheEarlierMeshIsRefused)
+  TEST(NodeTransfer, RejectsANodeOutsideTheEarlierMesh)
   {
     const auto from = grid(2, affine);
     auto       to   = grid(3, affine);

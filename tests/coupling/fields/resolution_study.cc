@@ -1,4 +1,4 @@
-// diptych: stress of grains against the length over which it is averaged
+// diptych: tests of the dependence of the grains' stress on the averaging length
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/fields/resolution_study.h"
 #include "coupling/averaging/point_stress.h"
@@ -24,9 +24,9 @@ namespace
     return result;
   }
 
-  // Point 1 is steady from 0.5 to 4, point 2 from 1 to 3 only: 5 % of the mean of 1, 1.06, 1.06 (1.04) allow 0.988 .. 1.092, but
-  // not the 0.9 at 0.5 or the t/s of 0.6 at 4.
-  TEST(ResolutionStudy, PlateauIsTheWidestRangeInWhichEveryPointIsSteady)
+  // Point 1 is steady from 0.5 to 4, point 2 only from 1 to 3. 5 % of the mean of 1, 1.06, 1.06 (1.04) allow 0.988 .. 1.092, but
+  // neither the 0.9 at 0.5 nor the t/s of 0.6 at 4.
+  TEST(ResolutionStudy, PlateauIsTheWidestRangeWithAllPointsSteady)
   {
     const std::vector<ResolutionRow> rows    = {row(0.5, {{1, 0.3}, {0.9, 0.5}}), row(1, {{1, 0.3}, {1, 0.5}}),
                                                 row(2, {{1, 0.3}, {1.06, 0.5}}), row(3, {{1, 0.3}, {1.06, 0.5}}),
@@ -37,7 +37,8 @@ namespace
     EXPECT_EQ((*plateau)[1], 3);
   }
 
-  // Steady between 2 and 3 only, less than a factor of two; a point without a value has no plateau; no points, no verdict.
+  // The first case is steady only between 2 and 3, less than a factor of two. A point without a value has no plateau. Without
+  // points there is no verdict.
   TEST(ResolutionStudy, WithoutASteadyRangeThereIsNoPlateau)
   {
     EXPECT_FALSE(find_plateau({row(1, {{1, 0.3}}), row(2, {{2, 0.3}}), row(3, {{2, 0.3}}), row(4, {{4, 0.3}})}));
@@ -45,9 +46,9 @@ namespace
     EXPECT_FALSE(find_plateau({row(1, {}), row(2, {})}));
   }
 
-  // Hexagonal lattice of diameter 1 under sqrt(3) in all directions, periodic sides. The kernel sees the lattice's ripple, of
-  // relative size 6 exp(-8 pi^2 w^2 / 3) = 0.8 % at w = 0.5, and nothing of it beyond: a plateau over all widths, t = 0.
-  // Its reach at the largest width, 16, does not touch the ends.
+  // A hexagonal lattice of diameter 1 under sqrt(3) in all directions, with periodic sides. At w = 0.5 the kernel shows a ripple
+  // of the lattice of relative size 6 exp(-8 pi^2 w^2 / 3) = 0.8 %, and nothing for larger widths. All widths form a plateau,
+  // with t = 0. The kernel's reach at the largest width, 16, does not touch the ends.
   TEST(ResolutionStudy, UniformLatticeIsAPlateau)
   {
     const double       row_height = std::sqrt(3.) / 2;
@@ -74,7 +75,7 @@ namespace
       for (const PointStress &p : r.points)
         {
           EXPECT_NEAR(p.s / std::sqrt(3.), 1, r.width == 0.5 ? 0.01 : 1e-3)
-            << r.width << p.name; // 1e-3: the quadrature of the mesh
+            << r.width << p.name; // 1e-3: quadrature error on the mesh
           EXPECT_LT(p.t_over_s, r.width == 0.5 ? 0.01 : 1e-3);
         }
     ASSERT_TRUE(study.plateau);
@@ -85,12 +86,12 @@ namespace
     EXPECT_EQ(study.kernel[0].points[1].name, "side");
   }
 
-  // A pressure wave of amplitude 0.3 and length 20 in a disordered network: a Gauss kernel of deviation w takes off
-  // exp(-k^2 w^2) of it (half of the exponent for x, half for y), whatever the grains' disorder adds. The amplitude is fitted to
-  // points 2 apart over L x L = 58 x 58; of the rest, of root mean square e, an area of 4 pi w^2 counts as one independent value,
-  // so that the amplitude is within 3 e / sqrt(L^2/(4 pi w^2)) / sqrt(1/4), 1/4 the wave's mean square. A branch of length 1
-  // spreads its force by itself, variance 1/12: less than k^2/12 = 0.8 % of the amplitude.
-  TEST(ResolutionStudy, KernelDampsAWaveAsAGaussDoes)
+  // A pressure wave of amplitude 0.3 and length 20 in a disordered network. A Gauss kernel of deviation w takes exp(-k^2 w^2) off
+  // it (half of the exponent for x, half for y), whatever the disorder of the grains adds. The amplitude is fitted to points 2
+  // apart over L x L = 58 x 58. Of the rest, of root mean square e, an area of 4 pi w^2 counts as one independent value. The
+  // amplitude is therefore within 3 e / sqrt(L^2/(4 pi w^2)) / sqrt(1/4), where 1/4 is the wave's mean square. A branch of length
+  // 1 spreads its force, with a variance of 1/12: less than k^2/12 = 0.8 % of the amplitude.
+  TEST(ResolutionStudy, KernelDampsAWaveByTheGaussFactor)
   {
     const double       length = 20, k = 2 * M_PI / length;
     const auto         network = benchmarks::airy_network({0, 0}, {80, 80}, benchmarks::pressure_wave(0.3, length), 1);
@@ -112,7 +113,7 @@ namespace
         for (std::size_t p = 0; p < points.size(); ++p)
           rest += std::pow(0.5 * stress[p].trace() - 1 - amplitude * wave(points[p]), 2) / double(points.size());
         const double error = std::sqrt(rest) * std::sqrt(4 * M_PI) * w / 58 / 0.5;
-        EXPECT_LT(error, 0.01); // so that the next line can fail
+        EXPECT_LT(error, 0.01); // ensures that the next line can fail
         const double exact = 0.3 * std::exp(-k * k * w * w);
         EXPECT_NEAR(amplitude, exact, 3 * error + exact * k * k / 12) << w;
       }

@@ -1,4 +1,4 @@
-// diptych: strain increments of fields of known gradient
+// diptych: tests of strain increments on fields of known gradient
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/fields/strain_increment.h"
 
@@ -31,7 +31,7 @@ namespace
   {
     Eigen::Matrix2d gradient;
     gradient << 0.02, 0.05, -0.01, -0.03;
-    // eps_1 - eps_2 = sqrt((e_xx - e_yy)^2 + (2 e_xy)^2) = sqrt(0.05^2 + 0.04^2)
+    // eps_1 - eps_2 = sqrt((e_xx - e_yy)^2 + (2 e_xy)^2) = sqrt(0.05^2 + 0.04^2).
     const double shear = std::hypot(0.05, 0.04);
     for (const Eigen::Vector2d &origin : {Eigen::Vector2d(0, 0), Eigen::Vector2d(-50, 70)})
       {
@@ -78,7 +78,7 @@ namespace
     EXPECT_TRUE(std::isnan(shear[2])); // none
   }
 
-  TEST(StrainIncrement, IncrementsBetweenSnapshotsStandAtTheLaterPositions)
+  TEST(StrainIncrement, IncrementsBetweenSnapshotsUseTheLaterPositions)
   {
     diptych::discrete::Snapshot from, to;
     from.displacement = {{1, 0}, {0, 0}, {0, 0}};
@@ -93,7 +93,7 @@ namespace
     EXPECT_DOUBLE_EQ(field.weight[0], M_PI / 4);
     EXPECT_EQ(field.weight[1], 0);
     EXPECT_EQ(field.weight[2], 0);
-    from.rattler        = {1, 1, 1}; // nothing touches yet
+    from.rattler        = {1, 1, 1}; // no grain has a contact yet
     const auto put_down = displacement_field(from, to);
     EXPECT_DOUBLE_EQ(put_down.weight[0], M_PI / 4);
     EXPECT_EQ(put_down.weight[1], 0);

@@ -1,4 +1,4 @@
-// diptych: difference of the panels' stresses and the yardstick of sampling
+// diptych: tests of the difference of the panels' stresses and of the sampling scatter
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/fields/stress_difference.h"
 
@@ -18,7 +18,8 @@ namespace
             std::vector<double>(mesh.cell.size(), 0.1)};
   }
 
-  // diag(1, 2) against diag(1, 3): |difference| = 1, |continuum| = sqrt(10). Both uniform: no scatter. Axes alike.
+  // diag(1, 2) and diag(1, 3): |difference| = 1, |continuum| = sqrt(10). Both are uniform, so there is no scatter, and have equal
+  // axes.
   TEST(StressDifference, IsTheNormOfTheDifferenceRelativeToTheContinuum)
   {
     const QuadMesh         mesh = regular_grid({0, 0}, {4, 4}, 1);
@@ -32,7 +33,7 @@ namespace
     EXPECT_NEAR(d.lowest_scatter, 0.1 / std::sqrt(10.), 1e-14);
   }
 
-  // Only the symmetric parts count; turning a stress by 30 degrees turns its axes by 30, and by 180 - 30 the other way is 30,
+  // Only the symmetric parts count. Rotating a stress by 30 degrees rotates its axes by 30; rotating it by 180 - 30 gives 30,
   // too.
   TEST(StressDifference, DirectionIsTheAngleBetweenAxes)
   {
@@ -47,9 +48,9 @@ namespace
       }
   }
 
-  // Independent noise of variance v on xx, yy and xy has E |noise|^2 = 4 v in the Frobenius norm (xy counts twice): sqrt(4 v)
-  // relative to |continuum| = sqrt(2). A quadratic field under it changes nothing. 900 cells: the estimate of a variance from
-  // 2700 numbers is good to sqrt(2/2700) = 2.7 %, its root to 1.4 %; five of those.
+  // Independent noise of variance v on xx, yy and xy has E |noise|^2 = 4 v in the Frobenius norm (xy counts twice). Relative to
+  // |continuum| = sqrt(2) the scatter is sqrt(4 v). A quadratic field under the noise does not change it. With 900 cells the
+  // variance from 2700 numbers is accurate to sqrt(2/2700) = 2.7 % and its root to 1.4 %; five times that is allowed.
   TEST(StressDifference, ScatterOfNoiseOnAQuadraticFieldIsTheNoise)
   {
     const QuadMesh  mesh = regular_grid({0, 0}, {30, 30}, 1);
@@ -66,7 +67,7 @@ namespace
     EXPECT_NEAR(stress_difference(mesh, pair).sampling_alone, std::sqrt(4 * v / 2), 0.07 * std::sqrt(2 * v));
   }
 
-  TEST(StressDifference, CellsWithoutAValueInEitherPanelCountForNothing)
+  TEST(StressDifference, IgnoresCellsWithoutAValueInEitherPanel)
   {
     const QuadMesh mesh = regular_grid({0, 0}, {4, 4}, 1);
     StressPair     pair = constant_pair(mesh, 2 * Eigen::Matrix2d::Identity(), Eigen::Matrix2d::Identity());
@@ -86,8 +87,8 @@ namespace
     EXPECT_NE(stress_verdict(d).find("too few cells of 6 d"), std::string::npos);
   }
 
-  // 0.5 and 0.3: sqrt(0.25 - 0.09) = 0.4 beyond sampling.
-  TEST(StressDifference, VerdictTakesSamplingOffInSquares)
+  // 0.5 and 0.3: the part beyond sampling is sqrt(0.25 - 0.09) = 0.4.
+  TEST(StressDifference, VerdictSubtractsTheSquareOfTheSamplingScatter)
   {
     StressDifference d;
     d.label = "6 d", d.relative_l2 = 0.5, d.sampling_alone = 0.3;

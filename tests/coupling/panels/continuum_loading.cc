@@ -1,4 +1,4 @@
-// diptych: the grains' loadings as the continuum takes them
+// diptych: tests of the continuum's counterparts of the grains' loadings
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/panels/continuum_loading.h"
 
@@ -19,7 +19,7 @@ namespace
 
   const ContinuumSample sample{75, 50, 0.8}; // height, width of the platen, solid fraction
 
-  // d = 1, P = 1, density 1: the strain rate is the inertial number.
+  // With d = 1, P = 1 and density 1 the strain rate equals the inertial number.
   Scene scene_with(const LoadingMode mode)
   {
     Scene scene;
@@ -82,7 +82,7 @@ namespace
     scene.discrete.drives.lower_y  = "velocity 0.5";
     scene.discrete.drives.upper_y  = "force -3";
     const continuum::Loading moved = continuum_loading(scene, sample);
-    // 0 until 1; 4 (t-1)^2/4 until 3: 4; the trapezium 4 -> -2 in one unit adds 1; then -2 a unit.
+    // 0 until 1; 4 (t-1)^2/4 until 3, which gives 4; the trapezium 4 -> -2 in one unit adds 1; then -2 per unit.
     for (const auto &[t, x] : {std::pair{0.5, 0.}, {2., 1.}, {3., 4.}, {3.5, 5.25}, {4., 5.}, {6., 1.}})
       EXPECT_NEAR(at(moved.platens[1][0], t), x, 1e-12) << "at time " << t;
     EXPECT_DOUBLE_EQ(at(moved.platens[0][1], 3), 1.5);
@@ -91,7 +91,7 @@ namespace
     std::filesystem::remove(path);
   }
 
-  TEST(ContinuumLoading, ATableThatBeginsBeforeTheStartIsIntegratedFromTheStart)
+  TEST(ContinuumLoading, TableThatBeginsBeforeTheStartIsIntegratedFromTheStart)
   {
     const auto path = std::filesystem::path(testing::TempDir()) / ("early" + std::to_string(::getpid()) + ".csv");
     std::ofstream(path) << "time,velocity\n-1,1\n1,3\n";
@@ -103,11 +103,11 @@ namespace
     std::filesystem::remove(path);
   }
 
-  TEST(ContinuumLoading, OutsideTheModeTimeAWallIsWhereItsTimeSays)
+  TEST(ContinuumLoading, InOtherModesAWallFollowsTheTimeOfTheProgress)
   {
     Scene scene                   = scene_with(LoadingMode::descent);
     scene.discrete.drives.lower_x = "velocity 0.2";
-    // progress 0.05 at the strain rate 0.01 is time 5
+    // Progress 0.05 at the strain rate 0.01 is time 5.
     EXPECT_NEAR(at(continuum_loading(scene, sample).platens[0][0], 0.05), 1, 1e-12);
   }
 
@@ -126,7 +126,7 @@ namespace
     EXPECT_DOUBLE_EQ(std::get<continuum::RigidSides>(driven).widening(1.), -10);
     scene.discrete.drives.right_x  = "auto";
     scene.discrete.lateral.lateral = discrete::Lateral::periodic;
-    scene.loading.mode             = LoadingMode::time; // the progress is the time itself
+    scene.loading.mode             = LoadingMode::time; // the progress is the time
     EXPECT_DOUBLE_EQ(*std::get<continuum::PeriodicSides>(continuum_loading(scene, sample).lateral).widening, 0.3);
     scene.discrete.lateral.side_motion = discrete::SideMotion::pressure;
     EXPECT_FALSE(std::get<continuum::PeriodicSides>(continuum_loading(scene, sample).lateral).widening);
@@ -134,8 +134,8 @@ namespace
     EXPECT_TRUE(std::holds_alternative<continuum::FreeSides>(continuum_loading(scene, sample).lateral));
   }
 
-  // Grains of density 3 fill 0.8 of the area: 3 x 0.8 x (0.5, -2)
-  TEST(ContinuumLoading, TheWeightIsThatOfTheGrains)
+  // Grains of density 3 fill 0.8 of the area: 3 x 0.8 x (0.5, -2).
+  TEST(ContinuumLoading, WeightFollowsFromTheGrains)
   {
     Scene scene                   = scene_with(LoadingMode::descent);
     scene.sample.density          = 3;
@@ -144,7 +144,7 @@ namespace
     EXPECT_LT((continuum_loading(scene, sample).body_force - Eigen::Vector2d(1.2, -4.8)).norm(), 1e-14);
   }
 
-  TEST(ContinuumLoading, WhatHasNoCounterpartIsRefusedByItsKey)
+  TEST(ContinuumLoading, RejectsLoadingsWithoutCounterpartByTheirKey)
   {
     using Change                                              = std::function<void(Scene &)>;
     const std::vector<std::pair<std::string, Change>> refused = {
@@ -180,7 +180,7 @@ namespace
       {"continuum/element_size",
        [](Scene &s) {
          s.continuum.mesh = "rectangle", s.continuum.refinement = continuum::Refinement::adaptive;
-         s.continuum.rectangle_width = s.continuum.rectangle_height = 3; // 2 x 2 at first
+         s.continuum.rectangle_width = s.continuum.rectangle_height = 3; // 2 x 2 elements before refinement
        }},
       {"continuum/platen_width",
        [](Scene &s) {
@@ -197,11 +197,11 @@ namespace
       {
         Scene scene = scene_with(LoadingMode::descent);
         change(scene);
-        EXPECT_EQ(refusal_of(scene).rfind(key, 0), 0u) << key << " is not what is refused first in: " << refusal_of(scene);
+        EXPECT_EQ(refusal_of(scene).rfind(key, 0), 0u) << key << " is not the first key of the message: " << refusal_of(scene);
       }
   }
 
-  TEST(ContinuumLoading, AComparisonNeedsAPlatenThatMovesInEveryStage)
+  TEST(ContinuumLoading, ComparisonNeedsAPlatenThatMovesInEveryStage)
   {
     const auto refusal = [](const Scene &scene) -> std::string {
       try
@@ -234,7 +234,7 @@ namespace
     EXPECT_EQ(refusal(scene_with(LoadingMode::descent)), "");
   }
 
-  TEST(ContinuumLoading, AMeshIsMeasuredWithItsPlaten)
+  TEST(ContinuumLoading, MeasuresAMeshWithItsPlaten)
   {
     const ContinuumSample sample = measured(continuum::rectangle_mesh({12, 8, 4, 1}), 0.8);
     EXPECT_NEAR(sample.height, 8, 1e-12);
@@ -242,8 +242,8 @@ namespace
     EXPECT_EQ(sample.solid_fraction, 0.8);
   }
 
-  // What both panels walk along is the same, and so is the time that they take for it.
-  TEST(ContinuumLoading, BothPanelsWalkAlongTheSame)
+  // Both panels have the same loading variable and take the same time for it.
+  TEST(ContinuumLoading, BothPanelsHaveTheSameLoadingVariable)
   {
     for (const auto &[mode, walk] : {std::pair{LoadingMode::descent, continuum::Walk::axial_strain},
                                      {LoadingMode::shear, continuum::Walk::shear_strain},

@@ -1,4 +1,4 @@
-// diptych: the prepared grains' stress as the continuum's initial stress
+// diptych: tests of the initial stress of the continuum from the prepared grains
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/panels/initial_stress.h"
 
@@ -29,9 +29,9 @@ namespace
     return s;
   }
 
-  // Two columns of two discs between platens, each carrying the force (0.3, 2) downwards: on the width of one cell that is
-  // sigma_yy = 2, sigma_xy = 0.3 (force x, normal y), sigma_yx = 0, so the symmetric part has 0.15.
-  TEST(InitialStress, IsTheSymmetricStressOfTheGrainsAndThePressureWhereThereAreNone)
+  // Two columns of two discs between platens, each carrying the force (0.3, 2) downwards. On the width of one cell this is
+  // sigma_yy = 2, sigma_xy = 0.3 (force x, normal y) and sigma_yx = 0, so the symmetric part has 0.15.
+  TEST(InitialStress, IsTheGrainsSymmetricStressOrThePressureWithoutGrains)
   {
     discrete::Snapshot grains;
     for (const double x : {0.5, 1.5})
@@ -45,9 +45,9 @@ namespace
     for (const int column : {0, 2})
       {
         const double x = column == 0 ? 0.5 : 1.5;
-        grains.window_forces.push_back({column, 4, {x, 0}, {0, 1}, force});            // the lower platen's on it
-        grains.window_forces.push_back({column, column + 1, {x, 1}, {0, -1}, -force}); // the upper disc's
-        grains.window_forces.push_back({column + 1, 5, {x, 2}, {0, -1}, -force});      // the upper platen's
+        grains.window_forces.push_back({column, 4, {x, 0}, {0, 1}, force});            // force of the lower platen
+        grains.window_forces.push_back({column, column + 1, {x, 1}, {0, -1}, -force}); // force of the upper disc
+        grains.window_forces.push_back({column + 1, 5, {x, 2}, {0, -1}, -force});      // force of the upper platen
       }
     const auto stress = grain_stress_on_cells(grains, cells(3), 7);
     ASSERT_EQ(stress.size(), 6u);
@@ -59,7 +59,8 @@ namespace
       EXPECT_LT((stress[k] - 7 * Eigen::Matrix2d::Identity()).norm(), 1e-12) << "cell " << k;
   }
 
-  // One disc a cell, larger ones on the left; one in ten is missing. The field follows the halves and not the single holes.
+  // One disc per cell, larger ones on the left; one in ten is missing. The field must follow the two halves and not the single
+  // holes.
   TEST(InitialSolidFraction, FollowsTheSampleAndNotSingleGrains)
   {
     const unsigned int  n = 40;

@@ -1,4 +1,4 @@
-// diptych: tractions on planes parallel to a band, on states of known equilibrium
+// diptych: tests of tractions on planes parallel to a band, in states of known equilibrium
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/probes/band_traction.h"
 
@@ -21,9 +21,10 @@ namespace
     return stress;
   }
 
-  // A line of length L meets the branches of one direction L times their density, to less than one (they lie end to end on
-  // parallel lines); so does the mean over the lines of a strip. The traction misses sigma.n by less than sum |f_k| / L.
-  TEST(BandTraction, OfALatticeIsUniformToOneBranchPerLine)
+  // The number of branches of one direction that a line of length L crosses is L times their density, to less than one, because
+  // they lie end to end on parallel lines. The same is true for the mean over the lines of a strip. The traction therefore
+  // differs from sigma.n by less than sum |f_k| / L.
+  TEST(BandTraction, LatticeHasUniformTractionToOneBranchPerLine)
   {
     const GrainNetwork    network = synthetic::hexagonal_network(53, 88, known_stress());
     const SampleFrame     frame   = synthetic::frame_52_75();
@@ -47,10 +48,10 @@ namespace
     EXPECT_LT(result.variation_normal, 0.05);
   }
 
-  // Equilibrium leaves the stress along a band free: rows of a lattice may carry any force along x, from row to row another, and
-  // planes y = const still transmit the oblique contacts' forces only, the same in every strip: two contacts a disc, each
+  // Equilibrium does not determine the stress along a band. Rows of a lattice may carry any force along x, different in each row.
+  // Planes y = const still transmit only the forces of the oblique contacts, the same in every strip: two contacts per disc, each
   // f sin 60, per diameter. The strips hold whole rows and whole columns: 7 rows are 7 sqrt(3)/2 high.
-  TEST(BandTraction, DoesNotSeeTheStressAlongTheBand)
+  TEST(BandTraction, DoesNotDependOnTheStressAlongTheBand)
   {
     std::mt19937_64 random(2);
     const auto      network = synthetic::hexagonal_network(
@@ -93,7 +94,8 @@ namespace
     EXPECT_LT(result.variation_shear, 1e-12);
   }
 
-  // Normal traction 1 in three strips and 2 in three: mean 1.5, deviation sqrt(6 * 0.25 / 5); the strip edge is a cell edge.
+  // The normal traction is 1 in three strips and 2 in three: mean 1.5, deviation sqrt(6 * 0.25 / 5). The strip edge is a cell
+  // edge.
   TEST(BandTraction, VariationOfAStepOutOfEquilibrium)
   {
     const QuadMesh               mesh = synthetic::box_mesh({0, 0}, {40, 60}, 10, 30);
@@ -105,15 +107,15 @@ namespace
     frame.width       = 40;
     frame.height      = 60;
     const auto strips = traction_strips({{0, 0}, {40, 0}, {40, 60}, {0, 60}}, frame, 0, {-15, -10, -5, 0, 5, 10, 15});
-    EXPECT_NEAR(strips.to[0] - strips.from[0], 0.7 * (40 - 2 * 2), 1e-12); // two diameters clear of either side
+    EXPECT_NEAR(strips.to[0] - strips.from[0], 0.7 * (40 - 2 * 2), 1e-12); // two diameters away from either side
     const auto result = cell_band_traction(strips, mesh, TriangleSearch(mesh), stress);
     EXPECT_NEAR(result.variation_normal, std::sqrt(0.3) / 1.5, 1e-12);
     EXPECT_NEAR(result.variation_shear, 0, 1e-12);
   }
 
-  // Traction errors of independent forces: each of the eight blocks of a strip is an independent mean.
-  // Mean over all strips of (traction - true)^2 against that of the squared errors; chance leaves sqrt(2 / (30 * 6)) = 0.1,
-  // twice of which is allowed.
+  // Traction errors of independent forces: each of the eight blocks of a strip is an independent mean. The mean over all strips
+  // of (traction - true)^2 is compared with that of the squared errors. Chance leaves sqrt(2 / (30 * 6)) = 0.1; twice that is
+  // allowed.
   TEST(BandTraction, ErrorsAreThoseOfIndependentBlocks)
   {
     std::mt19937_64 random(11);
@@ -139,7 +141,7 @@ namespace
     EXPECT_NEAR(squares / errors, 1, 0.2);
   }
 
-  TEST(BandTraction, StripsBesideTheSampleOrTooShortCarryNothing)
+  TEST(BandTraction, StripsOutsideTheSampleOrTooShortHaveNoValue)
   {
     const SampleFrame    frame  = synthetic::frame_52_75();
     const TractionStrips strips = traction_strips(synthetic::box_52_75, frame, 45, {-60, -50, -40, 0, 10});

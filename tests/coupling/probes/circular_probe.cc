@@ -1,4 +1,4 @@
-// diptych: the circular probe on states of known stress
+// diptych: tests of the circular probe in states of known stress
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/probes/circular_probe.h"
 
@@ -21,9 +21,9 @@ namespace
     return stress;
   }
 
-  // Branches of one direction lie end to end on parallel lines, and a diameter crosses each line in one branch: the number it
-  // crosses is its length over the distance of the crossings, to less than one. So the resultant misses 2 R sigma.n by less than
-  // one force of each direction.
+  // Branches of one direction lie end to end on parallel lines, and a diameter crosses each line in one branch. The number of
+  // crossings is the diameter's length over their distance, to less than one. The resultant therefore differs from 2 R sigma.n by
+  // less than one force of each direction.
   TEST(CircularProbe, LatticeTransmitsItsStressToOneBranchPerDiameter)
   {
     const GrainNetwork  network = synthetic::hexagonal_network(52, 60, circle_stress());
@@ -40,17 +40,17 @@ namespace
         EXPECT_LT(std::abs(probe.normal[k] - n.dot(circle_stress() * n)), bound);
         EXPECT_LT(std::abs(probe.tangential[k] - s.dot(circle_stress() * n)), bound);
       }
-    // Length of the lines in the circle, h = sqrt(3)/2 apart: a rectangle rule for 2 sqrt(R^2 - y^2), whose ends miss at most
-    // 0.21 * 2 sqrt(2 R) h^1.5 each (0.21 = -zeta(-1/2)), 0.0053 of the area. Each direction's share of the stress is
-    // 2/sqrt(3) f_k.
+    // The lines in the circle are h = sqrt(3)/2 apart, so their length is a rectangle rule for 2 sqrt(R^2 - y^2). Its ends have
+    // an error of at most 0.21 * 2 sqrt(2 R) h^1.5 each (0.21 = -zeta(-1/2)), 0.0053 of the area. Each direction's share of the
+    // stress is 2/sqrt(3) f_k.
     EXPECT_LT((probe.stress - circle_stress()).norm(), 0.0053 * 2 / std::sqrt(3.) * 30 * bound);
     EXPECT_LT(probe.relative_l2.value, 0.05);
   }
 
-  // A lattice under its own weight w a disc: the two oblique contacts above row r carry the rows above. Forces then are the same
-  // on a horizontal line and fall linearly upward, so that the mean over a diameter about a point halfway between two rows is
-  // what this point has. Koksma's inequality: the sum over crossings misses the integral by less than the largest force plus the
-  // forces' variation along the diameter (36 rows of 60 at most).
+  // A lattice under its weight w per disc: the two oblique contacts above row r carry the rows above. Forces are equal on a
+  // horizontal line and decrease linearly upward. The mean over a diameter about a point halfway between two rows is therefore
+  // the value at this point. Koksma's inequality: the sum over crossings differs from the integral by less than the largest force
+  // plus the variation of the forces along the diameter (36 rows of 60 at most).
   TEST(CircularProbe, DiametersOfAnAffineStressCarryTheStressOfTheCentre)
   {
     const double        weight  = 0.05;
@@ -75,8 +75,8 @@ namespace
     EXPECT_LT(probe.relative_l2.value, 0.05);
   }
 
-  // One contact of force (0, -2) on the lower grain pushes the upper one up: the side behind n = (0, 1), the lower one, exerts
-  // (0, 2) on the upper. Over the diameter 10: 0.2, and nothing across the vertical diameter.
+  // One contact with the force (0, -2) on the lower grain pushes the upper one up. The side behind n = (0, 1), the lower one,
+  // exerts (0, 2) on the upper one. Over the diameter 10 this is 0.2, and nothing across the vertical diameter.
   TEST(CircularProbe, CompressionAcrossTheDiameterIsPositive)
   {
     GrainNetwork network;
@@ -88,20 +88,20 @@ namespace
     EXPECT_DOUBLE_EQ(upright.normal[0], 0.2);
     EXPECT_NEAR(upright.tangential[0], 0, 1e-15);
     EXPECT_EQ(upright.normal[1], 0);
-    // the branch is 1 long: sigma_yy = 2 * 1 / (25 pi)
+    // The branch is 1 long: sigma_yy = 2 * 1 / (25 pi).
     EXPECT_NEAR(upright.stress(1, 1), 2 / (25 * M_PI), 1e-15);
-    // seen from i = 1 it is the same contact
+    // The same contact, with the upper grain as i.
     network.forces = {{1, 0, {3, 0}, {0, 1}, {0, 2}}};
     EXPECT_DOUBLE_EQ(grain_circular_probe({{0, 0}, 5}, network, {}, 2).normal[0], 0.2);
-    // beyond the end of the diameter
+    // The contact lies beyond the end of the diameter.
     EXPECT_EQ(grain_circular_probe({{0, 0}, 2.9}, network, {}, 2).normal[0], 0);
   }
 
-  // Forces scattered independently about those of a uniform stress: the expected square of the difference is the expected
-  // square of the standard error, less the diameter's own part of the mean stress: a branch is one of about 30 rows, counted
-  // twice, 2/30. Chance leaves sqrt(2/(10 * 100)) = 4 % (about ten independent diameters a sample). The intervals hold the
-  // difference that is to be expected in 95 % of 100 samples, +- 2.2.
-  TEST(CircularProbe, IndependentForcesDifferAsTheirStandardErrorsSay)
+  // Forces scatter independently about those of a uniform stress. The expected square of the difference is that of the standard
+  // error, less the diameter's own part of the mean stress: a branch is one of about 30 rows, counted twice, 2/30. Chance leaves
+  // sqrt(2/(10 * 100)) = 4 % (about ten independent diameters per sample). 95 % of 100 intervals, +- 2.2, must contain the
+  // expected difference.
+  TEST(CircularProbe, IndependentForcesDifferByTheirStandardErrors)
   {
     std::mt19937_64            random(5);
     double                     difference = 0, sampling = 0;
@@ -143,14 +143,15 @@ namespace
     const CircularProbe probe = cell_circular_probe({{25, 30}, 13}, mesh, search, {mesh.cell.size(), stress});
     EXPECT_LT((probe.stress - stress).norm(), 1e-12);
     EXPECT_LT(probe.relative_l2.value, 1e-12);
-    // the diameter at 90 degrees: n = (-1, 0), s = (0, 1): t = (-1, -0.3), normal 1, tangential -0.3
+    // The diameter at 90 degrees has n = (-1, 0) and s = (0, 1). The traction is (-1, -0.3), with the normal part 1 and the
+    // tangential part -0.3.
     EXPECT_NEAR(probe.normal[18], 1, 1e-12);
     EXPECT_NEAR(probe.tangential[18], -0.3, 1e-12);
   }
 
-  // sigma_xx = sigma_yy = 1, but 3 beyond x = c from the centre: of the diameter at the angle a the share (1 - c / (R cos a)) / 2
-  // lies there, of the circle (acos(c/R) - (c/R) sqrt(1 - c^2/R^2)) / pi.
-  TEST(CircularProbe, StepOfTheCellStressIsCutWhereItIs)
+  // sigma_xx = sigma_yy = 1, but 3 beyond x = c from the centre. The share beyond c is (1 - c / (R cos a)) / 2 for the diameter
+  // at the angle a, and (acos(c/R) - (c/R) sqrt(1 - c^2/R^2)) / pi for the circle.
+  TEST(CircularProbe, CutsAStepOfTheCellStressAtItsPlace)
   {
     const QuadMesh               mesh = synthetic::box_mesh({0, 0}, {40, 40}, 20, 20);
     std::vector<Eigen::Matrix2d> stress;
@@ -169,7 +170,7 @@ namespace
     EXPECT_NEAR(probe.relative_l2.value, std::sqrt(squares) / (1 + 2 * of_circle), 1e-9);
   }
 
-  TEST(CircularProbe, LiesOnTheBandsMiddleClearOfTheOutline)
+  TEST(CircularProbe, LiesOnTheBandsMiddleAndAwayFromTheOutline)
   {
     const SampleFrame frame = synthetic::frame_52_75();
     Band              band;
@@ -183,7 +184,7 @@ namespace
     options.probe_circle = {10, -5, 40};
     circle               = place_circle(synthetic::box_52_75, frame, {band}, options);
     EXPECT_LT((circle.centre - Eigen::Vector2d(36, 32.5)).norm(), 1e-12);
-    EXPECT_NEAR(circle.radius, 16, 1e-12); // up to the right side
+    EXPECT_NEAR(circle.radius, 16, 1e-12); // reaches the right side
     options.probe_circle = {100, 0, 5};
     EXPECT_EQ(place_circle(synthetic::box_52_75, frame, {band}, options).radius, 0);
     EXPECT_TRUE(grain_circular_probe(place_circle(synthetic::box_52_75, frame, {band}, options), {}, {}).normal.empty());
@@ -191,7 +192,7 @@ namespace
     try
       {
         place_circle(synthetic::box_52_75, frame, {band}, options);
-        FAIL() << "two numbers were taken for a circle";
+        FAIL() << "two numbers were accepted as a circle";
       }
     catch (const std::invalid_argument &error)
       {

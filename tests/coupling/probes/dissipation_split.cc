@@ -1,4 +1,4 @@
-// diptych: dissipation inside and outside a band
+// diptych: tests of the dissipation inside and outside a band
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/probes/dissipation_split.h"
 
@@ -13,7 +13,7 @@ namespace
 {
   using namespace diptych::coupling;
 
-  // Of a square of side a, a strip |x - y| / sqrt 2 <= h about the diagonal leaves two triangles of side a - sqrt(2) h.
+  // In a square of side a, the strip |x - y| / sqrt 2 <= h about the diagonal leaves two triangles of side a - sqrt(2) h.
   TEST(DissipationSplit, UniformDissipationFollowsTheArea)
   {
     const BandZone zone{{20, 20}, 45, 4};
@@ -30,12 +30,12 @@ namespace
     const auto contacts = contact_dissipation_split(zone, {{0, 0}, {40, 0}, {40, 40}, {0, 40}}, points,
                                                     std::vector<double>(points.size(), 0.25 / 100));
     EXPECT_NEAR(contacts.area_share, share, 1e-12);
-    // points of a grid: off by half its spacing along the strip's two edges, 2 * 40 sqrt 2 * 0.05 of 1600
+    // For points of a grid the error is half their spacing along the strip's two edges, 2 * 40 sqrt 2 * 0.05 of 1600.
     EXPECT_NEAR(contacts.share_inside, share, 2 * 40 * std::sqrt(2.) * 0.05 / 1600);
     EXPECT_NEAR(contacts.inside + contacts.outside, 0.25 * 1600, 1e-9);
   }
 
-  // The strip 18 <= y <= 24 covers one row of cells (20 .. 24) and half of the one below (16 .. 20), which dissipate 3 per area.
+  // The strip 18 <= y <= 24 covers one row of cells (20 .. 24) and half of the row below (16 .. 20), which dissipates 3 per area.
   TEST(DissipationSplit, CellsAreCutByTheStrip)
   {
     const QuadMesh      mesh = synthetic::box_mesh({0, 0}, {40, 40}, 10, 10);
@@ -49,7 +49,7 @@ namespace
     EXPECT_NEAR(split.area_share, 6. / 40, 1e-12);
   }
 
-  TEST(DissipationSplit, CellsWithoutAValueCountNowhere)
+  TEST(DissipationSplit, IgnoresCellsWithoutAValue)
   {
     const QuadMesh mesh  = synthetic::box_mesh({0, 0}, {4, 4}, 1, 2);
     const auto     split = cell_dissipation_split({{2, 1}, 0, 1}, mesh, {1, NAN});

@@ -1,4 +1,4 @@
-// diptych: force chains inside against outside a zone, on values of known distribution
+// diptych: tests of force chains inside and outside a zone, with values of known distribution
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/probes/force_chains.h"
 
@@ -18,7 +18,7 @@ namespace
     return {{30, 30}, 0, 10};
   }
 
-  // One grain a unit square; moment of the major principal stress value(x), the minor one a third of it.
+  // One grain per unit square. Its moment has the major principal stress value(x) and a third of it as the minor one.
   template <class Value> GrainNetwork grains(const Value &value)
   {
     GrainNetwork network;
@@ -39,11 +39,11 @@ namespace
     return -std::log(1 - synthetic::uniform(random, 0, 1));
   }
 
-  // Shares 1 - exp(-x/a) of values a times an exponential one: inside a = 1.5, outside 1. The largest difference lies at
-  // x = 3 ln 1.5, exp(-2 ln 1.5) - exp(-3 ln 1.5) = 4/9 - 8/27 = 4/27, whatever the common unit. 1200 inside, 2400 outside.
-  // The scatter is that of Kolmogorov and Smirnov, 1.36 sqrt(1/1200 + 1/2400) = 0.048, times the factor of Student's t for the
-  // 48 blocks that hold something inside (1.04); exact to the 5 % quantile of 400 resamples (10 %).
-  TEST(ForceChains, StrongerInsideIsFoundAndMeasured)
+  // Values are a times an exponential variable, with shares 1 - exp(-x/a): a = 1.5 inside and 1 outside. The largest difference
+  // is at x = 3 ln 1.5: exp(-2 ln 1.5) - exp(-3 ln 1.5) = 4/9 - 8/27 = 4/27, for any common unit. 1200 values are inside, 2400
+  // outside. The scatter is that of Kolmogorov and Smirnov, 1.36 sqrt(1/1200 + 1/2400) = 0.048, times the factor of Student's t
+  // for the 48 blocks with a value inside (1.04). It is accurate to the 5 % quantile of 400 resamples (10 %).
+  TEST(ForceChains, MeasuresStrongerForcesInside)
   {
     std::mt19937_64    random(1);
     const GrainNetwork network = grains(
@@ -56,16 +56,16 @@ namespace
     EXPECT_NEAR(c, 0.048 * 1.04, 0.1 * 0.05);
     EXPECT_NEAR(chains.largest_distance.value, 4. / 27, c);
     EXPECT_EQ(chains.verdict.rfind("differs", 0), 0u) << chains.verdict;
-    // the scatter of the means: 1/sqrt(1200) and 1/sqrt(2400), 4 % in the ratio
+    // The means scatter by 1/sqrt(1200) and 1/sqrt(2400), 4 % in the ratio.
     EXPECT_NEAR(chains.inside.mean / chains.outside.mean, 1.5, 0.12);
-    // medians a ln 2
+    // The medians are a ln 2.
     EXPECT_NEAR(chains.inside.values[5] / chains.outside.values[5], 1.5, 0.15);
   }
 
-  // Values that are the same over patches of 5 x 5, each patch one draw: 3600 grains, but 144 samples. Kolmogorov's bound for
-  // grains taken as independent would find a difference in most such samples; blocks of the patches' size find one in 5 %, as
-  // they ought to. 100 samples: 5 +- 2.2.
-  TEST(ForceChains, PatternThatIgnoresTheZoneIsRarelySaidToDiffer)
+  // Values are constant over patches of 5 x 5, each patch one draw: 3600 grains, but 144 samples. Kolmogorov's bound for
+  // independent grains would find a difference in most such samples. Blocks of the patches' size find one in 5 %, as they should.
+  // 100 samples: 5 +- 2.2.
+  TEST(ForceChains, PatternThatIgnoresTheZoneRarelyDiffers)
   {
     std::mt19937_64 random(4);
     int             differs = 0, naive = 0;
@@ -94,17 +94,17 @@ namespace
     EXPECT_EQ(chains.inside.share_above_mean, 0);
   }
 
-  // A rim of 2.9 mean diameters is left out: 54 x 54 grains remain, the rows 20 .. 39 of them inside.
-  TEST(ForceChains, RimOfTheSampleIsLeftOut)
+  // A rim of 2.9 mean diameters is left out: 54 x 54 grains remain, with the rows 20 .. 39 inside.
+  TEST(ForceChains, LeavesOutTheRimOfTheSample)
   {
     const ForceChains chains = grain_force_chains(zone(), box_60, grains([](const auto &) { return 2; }), 2.9, {5, 100, 1});
     EXPECT_EQ(chains.inside.count, 20 * 54);
     EXPECT_EQ(chains.inside.count + chains.outside.count, 54 * 54);
   }
 
-  // Forces 1 and 3 in turn inside, 2 outside: the common mean is 2; half of the forces inside lie above it. Up to 1 the shares
-  // are 1/2 and 0, from 2 on 1/2 and 1.
-  TEST(ForceChains, OfContactsCompareTheSizesOfForces)
+  // Forces inside alternate between 1 and 3, those outside are 2. The common mean is 2, and half of the forces inside lie above
+  // it. Up to 1 the shares are 1/2 and 0, from 2 on 1/2 and 1.
+  TEST(ForceChains, ContactsCompareTheMagnitudesOfForces)
   {
     GrainNetwork network;
     for (int k = 0; k < 3600; ++k)
@@ -113,7 +113,7 @@ namespace
         const double          size = zone().holds(point) ? (k % 2 == 0 ? 1 : 3) : 2;
         network.forces.push_back({0, 1, point, {1, 0}, {0.6 * size, -0.8 * size}});
       }
-    network.forces.push_back({0, 1, {30, 30}, {1, 0}, {0, 0}}); // bears nothing
+    network.forces.push_back({0, 1, {30, 30}, {1, 0}, {0, 0}}); // carries no force
     const ForceChains chains = contact_force_chains(zone(), box_60, network, 0, {5, 100, 1});
     EXPECT_EQ(chains.inside.count, 1200);
     EXPECT_NEAR(chains.inside.mean, 1, 1e-12);
@@ -123,7 +123,7 @@ namespace
     EXPECT_NEAR(chains.inside.values[10], 1.5, 1e-12);
   }
 
-  TEST(ForceChains, ZoneBesideTheSampleTellsNothing)
+  TEST(ForceChains, ZoneOutsideTheSampleGivesNoVerdict)
   {
     const BandZone    beside{{30, 90}, 0, 10};
     const ForceChains chains = grain_force_chains(beside, box_60, grains([](const auto &) { return 2; }), 0, {5, 100, 1});

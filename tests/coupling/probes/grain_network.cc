@@ -1,4 +1,4 @@
-// diptych: branches of contacts and periodic samples; polygons
+// diptych: tests of branches of contacts in periodic samples, and of polygons
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/probes/grain_network.h"
 
@@ -13,9 +13,9 @@ namespace
   using namespace diptych::coupling;
   using diptych::discrete::Snapshot;
 
-  // Two grains that drifted one and two periods of 10 to the right; the contact joins 0 and the image of 1 one period to the
-  // left. In the cell 0 .. 10 they lie at 9.5 and 0.5, and the image that touches 0 is the one at 10.5.
-  TEST(GrainNetwork, GrainsOfAPeriodicSampleComeBackWithTheirContacts)
+  // Two grains have drifted one and two periods of 10 to the right. The contact joins 0 and the image of 1 one period to the
+  // left. In the cell 0 .. 10 they lie at 9.5 and 0.5, and the image that touches 0 is at 10.5.
+  TEST(GrainNetwork, WrapsGrainsOfAPeriodicSampleWithTheirContacts)
   {
     Snapshot s;
     s.position                 = {{19.5, 1}, {30.5, 1}};
@@ -35,19 +35,19 @@ namespace
     const auto all = branches(network.position, network.forces, network.period);
     ASSERT_EQ(all.size(), 6u);
     EXPECT_NEAR(all[0].to.x(), 10.5, 1e-12);
-    EXPECT_NEAR(all[1].from.x(), -0.5, 1e-12); // the image to the left reaches into the cell
+    EXPECT_NEAR(all[1].from.x(), -0.5, 1e-12); // the left image extends into the cell
     EXPECT_NEAR(all[1].to.x(), 0.5, 1e-12);
-    EXPECT_NEAR(all[3].to.y(), 0.5, 1e-12); // platen: to the contact point
+    EXPECT_NEAR(all[3].to.y(), 0.5, 1e-12); // platen: ends at the contact point
   }
 
-  TEST(GrainNetwork, BranchesLeaveOutWhatBearsNothing)
+  TEST(GrainNetwork, BranchesLeaveOutContactsWithoutForce)
   {
     const std::vector<Eigen::Vector2d> position = {{0, 0}, {1, 0}};
     EXPECT_TRUE(branches(position, {{0, 1, {0.5, 0}, {-1, 0}, {0, 0}}}).empty());
     EXPECT_THROW(branches(position, {{2, 0, {0.5, 0}, {-1, 0}, {1, 0}}}), std::invalid_argument);
   }
 
-  // An L of area 3 cut at x = 1.5 loses 0.5; its two arms cut at y >= 0.5 hang together by nothing.
+  // An L of area 3 cut at x = 1.5 loses 0.5. Cut at y >= 0.5, its two arms are joined by edges without area only.
   TEST(Polygon, PartsWithinAConvexOneHaveTheExactArea)
   {
     const std::vector<Eigen::Vector2d> corner = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};

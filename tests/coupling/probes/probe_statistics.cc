@@ -1,4 +1,4 @@
-// diptych: intervals, dispersion and differences of probes, on samples of known truth
+// diptych: tests of intervals, dispersion and differences of probes, on samples of known truth
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/probes/probe_statistics.h"
 
@@ -18,8 +18,9 @@ namespace
       name, {low, low + Eigen::Vector2d(length, 0), low + Eigen::Vector2d(length, height), low + Eigen::Vector2d(0, height)}, 0};
   }
 
-  // Grains on a square lattice under the mean stress `stress`; each moment is scattered, and so are squares of 4 x 4 grains in
-  // common, by `scatter` each. One contact a grain and direction, drawn from the density (1 + a cos 2 (theta - fabric)) / 2 pi.
+  // Grains on a square lattice under the mean stress `stress`. Each moment is scattered by `scatter`, and squares of 4 x 4 grains
+  // have a common scatter of the same size. There is one contact per grain and direction, drawn from the density (1 + a cos 2
+  // (theta - fabric)) / 2 pi.
   struct Truth
   {
     Eigen::Matrix2d stress;
@@ -58,7 +59,7 @@ namespace
 
   Truth usual_truth()
   {
-    // 3 along 30 degrees, 1.5 across: t/s = 1/3
+    // 3 along 30 degrees and 1.5 across: t/s = 1/3.
     Eigen::Matrix2d stress;
     stress << 2.25 + 0.375, 0.75 * std::sqrt(0.75), 0.75 * std::sqrt(0.75), 2.25 - 0.375;
     return {stress, 1, 0.4, 20};
@@ -69,7 +70,7 @@ namespace
     return interval.low <= truth && truth <= interval.high;
   }
 
-  // The numbers of a probe without resampling are those of the probe itself.
+  // Without resampling the numbers are those of the probe itself.
   TEST(ProbeStatistics, BlocksAddUpToTheProbe)
   {
     std::mt19937_64    random(1);
@@ -89,7 +90,7 @@ namespace
     EXPECT_NEAR(numbers.fabric_to_stress_deg, fabric.direction_deg - stress.direction_deg, 1e-10);
   }
 
-  TEST(ProbeStatistics, UniformStressLeavesNoDoubt)
+  TEST(ProbeStatistics, UniformStressHasIntervalsOfLengthZero)
   {
     const GrainNetwork   network   = synthetic::hexagonal_network(60, 60, usual_truth().stress);
     const ProbeIntervals intervals = probe_intervals(probe_blocks(probe_of("zone", {10, 10}, 30, 20), network, 5), {5, 200, 1});
@@ -99,14 +100,14 @@ namespace
     EXPECT_NEAR(intervals.direction_deg.value, 30, 1e-10);
   }
 
-  // 24 blocks of 5 x 5 in a probe of 30 x 20, grains correlated over 4, which the blocks' edges cut: 95 %, binomial scatter
-  // of 200 samples 1.5 %; blocks taken as independent would cover 85 %. The truth of the angle from stress to fabric is 20 - 30
-  // degrees.
+  // 24 blocks of 5 x 5 in a probe of 30 x 20, with grains correlated over 4, so that block edges cut correlated groups. Nominal
+  // coverage 95 %; binomial scatter of 200 samples 1.5 %. Independent blocks would cover 85 %. The angle from stress to fabric is
+  // 20 - 30 degrees.
   TEST(ProbeStatistics, IntervalsCoverTheTruth)
   {
     std::mt19937_64   random(12);
     const ProbeRegion probe      = probe_of("zone", {5.2, 7.1}, 30, 20);
-    const double      solid      = M_PI / 4; // stress = moment density: one grain a unit square
+    const double      solid      = M_PI / 4; // stress = moment density, one grain per unit square
     int               covered[7] = {};
     for (int sample = 0; sample < 200; ++sample)
       {
@@ -128,8 +129,8 @@ namespace
       }
   }
 
-  // Fabric and stress at +-89 degrees: lines 2 degrees apart, and an interval that runs through the vertical.
-  TEST(ProbeStatistics, DirectionsRunThroughTheVertical)
+  // Fabric and stress at +-89 degrees are lines 2 degrees apart, and the interval includes the vertical.
+  TEST(ProbeStatistics, IntervalsOfDirectionsMayIncludeTheVertical)
   {
     std::mt19937_64 random(3);
     Truth           truth = usual_truth();
@@ -148,7 +149,7 @@ namespace
     EXPECT_GT(intervals.direction_deg.high, intervals.direction_deg.value);
   }
 
-  TEST(ProbeStatistics, TooFewBlocksTellNoInterval)
+  TEST(ProbeStatistics, TooFewBlocksGiveNoInterval)
   {
     std::mt19937_64      random(3);
     const GrainNetwork   network   = scattered(random, usual_truth(), 40, 36);
@@ -180,9 +181,9 @@ namespace
     EXPECT_TRUE(std::isnan(grain_pressure({"upper", {}, 0}, network).mean));
   }
 
-  // Two probes of one state: 95 % of the intervals of their difference hold 0. Two of states whose t/s are 1/3 and
-  // 3/4 do: 0.42 apart, four to five times the deviation of the difference (0.05 sqrt 2 and what the stretching adds).
-  TEST(ProbeStatistics, DifferencesAreFoundWhereThereAreAny)
+  // For two probes of one state, 95 % of the intervals of their difference contain 0. Two states whose t/s are 1/3 and 3/4 must
+  // differ: they are 0.42 apart, four to five times the deviation of the difference (0.05 sqrt 2 plus the stretching).
+  TEST(ProbeStatistics, FindsRealDifferencesOnly)
   {
     std::mt19937_64          random(8);
     std::vector<ProbeRegion> probes = {probe_of("upper", {1, 41}, 30, 20), probe_of("zone", {1, 1}, 30, 20)};
@@ -205,13 +206,13 @@ namespace
         blocks[1] = probe_blocks(probes[1], scattered(random, other, 32, 64), 5);
         found += probe_differences(probes, blocks, {5, 200, 1})[0].verdict.rfind("differ: t/s differs", 0) == 0;
       }
-    // binomial scatter 2.2
+    // The binomial scatter is 2.2.
     for (const int n : {ratio, anisotropy, direction})
       EXPECT_GE(n, 88);
     EXPECT_GE(found, 95);
   }
 
-  TEST(ProbeStatistics, VerdictNeedsNarrowIntervalsToSayNoDifference)
+  TEST(ProbeStatistics, VerdictOfNoDifferenceNeedsNarrowIntervals)
   {
     const GrainNetwork             network = synthetic::hexagonal_network(60, 60, usual_truth().stress);
     const std::vector<ProbeRegion> probes  = {probe_of("probe 1", {5, 5}, 40, 20), probe_of("probe 2", {5, 28}, 40, 20)};

@@ -1,4 +1,4 @@
-// diptych: probes on states of known stress and fabric
+// diptych: tests of probes in states of known stress and fabric
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/probes/probes.h"
 
@@ -23,7 +23,7 @@ namespace
     return band;
   }
 
-  TEST(Probes, LieInsideTheOutlineOnTheirSideOfTheZone)
+  TEST(Probes, LieInsideTheOutlineOnTheirSideOfTheBand)
   {
     const SampleFrame frame  = synthetic::frame_52_75();
     const Band        band   = oblique_band();
@@ -49,7 +49,7 @@ namespace
       }
   }
 
-  TEST(Probes, AreStackedWhereThereIsNoBand)
+  TEST(Probes, AreStackedWithoutABand)
   {
     const auto probes = place_probes(synthetic::box_52_75, synthetic::frame_52_75(), {});
     ASSERT_EQ(probes.size(), 3u);
@@ -74,7 +74,7 @@ namespace
 
   TEST(Probes, PrincipalStressesOfAKnownTensor)
   {
-    // 3 along 30 degrees, 1 across: xx = 2 + cos 60, yy = 2 - cos 60, xy = sin 60
+    // 3 along 30 degrees and 1 across: xx = 2 + cos 60, yy = 2 - cos 60, xy = sin 60.
     Eigen::Matrix2d stress;
     stress << 2.5, std::sqrt(0.75), std::sqrt(0.75), 1.5;
     const auto result = probe_stress(stress, 1);
@@ -84,8 +84,8 @@ namespace
     EXPECT_NEAR(result.t_over_s, 0.5, 1e-14);
   }
 
-  // Hexagonal lattice of touching discs of diameter 1 under the stress S: every grain carries M = S times its share of area,
-  // sqrt(3)/2. A probe finds S, its rim notwithstanding, to the scatter of the solid fraction measured in it.
+  // A hexagonal lattice of touching discs of diameter 1 under the stress S. Every grain has M = S times its share of area,
+  // sqrt(3)/2. In spite of its rim, a probe gives S up to the scatter of its measured solid fraction.
   TEST(Probes, UniformMomentDensityGivesItsStress)
   {
     Eigen::Matrix2d stress;
@@ -125,24 +125,24 @@ namespace
         if (synthetic::uniform(random, 0, 1.4) < 1 + 0.4 * std::cos(2 * (theta - 20 * M_PI / 180)))
           contacts.push_back({0, 1, {26, 37.5}, {std::cos(theta), std::sin(theta)}, {1, 0}});
       }
-    contacts.push_back({0, 1, {26, 37.5}, {1, 0}, {0, 0}});  // carries nothing
-    contacts.push_back({0, 1, {-26, 37.5}, {1, 0}, {1, 0}}); // elsewhere
+    contacts.push_back({0, 1, {26, 37.5}, {1, 0}, {0, 0}});  // carries no force
+    contacts.push_back({0, 1, {-26, 37.5}, {1, 0}, {1, 0}}); // lies elsewhere
     const auto fabric = probe_fabric({"zone", synthetic::box_52_75, 0}, contacts);
     EXPECT_EQ(fabric.contacts, 20000);
     EXPECT_NEAR(fabric.fabric.trace(), 1, 1e-12);
     EXPECT_NEAR(fabric.anisotropy_error, 0.01, 1e-12);
     EXPECT_NEAR(fabric.anisotropy, 0.4, 3 * fabric.anisotropy_error);
-    // 1 / (0.4 sqrt(40000)) rad = 0.72 degrees
+    // 1 / (0.4 sqrt(40000)) rad = 0.72 degrees.
     EXPECT_NEAR(fabric.direction_error_deg, 0.72, 0.03);
     EXPECT_NEAR(fabric.direction_deg, 20, 3 * fabric.direction_error_deg);
     EXPECT_EQ(std::accumulate(fabric.normals_24.begin(), fabric.normals_24.end(), 0), 40000);
     for (int k = 0; k < 12; ++k)
       EXPECT_EQ(fabric.normals_24[k], fabric.normals_24[k + 12]);
-    EXPECT_GT(fabric.normals_24[1], fabric.normals_24[7]); // 15-30 degrees against 105-120
+    EXPECT_GT(fabric.normals_24[1], fabric.normals_24[7]); // 15-30 degrees and 105-120 degrees
   }
 
-  // 0, 0 is the middle of the frame, 26, 37.5; 20 x 10 turned by 90 degrees covers x = 31 .. 41, y = 17.5 .. 37.5.
-  TEST(Probes, OfTheSceneLieWhereItSays)
+  // 0, 0 is the middle of the frame, 26, 37.5. A probe of 20 x 10 rotated by 90 degrees covers x = 31 .. 41, y = 17.5 .. 37.5.
+  TEST(Probes, UseThePlacesGivenByTheScene)
   {
     ProbeOptions options;
     options.probe_rectangles = {10, -10, 20, 10, 90, 24, 0, 10, 20, 0};
@@ -155,12 +155,12 @@ namespace
       low = low.cwiseMin(x), high = high.cwiseMax(x);
     EXPECT_LT((low - Eigen::Vector2d(31, 17.5)).norm(), 1e-12);
     EXPECT_LT((high - Eigen::Vector2d(41, 37.5)).norm(), 1e-12);
-    EXPECT_NEAR(polygon_area(probes[1].polygon), 7 * 20, 1e-12); // x = 45 .. 55, the sample ends at 52
+    EXPECT_NEAR(polygon_area(probes[1].polygon), 7 * 20, 1e-12); // x = 45 .. 55, but the sample ends at 52
     options.probe_rectangles = {100, 0, 10, 20, 0};
     EXPECT_TRUE(place_probes(synthetic::box_52_75, synthetic::frame_52_75(), {}, options)[0].polygon.empty());
   }
 
-  TEST(Probes, WrongNumbersOfTheSceneNameTheirKey)
+  TEST(Probes, MessagesForWrongNumbersHaveTheKey)
   {
     const auto message = [](const ProbeOptions &options) -> std::string {
       try

@@ -1,4 +1,4 @@
-// diptych: intervals of means of correlated series
+// diptych: tests of the intervals of means of correlated series
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/statistics/batch_means.h"
 
@@ -13,7 +13,7 @@ namespace
 {
   using namespace diptych::coupling;
 
-  // x_{k+1} = phi x_k + sqrt(1 - phi^2) normal, mean 0, in its stationary state from the start.
+  // x_{k+1} = phi x_k + sqrt(1 - phi^2) normal, with mean 0, stationary from the start.
   std::vector<double> autoregressive(std::mt19937_64 &random, const int n, const double phi)
   {
     std::vector<double> x(n);
@@ -36,8 +36,9 @@ namespace
     return covered / 1000.;
   }
 
-  // Batches ten correlation lengths long are independent: 95 %, binomial scatter 0.7 %. Four batches of 100 values that correlate
-  // over 15 (1.7 correlation lengths a batch) are not: the widening keeps what would else be 0.87.
+  // Batches ten correlation lengths long are independent: 95 %, binomial scatter 0.7 %. Four batches of 100 values with a
+  // correlation length of 15 (1.7 correlation lengths per batch) are not: the widening keeps a coverage that would otherwise be
+  // 0.87.
   TEST(BatchMeans, IntervalCoversTheMeanOfAnAutocorrelatedSeries)
   {
     EXPECT_NEAR(coverage(1000, 10, 10), 0.95, 0.02);
@@ -45,8 +46,8 @@ namespace
     EXPECT_GE(coverage(100, 15, 4), 0.88);
   }
 
-  // Batches 1, 2, 3 with the weights of their values: mean 2, s = 1, lag-one correlation (-1*0 + 0*1)/2 + 1/3, so that
-  // half = t(2) sqrt(1/3) sqrt((4/3)/(2/3)) = 4.302653 * 0.816497
+  // Batches 1, 2, 3 with the weights of their values: mean 2, s = 1, lag-one correlation (-1*0 + 0*1)/2 + 1/3. Therefore half =
+  // t(2) sqrt(1/3) sqrt((4/3)/(2/3)) = 4.302653 * 0.816497.
   TEST(BatchMeans, AreWeightedAndWidenedByTheirOwnCorrelation)
   {
     const Interval i = batch_mean_interval({0, 2, 2, 2, 3}, {1, 1, 1, 1, 2}, 3);
@@ -55,7 +56,7 @@ namespace
     EXPECT_NEAR(2 - i.low, i.high - 2, 1e-14);
   }
 
-  TEST(BatchMeans, TooFewValuesTellNoInterval)
+  TEST(BatchMeans, TooFewValuesGiveNoInterval)
   {
     const Interval i = batch_mean_interval({1, 2}, {1, 1}, 4);
     EXPECT_EQ(i.value, 1.5);
@@ -68,9 +69,9 @@ namespace
     EXPECT_NEAR(constant.high, constant.low, 1e-14);
   }
 
-  // A straight line from 0 to 1 over the strain 0 .. 1: quarters 0.125, 0.375, ...; s^2 = 5/48, lag-one correlation
-  // (0.046875 - 0.015625 + 0.046875)/0.3125 + 1/4 = 0.5. The value is that of mean_over_progress().
-  TEST(BatchMeans, OfAHistoryAreOfEqualStrain)
+  // A straight line from 0 to 1 over the strain 0 .. 1 has the quarters 0.125, 0.375, ... and s^2 = 5/48. The lag-one correlation
+  // is (0.046875 - 0.015625 + 0.046875)/0.3125 + 1/4 = 0.5. The value is that of mean_over_progress().
+  TEST(BatchMeans, BatchesOfAHistoryHaveEqualStrain)
   {
     HistoryTable table;
     for (int k = 0; k <= 40; ++k)
@@ -85,7 +86,7 @@ namespace
     EXPECT_TRUE(std::isnan(mean_interval_over_progress(table, "x", 0, 0.01).low)); // two rows
   }
 
-  // lower + upper = -0.02, 0.002 and 0.002 of 10: 0.2 %, 0.02 %, ...; the step before 0.2 % strain does not count.
+  // lower + upper = -0.02, 0.002 and 0.002 of 10: 0.2 %, 0.02 %, ... The step before 0.2 % strain does not count.
   TEST(PlatenBalance, CountsStepsAfterTheStart)
   {
     HistoryTable table;

@@ -1,4 +1,4 @@
-// diptych: intervals from resampled blocks
+// diptych: tests of intervals from resampled blocks
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/statistics/student.h"
 #include "coupling/statistics/block_bootstrap.h"
@@ -16,7 +16,7 @@ namespace
 
   TEST(BlockBootstrap, TilesAreAtLeastABlockWideAndHoldEachPointOnce)
   {
-    // 23 x 11 turned by 30 degrees: four columns of 5.75, two rows of 5.5
+    // 23 x 11 rotated by 30 degrees: four columns of 5.75, two rows of 5.5.
     const double          c = std::cos(M_PI / 6), s = std::sin(M_PI / 6);
     const Eigen::Vector2d along(c, s), across(-s, c), corner(3, -4);
     const Tiles tiles = tiles_over({corner, corner + 23 * along, corner + 23 * along + 11 * across, corner + 11 * across}, 30, 5);
@@ -34,7 +34,7 @@ namespace
   }
 
   // 1e9 x 1e9 blocks of side 1 in a square of side 1e9.
-  TEST(BlockBootstrap, MoreTilesThanMemoryHoldsAreRefused)
+  TEST(BlockBootstrap, RejectsMoreTilesThanMemoryHolds)
   {
     EXPECT_THROW(tiles_over({{0, 0}, {1e9, 0}, {1e9, 1e9}, {0, 1e9}}, 0, 1), std::invalid_argument);
   }
@@ -50,7 +50,7 @@ namespace
         for (int k = 0; k < 7; ++k)
           total[k] += times[k];
       }
-    // binomial: 14000 draws of probability 1/7: 2000 +- 41
+    // Binomial: 14000 draws of probability 1/7 give 2000 +- 41.
     for (const int n : total)
       EXPECT_NEAR(n, 2000, 4 * 41);
     EXPECT_EQ(drawn, resampled_blocks(7, {5, 2000, 3}));
@@ -59,8 +59,8 @@ namespace
     EXPECT_TRUE(resampled_blocks(7, {5, 0, 3}).empty());
   }
 
-  // Means of n normal blocks: Student's interval holds the truth in 95 %. 1000 samples: +- 0.7 %; that the resampled mean of few
-  // blocks has shorter tails than a normal one costs up to 2 %.
+  // Means of n normal blocks: Student's interval covers the truth in 95 %, +- 0.7 % for 1000 samples. The resampled mean of a
+  // small number of blocks has shorter tails than a normal one, which costs up to 2 %.
   TEST(BlockBootstrap, StretchedIntervalOfAMeanCoversTheTruth)
   {
     for (const int n : {4, 8, 20})
@@ -86,7 +86,7 @@ namespace
       }
   }
 
-  // t(3) = 3.182446, t(9) = 2.262157 (tables); sqrt(4/3) 3.182446 / 1.959964 = 1.874918
+  // t(3) = 3.182446 and t(9) = 2.262157 (tables); sqrt(4/3) 3.182446 / 1.959964 = 1.874918.
   TEST(BlockBootstrap, FactorForFewBlocks)
   {
     EXPECT_NEAR(student_quantile(0.975, 3), 3.182446, 1e-6);
@@ -95,9 +95,9 @@ namespace
     EXPECT_TRUE(std::isnan(small_sample_factor(3)));
   }
 
-  // 2 x 2 blocks with the influences 1, 1, -1, -1 (sum 0): squares 4, the six pairs give 1 + 1 - 4 = -2, chance -4/3 * 6/4:
-  // 1 + 2 (-2/4 + 6/12) = 1. Rows of 8 with 1 and -1 in fours: products along the row 3 - 1 + 3 = 5 of squares 8, seven pairs:
-  // 1 + 2 (5/8 + 7/56) = 2.5.
+  // 2 x 2 blocks with the influences 1, 1, -1, -1 (sum 0): squares 4, the six pairs give 1 + 1 - 4 = -2, chance -4/3 * 6/4. The
+  // variance factor is 1 + 2 (-2/4 + 6/12) = 1. A row of 8 with four times 1 and four times -1: products along the row 3 - 1 + 3
+  // = 5 of squares 8, seven pairs: 1 + 2 (5/8 + 7/56) = 2.5.
   TEST(BlockBootstrap, NeighboursThatAgreeStretchTheDeviations)
   {
     const auto e = [](const double x) { return Eigen::Vector3d(0, x, 0); };
@@ -111,7 +111,7 @@ namespace
       }
     EXPECT_NEAR(neighbour_factor(influence, place), std::sqrt(2.5), 1e-14);
     for (int k = 0; k < 8; ++k)
-      influence[k] = e(k % 2 ? 1 : -1); // opposite neighbours
+      influence[k] = e(k % 2 ? 1 : -1); // neighbours are opposite
     EXPECT_EQ(neighbour_factor(influence, place), 1);
     EXPECT_EQ(neighbour_factor({}, {}), 1);
   }

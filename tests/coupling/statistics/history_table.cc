@@ -1,4 +1,4 @@
-// diptych: means over strain from rows at uneven strains
+// diptych: tests of means over strain for rows at uneven strains
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace
 {
   using namespace diptych::coupling;
 
-  // y = 10 x at uneven x: the mean over [0.1, 0.4] is 10 * 0.25 however the rows lie.
+  // For y = 10 x at uneven x the mean over [0.1, 0.4] is 10 * 0.25, whatever the places of the rows.
   TEST(HistoryTable, MeanOfALineDoesNotDependOnItsRows)
   {
     const HistoryTable table = {{"progress", {0, 0.05, 0.07, 0.3, 0.31, 0.5}}, {"y", {0, 0.5, 0.7, 3, 3.1, 5}}};
@@ -21,7 +21,7 @@ namespace
     EXPECT_NEAR(mean_over_progress(table, "y", 0.4, 0.5), 4.5, 1e-14);
   }
 
-  // A hat of height 1 and half width 0.1 about 0.5: the best mean over 0.1 lies symmetrically: 1 - 0.05/2/0.1 = 0.75.
+  // A hat of height 1 and half width 0.1 about 0.5. The best mean over 0.1 is symmetric: 1 - 0.05/2/0.1 = 0.75.
   TEST(HistoryTable, PeakOfTheRunningMean)
   {
     HistoryTable table;
@@ -36,8 +36,8 @@ namespace
     EXPECT_NEAR(peak.progress, 0.55, 2e-3);
   }
 
-  // A running mean is the mean over each row's last width, whatever lies between: a tenth of the rows that a loop over windows
-  // would read, the same numbers.
+  // A running mean equals the mean over each row's last width. It reads a tenth of the rows that a loop over windows would read
+  // and gives the same numbers.
   TEST(HistoryTable, RunningMeanIsTheMeanOfEveryWindow)
   {
     HistoryTable table;
@@ -60,7 +60,7 @@ namespace
       }
   }
 
-  // Two halves of a history, one with t = 1, s = 4, one with t = 3, s = 6: T/S = 2/5 where the mean of t/s is 3/8.
+  // Two halves of a history, with t = 1, s = 4 and with t = 3, s = 6: T/S = 2/5, but the mean of t/s is 3/8.
   TEST(HistoryTable, RatioOfMeansIsNotTheMeanOfTheRatio)
   {
     const double       inch = 1e-12;
@@ -79,8 +79,8 @@ namespace
     EXPECT_NEAR(ratio_of_means(symmetric, 0, 1), 0.4, 1e-9);
   }
 
-  // 0.1 + 0.2 is not 0.3, and yet not beyond it.
-  TEST(HistoryTable, WhatRoundingAddsIsNotBeyond)
+  // 0.1 + 0.2 is not 0.3, but must not count as beyond it.
+  TEST(HistoryTable, RoundingErrorsAreNotBeyond)
   {
     EXPECT_FALSE(is_beyond(0.1 + 0.2, 0.3));
     EXPECT_FALSE(is_beyond(0, 0));
