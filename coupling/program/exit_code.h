@@ -1,4 +1,4 @@
-// diptych: how the program ends on what is thrown
+// diptych: exit codes and last messages of exceptions
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -19,6 +19,6 @@ namespace diptych::coupling
   // 1 for a broken invariant, 2 for wrong input, 4 for everything else that is thrown.
   [[nodiscard]] int code_of(const std::exception &error);
 
-  // What standard error says at the end: the error, and that nothing was written where a request to stop came before that.
+  // The last message on standard error.
   std::string text_of_end(const std::exception &error);
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: the program; what needs the continuum's libraries is done by another one beside it, so that the rest starts at once
+// diptych: the program; commands that need deal.II run in a second one, diptych-panels, so that the others start at once
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cerrno>
 #include <cstdlib>
@@ -7,7 +7,7 @@
 #include <iostream>
 #include <stdexcept>
 
-#include <sys/resource.h>
+#include <fcntl.h>
 #include <unistd.h>
 
 #include "coupling/processes/child_process.h"
@@ -37,66 +37,28 @@ namespace
     return compare_again(line);
   }
 
-  // Where MPI cannot open what it needs it ends the process by itself, with exit code 1.
-  void require_open_files()
+  // MPI keeps files there. Where it cannot, it ends the process with exit code 1 and a message about its own parts.
+  void require_temporary_folder()
   {
-    constexpr rlim_t least = 32;
-    rlimit           limit{};
-    if (getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur < least)
-      throw std::runtime_error("this process may open " + std::to_string(limit.rlim_cur) +
-                               " files (ulimit -n); the libraries of the continuum need " + std::to_string(least) +
-                               "; nothing was written");
-  }
-
-  // Where they are not all mapped, MPI goes on without some and ends the process in any way, by a signal too.
-  void require_address_space()
-  {
-    constexpr rlim_t megabyte = 1 << 20, least = 512 * megabyte; // measured: 464 for a continuum of 24 cells
-    rlimit           limit{};
-    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur < least)
-      throw std::runtime_error("this process may use " + std::to_string(limit.rlim_cur / megabyte) +
-                               " MB of memory (ulimit -v); the libraries of the continuum need " +
-                               std::to_string(least / megabyte) + "; nothing was written");
-  }
-
-  // With 128 kB it ended by SIGSEGV, with 256 kB it did not.
-  void require_stack()
-  {
-    constexpr rlim_t kilobyte = 1 << 10, least = 512 * kilobyte;
-    rlimit           limit{};
-    if (getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur < least)
-      throw std::runtime_error("this process may have a stack of " + std::to_string(limit.rlim_cur / kilobyte) +
-                               " kB (ulimit -s); the libraries of the continuum need " + std::to_string(least / kilobyte) +
-                               "; nothing was written");
-  }
-
-  // MPI keeps files of its own there, and where it cannot it ends the process by itself, with exit code 1.
-  void require_temporary_room()
-  {
-    std::error_code   none;
-    const auto        folder = std::filesystem::temp_directory_path(none);
-    const char *const named  = std::getenv("TMPDIR");
-    std::string       path   = (folder / "diptych_XXXXXX").string();
-    const int         file   = none ? -1 : mkstemp(path.data());
-    std::string       why    = none ? none.message() : file < 0 ? std::strerror(errno) : "";
-    const std::string zeros(1 << 16, '\0');
-    for (int k = 0; why.empty() && k < 16; ++k)
-      if (const ssize_t n = write(file, zeros.data(), zeros.size()); n < ssize_t(zeros.size()))
-        why = n < 0 ? std::strerror(errno) : "no room for a file of a megabyte";
+    std::error_code none;
+    const auto      folder = std::filesystem::temp_directory_path(none);
+    std::string     path   = (folder / "diptych_XXXXXX").string();
+    const int       file   = none ? -1 : mkstemp(path.data());
+    const int       error  = none ? 0 : file < 0 ? errno : posix_fallocate(file, 0, 1 << 20); // 0: there is room
     if (file >= 0)
-      close(file), unlink(path.c_str());
-    if (!why.empty())
-      throw std::runtime_error("temporary files cannot be written in '" + (none && named ? named : folder.string()) +
-                               "' (TMPDIR): " + why + "; nothing was written");
+      {
+        close(file);
+        unlink(path.c_str());
+      }
+    if (none || error != 0)
+      throw std::runtime_error("temporary files of 1 MB cannot be written in '" + folder.string() +
+                               "' (TMPDIR): " + (none ? none.message() : std::strerror(error)));
   }
 
   // diptych-panels beside this program, or in PREFIX/libexec where it is installed.
-  [[noreturn]] void become_the_panels(char **argv)
+  [[noreturn]] void start_the_panels(char **argv)
   {
-    require_open_files();
-    require_address_space();
-    require_stack();
-    require_temporary_room();
+    require_temporary_folder();
     namespace fs             = std::filesystem;
     const fs::path    folder = fs::path(own_path()).parent_path();
     const std::string name   = "diptych-panels";
@@ -121,7 +83,7 @@ namespace
                      "export and explain");
   }
 
-  [[noreturn]] void become_the_panels(char **argv)
+  [[noreturn]] void start_the_panels(char **argv)
   {
     throw SceneError(
       std::string("diptych ") + argv[1] +
@@ -129,7 +91,7 @@ namespace
   }
 #endif
 
-  // Of an MPI job; 1 without one.
+  // Number of processes of an MPI job; 1 without one.
   int n_processes()
   {
     for (const char *variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
@@ -156,7 +118,7 @@ namespace
       case Command::calibrate:
       case Command::continuum:
       case Command::material_point:
-        become_the_panels(argv);
+        start_the_panels(argv);
       default:
         break;
       }
@@ -185,7 +147,7 @@ namespace
       }
   }
 
-  // What asked for more memory than there is, by the files that it was given.
+  // Names the files whose contents asked for more memory than there is.
   int execute(const CommandLine &line, char **argv)
   {
     try
@@ -204,22 +166,22 @@ namespace
 
 namespace
 {
-  // Every relative name of the command line starts there.
+  // Relative names of the command line start there.
   void require_working_directory()
   {
     std::error_code none;
     (void)std::filesystem::current_path(none);
     if (none)
-      throw std::runtime_error("the working directory cannot be found: " + none.message() + "; nothing was written");
+      throw std::runtime_error("the working directory cannot be found: " + none.message());
   }
 
-  // What they find is written to standard output and nowhere else.
-  bool is_said(const CommandLine &line)
+  // Commands whose only result is their output.
+  bool prints_only(const CommandLine &line)
   {
     return line.command == Command::explain || (line.command == Command::solve && line.output.empty());
   }
 
-  // Nobody who reads is no fault, a full disk is one.
+  // A full disk is an error, a closed pipe is not.
   void require_output()
   {
     if (std::cout.flush())
@@ -227,7 +189,7 @@ namespace
     const int error = write(STDOUT_FILENO, "\n", 1) < 0 ? errno : 0; // the stream keeps none
     if (error != EPIPE && error != EBADF)
       throw std::runtime_error("standard output cannot be written" +
-                               (error == 0 ? "" : ": " + std::string(std::strerror(error))) + "; nothing was written to a file");
+                               (error == 0 ? "" : ": " + std::string(std::strerror(error))));
   }
 } // namespace
 
@@ -239,7 +201,7 @@ int main(int argc, char **argv)
       require_working_directory();
       const ParsedLine parsed = parse_command_line({argv + 1, argv + argc});
       const int        code   = parsed.exit_code ? *parsed.exit_code : execute(parsed.line, argv);
-      if (code == done && (parsed.exit_code || is_said(parsed.line)))
+      if (code == done && (parsed.exit_code || prints_only(parsed.line)))
         require_output();
       return code;
     }

@@ -175,7 +175,7 @@ namespace diptych::coupling
     const double           memory   = memory_of_process(parts);
     const std::string asked = "the scene asks for " + counted(n_grains(scene)) + " grains, " + counted(n_elements(scene, parts)) +
                               " elements and " + counted(n_rows(scene, parts)) + " rows of discrete.csv, ";
-    const std::string keys = " (sample/grains, continuum/element_size, discrete/history_interval); nothing was written";
+    const std::string keys = " (sample/grains, continuum/element_size, discrete/history_interval)";
     if (estimate.memory > memory)
       throw std::runtime_error(asked + "which take about " + bytes(estimate.memory) + " of memory; this process may have " +
                                bytes(memory) + keys);
