@@ -34,7 +34,7 @@ class Runs:
         folder = os.path.join(self.folder, name)
         if not (self.options.reuse and os.path.exists(os.path.join(folder, "provenance.json"))):
             words = [word for setting in (*self.settings, *settings) for word in ("--set", setting)]
-            done = subprocess.run([self.options.program, command, scene, "--output", folder, "--quiet", *words], env=ENVIRONMENT,
+            done = subprocess.run([self.options.program, command, scene, "--output", folder, "--overwrite", "--quiet", *words], env=ENVIRONMENT,
                                   capture_output=True, text=True)
             if done.returncode != 0:
                 raise RunFailed(f"{folder} ended with exit code {done.returncode}: {done.stderr.strip()}")

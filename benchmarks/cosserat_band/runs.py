@@ -31,7 +31,7 @@ class Runs:
         words = ["--set", "comparison/coarse_element_size=100"]  # Larger than the sample: no second mesh.
         for key, value in keys.items():
             words += ["--set", f"{'loading' if key == 'axial_strain' else 'continuum'}/{key}={value}"]
-        done = subprocess.run([self.program, "continuum", os.path.join(HERE, scene + ".prm"), "--output", folder, "--quiet",
+        done = subprocess.run([self.program, "continuum", os.path.join(HERE, scene + ".prm"), "--output", folder, "--overwrite", "--quiet",
                                *words], capture_output=True, text=True)
         if done.returncode not in (0, 3):
             sys.stderr.write(f"band.py: {name} ended with exit code {done.returncode}: {done.stderr.strip()}\n")

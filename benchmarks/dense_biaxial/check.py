@@ -53,7 +53,7 @@ def measure(folder):
 
 def discrete(options, scene, folder, settings):
     words = [word for setting in settings for word in ("--set", setting)]
-    done = subprocess.run([options.program, "discrete", scene, "--output", folder, "--quiet", *words],
+    done = subprocess.run([options.program, "discrete", scene, "--output", folder, "--overwrite", "--quiet", *words],
                           capture_output=True, text=True)
     if done.returncode != 0:
         sys.stderr.write(f"check.py: {folder} ended with exit code {done.returncode}: {done.stderr.strip()}\n")

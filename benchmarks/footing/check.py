@@ -33,7 +33,7 @@ def run(program, friction_angle, levels, folder):
     settings = [f"continuum/refinement_levels={levels}", f"continuum/element_size={COARSE_ELEMENT / 2**levels}"]
     words = [word for setting in settings for word in ("--set", setting)]
     before = os.times()
-    done = subprocess.run([program, "continuum", os.path.join(HERE, f"phi{friction_angle}.prm"), "--output", folder, "--quiet",
+    done = subprocess.run([program, "continuum", os.path.join(HERE, f"phi{friction_angle}.prm"), "--output", folder, "--overwrite", "--quiet",
                            *words], capture_output=True, text=True)
     after = os.times()
     if done.returncode != 0:

@@ -31,7 +31,7 @@ def imported(program, name):
     form, _, patterns, options = SETS[name]
     files = sorted(sum((glob.glob(os.path.join(FOREIGN, pattern)) for pattern in patterns), []))
     folder = os.path.join(RESULTS, name)
-    subprocess.run([program, "import", form, *files, *options, "--output", folder, "--quiet"], check=True)
+    subprocess.run([program, "import", form, *files, *options, "--output", folder, "--overwrite", "--quiet"], check=True)
     with open(os.path.join(folder, "import.json")) as file:
         return json.load(file)
 
@@ -66,7 +66,7 @@ def main():
         print(row(name, imported(program, name)))
     for seed, code in ((1, "LAMMPS"), (2, "MercuryDPM")):
         folder = os.path.join(RESULTS, f"both_{seed}")
-        subprocess.run([program, "run", os.path.join(HERE, "scene.prm"), "--set", f"sample/seed={seed}", "--output", folder, "--quiet"], check=True)
+        subprocess.run([program, "run", os.path.join(HERE, "scene.prm"), "--set", f"sample/seed={seed}", "--output", folder, "--overwrite", "--quiet"], check=True)
         print(f"{code}: {os.path.normpath(folder)}/report.html")
     maps.draw_window(os.path.join(RESULTS, "both_1"), 1, os.path.join(HERE, "figure.png"))
 

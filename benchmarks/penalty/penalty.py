@@ -29,7 +29,7 @@ CASES = (("frictionless, undamped", 0, 0, 1.13e-3), ("sticking, undamped", 100, 
 def run(program, scene, folder, settings):
     """(exit code, CPU seconds of the discrete panel, history rows as floats)."""
     words = [word for setting in settings for word in ("--set", setting)]
-    done = subprocess.run([program, "discrete", os.path.join(BIAXIAL, scene), "--output", folder, "--quiet", *words],
+    done = subprocess.run([program, "discrete", os.path.join(BIAXIAL, scene), "--output", folder, "--overwrite", "--quiet", *words],
                           capture_output=True, text=True)
     if done.returncode not in (0, 3):
         sys.exit(f"penalty.py: {folder}: {done.stderr.strip()}")
