@@ -68,7 +68,7 @@ class Runs:
         parallel = ["mpirun", "-np", str(processes)] if processes > 1 else []
         errors = os.path.join(self.folder, "stderr.txt")
         with open(errors, "w") as file:
-            child = subprocess.Popen([*parallel, self.program, "continuum", os.path.join(HERE, "scene.prm"), "--output", output,
+            child = subprocess.Popen([*parallel, self.program, "continuum", os.path.join(HERE, "scene.prm"), "--output", output, "--overwrite",
                                       "--quiet", *words], stdout=subprocess.DEVNULL, stderr=file, env=ENVIRONMENT)
             _, status, usage = os.wait4(child.pid, 0)
         code = os.waitstatus_to_exitcode(status)

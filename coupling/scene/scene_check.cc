@@ -111,6 +111,15 @@ namespace diptych::coupling
       return found;
     }
 
+    // "; FILE, line 12: continuum/cohesion = '3'" for each of them.
+    std::string places_of(const std::vector<Entry> &assignments)
+    {
+      std::string text;
+      for (const Entry &entry : assignments)
+        text += "; " + text_of(entry.place) + ": " + entry.name() + " = '" + entry.value + "'";
+      return text;
+    }
+
     // Runs `check`. Its error gets the file in front and the assignments that it is about behind.
     template <class Check>
     void in_section(const std::string &file, const std::string &section, const std::vector<Entry> &entries, Check &&check)
@@ -121,16 +130,10 @@ namespace diptych::coupling
         }
       catch (const std::invalid_argument &error)
         {
-          std::string problem = (section.empty() ? "" : "section " + section + ": ") + error.what();
-          Refusal     refused;
-          for (const Entry &entry : assignments_in(error.what(), section, entries))
-            {
-              problem += "; " + text_of(entry.place) + ": " + entry.name() + " = '" + entry.value + "'";
-              if (refused.key.empty())
-                refused = {entry.place, entry.name(), entry.value, "", ""};
-            }
-          SceneError whole(file + ": " + problem);
-          whole.refusal = refused;
+          const std::vector<Entry> about = assignments_in(error.what(), section, entries);
+          SceneError whole(file + ": " + (section.empty() ? "" : "section " + section + ": ") + error.what() + places_of(about));
+          if (!about.empty())
+            whole.refusal = {about.front().place, about.front().name(), about.front().value, "", ""};
           throw whole;
         }
     }
@@ -274,7 +277,7 @@ namespace diptych::coupling
         warnings.push_back((set == last.end() ? "" : text_of(set->second.place) + ": ") + "continuum/" + name + text);
       }
     if (const auto text = doubtful_coarse_mesh(scene))
-      warnings.push_back(*text + places_of(*text, "", entries));
+      warnings.push_back(*text + places_of(assignments_in(*text, "", entries)));
     return warnings;
   }
 } // namespace diptych::coupling
