@@ -1,4 +1,4 @@
-// diptych: the findings of a calibration, put down
+// diptych: turns the results of a fit into records and findings
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/calibration/findings.h"
 
@@ -43,7 +43,7 @@ namespace diptych::coupling
       return result;
     }
 
-    // One number of a path, sample by sample.
+    // One number of a path: the grains' values, one per sample, and the continuum's.
     struct Held
     {
       std::vector<double> grains;
@@ -112,7 +112,7 @@ namespace diptych::coupling
       if (const auto k = last_of(path.data.observables, ObservableKind::ln_width))
         {
           Held width = held_of(path, runs, *k, true);
-          if (!std::isfinite(runs.before.observation.angle_deg)) // half the height stands for no band in the fit alone
+          if (!std::isfinite(runs.before.observation.angle_deg)) // in the fit only, half the height replaces a missing band
             width.before = NAN;
           if (!std::isfinite(runs.after.observation.angle_deg))
             width.after = NAN;
@@ -131,7 +131,7 @@ namespace diptych::coupling
         }
     }
 
-    // Mean of the samples with two deviations of one of them to either side, and both curves of the continuum.
+    // Mean of the samples, plus and minus two deviations of one sample, and both curves of the continuum.
     void add_curves(const CalibrationPath &path, const PathRuns &runs, PathRecord &record)
     {
       const auto &first = path.samples.front();
@@ -172,18 +172,19 @@ namespace diptych::coupling
       {
         const std::string name = p.key + (p.targets.empty() ? "" : " (" + listed(p.targets) + ")");
         if (!p.is_identified)
-          record.words.push_back(name + " is not identified: the data leave " + text_of(std::round(100 * p.share_known)) +
-                                 " % of what was unknown before them");
+          record.words.push_back(name + " is not identified: its uncertainty is still " +
+                                 text_of(std::round(100 * p.share_known)) + " % of what it was before");
         if (p.at_bound)
-          record.words.push_back(name + " lies at its bound");
+          record.words.push_back(name + " lies at its bound; widen low and high, or fix it");
         else if (p.is_cut)
-          record.words.push_back("the interval of " + name + " is cut off by its bound: there the bound says it, not the data");
+          record.words.push_back("the interval of " + name +
+                                 " ends at its bound, so this end comes from the bound and not from the data");
       }
   }
 
   void add_parameters_to_predictions(const double quantile, PathRecord &record)
   {
-    // The peak is the largest of the curve: where the curve is flat it moves as the curve does there.
+    // The peak is the largest value of the curve. Near a flat peak it moves as the curve does.
     const ObservableRecord *highest = nullptr, *last_volume = nullptr, *last_width = nullptr;
     for (const ObservableRecord &one : record.observables)
       {
@@ -215,7 +216,7 @@ namespace diptych::coupling
     std::ostringstream text;
     text.precision(3);
     text << "chi^2 is " << record.chi2 << ", " << record.misfit * record.misfit
-         << " times what a right law would leave: the law lies beside the data by more than their noise and what it was granted; "
+         << " times the expected value: this law cannot reproduce the data within noise and model tolerance; "
             "deviations of the parameters are multiplied by "
          << record.misfit;
     record.words.push_back(text.str());

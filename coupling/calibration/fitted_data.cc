@@ -41,7 +41,7 @@ namespace diptych::coupling
 
   namespace
   {
-    // What the options give is known, not estimated.
+    // Values given by the options are exact, so they do not count as estimated.
     NoiseModel told_by_samples(NoiseModel noise, const NoiseOptions &options)
     {
       for (const auto &[given, value] : {std::pair(&options.stress_level, &noise.stress_level),

@@ -1,4 +1,4 @@
-// diptych: what the data say of the parameters, and what they do not
+// diptych: deviations of the fitted parameters, and which of them the data determine
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/calibration/identification.h"
 

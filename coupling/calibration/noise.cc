@@ -1,4 +1,4 @@
-// diptych: how the samples of a calibration scatter, and what weights that gives
+// diptych: scatter of the samples in a calibration, and the weights that follow from it
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/calibration/noise.h"
 
@@ -26,7 +26,7 @@ namespace diptych::coupling
     {
       double level = 0, shape = 0, width = 0;
       double n_level = 0, n_shape = 0, n_width = 0; // degrees of freedom
-      // deviation^2 of the volume against progress^2: v = start^2 + growth^2 progress^2
+      // The variance of the volume is linear in progress^2: v = start^2 + growth^2 progress^2.
       Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
       Eigen::Vector2d right  = Eigen::Vector2d::Zero();
     };
@@ -61,7 +61,7 @@ namespace diptych::coupling
               variance += std::pow(sample[k] - path.mean[k], 2) / (n - 1);
             const double          x = path.observables[std::size_t(k)].middle();
             const Eigen::Vector2d row(1, x * x);
-            // Variances scatter by their own size.
+            // The scatter of a variance is proportional to the variance.
             const double weight = 1 / std::pow(1e-8 + x * x, 2);
             sum.normal += weight * row * row.transpose();
             sum.right += weight * variance * row;
@@ -85,7 +85,7 @@ namespace diptych::coupling
         return *told;
       if (!(freedom > 0))
         throw std::invalid_argument(std::string("noise: ") + key +
-                                    " must be given where no path has two samples that show how they scatter");
+                                    " must be given, because no path has two samples to estimate it from");
       return std::sqrt(std::max(0., square) / freedom);
     }
 
@@ -127,7 +127,7 @@ namespace diptych::coupling
     if (has(paths, ObservableKind::volumetric_strain))
       {
         const double          seen   = noise.degrees_of_freedom;
-        const double          scale  = 1e-12 * sum.normal.norm(); // one bin alone has no growth of its own
+        const double          scale  = 1e-12 * sum.normal.norm(); // one bin cannot give a growth
         const Eigen::Vector2d square = seen > 0 ? Eigen::Vector2d((sum.normal + scale * Eigen::Matrix2d::Identity()).inverse() *
                                                                   sum.right)
                                                 : Eigen::Vector2d::Zero();
