@@ -1,4 +1,4 @@
-// diptych: the folder of a study: what is in it, what of it may stay
+// diptych: the folder of a study, its runs and what may be kept of them
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/studies/study_folder.h"
 
@@ -23,7 +23,7 @@ namespace diptych::coupling
     namespace fs = std::filesystem;
 
     constexpr int exit_code_of_a_refusal     = 2;
-    constexpr int last_exit_code_of_a_result = 3; // beyond it the system failed, or a signal came
+    constexpr int last_exit_code_of_a_result = 3; // higher codes: the system failed, or a signal came
 
     std::string path_of(const std::string &directory, const StudyRun &run, const std::string &ending)
     {
@@ -68,7 +68,7 @@ namespace diptych::coupling
   {
     constexpr std::size_t digits_of_a_name = 16;
 
-    // NAME, NAME.prm, NAME.log, NAME.json: the folder is one, the others are files.
+    // NAME is a folder; NAME.prm, NAME.log and NAME.json are files.
     bool is_of_a_run(const fs::path &path)
     {
       const std::string file = path.filename().string(), name = file.substr(0, file.find('.'));
@@ -112,10 +112,10 @@ namespace diptych::coupling
   {
     make_folder(directory);
     if (!fs::exists(directory + "/" + kind.input) && !is_empty_folder(directory))
-      throw SceneError("--output " + directory + ": holds other files and no " + kind.noun +
+      throw SceneError("--output " + directory + ": holds other files but no " + kind.noun +
                        " of diptych; name a new or an empty folder");
     demand_own_runs(directory, kind);
-    // Killed before its end, this one must not leave the tables of an earlier one.
+    // If this run is killed, the tables of an earlier one must not stay.
     remove_results(directory, kind.tables);
     if (!resume)
       remove_results(directory, {"runs"});
@@ -132,12 +132,12 @@ namespace diptych::coupling
 
   namespace
   {
-    // Somebody may have run another scene in its folder, or put another run's there. Both echoes name the same files, which may
-    // lie elsewhere by now.
+    // A user may have run another scene in this folder, or copied another run's here. Both resolved scenes name the same files,
+    // which may have moved since.
     bool is_of_its_scene(const std::string &directory, const StudyRun &run, const json &end)
     {
       const std::string file = run_folder(directory, run) + "/scene.prm";
-      if (std::error_code none; !fs::exists(file, none)) // refused before it wrote
+      if (std::error_code none; !fs::exists(file, none)) // refused before it wrote a scene
         return !end.is_object() || end.value("exit_code", json()) == exit_code_of_a_refusal;
       const std::optional<Scene> found = echoed_scene(file), asked = echoed_scene(run_scene(directory, run));
       return found && asked && run_name(*found, run.command) == run_name(*asked, run.command);
@@ -158,7 +158,7 @@ namespace diptych::coupling
         result = {end.at("exit_code"), end.at("revision"), end.at("load").is_number() ? double(end["load"]) : NAN,
                   end.value("at_once", 1)};
       }
-    catch (const std::exception &) // damaged, or of another version: it is run again
+    catch (const std::exception &) // damaged or of another version: run it again
       {
         return std::nullopt;
       }
@@ -183,7 +183,7 @@ namespace diptych::coupling
 
   void prepare_run_anew(const std::string &directory, const StudyRun &run)
   {
-    remove_results(directory + "/runs", {run.name + ".json"}); // as if it had never begun
+    remove_results(directory + "/runs", {run.name + ".json"}); // as if it had never started
     (void)prepare_run(directory, run);
   }
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: the folder of a study: what is in it, what of it may stay
+// diptych: the folder of a study, its runs and what may be kept of them
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -13,12 +13,12 @@
 
 namespace diptych::coupling
 {
-  // DIR/runs/NAME: the result folder of a run; beside it its scene NAME.prm, its output NAME.log and how it ended, NAME.json.
+  // DIR/runs/NAME is the result folder of a run. Beside it are its scene NAME.prm, its log NAME.log and its end NAME.json.
   std::string run_folder(const std::string &directory, const StudyRun &run);
   std::string run_scene(const std::string &directory, const StudyRun &run);
   std::string run_log(const std::string &directory, const StudyRun &run);
 
-  // Folders that hold runs: what they are of, the copy of the file that asked for it, tables that are made of the runs.
+  // Kinds of folders that hold runs: name, copy of the input file, and tables made from the runs.
   struct RunsFolder
   {
     std::string              noun, input;
@@ -36,36 +36,35 @@ namespace diptych::coupling
   bool is_calibration_folder(const std::string &directory);
   bool is_study_folder(const std::string &directory);
 
-  // Files and folders that are read, by what they are: "the sample" -> "mine.h5".
+  // Files and folders that are read, with their description: "the sample" -> "mine.h5".
   using InputFiles = std::vector<std::pair<std::string, std::string>>;
 
-  // Throws SceneError where one of them lies among what opening the folder, or a run in it, removes. The copy of the file that
-  // asked for it may be what asks again.
+  // Throws SceneError if an input file lies among the files that this command replaces. The copy of the input file is allowed.
   void refuse_inputs_inside(const std::string &directory, const RunsFolder &kind, const InputFiles &inputs);
 
-  // Makes the folder and copies the file that asked for it there. Without `resume` all runs are taken away; with it they stay.
-  // Throws SceneError, before anything is changed, where the folder holds foreign content, or somebody's files stand among the
-  // runs, std::runtime_error where somebody writes to a run's folder, or this one cannot be made or emptied.
+  // Creates the folder and copies the input file into it. Removes all runs unless `resume` is set. Throws SceneError, before
+  // anything is changed, if the folder or its runs contain other files. Throws std::runtime_error if another process writes to
+  // a run's folder, or if this folder cannot be made or emptied.
   void open_runs_folder(const std::string &directory, const RunsFolder &kind, const std::string &file, bool resume);
 
-  // How a run ended.
+  // The end of a run.
   struct RunEnd
   {
     int         exit_code = 0;
     std::string revision;      // of the program
-    double      load    = NAN; // processes ready to run on the machine, mean over the last minute before the end
-    int         at_once = 1;   // runs that this study had at work
+    double      load    = NAN; // processes ready to run on the machine, mean over the last minute
+    int         at_once = 1;   // runs of this study at work
   };
   void write_end(const std::string &directory, const StudyRun &run, int exit_code, int at_once);
 
-  // Nothing where the run has not ended, was ended by a signal or by the system (no room, no memory), or belongs to another
-  // revision of the program or another scene, or where its files are not known to be as it left them: then it is to be run.
+  // Empty if the run must be done (again): it has not ended; a signal or the system ended it (no space, no memory); program or
+  // scene differ; or its files may have changed since.
   [[nodiscard]] std::optional<RunEnd> found_end(const std::string &directory, const StudyRun &run);
 
-  // Makes a run ready: its scene is written, an old log is taken away. Its folder stays only where this revision of the program
-  // was interrupted in it; returns whether there is one to go on from.
+  // Prepares a run: writes its scene and removes an old log. The folder stays only if this revision of the program was
+  // interrupted in it. Returns true if the run can be resumed.
   [[nodiscard]] bool prepare_run(const std::string &directory, const StudyRun &run);
 
-  // The same from the beginning, whatever stands there.
+  // Prepares the run to start from the beginning.
   void prepare_run_anew(const std::string &directory, const StudyRun &run);
 } // namespace diptych::coupling
