@@ -1,4 +1,4 @@
-// diptych: step, tolerance, snapshots and number of samples that the grains need
+// diptych: plans step, tolerance, snapshots and number of samples of the grains
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/plans/grains_plan.h"
 
@@ -18,13 +18,14 @@ namespace diptych::coupling
   namespace
   {
     constexpr int      pilot_samples = 8, paired_samples = 4;
-    constexpr int      largest_first_seed = 2140000000; // room for more
-    constexpr double   finer              = 0.5;        // the second level of the pilot, of the first
+    constexpr int      largest_first_seed = 2140000000; // leaves room for more seeds
+    constexpr double   finer              = 0.5;        // second level of the pilot / first level
     constexpr Estimate rule = {1, 0.5}, no_rule = {0, 1};
-    // A knob is turned down where that saves more than the first and moves no quantity by more than the second share of the
-    // accuracy.
+    // A cheaper setting is used if it saves more than the first share of the time and changes no quantity by more than the
+    // second share of the accuracy.
     constexpr double worth_trying = 0.1, share_of_a_knob = 0.25;
-    constexpr double far_from_the_pilot = 1.5, furthest_ahead = 4; // a choice beyond the first is run, at most so far ahead
+    // A choice finer than the pilot by the first factor is run, at most the second factor ahead at a time.
+    constexpr double far_from_the_pilot = 1.5, furthest_ahead = 4;
 
     struct Level
     {
@@ -32,14 +33,14 @@ namespace diptych::coupling
       PilotPoint point;
     };
 
-    // A cheaper setting that was taken, and how far it moves each quantity.
+    // A cheaper setting that is used, and its effect on each quantity.
     struct TurnedDown
     {
       std::string         what;
-      std::vector<double> shifts; // with their sign
+      std::vector<double> shifts; // with sign
     };
 
-    // The pilot of one question.
+    // The pilot for one question.
     class Grains
     {
     public:
@@ -61,11 +62,11 @@ namespace diptych::coupling
         common = {planned("discrete", "step", "auto"), planned("discrete", "tolerance", "auto")};
         if (scene.discrete.time.step || scene.discrete.accuracy.tolerance)
           plan.decisions.emplace_back(
-            "step and tolerance: auto in the place of the scene's, so that discrete/accuracy says both");
+            "step and tolerance: auto instead of the scene's values, so that discrete/accuracy sets both");
         if (scene.discrete.sampling.snapshot_max_sweeps > 0)
           {
             common.push_back(planned("discrete", "snapshot_max_sweeps", "0"));
-            plan.decisions.emplace_back("sampled snapshots: off, no quantity needs single grains");
+            plan.decisions.emplace_back("sampled snapshots: off, because no quantity needs single grains");
           }
         if (plan.command == StudyCommand::run)
           for (const char *key : {"coarse_element_size", "band_resamples", "probe_resamples"})
@@ -122,7 +123,7 @@ namespace diptych::coupling
       {
         if (!level.point.remark.empty())
           plan.decisions.push_back("discrete/accuracy = " + text_of(level.accuracy) +
-                                   ": samples are left out: " + level.point.remark);
+                                   ": some samples are left out: " + level.point.remark);
         if (level.point.words.empty())
           return true;
         plan.reaches = false;
@@ -130,7 +131,7 @@ namespace diptych::coupling
         return false;
       }
 
-      // Both upwards: long steps add to the strength, and take from the dilation, which is negative.
+      // Both errors are upwards: long steps increase the strength and decrease the dilation, which is negative.
       double expected(const Level &level, const std::size_t q) const
       {
         const double dilation = level.point.dilation_error, strength = level.point.strength_error;
@@ -162,7 +163,7 @@ namespace diptych::coupling
         return errors;
       }
 
-      // Of the first samples, which all levels have.
+      // Mean over the first samples, which all levels have.
       static double cost_of(const PilotPoint &point)
       {
         const std::size_t n = std::min(point.sample_cpu_s.size(), std::size_t(paired_samples));
@@ -179,7 +180,7 @@ namespace diptych::coupling
         return points;
       }
 
-      // What knobs that were turned down add to a quantity's error.
+      // Error that the cheaper settings add to a quantity.
       double of_knobs(const std::size_t q) const
       {
         double sum = 0;
@@ -232,7 +233,7 @@ namespace diptych::coupling
         return result;
       }
 
-      // Grains part from the last digit on: runs with almost the same accuracy say how far one run may lie from their mean.
+      // Runs diverge from the last digit on. Runs with almost the same accuracy show how far one run may lie from their mean.
       void find_repeatability()
       {
         std::vector<std::vector<double>> values(quantities.size());
@@ -250,7 +251,7 @@ namespace diptych::coupling
       {
         for (const Level &level : levels)
           plan.decisions.push_back("discrete/accuracy = " + text_of(level.accuracy) + ": " + rounded(level.point.cpu_s) +
-                                   " CPU s a sample");
+                                   " CPU s per sample");
         for (std::size_t q = 0; q < quantities.size() && !seeds.empty(); ++q)
           {
             const SampleStatistics d = difference(levels[0].point, levels[1].point, q);
@@ -260,18 +261,18 @@ namespace diptych::coupling
           }
       }
 
-      // Runs a cheaper setting where it is worth it and where eight samples can tell, and keeps it where it moves nothing much.
-      // deviations: expected of the differences, one a quantity.
+      // Runs a cheaper setting if it may be worth it and eight samples can measure its effect. Keeps it if the effect is small.
+      // deviations: expected deviations of the differences, one per quantity.
       void try_knob(const std::string &what, const Entry &cheaper, const double saving, const std::vector<double> &deviations)
       {
         const double most     = share_of_a_knob * question.accuracy;
         const double interval = half_interval(*std::max_element(deviations.begin(), deviations.end()), int(seeds.size()));
         std::string  verdict;
         if (saving < worth_trying)
-          verdict = "would save " + percent(std::max(0., saving)) + " of the time: not worth a trial";
+          verdict = "not tried; it would save " + (saving > 0 ? "only " + percent(saving) + " of the" : "no") + " time";
         else if (!(interval <= most))
-          verdict = "would save " + percent(saving) + ", but " + std::to_string(seeds.size()) + " samples tell its error to " +
-                    percent(interval) + " only: kept";
+          verdict = "not used; it would save " + percent(saving) + " of the time, but " + std::to_string(seeds.size()) +
+                    " samples give its error only to +- " + percent(interval);
         else
           verdict = judged(what, cheaper, saving);
         plan.decisions.push_back(what + ": " + verdict);
@@ -291,7 +292,7 @@ namespace diptych::coupling
             reach = std::max(reach, std::abs(d.mean) + half_interval(d.deviation, d.n));
           }
         if (!(reach <= share_of_a_knob * question.accuracy))
-          return "kept, what is cheaper moves a quantity by up to " + percent(reach);
+          return "not used; it changes a quantity by up to " + percent(reach);
         const Settings before = common;
         common.push_back(cheaper);
         const PilotPoint second = run_at(levels[1].accuracy, {}, few());
@@ -301,11 +302,11 @@ namespace diptych::coupling
             return second.words;
           }
         turned_down.push_back(knob);
-        levels[0].point = point, levels[1].point = second; // the samples are others now
-        return "taken, saves " + percent(saving);
+        levels[0].point = point, levels[1].point = second; // the samples have changed
+        return "used; it saves " + percent(saving);
       }
 
-      // Another preparation makes other samples: pairs are pairs in name only.
+      // Another preparation makes different samples, so pairing brings nothing.
       void try_less_preparation()
       {
         const int           less = preparation_steps / 3;
@@ -318,7 +319,7 @@ namespace diptych::coupling
                    2. / 3 * levels.back().point.preparation_cpu_s / levels.back().point.cpu_s, deviations);
       }
 
-      // One sample tells the cost; grains part as much as they do between two steps.
+      // One sample gives the cost. The runs diverge as much as between two steps.
       void try_without_correction()
       {
         if (penetration_correction == "none")
@@ -339,19 +340,19 @@ namespace diptych::coupling
       {
         if (seeds.empty())
           {
-            plan.decisions.emplace_back("the sample is one from a file: how samples scatter is not known, and not in the budget");
+            plan.decisions.emplace_back(
+              "there is one sample from a file: the scatter of samples is unknown and not in the budget");
             return;
           }
         const auto   larger   = [](const QuantityBudget &a, const QuantityBudget &b) { return a.scatter < b.scatter; };
         const auto   deciding = std::max_element(plan.quantities.begin(), plan.quantities.end(), larger);
         const double left     = question.accuracy - (deciding->total() - half_interval(deciding->scatter, plan.n_samples()));
         const auto   text     = [&](const int n) { return n > 0 ? std::to_string(n) : std::string("more than a million"); };
-        plan.decisions.push_back(
-          "eight samples know a scatter to a factor of 0.66 to 2.0: " + text(samples_for(0.66 * deciding->scatter, left)) +
-          " to " + text(samples_for(2.0 * deciding->scatter, left)) + " samples may be needed");
-        plan.decisions.push_back(deciding->name + " decides the number of samples: one scatters by " +
-                                 percent(deciding->scatter) +
-                                 "; larger samples scatter less, by about the square root of their number of grains");
+        plan.decisions.push_back("eight samples give the scatter to within a factor of 0.66 to 2.0, so " +
+                                 text(samples_for(0.66 * deciding->scatter, left)) + " to " +
+                                 text(samples_for(2.0 * deciding->scatter, left)) + " samples may be needed");
+        plan.decisions.push_back(deciding->name + " determines the number of samples; one sample scatters by " +
+                                 percent(deciding->scatter) + "; the scatter falls with the square root of the number of grains");
       }
 
       const PlanQuestion        &question;
@@ -364,7 +365,7 @@ namespace diptych::coupling
       int                        preparation_steps = 0;
       std::vector<Level>         levels; // of the pilot, ever finer
       std::vector<TurnedDown>    turned_down;
-      std::vector<double>        one_run; // of a single sample: half an interval of its quantities
+      std::vector<double>        one_run; // half an interval of each quantity, for a single sample
     };
   } // namespace
 

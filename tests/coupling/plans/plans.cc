@@ -238,7 +238,7 @@ namespace
     std::string all;
     for (const std::string &decision : plan.decisions)
       all += decision + "\n";
-    EXPECT_NE(all.find("taken: cosserat_mohr_coulomb"), std::string::npos) << all;
+    EXPECT_NE(all.find("used instead: cosserat_mohr_coulomb"), std::string::npos) << all;
   }
 
   TEST(ContinuumPlan, ASizeThatBoundsNothingIsNoConvergence)
