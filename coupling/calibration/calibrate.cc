@@ -73,7 +73,7 @@ namespace diptych::coupling
         const LeastSquaresFit coarse = fit_coarse();
         const LeastSquaresFit fine   = fit_fine(coarse);
         best                         = fine.point;
-        tell(fine, coarse);
+        report(fine, coarse);
         profile(coarse);
         add_predictions();
         record.status = "finished";
@@ -194,7 +194,7 @@ namespace diptych::coupling
             options.most_jacobians = 2;
             *found                 = least_squares(residuals, found->point, options);
           }
-        tell_minima(std::size_t(found - fits.begin()), *found);
+        report_minima(std::size_t(found - fits.begin()), *found);
         record.chi2_coarse = chi2_of_data(*found);
         return *found;
       }
@@ -212,7 +212,7 @@ namespace diptych::coupling
         points.push_back(fit.point), totals.push_back(fit.chi2);
       }
 
-      void tell_minima(const std::size_t found, const LeastSquaresFit &fit)
+      void report_minima(const std::size_t found, const LeastSquaresFit &fit)
       {
         record.minima[found].is_best = true;
         record.minima[found].numbers = coordinates.numbers(fit.point);
@@ -246,7 +246,7 @@ namespace diptych::coupling
         return fine;
       }
 
-      void tell(const LeastSquaresFit &fine, const LeastSquaresFit &coarse)
+      void report(const LeastSquaresFit &fine, const LeastSquaresFit &coarse)
       {
         jacobian = data->unweighted(fine.jacobian.topRows(data->size()));
         // A misfit beyond noise and model tolerance counts as noise, too.

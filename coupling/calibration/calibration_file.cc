@@ -219,22 +219,22 @@ namespace diptych::coupling
                                                                                  {"early_strain", &o.early_strain},
                                                                                  {"volume_discrepancy", &o.volume_discrepancy},
                                                                                  {"width_discrepancy", &o.width_discrepancy}};
-      const std::vector<std::pair<std::string, std::optional<double> *>> told = {{"stress_level", &o.stress_level},
-                                                                                 {"stress_shape", &o.stress_shape},
-                                                                                 {"volume_start", &o.volume_start},
-                                                                                 {"volume_growth", &o.volume_growth},
-                                                                                 {"ln_width", &o.ln_width}};
+      const std::vector<std::pair<std::string, std::optional<double> *>> estimates = {{"stress_level", &o.stress_level},
+                                                                                      {"stress_shape", &o.stress_shape},
+                                                                                      {"volume_start", &o.volume_start},
+                                                                                      {"volume_growth", &o.volume_growth},
+                                                                                      {"ln_width", &o.ln_width}};
       std::vector<std::string>                                           keys;
       for (const auto &[key, value] : set)
         keys.push_back(key);
-      for (const auto &[key, value] : told)
+      for (const auto &[key, value] : estimates)
         keys.push_back(key);
       part.allow(keys);
       const auto is_length = [](const std::string &key) { return key == "correlation_strain" || key == "early_strain"; };
       for (const auto &[key, value] : set)
         if (part.has(key))
           *value = part.number(key, is_length(key) ? 1e-9 : 0, far);
-      for (const auto &[key, value] : told)
+      for (const auto &[key, value] : estimates)
         if (part.has(key))
           *value = part.number(key, 0, far);
       return o;

@@ -44,28 +44,31 @@ namespace diptych::coupling
     }
 
     // One number of a path: the grains' values, one per sample, and the continuum's.
-    struct Held
+    struct PathNumber
     {
       std::vector<double> grains;
       double              before = NAN, after = NAN;
     };
 
-    PredictionRecord prediction(const std::string &quantity, const Held &held, const double margin, const bool is_relative)
+    PredictionRecord prediction(const std::string &quantity,
+                                const PathNumber  &number,
+                                const double       margin,
+                                const bool         is_relative)
     {
       PredictionRecord    record;
       std::vector<double> grains;
-      std::copy_if(held.grains.begin(), held.grains.end(), std::back_inserter(grains),
+      std::copy_if(number.grains.begin(), number.grains.end(), std::back_inserter(grains),
                    [](const double x) { return std::isfinite(x); });
-      record.quantity = quantity, record.margin = margin, record.before = held.before, record.after = held.after;
+      record.quantity = quantity, record.margin = margin, record.before = number.before, record.after = number.after;
       record.data = statistics(grains).mean;
       Equivalence test;
-      if (std::isfinite(held.after) && is_relative)
-        test = compare_relative(grains, std::vector<double>(grains.size(), held.after), margin);
-      else if (std::isfinite(held.after))
+      if (std::isfinite(number.after) && is_relative)
+        test = compare_relative(grains, std::vector<double>(grains.size(), number.after), margin);
+      else if (std::isfinite(number.after))
         {
           std::vector<double> differences;
           for (const double x : grains)
-            differences.push_back(held.after - x);
+            differences.push_back(number.after - x);
           test = compare_differences(differences, margin);
         }
       record.difference = test.difference, record.verdict = text_of(test.verdict), record.test = test;
@@ -81,22 +84,22 @@ namespace diptych::coupling
       return {};
     }
 
-    Held held_of(const CalibrationPath &path, const PathRuns &runs, const std::size_t k, const bool is_logarithm)
+    PathNumber path_number(const CalibrationPath &path, const PathRuns &runs, const std::size_t k, const bool is_logarithm)
     {
       const auto value = [&](const Observation &o) {
         const double x = o.values.size() > 0 ? o.values[Eigen::Index(k)] : NAN;
         return is_logarithm ? std::exp(x) : x;
       };
-      Held held{{}, value(runs.before.observation), value(runs.after.observation)};
+      PathNumber number{{}, value(runs.before.observation), value(runs.after.observation)};
       for (const Observation &sample : path.samples)
-        held.grains.push_back(value(sample));
-      return held;
+        number.grains.push_back(value(sample));
+      return number;
     }
 
     void add_predictions(const CalibrationPath &path, const PathRuns &runs, PathRecord &record)
     {
       const EquivalenceMargins &margins = path.scene.comparison.margins;
-      Held                      peak{{}, runs.before.observation.peak_stress_ratio, runs.after.observation.peak_stress_ratio};
+      PathNumber                peak{{}, runs.before.observation.peak_stress_ratio, runs.after.observation.peak_stress_ratio};
       std::vector<double>       turns;
       for (const Observation &sample : path.samples)
         {
@@ -108,10 +111,10 @@ namespace diptych::coupling
       record.predictions.push_back(prediction("peak_stress_ratio", peak, margins.peak_stress_ratio, true));
       if (const auto k = last_of(path.data.observables, ObservableKind::volumetric_strain))
         record.predictions.push_back(
-          prediction("volumetric_strain", held_of(path, runs, *k, false), margins.volumetric_strain, false));
+          prediction("volumetric_strain", path_number(path, runs, *k, false), margins.volumetric_strain, false));
       if (const auto k = last_of(path.data.observables, ObservableKind::ln_width))
         {
-          Held width = held_of(path, runs, *k, true);
+          PathNumber width = path_number(path, runs, *k, true);
           if (!std::isfinite(runs.before.observation.angle_deg)) // in the fit only, half the height replaces a missing band
             width.before = NAN;
           if (!std::isfinite(runs.after.observation.angle_deg))

@@ -79,10 +79,10 @@ namespace diptych::coupling
           }
     }
 
-    double told_or_estimated(const std::optional<double> &told, const double square, const double freedom, const char *key)
+    double given_or_estimated(const std::optional<double> &given, const double square, const double freedom, const char *key)
     {
-      if (told)
-        return *told;
+      if (given)
+        return *given;
       if (!(freedom > 0))
         throw std::invalid_argument(std::string("noise: ") + key +
                                     " must be given, because no path has two samples to estimate it from");
@@ -121,8 +121,8 @@ namespace diptych::coupling
       }
     if (has(paths, ObservableKind::stress_ratio))
       {
-        noise.stress_level = told_or_estimated(options.stress_level, sum.level, sum.n_level, "stress_level");
-        noise.stress_shape = told_or_estimated(options.stress_shape, sum.shape, sum.n_shape, "stress_shape");
+        noise.stress_level = given_or_estimated(options.stress_level, sum.level, sum.n_level, "stress_level");
+        noise.stress_shape = given_or_estimated(options.stress_shape, sum.shape, sum.n_shape, "stress_shape");
       }
     if (has(paths, ObservableKind::volumetric_strain))
       {
@@ -131,11 +131,11 @@ namespace diptych::coupling
         const Eigen::Vector2d square = seen > 0 ? Eigen::Vector2d((sum.normal + scale * Eigen::Matrix2d::Identity()).inverse() *
                                                                   sum.right)
                                                 : Eigen::Vector2d::Zero();
-        noise.volume_start           = told_or_estimated(options.volume_start, square[0], seen > 0 ? 1 : 0, "volume_start");
-        noise.volume_growth          = told_or_estimated(options.volume_growth, square[1], seen > 0 ? 1 : 0, "volume_growth");
+        noise.volume_start           = given_or_estimated(options.volume_start, square[0], seen > 0 ? 1 : 0, "volume_start");
+        noise.volume_growth          = given_or_estimated(options.volume_growth, square[1], seen > 0 ? 1 : 0, "volume_growth");
       }
     if (has(paths, ObservableKind::ln_width))
-      noise.ln_width = told_or_estimated(options.ln_width, sum.width, sum.n_width, "ln_width");
+      noise.ln_width = given_or_estimated(options.ln_width, sum.width, sum.n_width, "ln_width");
     return noise;
   }
 

@@ -1,4 +1,4 @@
-// diptych: the folder of an ensemble: what is in it, what of it may stay
+// diptych: the folder of an ensemble and its members, and what may be kept of it
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/ensembles/ensemble_folder.h"
 
@@ -22,9 +22,9 @@ namespace diptych::coupling
     using nlohmann::json;
     namespace fs = std::filesystem;
 
-    constexpr double largest_error_of_the_total = 1e-12; // beyond it `diptych run` ends with exit code 1
+    constexpr double largest_error_of_the_total = 1e-12; // above it `diptych run` ends with exit code 1
 
-    // Names the first key with two values.
+    // Throws an error naming the first key with two values.
     void demand_same_scene(const Scene &scene)
     {
       const std::string          file       = scene.output.directory + "/ensemble.prm";
@@ -36,8 +36,8 @@ namespace diptych::coupling
                          "; resume with the same scene or start without --resume");
     }
 
-    // Folders of members that stand there, held: throws, with nothing changed, where another run writes to one of them. Only
-    // those that hold a result of diptych: `diptych run` refuses any other, too.
+    // Locks the folders of existing members. Throws, with nothing changed, if another run writes to one of them. Only folders
+    // with a result of diptych are locked; `diptych run` refuses all others.
     std::map<std::string, FolderLock> held_members(const std::string &directory, const std::vector<int> &seeds)
     {
       std::map<std::string, FolderLock> held;
@@ -47,7 +47,7 @@ namespace diptych::coupling
       return held;
     }
 
-    // What the run of a member would refuse, or take away with its folder, is refused while the statistics still stand.
+    // Refuses in advance what the run of a member would refuse or remove, while the statistics still exist.
     void demand_own_members(const std::string &directory, const std::vector<int> &seeds)
     {
       for (const int seed : seeds)
@@ -55,19 +55,19 @@ namespace diptych::coupling
           const std::string folder = member_folder(directory, seed), log = member_log(directory, seed);
           std::error_code   none;
           if (fs::exists(log, none) && !fs::is_regular_file(log, none))
-            throw SceneError("output/directory: " + log + " is no file, and stands where seed " + std::to_string(seed) +
-                             " tells how it went; move it elsewhere");
+            throw SceneError("output/directory: " + log + " is not a file, but the log of seed " + std::to_string(seed) +
+                             " is to be written there; move it elsewhere");
           if (!fs::exists(folder, none))
             continue;
           if (!fs::is_directory(folder, none) || (!is_echo(folder + "/scene.prm") && !is_empty_folder(folder)))
             throw SceneError("output/directory: " + folder +
-                             " holds other files and no result of diptych, and stands where seed " + std::to_string(seed) +
-                             " has its own; move it elsewhere");
+                             " holds other files and no result of diptych, but the result of seed " + std::to_string(seed) +
+                             " is to be written there; move it elsewhere");
           demand_own_folders(folder);
         }
     }
 
-    // Killed before this one runs again, what is left of it must not be resumed as another's.
+    // If this run is killed before the member runs again, a later one must not resume remains of another scene.
     void forget_member(const std::string &folder, const Scene &scene)
     {
       const std::optional<Scene> earlier = echoed_scene(folder + "/scene.prm");
@@ -112,13 +112,13 @@ namespace diptych::coupling
                        "' holds other files and no ensemble of diptych; name a new or an empty folder");
     if (resume && is_ensemble)
       demand_same_scene(scene);
-    (void)recorded_scene(directory); // throws where this run could not add to what stands there
+    (void)recorded_scene(directory); // throws if this run cannot add to the folder
     demand_own_members(directory, seeds);
     for (const int seed : resume ? seeds : std::vector<int>())
       if (is_echo(member_folder(directory, seed) + "/scene.prm"))
         demand_member(scene, seed);
     const auto members = resume ? std::map<std::string, FolderLock>() : held_members(directory, seeds);
-    // Killed before its end, this run must not leave the statistics of an earlier one.
+    // If this run is killed, the statistics of an earlier one must not stay.
     forget_files(directory, "ensemble");
     remove_results(directory, {"ensemble.json", "ensemble.csv", "ensemble.h5", "report.html"});
     for (const int seed : seeds)
@@ -140,7 +140,7 @@ namespace diptych::coupling
     const std::string          file    = member_folder(scene.output.directory, seed) + "/scene.prm";
     const std::optional<Scene> earlier = echoed_scene(file);
     if (!earlier)
-      throw SceneError(file + ": was written by another version, or is no scene of a run");
+      throw SceneError(file + ": was written by another version, or is not the scene of a run");
     std::string difference = first_difference(member_identity(scene), member_identity(*earlier));
     if (difference.empty())
       difference = changed_member_input(scene, seed);
@@ -175,7 +175,7 @@ namespace diptych::coupling
         const json stages = comparison.value("stages", json::array());
         return stages.is_array() && std::all_of(stages.begin(), stages.end(), is_exact);
       }
-    catch (const json::exception &) // of another type than this version writes: not its own
+    catch (const json::exception &) // written by another version
       {
         return false;
       }

@@ -1,4 +1,4 @@
-// diptych: the folder of an ensemble: what is in it, what of it may stay
+// diptych: the folder of an ensemble and its members, and what may be kept of it
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -10,24 +10,23 @@
 
 namespace diptych::coupling
 {
-  // DIR/seed_3, a result folder of its own; its output is in DIR/seed_3.log.
+  // DIR/seed_3 is a member's result folder; DIR/seed_3.log is its log.
   std::string member_folder(const std::string &directory, int seed);
   std::string member_log(const std::string &directory, int seed);
 
-  // Whether a folder holds an ensemble: ensemble.prm, the echo of its scene.
+  // True if the folder holds ensemble.prm, the resolved scene of an ensemble.
   bool is_ensemble_folder(const std::string &directory);
 
-  // Makes the folder of the scene and writes ensemble.prm. Without `resume` results of these seeds are taken away; with it they
-  // stay, and must belong to the same scene but for seed, output, margins and checkpoint_minutes. Throws SceneError, before
-  // anything is changed, where the folder or a member's holds foreign content or (resume) belongs to another scene,
-  // std::runtime_error where it cannot be made or another run writes to a member's.
+  // Creates the scene's folder and writes ensemble.prm. Removes the results of these seeds unless `resume` is set. With it they
+  // stay and must come from the same scene, except for seed, output, margins and checkpoint_minutes. Throws SceneError, before
+  // anything is changed, if the folder or a member holds other files or comes from another scene. Throws std::runtime_error if
+  // the folder cannot be made or another run writes to a member.
   void open_ensemble_folder(const Scene &scene, const std::vector<int> &seeds, bool resume);
 
-  // Means are over samples of one scene. Throws SceneError where the member that stands there is of another one, or of another
-  // seed.
+  // Throws SceneError if the member in the folder comes from another scene or seed: means are over samples of one scene.
   void demand_member(const Scene &scene, int seed);
 
-  // Whether a member of this scene ran to its end: both panels, a comparison whose mapping keeps the total, sums over what they
-  // left, and the report where one is asked for.
+  // True if a member of this scene finished: both panels, a comparison whose mapping keeps the total, hashes of the files, and
+  // the report if one is required.
   [[nodiscard]] bool is_finished_member(const Scene &scene, int seed);
 } // namespace diptych::coupling

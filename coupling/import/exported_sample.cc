@@ -34,12 +34,12 @@ namespace diptych::coupling
       return {s.left_x, s.right_x, s.lower_y, s.upper_y};
     }
 
-    struct Untold
+    struct IsMissing
     {
       bool operator()(const double x) const { return std::isnan(x); }
       bool operator()(const Eigen::Vector2d &x) const { return x.array().isNaN().any(); }
     };
-    constexpr Untold is_untold;
+    constexpr IsMissing is_missing;
 
     std::ostringstream exact_stream()
     {
@@ -51,9 +51,9 @@ namespace diptych::coupling
     ExportedFiles as_csv(const Snapshot &s, const int stage)
     {
       std::ostringstream particles = exact_stream(), contacts = exact_stream(), walls = exact_stream();
-      // What an imported sample was not told is left out.
-      const auto told = [](const auto &values) { return std::none_of(values.begin(), values.end(), is_untold); };
-      const bool mass = told(s.mass), motion = told(s.velocity), spin = told(s.spin);
+      // What an imported sample was not is_complete is left out.
+      const auto is_complete = [](const auto &values) { return std::none_of(values.begin(), values.end(), is_missing); };
+      const bool mass = is_complete(s.mass), motion = is_complete(s.velocity), spin = is_complete(s.spin);
       particles << "id,x,y,r" << (mass ? ",mass" : "") << (motion ? ",vx,vy" : "") << (spin ? ",omega" : "") << '\n';
       for (std::size_t i = 0; i < s.radius.size(); ++i)
         {

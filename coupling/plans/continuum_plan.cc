@@ -123,7 +123,7 @@ namespace diptych::coupling
                   continue; // too coarse to run
                 break;
               }
-            tell(knob, size, point);
+            report_size(knob, size, point);
             if (!settled.points.empty() && settled.points.back().values == point.values)
               settled.sizes.pop_back(), settled.points.pop_back(); // the previous size limited nothing
             settled.sizes.push_back(size);
@@ -134,20 +134,21 @@ namespace diptych::coupling
                               std::all_of(settled.laws.begin(), settled.laws.end(), [&](const Refinement &law) {
                                 return law.error <= knob.share * question.accuracy && law.converges;
                               });
-            if (knob.dearer_per_halving * point.cpu_s > longest_pilot || (knob.may_have_no_limit && goes_on(settled, knob)))
+            if (knob.dearer_per_halving * point.cpu_s > longest_pilot ||
+                (knob.may_have_no_limit && keeps_changing(settled, knob)))
               break;
           }
         return settled;
       }
 
       // True if changes stay as large as before and exceed the share.
-      bool goes_on(const Settled &settled, const Knob &knob) const
+      bool keeps_changing(const Settled &settled, const Knob &knob) const
       {
         return std::any_of(settled.laws.begin(), settled.laws.end(),
                            [&](const Refinement &law) { return !law.converges && law.error > knob.share * question.accuracy; });
       }
 
-      void tell(const Knob &knob, const double size, const PilotPoint &point)
+      void report_size(const Knob &knob, const double size, const PilotPoint &point)
       {
         std::string text = knob.name + " = " + text_of(size) + ":";
         for (std::size_t q = 0; q < quantities.size(); ++q)

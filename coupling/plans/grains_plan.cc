@@ -34,7 +34,7 @@ namespace diptych::coupling
     };
 
     // A cheaper setting that is used, and its effect on each quantity.
-    struct TurnedDown
+    struct CheaperSetting
     {
       std::string         what;
       std::vector<double> shifts; // with sign
@@ -80,7 +80,7 @@ namespace diptych::coupling
         levels.push_back({coarsest_accuracy, run_at(coarsest_accuracy, {}, seeds)});
         if (!finished(levels.back()))
           return plan;
-        levels.push_back({finer * coarsest_accuracy, run_at(finer * coarsest_accuracy, {}, few())});
+        levels.push_back({finer * coarsest_accuracy, run_at(finer * coarsest_accuracy, {}, first_samples())});
         if (!finished(levels.back()))
           return plan;
         if (seeds.empty())
@@ -91,7 +91,7 @@ namespace diptych::coupling
         while (choice.samples > 0 && choice.accuracy * far_from_the_pilot < levels.back().accuracy)
           {
             const double next = std::max(choice.accuracy, rounded_to_two_digits(levels.back().accuracy / furthest_ahead));
-            levels.push_back({next, run_at(next, {}, few())});
+            levels.push_back({next, run_at(next, {}, first_samples())});
             if (!finished(levels.back()))
               return plan;
             choice = choose();
@@ -101,7 +101,7 @@ namespace diptych::coupling
       }
 
     private:
-      std::vector<int> few() const
+      std::vector<int> first_samples() const
       {
         return {seeds.begin(), seeds.begin() + std::ptrdiff_t(std::min(seeds.size(), std::size_t(paired_samples)))};
       }
@@ -181,10 +181,10 @@ namespace diptych::coupling
       }
 
       // Error that the cheaper settings add to a quantity.
-      double of_knobs(const std::size_t q) const
+      double error_of_knobs(const std::size_t q) const
       {
         double sum = 0;
-        for (const TurnedDown &knob : turned_down)
+        for (const CheaperSetting &knob : cheaper_settings)
           sum += std::abs(knob.shifts[q]);
         return sum;
       }
@@ -193,7 +193,7 @@ namespace diptych::coupling
       {
         double most = 0;
         for (std::size_t q = 0; q < quantities.size(); ++q)
-          most = std::max(most, of_knobs(q) + (one_run.empty() ? 0. : one_run[q]));
+          most = std::max(most, error_of_knobs(q) + (one_run.empty() ? 0. : one_run[q]));
         return cheapest_choice(all_errors(), cost(), question.accuracy - most, seeds.empty() ? 1 : 0);
       }
 
@@ -212,7 +212,7 @@ namespace diptych::coupling
         const std::vector<GrainErrors> errors = all_errors();
         for (std::size_t q = 0; q < quantities.size(); ++q)
           plan.quantities.push_back(budget(q, errors[q], choice));
-        tell_levels();
+        report_levels();
         advise();
       }
 
@@ -228,7 +228,7 @@ namespace diptych::coupling
           result.parts.push_back({"samples", half_interval(errors.scatter, choice.samples), 0, NAN});
         else
           result.parts.push_back({"one run", one_run[q], 0, NAN});
-        for (const TurnedDown &knob : turned_down)
+        for (const CheaperSetting &knob : cheaper_settings)
           result.parts.push_back({knob.what, std::abs(knob.shifts[q]), knob.shifts[q], NAN});
         return result;
       }
@@ -247,7 +247,7 @@ namespace diptych::coupling
           one_run.push_back(half_interval(summary_of(quantities[q], values[q]).scatter, 1));
       }
 
-      void tell_levels()
+      void report_levels()
       {
         for (const Level &level : levels)
           plan.decisions.push_back("discrete/accuracy = " + text_of(level.accuracy) + ": " + rounded(level.point.cpu_s) +
@@ -274,17 +274,17 @@ namespace diptych::coupling
           verdict = "not used; it would save " + percent(saving) + " of the time, but " + std::to_string(seeds.size()) +
                     " samples give its error only to +- " + percent(interval);
         else
-          verdict = judged(what, cheaper, saving);
+          verdict = verdict_on(what, cheaper, saving);
         plan.decisions.push_back(what + ": " + verdict);
       }
 
-      std::string judged(const std::string &what, const Entry &cheaper, const double saving)
+      std::string verdict_on(const std::string &what, const Entry &cheaper, const double saving)
       {
         const PilotPoint point = run_at(coarsest_accuracy, {cheaper}, seeds);
         if (!point.words.empty())
           return point.words;
-        TurnedDown knob{what, {}};
-        double     reach = 0;
+        CheaperSetting knob{what, {}};
+        double         reach = 0;
         for (std::size_t q = 0; q < quantities.size(); ++q)
           {
             const SampleStatistics d = difference(point, levels.front().point, q);
@@ -295,13 +295,13 @@ namespace diptych::coupling
           return "not used; it changes a quantity by up to " + percent(reach);
         const Settings before = common;
         common.push_back(cheaper);
-        const PilotPoint second = run_at(levels[1].accuracy, {}, few());
+        const PilotPoint second = run_at(levels[1].accuracy, {}, first_samples());
         if (!second.words.empty())
           {
             common = before;
             return second.words;
           }
-        turned_down.push_back(knob);
+        cheaper_settings.push_back(knob);
         levels[0].point = point, levels[1].point = second; // the samples have changed
         return "used; it saves " + percent(saving);
       }
@@ -355,17 +355,17 @@ namespace diptych::coupling
                                  percent(deciding->scatter) + "; the scatter falls with the square root of the number of grains");
       }
 
-      const PlanQuestion        &question;
-      const RunPilot            &run;
-      PanelPlan                  plan;
-      std::vector<StudyQuantity> quantities;
-      std::vector<int>           seeds;
-      Settings                   common;
-      std::string                penetration_correction;
-      int                        preparation_steps = 0;
-      std::vector<Level>         levels; // of the pilot, ever finer
-      std::vector<TurnedDown>    turned_down;
-      std::vector<double>        one_run; // half an interval of each quantity, for a single sample
+      const PlanQuestion         &question;
+      const RunPilot             &run;
+      PanelPlan                   plan;
+      std::vector<StudyQuantity>  quantities;
+      std::vector<int>            seeds;
+      Settings                    common;
+      std::string                 penetration_correction;
+      int                         preparation_steps = 0;
+      std::vector<Level>          levels; // of the pilot, ever finer
+      std::vector<CheaperSetting> cheaper_settings;
+      std::vector<double>         one_run; // half an interval of each quantity, for a single sample
     };
   } // namespace
 

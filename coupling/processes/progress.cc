@@ -1,4 +1,4 @@
-// diptych: progress of long work with the time left
+// diptych: progress of long work with the remaining time
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/processes/progress.h"
 
@@ -50,13 +50,13 @@ namespace diptych::coupling
       {
         shown                 = now;
         const std::string bar = std::string(percent / 4, '#') + std::string(25 - percent / 4, '.');
-        std::fprintf(stderr, "\r\033[K%s [%s] %d %%, %s left", phase.c_str(), bar.c_str(), percent,
+        std::fprintf(stderr, "\r\033[K%s [%s] %d %%, %s remaining", phase.c_str(), bar.c_str(), percent,
                      fraction > 0.01 ? duration_text(left).c_str() : "?");
       }
     else if (!terminal && percent / 10 > tenths)
       {
         tenths = percent / 10;
-        std::fprintf(stderr, "%s: %d %%, %s gone, %s left\n", phase.c_str(), percent, duration_text(elapsed).c_str(),
+        std::fprintf(stderr, "%s: %d %%, %s elapsed, %s remaining\n", phase.c_str(), percent, duration_text(elapsed).c_str(),
                      fraction > 0.01 ? duration_text(left).c_str() : "?");
       }
   }

@@ -1,4 +1,4 @@
-// diptych: progress of long work with the time left
+// diptych: progress of long work with the remaining time
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -7,15 +7,15 @@
 
 namespace diptych::coupling
 {
-  // On a terminal one line that is rewritten (bar, per cent, time left); in a log one plain line per tenth of a phase.
-  // Writes to standard error, so that standard output stays clean.
+  // On a terminal it rewrites one line (bar, per cent, remaining time); in a log it prints one line per tenth of a phase. It
+  // writes to standard error and leaves standard output to the results.
   class Progress
   {
   public:
     explicit Progress(bool quiet);
     ~Progress();
 
-    // A new phase name starts a new clock. fraction: 0 .. 1, of the phase.
+    // A new phase name restarts the clock. fraction: done part of the phase, 0 .. 1.
     void update(const std::string &phase, double fraction);
     void finish(); // ends the line of the present phase
 
