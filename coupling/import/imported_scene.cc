@@ -1,4 +1,4 @@
-// diptych: a scene that runs on another code's sample
+// diptych: writes a scene that runs on another code's sample
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 #include <sstream>
@@ -29,7 +29,7 @@ namespace diptych::coupling
           return sxx;
       throw SceneError(
         arrival.frames.front().wall_file + ": frame " + arrival.frames.front().name +
-        ": no lateral pressure can be found: in no frame is the right wall pressed, or the horizontal stress above 0; say "
+        ": no lateral pressure was found, because no frame has a force on the right wall or a horizontal stress above 0; give "
         "--pressure P");
     }
 
@@ -41,7 +41,7 @@ namespace diptych::coupling
       return text;
     }
 
-    // Two windows where there are stages enough, else one.
+    // Two windows if there are enough stages, else one.
     std::vector<double> windows(const std::vector<double> &stages)
     {
       if (stages.size() < 2)

@@ -126,7 +126,7 @@ namespace
     const Arrival small = arrival_of(c, with_changed(c, scratch, "plain_csv/particles_1.csv", [](std::string &text) {
                                        replace_once(text, "0.00077969925", "0.00077069925");
                                      }));
-    EXPECT_TRUE(holds(small.doubtful, "frame 1: the radius of grain 1 is 0.000770699, in the frame before 0.000779699"));
+    EXPECT_TRUE(holds(small.doubtful, "frame 1: the radius of grain 1 is 0.000770699 instead of 0.000779699"));
   }
 
   TEST(ImportDoubts, ContactsOfOtherGrainsAndContactsLostAreSeen)
@@ -136,10 +136,11 @@ namespace
       const Scratch scratch;
       return arrival_of(c, with_changed(c, scratch, "plain_csv/contacts_1.csv", change)).doubtful;
     };
-    EXPECT_TRUE(holds(doubtful([](std::string &text) { replace_once(text, "69,49,", "69,50,"); }), "stand apart"));
+    EXPECT_TRUE(holds(doubtful([](std::string &text) { replace_once(text, "69,49,", "69,50,"); }), "do not touch"));
     EXPECT_TRUE(holds(doubtful([](std::string &text) { replace_once(text, "161,154,-14.748704,-21.2551418", "161,154,0,0"); }),
                       "is far from balance"));
-    EXPECT_TRUE(holds(doubtful([](std::string &text) { text.resize(text.find("434,15,")); }), "too few to hold the grains"));
+    EXPECT_TRUE(
+      holds(doubtful([](std::string &text) { text.resize(text.find("434,15,")); }), "too few contacts to hold the grains"));
   }
 
   TEST(ImportDoubts, AContactPointOffTheSurfaceIsSeen)
@@ -150,7 +151,7 @@ namespace
       holds(arrival_of(c, with_changed(c, scratch, "liggghts/wallcontacts_100000.dump",
                                        [](std::string &text) { replace_once(text, "\n0 0.0257691629 0", "\n0 0.0457691629 0"); }))
               .doubtful,
-            "off the place where the two meet"));
+            "off the place where the surfaces meet"));
   }
 
   TEST(ImportDoubts, NormalsThatAreNoneAreRefused)
@@ -158,7 +159,7 @@ namespace
     const auto refused = [](const char *name, const char *file, const std::function<void(std::string &)> &change) {
       const Case    c = case_of(name);
       const Scratch scratch;
-      EXPECT_NE(refusal_of(c, with_changed(c, scratch, file, change)).find("no normal"), std::string::npos) << name;
+      EXPECT_NE(refusal_of(c, with_changed(c, scratch, file, change)).find("not a unit normal"), std::string::npos) << name;
     };
     refused("lmgc90", "lmgc90/OUTBOX/Vloc_Rloc.OUT.1", [](std::string &text) { replace_once(text, "n(1)=-0.5", "n(1)=-0.9"); });
     refused("lmgc90_hdf5", "lmgc90_hdf5/lmgc90.h5", [](std::string &text) { text[338503] = char(text[338503] ^ 1); });
@@ -180,9 +181,8 @@ namespace
       return [line](std::string &text) { text.insert(text.find("\n434,15") + 1, line + "\n"); };
     };
     for (const char *row : {"NaN,NaN,NaN,NaN", "NA,NA,NA,NA", "j,i,fx,fy"})
-      expect("contacts_1.csv", "words among rows of numbers", after_line(row));
-    expect("walls.csv", "line 5: frame 1 stands in line 3 with another width",
-           [](std::string &text) { text += "1,0.03,0.05\n"; });
+      expect("contacts_1.csv", "text among rows of numbers", after_line(row));
+    expect("walls.csv", "line 5: frame 1 has another width in line 3", [](std::string &text) { text += "1,0.03,0.05\n"; });
     expect("particles_1.csv", "contradict each other",
            [](std::string &text) { replace_once(text, "id,x,y,r,vx", "id,x,y,r,d"); });
     const Case    c = case_of("csv");
@@ -192,7 +192,7 @@ namespace
     const auto time = with_changed(c, scratch, "plain_csv/walls.csv", [](std::string &text) {
       text = "frame,width,height,time\n0,0.03145263837,0.05022203151,5\n1,0.0317409221,0.04971981119,4\n2,0.032,0.0492,6\n";
     });
-    EXPECT_NE(refusal_of(c, time).find("frame 1 is of the time 4, frame 0 before it of 5"), std::string::npos)
+    EXPECT_NE(refusal_of(c, time).find("frame 1 has the time 4, but frame 0 before it has 5"), std::string::npos)
       << refusal_of(c, time);
   }
 
@@ -213,9 +213,9 @@ namespace
           EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
         }
     };
-    expect("walls.csv, line 3: frame 1: the lower and the upper wall stand",
+    expect("walls.csv, line 3: frame 1: the lower and the upper wall are",
            [](std::string &text) { replace_once(text, "0.04971981119", "1e300"); });
-    expect("walls.csv, line 4: frame 2: the lower wall stands beyond the upper one", [](std::string &text) {
+    expect("walls.csv, line 4: frame 2: the lower wall lies beyond the upper one", [](std::string &text) {
       text = "frame,left_x,right_x,lower_y,upper_y\n0,0,0.03145,0,0.0502\n1,0,0.0317,0,0.0497\n2,0,0.0329,0.1,0.0487\n";
     });
 
@@ -228,7 +228,7 @@ namespace
     several.files.back() = scratch.write("last.csv", "frame,width,height\n2,-1,0.04871537056\n");
     EXPECT_NE(refusal_of(c, several).find("last.csv, line 2"), std::string::npos) << refusal_of(c, several);
     several.files.back() = scratch.write("last.csv", "frame,width,height\n2,0.03,0.0487\n1,0.03,0.0487\n");
-    EXPECT_NE(refusal_of(c, several).find("last.csv, line 3: frame 1 stands in line 3 of "), std::string::npos)
+    EXPECT_NE(refusal_of(c, several).find("last.csv, line 3: frame 1 has another width in line 3 of "), std::string::npos)
       << refusal_of(c, several);
   }
 

@@ -23,7 +23,7 @@ namespace
       refused(
         name, [](auto &o) { o.columns = {"contacts=i,j,fx,fy"}; }, "--columns contacts=i,j,fx,fy would have no effect");
     refused(
-      "lammps", [](auto &o) { o.columns = {"walls=step,width"}; }, "no file of walls leaves them without names");
+      "lammps", [](auto &o) { o.columns = {"walls=step,width"}; }, "every file of walls names its columns");
     for (const char *text : {"contacts", "contacts=", "grains=id,x,y", "=a"})
       refused(
         "lammps", [&](auto &o) { o.columns = {text}; }, "is not KIND=NAME");
