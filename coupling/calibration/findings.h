@@ -25,7 +25,7 @@ namespace diptych::coupling
   void tell_misfit(CalibrationRecord &record);
 
   // Widens the predictions of a path that was not fitted by the deviation of the parameters, with this 97.5 % quantile. The
-  // angle is left alone, because the fit has no derivative of it.
+  // angle is not widened, because the fit has no derivative of it.
   void add_parameters_to_predictions(double quantile, PathRecord &record);
 
   PathRecord path_record(const CalibrationPath &path, const PathRuns &runs);

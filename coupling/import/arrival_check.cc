@@ -194,7 +194,7 @@ namespace diptych::coupling
       doubt(c.wall_force_difference > doubtful_wall_force,
             "wall forces in the files and sums over their contacts differ; relative difference:", c.wall_force_difference);
       doubt(c.largest_overlap > doubtful_overlap,
-            "discs, or a disc and a wall, overlap; largest overlap / mean diameter:", c.largest_overlap);
+            "discs overlap each other or a wall; largest overlap / mean diameter:", c.largest_overlap);
       doubt(f.overlap_miss > doubtful_overlap_told * diameter,
             "overlaps in the files and of the discs differ; largest difference / mean diameter:", f.overlap_miss / diameter);
       doubt(f.wall_miss > doubtful_wall_place * diameter,

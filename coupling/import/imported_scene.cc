@@ -67,7 +67,7 @@ namespace diptych::coupling
     const auto         end = [&] { out << "end\n"; };
     out << "# A sample of " << arrival.format << ", imported; lengths, forces and masses in the units of its files"
         << (arrival.thickness != 1 ? ", per unit thickness (" + exact_text(arrival.thickness) + ")" : std::string()) << ".\n"
-        << "# The continuum walks as its walls did. Keys of the continuum and of the comparison may be changed.\n";
+        << "# The continuum is loaded by the motion of its walls. Keys of the continuum and of the comparison may be changed.\n";
     begin("sample");
     set("mean_diameter", exact_text(arrival.mean_diameter));
     if (std::isfinite(arrival.density))
@@ -95,7 +95,7 @@ namespace diptych::coupling
       }
     begin("comparison");
     set("window_edges", listed(windows(stages)));
-    set("averaging_strain", exact_text(1e-3 * shortest)); // frames are instants: so is what the continuum is held against
+    set("averaging_strain", exact_text(1e-3 * shortest)); // the continuum is compared at instants, too
     end();
     return out.str();
   }

@@ -1,4 +1,4 @@
-// diptych: files of other codes cut off or with a flipped bit: told, never a crash, never nonsense in silence
+// diptych: truncated files and flipped bits are refused or cause a warning, or the result is nearly right
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 #include <cstdlib>
@@ -17,7 +17,7 @@ namespace
     bool refused = false, doubtful = false, near = false;
   };
 
-  // `near`: what was taken is what stood there, to 3 % of the stress, 0.1 % of the radii's area and a diameter in every place.
+  // `near`: the result agrees to 3 % of the stress, 0.1 % of the grains' area and one diameter in every position.
   Outcome outcome_of(const Case &c, const ForeignOptions &options, const Arrival &whole)
   {
     Outcome outcome;
@@ -48,7 +48,7 @@ namespace
     return outcome;
   }
 
-  // One of the case's files, chosen by chance.
+  // Damages one of the case's files, chosen at random.
   ForeignOptions damaged(const Case                               &c,
                          const Scratch                            &scratch,
                          std::mt19937                             &random,
@@ -57,7 +57,7 @@ namespace
     return with_changed(c, scratch, c.files[random() % c.files.size()], damage);
   }
 
-  // A hundred, or as many as the environment variable DIPTYCH_DRAWS says.
+  // 100, or the environment variable DIPTYCH_DRAWS.
   int n_draws()
   {
     const char *text = std::getenv("DIPTYCH_DRAWS");
@@ -67,8 +67,8 @@ namespace
   class ImportDamage : public testing::TestWithParam<std::string>
   {};
 
-  // Whole lines may be missing at the end only where nothing counts them; then stresses or grains tell.
-  TEST_P(ImportDamage, CutOffFilesAreRefusedOrDoubted)
+  // Complete lines may be missing at the end only if no count contradicts it. Then stresses or grains reveal the loss.
+  TEST_P(ImportDamage, TruncatedFilesAreRefusedOrDoubtful)
   {
     const Case    c     = case_of(GetParam());
     const Arrival whole = arrival_of(c, options_of(c));
@@ -86,7 +86,7 @@ namespace
     EXPECT_GE(refused, 0.85 * n_draws());
   }
 
-  TEST_P(ImportDamage, AFlippedBitIsRefusedDoubtedOrSmall)
+  TEST_P(ImportDamage, AFlippedBitIsRefusedDoubtfulOrSmall)
   {
     const Case    c     = case_of(GetParam());
     const Arrival whole = arrival_of(c, options_of(c));
@@ -113,7 +113,8 @@ namespace
                            testing::Values("lammps", "liggghts", "yade", "lmgc90", "lmgc90_hdf5", "mercurydpm", "csv"),
                            [](const auto &info) { return info.param; });
 
-  // Nothing of one frame contradicts them: forces and places are right, and the area of a stress is between the walls.
+  // Nothing within one frame contradicts these changes: forces and positions are right, and the area of a stress is that
+  // between the walls.
   TEST(ImportDoubts, AFrameThatIsUnlikeTheOneBeforeIsDoubtful)
   {
     const Case    c = case_of("csv");
@@ -129,7 +130,7 @@ namespace
     EXPECT_TRUE(holds(small.doubtful, "frame 1: the radius of grain 1 is 0.000770699 instead of 0.000779699"));
   }
 
-  TEST(ImportDoubts, ContactsOfOtherGrainsAndContactsLostAreSeen)
+  TEST(ImportDoubts, WrongAndLostContactsAreDetected)
   {
     const Case c        = case_of("csv");
     const auto doubtful = [&](const std::function<void(std::string &)> &change) {
@@ -143,7 +144,7 @@ namespace
       holds(doubtful([](std::string &text) { text.resize(text.find("434,15,")); }), "too few contacts to hold the grains"));
   }
 
-  TEST(ImportDoubts, AContactPointOffTheSurfaceIsSeen)
+  TEST(ImportDoubts, AContactPointOffTheSurfaceIsDetected)
   {
     const Case    c = case_of("liggghts");
     const Scratch scratch;
@@ -154,7 +155,7 @@ namespace
             "off the place where the surfaces meet"));
   }
 
-  TEST(ImportDoubts, NormalsThatAreNoneAreRefused)
+  TEST(ImportDoubts, VectorsOtherThanUnitNormalsAreRefused)
   {
     const auto refused = [](const char *name, const char *file, const std::function<void(std::string &)> &change) {
       const Case    c = case_of(name);
@@ -167,8 +168,8 @@ namespace
             [](std::string &text) { replace_once(text, " 0.7865765336 -0.617492799 ", " 0.1865765336 -0.617492799 "); });
   }
 
-  // Whatever of a row or a head is words: no row is passed over, no head believed where columns have changed places.
-  TEST(ImportDoubts, TablesAtOddsWithThemselvesAreRefused)
+  // No row with text is skipped, and a head with exchanged columns is not accepted.
+  TEST(ImportDoubts, ContradictoryTablesAreRefused)
   {
     const auto expect = [](const char *file, const std::string &what, const std::function<void(std::string &)> &change) {
       const Case        c = case_of("csv");
@@ -196,8 +197,8 @@ namespace
       << refusal_of(c, time);
   }
 
-  // Where walls stand is told by a table, by the line of the frame: in one file or in several.
-  TEST(ImportDoubts, WallsThatCannotBeAreThoseOfALineOfTheirTable)
+  // A table places the walls, in one file or several. Messages name the line of the frame.
+  TEST(ImportDoubts, ImpossibleWallsAreReportedWithTheLineOfTheirTable)
   {
     const Case    c = case_of("csv");
     const Scratch scratch;
@@ -255,14 +256,14 @@ namespace
     return sample;
   }
 
-  // The overlap of a large grain with the farthest small one that it reaches is found by the large one.
+  // The large grain finds its overlap with the farthest small one that it reaches.
   TEST(ImportDoubts, OverlapsOfAnySizesAreFoundAndCrowdsRefused)
   {
     ForeignOptions options;
     options.mean_diameter = 1;
     EXPECT_NEAR(arrive(row_of_grains(1000, 1, 0.5), options).checks[0].largest_overlap, 0, 1e-12);
     EXPECT_NEAR(arrive(row_of_grains(1000, 1, 300), options).checks[0].largest_overlap, 299.5, 1e-9); // with its neighbour
-    ForeignSample touching = row_of_grains(3, 100.4, 100); // the small one lies within the large one's reach alone
+    ForeignSample touching = row_of_grains(3, 100.4, 100); // only the large one's reach includes the small one
     EXPECT_NEAR(arrive(touching, options).checks[0].largest_overlap, 0.1, 1e-9);
     EXPECT_THROW((void)arrive(row_of_grains(1000, 1e-3, 0.5), options), SceneError);
   }
