@@ -1,4 +1,4 @@
-// diptych: another code's sample as results of the discrete panel
+// diptych: converts another code's sample to results of the discrete panel
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/import/imported_results.h"
 
@@ -37,7 +37,7 @@ namespace diptych::coupling
       return state;
     }
 
-    // (1/2) omega^2 I of discs; 0 where spin or mass is not told.
+    // (1/2) omega^2 I of discs; 0 if spin or mass is unknown.
     std::vector<double> spin_terms(const ArrivedFrame &f)
     {
       std::vector<double> terms;
@@ -72,14 +72,14 @@ namespace diptych::coupling
       s.lower_platen_force = f.wall_force[int(Side::lower)], s.upper_platen_force = f.wall_force[int(Side::upper)];
       constexpr double most_diameters = 1e5;
       if (const double n = (s.upper_y - s.lower_y) / diameter; !(n >= 1 && n <= most_diameters))
-        throw SceneError(f.wall_file + ": frame " + f.name + ": the lower and the upper wall stand " + discrete::exact_text(n) +
-                         " mean diameters apart; 1 to 100000 are possible");
+        throw SceneError(f.wall_file + ": frame " + f.name + ": the lower and the upper wall are " + discrete::exact_text(n) +
+                         " mean diameters apart; 1 to 100000 are allowed");
       const discrete::State state = state_of(f);
       s.outline                   = discrete::make_outline(state, diameter);
       s.area                      = discrete::outline_area(s.outline);
     }
 
-    // One instant stands for the mean over the stage: no file tells more.
+    // One instant replaces the mean over the stage, because files contain no more.
     void add_contacts(const ArrivedFrame &f, Snapshot &s)
     {
       const std::size_t n = f.position.size();
@@ -187,10 +187,11 @@ namespace diptych::coupling
       const bool axial = ascends([](const Snapshot &s) { return s.axial_strain; }),
                  shear = ascends([](const Snapshot &s) { return s.shear_strain; });
       if (!axial && !shear)
-        throw SceneError(
-          arrival.frames.back().wall_file + ": frame " + arrival.frames.front().name + " to frame " + arrival.frames.back().name +
-          ": the frames are no loading: neither the descent of the upper wall nor its travel to the right grows from each "
-          "frame to the next; import frames of one monotonic path (each frame once)");
+        throw SceneError(arrival.frames.back().wall_file + ": frame " + arrival.frames.front().name + " to frame " +
+                         arrival.frames.back().name +
+                         ": the frames are not a monotonic loading: neither the descent of the upper wall nor its motion to the "
+                         "right grows from "
+                         "frame to frame; import frames of one monotonic path, each once");
       return axial && std::abs(snapshots.back().axial_strain) >= std::abs(snapshots.back().shear_strain) ? Walk::axial_strain
              : axial && !shear                                                                           ? Walk::axial_strain
                                                                                                          : Walk::shear_strain;
@@ -211,8 +212,8 @@ namespace diptych::coupling
     for (const ArrivedFrame &f : arrival.frames)
       if (!std::isfinite(f.wall[int(Side::lower)]) || !std::isfinite(f.wall[int(Side::upper)]))
         throw SceneError(f.grain_file + ": frame " + f.name +
-                         ": where the lower and the upper wall stand is in none of the files; give a table with "
-                         "frame, lower_y and upper_y (or width and height), or say --walls-touch");
+                         ": the places of the lower and the upper wall are in none of the files; give a table with "
+                         "frame, lower_y and upper_y (or width and height), or use --walls-touch");
     DiscreteResults results;
     for (const ArrivedFrame &f : arrival.frames)
       {
