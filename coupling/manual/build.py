@@ -65,10 +65,10 @@ class Directives:
         return "```\n" + " \\\n".join(textwrap.wrap(command, 80, subsequent_indent="    ", break_on_hyphens=False)) + "\n```"
 
     def do_equations(self, name):
-        """The comments of a source file that hold a formula, verbatim, below a link to the page of the file."""
+        """The comments of a source file that hold a formula, below a link to the page of the file."""
         page = self.tree.page_of(name)
-        title = f"[`{name}`]({page})" if page else f"`{name}`"
-        return title + "\n\n" + "\n\n".join("```\n" + comment + "\n```" for comment in headers.formulas(text_of(self.path(name))))
+        found = [f'<div class="equation">{headers.flowing(comment)}</div>' for comment in headers.formulas(text_of(self.path(name)))]
+        return "\n\n".join([f"[`{name}`]({page})" if page else f"`{name}`", *found])
 
     def do_figure(self, argument):
         """A figure of the source tree with its caption: FILE, CAPTION."""
