@@ -6,13 +6,13 @@ from __future__ import annotations
 
 import re
 
-# A key as messages write it, not a part of a path; or a section that is none.
+# A key in a message, but not within a path; or the name of an unknown section.
 _KEY = re.compile(r"(?<![\w/.-])(?:sample|loading|discrete|continuum|comparison|output)/\w+|(?<=unknown section ')[^']*")
 
 
 class SceneError(ValueError):
-    """A scene is wrong. The text names place, key, value and what is allowed; `key` is the first key that it names
-    ("sample/grains"; an unknown section by itself), None where it names none."""
+    """A scene is wrong. The message gives place, key, value and what is allowed. `key` is the first key in the message
+    ("sample/grains"), or an unknown section, or None."""
 
     def __init__(self, text: str) -> None:
         super().__init__(text)
@@ -21,8 +21,8 @@ class SceneError(ValueError):
 
 
 class NotConverged(RuntimeError):
-    """A panel or a law did not get further. What was reached stays in the panel."""
+    """A panel or a law did not converge. The panel keeps the results so far."""
 
 
 class SceneWarning(UserWarning):
-    """A key that nothing reads, or a value that is doubtful."""
+    """A key has no effect, or a value is doubtful."""
