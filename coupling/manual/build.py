@@ -7,6 +7,7 @@ Writes all pages as Markdown into a temporary folder and runs mkdocs on it. The 
 pages/*.md, from the READMEs, from the comments of the headers and from what PROGRAM prints. Exit code 1: a file or a link that a page
 names does not exist."""
 import glob
+import importlib
 import json
 import os
 import re
@@ -17,6 +18,7 @@ import tempfile
 import textwrap
 
 import headers
+import module_docs
 import readmes
 import reference
 
@@ -83,11 +85,8 @@ class Directives:
         built = os.path.join(os.path.dirname(self.program), "python")
         if not glob.glob(os.path.join(built, package, "*.so")):
             return ""
-        done = subprocess.run([sys.executable, "-B", os.path.join(HERE, "module_docs.py"), package], capture_output=True, text=True,
-                              check=False, env={**os.environ, "PYTHONPATH": built})
-        if done.returncode != 0:
-            raise RuntimeError("the Python package does not load: " + done.stderr)
-        return done.stdout
+        sys.path.insert(0, built)
+        return module_docs.page(importlib.import_module(package))
 
 
 def find_page(entries):

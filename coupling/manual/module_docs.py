@@ -1,13 +1,6 @@
-#!/usr/bin/env python3
 # diptych: signatures and docstrings of a Python package, compiled parts included
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: PYTHONPATH=FOLDER module_docs.py PACKAGE
-
-Prints Markdown: every public class and function with its signature and docstring, in the order of __all__ or of the alphabet. Things
-without a docstring are left out."""
-import importlib
 import inspect
-import sys
 import textwrap
 
 
@@ -36,15 +29,10 @@ def described(name, thing, level):
 
 
 def page(package):
+    """Markdown with every documented public class and function of an imported package, in the order of __all__ or of the alphabet."""
     lines = []
     for name in getattr(package, "__all__", None) or sorted(vars(package)):
         thing = getattr(package, name)
         if callable(thing):
             lines += described(name, thing, 3)
     return "\n".join(lines)
-
-
-if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    print(page(importlib.import_module(sys.argv[1])))

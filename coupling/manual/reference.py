@@ -17,35 +17,21 @@ def output_of(program, *words):
 
 
 def groups(text):
-    """[(heading, [(head, meaning)])] of the output of `explain`: headings are not indented, heads by two, meanings by six."""
+    """[(heading, [(name, unit, facts, meaning)])] of the output of `explain`. Headings are not indented, entries such as
+    "step = auto  [time]  auto or a number" by two, meanings by six."""
     found = []
-    for line in text.split("\n"):
+    for line in filter(str.strip, text.split("\n")):
         depth = len(line) - len(line.lstrip())
-        if not line.strip():
-            continue
         if depth == 0:
             found.append((line.strip(), []))
         elif depth == 2:
-            found[-1][1].append([line.strip(), ""])
+            match = re.fullmatch(r"(.*?)  \[(.*?)\](?:  (.*))?", line.strip())
+            if not match:
+                raise RuntimeError("the manual cannot parse this line of `diptych explain`: " + line)
+            found[-1][1].append([match[1], "" if match[2] == "-" else f"[{match[2]}]", match[3] or "", ""])
         else:
-            found[-1][1][-1][1] = (found[-1][1][-1][1] + " " + line.strip()).strip()
+            found[-1][1][-1][3] = (found[-1][1][-1][3] + " " + line.strip()).strip()
     return found
-
-
-def key_parts(head):
-    """(key, default, unit, range) of "step = auto  [time]  auto or a number"."""
-    match = re.fullmatch(r"(\S+) = (.*?)  \[(.*?)\](?:  (.*))?", head)
-    if not match:
-        raise RuntimeError("the manual cannot parse this key of `diptych explain`: " + head)
-    return match[1], match[2], match[3], match[4] or ""
-
-
-def number_parts(head):
-    """(name, unit, kind) of "time  [time]  column, number"."""
-    match = re.fullmatch(r"(.*?)  \[(.*?)\](?:  (.*))?", head)
-    if not match:
-        raise RuntimeError("the manual cannot parse this entry of `diptych explain results`: " + head)
-    return match[1], match[2], match[3] or ""
 
 
 def anchor(*words):
@@ -59,16 +45,12 @@ def entry(identity, head, facts, meaning):
             f'<p class="meaning">{with_code(meaning)}</p></div>')
 
 
-def unit_fact(unit):
-    return "" if unit == "-" else "[" + unit + "]"
-
-
 class Keys:
     """The keys of a scene, one page per section."""
 
     def __init__(self, program):
         self.sections = groups(output_of(program, "explain"))
-        self.names = {section + "/" + key_parts(head)[0] for section, entries in self.sections for head, _ in entries}
+        self.names = {section + "/" + name.split(" = ")[0] for section, entries in self.sections for name, *_ in entries}
 
     def link(self, name):
         section, key = name.split("/", 1)
@@ -77,26 +59,25 @@ class Keys:
     def pages(self):
         for section, entries in self.sections:
             lines = [f"# Section `{section}`", "", f"{len(entries)} keys; `diptych explain {section}` prints the same list. In a scene:", "",
-                     f"    subsection {section}", f"      set {key_parts(entries[0][0])[0]} = {key_parts(entries[0][0])[1]}", "    end", "",
+                     f"    subsection {section}", f"      set {entries[0][0]}", "    end", "",
                      f"or on the command line `--set {section}/KEY=VALUE`.", ""]
-            for head, meaning in entries:
-                key, default, unit, bounds = key_parts(head)
-                lines += [entry(anchor(section, key), f"{key} = {default}", (unit_fact(unit), bounds), meaning), ""]
+            for name, unit, bounds, meaning in entries:
+                lines += [entry(anchor(section, name.split(" = ")[0]), name, (unit, bounds), meaning), ""]
             yield f"reference/keys_{section}.md", f"Section {section}", "\n".join(lines)
 
     def index(self):
         for section, entries in self.sections:
-            for head, meaning in entries:
-                yield section + "/" + key_parts(head)[0], "key", self.link(section + "/" + key_parts(head)[0]), meaning
+            for name, _, _, meaning in entries:
+                key = section + "/" + name.split(" = ")[0]
+                yield key, "key", self.link(key), meaning
 
 
 class Results:
-    """The columns, numbers and datasets of result files, one page per family of files."""
+    """The columns, numbers and datasets of result files, one page per family of files: the first word of the heading."""
 
     def __init__(self, program):
-        self.files = groups(output_of(program, "explain", "results"))
         self.families = {}
-        for heading, entries in self.files:
+        for heading, entries in groups(output_of(program, "explain", "results")):
             self.families.setdefault(re.match(r"[a-z]+", heading)[0], []).append((heading, entries))
 
     def pages(self):
@@ -104,17 +85,16 @@ class Results:
             lines = [f"# Results: {family}", "", "`diptych explain results` prints the same list. Stress and strain are positive in compression.", ""]
             for heading, entries in files:
                 lines += ["## " + heading, ""]
-                for head, meaning in entries:
-                    name, unit, kind = number_parts(head)
-                    lines += [entry(anchor(heading, name), name, (unit_fact(unit), kind), meaning), ""]
+                for name, unit, kind, meaning in entries:
+                    lines += [entry(anchor(heading, name), name, (unit, kind), meaning), ""]
             yield f"reference/results_{family}.md", f"Results: {family}", "\n".join(lines)
 
     def index(self):
-        for heading, entries in self.files:
-            for head, meaning in entries:
-                name, _, kind = number_parts(head)
-                page = f"reference/results_{re.match('[a-z]+', heading)[0]}.html#{anchor(heading, name)}"
-                yield name, heading + (", " + kind if kind else ""), page, meaning
+        for family, files in self.families.items():
+            for heading, entries in files:
+                for name, _, kind, meaning in entries:
+                    page = f"reference/results_{family}.html#{anchor(heading, name)}"
+                    yield name, heading + (", " + kind if kind else ""), page, meaning
 
 
 def options(text):
@@ -134,7 +114,6 @@ class Commands:
     """The commands with their options."""
 
     def __init__(self, program):
-        self.program = program
         self.overview = output_of(program, "--help")
         block = self.overview.split("Subcommands:\n")[1].split("\n\n")[0]
         self.names = re.findall(r"^  (\S+)", block, re.MULTILINE)

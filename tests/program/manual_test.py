@@ -5,6 +5,7 @@
 
 import html
 import html.parser
+import importlib
 import os
 import re
 import shutil
@@ -12,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 import urllib.parse
 
 import browser
@@ -20,6 +22,7 @@ from running import PROGRAM, QUICK, SMALL, SOURCE, content, diptych, main, setti
 MANUAL = os.path.join(SOURCE, "coupling", "manual")
 sys.path.insert(0, MANUAL)
 import headers  # noqa: E402
+import module_docs  # noqa: E402
 import readmes  # noqa: E402
 
 DESK, PHONE = (1400, 1000), (390, 844)  # CSS pixels
@@ -166,8 +169,8 @@ class Manual(Built):
                   '__all__ = ["Panel", "radii"]\nclass Panel:\n    """One sample."""\n    def step(self, h: float = 1) -> None:\n'
                   '        """Advances by h."""\n    def _own(self):\n        """Not shown."""\n'
                   'def radii(n: int, kind: str = "equal") -> Any:\n    """n numbers."""\ndef hidden():\n    """Not shown."""\n')
-            text = subprocess.run([sys.executable, "-B", os.path.join(MANUAL, "module_docs.py"), "grains"], capture_output=True,
-                                  text=True, check=True, env={**os.environ, "PYTHONPATH": work}).stdout
+            with unittest.mock.patch.object(sys, "path", [work, *sys.path]):
+                text = module_docs.page(importlib.import_module("grains"))
         self.assertEqual(re.findall(r"^#+ .*$", text, re.MULTILINE), ["### `Panel`", "#### `step`", "### `radii`"])
         for line in ("    Panel()", "    step(h=1)", "    Advances by h.", "    radii(n, kind='equal')", "    n numbers."):
             self.assertIn(line + "\n", text)

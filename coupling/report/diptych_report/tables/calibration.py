@@ -12,7 +12,8 @@ KINDS = {"stress_ratio": "rms of t/s", "volumetric_strain": "rms of volume", "ln
 
 
 def text(value, digits=4):
-    return "–" if value is None or not np.isfinite(value) else f"{value:.{digits}g}".replace("-", "−")
+    """A number with some significant digits and without an exponent below a million."""
+    return "–" if value is None or not np.isfinite(value) else f"{float(f'{value:.{digits}g}'):g}".replace("-", "−")
 
 
 def parameters(calibration):
