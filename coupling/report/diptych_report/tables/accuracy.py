@@ -52,7 +52,7 @@ def _grain_stress_error(result, summary):
     change, reached = plain(summary.get("residual_factor_error")), plain(summary.get("residual_factor_reference_residual"))
     if change is None:
         return [label, ABSENT, ""]
-    return [label, "not known", f"the first snapshot, solved further to a residual of {number(reached)}, changed by "
+    return [label, "unknown", f"the first snapshot, solved further to a residual of {number(reached)}, changed by "
             f"{number(change, '%', 2)}, too much for an estimate"]
 
 

@@ -86,7 +86,7 @@ def _signed(value, unit, decimals, suffix=""):
 
 def _ends(interval, unit, decimals):
     if interval["low"] is None or interval["high"] is None:
-        return "not known"
+        return "unknown"
     return f"{_signed(interval['low'], unit, decimals)} to {_signed(interval['high'], unit, decimals)}{_suffix(unit)}"
 
 
