@@ -190,8 +190,9 @@ namespace diptych::coupling
     {
       if (files.spheres.empty())
         throw SceneError((files.contacts.empty() ? files.walls : files.contacts) +
-                         (trimmed(number) == "-1" ? ": its name contains no frame number. "
-                                                  : ": there are no spheres of frame " + std::string(trimmed(number)) + ". ") +
+                         (discrete::trimmed(number) == "-1"
+                            ? ": its name contains no frame number. "
+                            : ": there are no spheres of frame " + std::string(discrete::trimmed(number)) + ". ") +
                          "The last number in a file name is the frame, as in contacts_3.txt with spheres_3.txt");
       ForeignFrame frame;
       frame.name              = "_" + std::string(discrete::trimmed(number));
