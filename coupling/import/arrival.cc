@@ -44,9 +44,13 @@ namespace diptych::coupling
     {
       for (const ForeignGrain &g : grains)
         {
-          to.position.push_back(g.position), to.velocity.push_back(g.velocity), to.resultant.push_back(g.resultant / thickness);
-          to.radius.push_back(g.radius), to.mass.push_back(g.mass / thickness);
-          to.rotation.push_back(g.rotation), to.spin.push_back(g.spin);
+          to.position.push_back(g.position);
+          to.velocity.push_back(g.velocity);
+          to.resultant.push_back(g.resultant / thickness);
+          to.radius.push_back(g.radius);
+          to.mass.push_back(g.mass / thickness);
+          to.rotation.push_back(g.rotation);
+          to.spin.push_back(g.spin);
         }
     }
 
@@ -112,8 +116,10 @@ namespace diptych::coupling
       for (const ForeignGrain &g : grains)
         {
           const double area = g.radius * g.radius, volume = area * g.radius;
-          lowest_2 = std::min(lowest_2, g.mass / area), highest_2 = std::max(highest_2, g.mass / area);
-          lowest_3 = std::min(lowest_3, g.mass / volume), highest_3 = std::max(highest_3, g.mass / volume);
+          lowest_2  = std::min(lowest_2, g.mass / area);
+          highest_2 = std::max(highest_2, g.mass / area);
+          lowest_3  = std::min(lowest_3, g.mass / volume);
+          highest_3 = std::max(highest_3, g.mass / volume);
         }
       return highest_3 < 1.001 * lowest_3 && highest_2 > 1.01 * lowest_2;
     }
@@ -123,7 +129,10 @@ namespace diptych::coupling
     {
       double mass = 0, area = 0;
       for (std::size_t i = 0; i < frame.mass.size(); ++i)
-        mass += frame.mass[i], area += M_PI * frame.radius[i] * frame.radius[i];
+        {
+          mass += frame.mass[i];
+          area += M_PI * frame.radius[i] * frame.radius[i];
+        }
       if (std::isfinite(mass) && options.density)
         refuse_without_effect(sample, "--density", "the files contain the masses of the grains");
       if (std::isfinite(mass))

@@ -92,9 +92,13 @@ namespace diptych::coupling
                               mean;
           square += miss * miss / double(n);
           if (miss > worst)
-            worst = miss, check.balance_worst_grain = arrival.id[i];
+            {
+              worst                     = miss;
+              check.balance_worst_grain = arrival.id[i];
+            }
         }
-      check.balance_rms = std::sqrt(square), check.balance_worst = worst;
+      check.balance_rms   = std::sqrt(square);
+      check.balance_worst = worst;
     }
 
     // Sums of force (x) branch, row of the force. Branches end at the contact points on walls. The stress of the walls uses the
@@ -127,7 +131,10 @@ namespace diptych::coupling
         {
           const Eigen::Vector2d &told = f.told_wall_force[std::size_t(side)], &sum = f.wall_force[std::size_t(side)];
           if (told.allFinite() && sum.allFinite())
-            difference = std::max(difference, (told - sum).norm()), scale = std::max(scale, told.norm());
+            {
+              difference = std::max(difference, (told - sum).norm());
+              scale      = std::max(scale, told.norm());
+            }
         }
       if (scale > 0)
         check.wall_force_difference = difference / scale;
@@ -243,7 +250,10 @@ namespace diptych::coupling
         check_walls(f);
         double mass = 0, discs = 0;
         for (std::size_t i = 0; i < f.position.size(); ++i)
-          mass += f.mass[i], discs += M_PI * f.radius[i] * f.radius[i];
+          {
+            mass += f.mass[i];
+            discs += M_PI * f.radius[i] * f.radius[i];
+          }
         check.mass           = mass;
         check.solid_fraction = discs / area_of(f);
         const double first   = arrival.frames[0].wall[1] - arrival.frames[0].wall[0];

@@ -123,7 +123,10 @@ namespace diptych::coupling
         if (c.wall >= 0 && sides[std::size_t(c.wall)] == side && c.point.allFinite())
           {
             const double x = c.point[axis_of[side]];
-            ++n, sum += x, low = std::min(low, x), high = std::max(high, x);
+            ++n;
+            sum += x;
+            low  = std::min(low, x);
+            high = std::max(high, x);
           }
       if (n == 0)
         return not_told;
@@ -144,7 +147,8 @@ namespace diptych::coupling
       for (const double r : to.radius)
         radius += r / double(to.radius.size());
       const std::array<double, 4> extreme = extremes(to);
-      to.wall_force.fill({not_told, not_told}), to.told_wall_force.fill({not_told, not_told});
+      to.wall_force.fill({not_told, not_told});
+      to.told_wall_force.fill({not_told, not_told});
       for (const int side : {0, 1, 2, 3})
         {
           bool there = false;
@@ -167,7 +171,10 @@ namespace diptych::coupling
           else if (std::isfinite(from_points))
             to.wall_miss = std::max(to.wall_miss, std::abs(from_points - to.wall[std::size_t(side)]));
           if (options.walls_touch && std::isnan(to.wall[std::size_t(side)]) && (there || axis_of[side] == 1))
-            to.wall[std::size_t(side)] = extreme[std::size_t(side)], to.walls_touch = true;
+            {
+              to.wall[std::size_t(side)] = extreme[std::size_t(side)];
+              to.walls_touch             = true;
+            }
           if (there && std::isnan(to.wall[std::size_t(side)]))
             throw SceneError(from.grain_file + ": frame " + from.name + ": the place of the " + side_names[side] +
                              " wall is in none of the files; give a table with frame, width and height (or left_x, right_x, "
@@ -261,7 +268,10 @@ namespace diptych::coupling
         if (contact.j == contact.i)
           throw SceneError(place_of(from, c) + ": grain " + std::to_string(c.first) + " touches itself");
         if (contact.j < contact.i)
-          std::swap(contact.i, contact.j), contact.force = -contact.force;
+          {
+            std::swap(contact.i, contact.j);
+            contact.force = -contact.force;
+          }
         if (contact.j < n && is_repeated(from, c, contact, to, order))
           continue;
         complete(c, contact, to);
@@ -282,7 +292,10 @@ namespace diptych::coupling
     sum.fill(Eigen::Vector2d::Zero());
     for (const ContactForce &c : to.contacts)
       if (c.j >= n)
-        sum[std::size_t(c.j - n)] += c.force, touched[std::size_t(c.j - n)] = true;
+        {
+          sum[std::size_t(c.j - n)] += c.force;
+          touched[std::size_t(c.j - n)] = true;
+        }
     for (const int side : {0, 1, 2, 3})
       {
         Eigen::Vector2d &told = to.told_wall_force[std::size_t(side)];

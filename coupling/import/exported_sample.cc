@@ -126,7 +126,10 @@ namespace diptych::coupling
       const double       room  = 2 * s.mean_diameter;
       double             low_x = HUGE_VAL, high_x = -HUGE_VAL;
       for (const Eigen::Vector2d &x : s.position)
-        low_x = std::min(low_x, x.x()), high_x = std::max(high_x, x.x());
+        {
+          low_x  = std::min(low_x, x.x());
+          high_x = std::max(high_x, x.x());
+        }
       out << "LAMMPS data file: discs of a prepared sample; in.sample sets density/disc\n\n"
           << s.radius.size() << " atoms\n1 atom types\n\n"
           << low_x - 5 * room << ' ' << high_x + 5 * room << " xlo xhi\n"

@@ -94,7 +94,10 @@ namespace diptych::coupling
         const discrete::Snapshot &s   = results.snapshots[k];
         const auto                add = [&](discrete::TimeTable &table, const double value) {
           if (std::isfinite(value))
-            table.time.push_back(s.progress), table.value.push_back(value);
+            {
+              table.time.push_back(s.progress);
+              table.value.push_back(value);
+            }
         };
         add(walls.upper_x, s.upper_platen_displacement.x());
         add(walls.upper_y, s.upper_y - s.lower_y - walls.initial_height);

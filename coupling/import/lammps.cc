@@ -126,8 +126,9 @@ namespace diptych::coupling
       for (std::size_t row = 0; row < table.n_rows(); ++row)
         {
           ForeignContact contact;
-          contact.first = table.whole(row, c.first), contact.second = table.whole(row, c.second);
-          contact.line = table.line[row];
+          contact.first  = table.whole(row, c.first);
+          contact.second = table.whole(row, c.second);
+          contact.line   = table.line[row];
           const auto a = centre.find(contact.first), b = centre.find(contact.second);
           if (a != centre.end() && b != centre.end())
             verify(table, row, c, a->second - b->second);

@@ -165,7 +165,8 @@ namespace diptych::coupling
       for (std::size_t row = 0; row < table.n_rows(); ++row)
         {
           ForeignContact contact;
-          contact.first = table.whole(row, table.place_of("id.1")), contact.second = table.whole(row, table.place_of("id.2"));
+          contact.first  = table.whole(row, table.place_of("id.1"));
+          contact.second = table.whole(row, table.place_of("id.2"));
           if (table.at(row, table.place_of("id.3")) != 0)
             table.refuse(row, "a contact across a periodic edge; walls are needed");
           const auto a = centre.find(contact.first);

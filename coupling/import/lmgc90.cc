@@ -69,7 +69,8 @@ namespace diptych::coupling
       contact.slides         = words[9].substr(0, 2) == "sl";
       const auto       field = [&](const std::string_view line, const char *name) { return lmgc90_field(lines, line, name); };
       std::string_view line  = lines.take("rlt/H and rln/H");
-      contact.tangential = field(line, "rlt/H"), contact.normal = field(line, "rln/H");
+      contact.tangential     = field(line, "rlt/H");
+      contact.normal         = field(line, "rln/H");
       (void)lines.take("vlt and vln");
       contact.gap       = field(lines.take("gapTT"), "gapTT");
       line              = lines.take("n(1) and n(2)");

@@ -44,7 +44,10 @@ namespace diptych::coupling
         if (holds(line, "byrd="))
           body->disc_radius = lmgc90_field(lines, line, "byrd=");
         if (holds(line, "axe1="))
-          body->half_length = lmgc90_field(lines, line, "axe1="), body->half_thickness = lmgc90_field(lines, line, "axe2=");
+          {
+            body->half_length    = lmgc90_field(lines, line, "axe1=");
+            body->half_thickness = lmgc90_field(lines, line, "axe2=");
+          }
         if (holds(line, "DISKx") || holds(line, "JONCx") || !holds(line, "color"))
           continue;
         lines.refuse("this contactor is neither DISKx nor JONCx");

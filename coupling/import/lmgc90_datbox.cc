@@ -75,9 +75,13 @@ namespace diptych::coupling
       const bool   sides = std::isfinite(left) && std::isfinite(right);
       if (!sides)
         {
-          left = HUGE_VAL, right = -HUGE_VAL;
+          left  = HUGE_VAL;
+          right = -HUGE_VAL;
           for (const Eigen::Vector2d &x : s.position)
-            left = std::min(left, x.x()), right = std::max(right, x.x());
+            {
+              left  = std::min(left, x.x());
+              right = std::max(right, x.x());
+            }
         }
       const double middle = 0.5 * (left + right), half = 0.75 * (right - left);
       add_wall(box, {middle, s.lower_y - t}, false, half, t);

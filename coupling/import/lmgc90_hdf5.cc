@@ -96,11 +96,13 @@ namespace diptych::coupling
         {
           const int    *numbers = &whole[row * shape[1]];
           Lmgc90Contact c;
-          c.candidate = numbers[body], c.antagonist = numbers[body + 1];
-          c.tangential = real.at(row, rl), c.normal = real.at(row, rl + 1);
-          c.gap       = real.at(row, gap);
-          c.point     = {real.at(row, coor), real.at(row, coor + 1)};
-          c.direction = {real.at(row, uc), real.at(row, uc + 1)};
+          c.candidate  = numbers[body];
+          c.antagonist = numbers[body + 1];
+          c.tangential = real.at(row, rl);
+          c.normal     = real.at(row, rl + 1);
+          c.gap        = real.at(row, gap);
+          c.point      = {real.at(row, coor), real.at(row, coor + 1)};
+          c.direction  = {real.at(row, uc), real.at(row, uc + 1)};
           if (!is_unit(c.direction))
             throw SceneError(real.place + ": row " + std::to_string(row + 1) +
                              ": uc is not a unit normal; the sum of its squares is " +

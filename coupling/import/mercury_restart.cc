@@ -93,10 +93,11 @@ namespace diptych::coupling
       const bool     is_wall = has(words, "particleWallIds");
       const Words    pair    = after(lines, words, is_wall ? "particleWallIds" : "particleIds", 2);
       ForeignContact c;
-      c.first = lines.whole(pair[0], "the first body"), c.second = lines.whole(pair[1], "the second body");
-      c.point = plane_vector(lines, words, "contactPoint");
-      c.force = plane_vector(lines, words, "force");
-      c.line  = lines.line();
+      c.first  = lines.whole(pair[0], "the first body");
+      c.second = lines.whole(pair[1], "the second body");
+      c.point  = plane_vector(lines, words, "contactPoint");
+      c.force  = plane_vector(lines, words, "force");
+      c.line   = lines.line();
       if (is_wall)
         {
           const auto wall = walls.find(c.second);

@@ -127,7 +127,10 @@ namespace diptych::coupling
         const bool is_names  = std::all_of(words.begin() + (words[0] == "-" ? 1 : 0), words.end(), starts_with_a_letter);
         const bool is_marked = discrete::trimmed(text)[0] == '#';
         if (is_names && table.n_rows() == 0 && columns.empty() && (are_marked || !is_marked))
-          table.columns = names_of(words), are_marked = is_marked;
+          {
+            table.columns = names_of(words);
+            are_marked    = is_marked;
+          }
         if (is_names && table.n_rows() > 0 && !is_marked && names_of(words) != table.columns)
           lines.refuse("text among rows of numbers; expected numbers, or the same column names again");
         if (is_names || is_marked)

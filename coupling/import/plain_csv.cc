@@ -35,7 +35,8 @@ namespace diptych::coupling
       for (std::size_t row = 0; row < table.n_rows(); ++row)
         {
           NumberTable &part = parts[table.whole(row, *column)];
-          part.path = table.path, part.columns = table.columns;
+          part.path         = table.path;
+          part.columns      = table.columns;
           part.values.insert(part.values.end(), table.values.begin() + long(row * table.columns.size()),
                              table.values.begin() + long((row + 1) * table.columns.size()));
           part.line.push_back(table.line[row]);
@@ -57,9 +58,10 @@ namespace diptych::coupling
       for (std::size_t row = 0; row < table.n_rows(); ++row)
         {
           ForeignContact contact;
-          contact.first = table.whole(row, i), contact.second = table.whole(row, j);
-          contact.force = {table.at(row, fx), table.at(row, fy)};
-          contact.line  = table.line[row];
+          contact.first  = table.whole(row, i);
+          contact.second = table.whole(row, j);
+          contact.force  = {table.at(row, fx), table.at(row, fy)};
+          contact.line   = table.line[row];
           if (contact.first < 0)
             {
               if (contact.second < 0)

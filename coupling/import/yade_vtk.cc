@@ -82,8 +82,9 @@ namespace diptych::coupling
               grain[end] = found->second;
             }
           ForeignContact c;
-          c.first = grain[0]->id, c.second = grain[1]->id;
-          c.force = vtk_at(normal, k, 0) * (grain[0]->position - grain[1]->position).normalized();
+          c.first  = grain[0]->id;
+          c.second = grain[1]->id;
+          c.force  = vtk_at(normal, k, 0) * (grain[0]->position - grain[1]->position).normalized();
           frame.contacts.push_back(c);
         }
     }

@@ -138,7 +138,8 @@ namespace diptych::coupling
       }
     catch (const std::exception &)
       {
-        close(ends[0]), close(ends[1]);
+        close(ends[0]);
+        close(ends[1]);
         throw;
       }
   }

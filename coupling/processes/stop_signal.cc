@@ -58,12 +58,14 @@ namespace diptych::coupling
   void install_signals()
   {
     static const bool terminal_may_go = is_ignored(SIGHUP);
-    take(SIGINT), take(SIGTERM);
+    take(SIGINT);
+    take(SIGTERM);
     if (terminal_may_go)
       std::signal(SIGHUP, SIG_IGN);
     else
       take(SIGHUP);
-    std::signal(SIGPIPE, SIG_IGN), std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
     unblock_stop_signals();
   }
 
@@ -86,7 +88,8 @@ namespace diptych::coupling
 
   void end_after_parent(const unsigned int seconds)
   {
-    patience = seconds, parent = getppid();
+    patience = seconds;
+    parent   = getppid();
   }
 
   void leave_if_stopped(const std::string &phase)

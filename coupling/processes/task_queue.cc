@@ -46,7 +46,8 @@ namespace diptych::coupling
       void ended(const Ended &one)
       {
         ++(one.outcome.exit_code == 0 ? n_done : n_failed);
-        known_seconds += one.seconds, ++n_known;
+        known_seconds += one.seconds;
+        ++n_known;
       }
 
       // running_seconds: sum over the running tasks of their times so far.
@@ -61,7 +62,8 @@ namespace diptych::coupling
         const std::string remaining = n_known > 0 ? ", " + duration_text(left) + " remaining" : "";
         std::fprintf(stderr, "%s%d of %d %s done, %d running, %d failed%s%s", terminal ? "\r\033[K" : "", n_done, n_total,
                      noun.c_str(), n_running, n_failed, remaining.c_str(), terminal ? "" : "\n");
-        shown = Clock::now(), last_part = part;
+        shown     = Clock::now();
+        last_part = part;
       }
 
       // Clears the line before a message.
