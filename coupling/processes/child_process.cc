@@ -115,17 +115,17 @@ namespace diptych::coupling
     }
   } // namespace
 
-  void hold_in_programs(const int descriptor)
+  void keep_open_in_programs(const int descriptor)
   {
     held().insert(descriptor);
   }
 
-  void no_longer_hold_in_programs(const int descriptor)
+  void close_in_programs(const int descriptor)
   {
     held().erase(descriptor);
   }
 
-  Answerer start_answerer(const std::vector<std::string> &words)
+  PipedProgram start_piped_program(const std::vector<std::string> &words)
   {
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)

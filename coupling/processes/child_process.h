@@ -13,16 +13,16 @@ namespace diptych::coupling
   // Ctrl-C reaches only this process. They do not inherit the environment of an MPI job, which would make them one of its
   // ranks. They receive SIGTERM when this process ends. They inherit only the file descriptors registered here. Throws
   // std::runtime_error if no process can be made.
-  void hold_in_programs(int descriptor);
-  void no_longer_hold_in_programs(int descriptor);
+  void keep_open_in_programs(int descriptor);
+  void close_in_programs(int descriptor);
 
   // A program that reads lines and answers them. Its standard input and output are the other end of `socket`.
-  struct Answerer
+  struct PipedProgram
   {
     pid_t program = 0;
     int   socket  = -1;
   };
-  [[nodiscard]] Answerer start_answerer(const std::vector<std::string> &words);
+  [[nodiscard]] PipedProgram start_piped_program(const std::vector<std::string> &words);
 
   // Runs a program with this process's output and errors and waits for its end. Returns its exit code, or 128 + signal. On a
   // stop request it kills the program and throws StoppedOnRequest.

@@ -87,7 +87,7 @@ namespace diptych::coupling
     }
   } // namespace
 
-  void need_no_daemon()
+  void avoid_mpi_daemon()
   {
     if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr && std::getenv("PMI_SIZE") == nullptr)
       {
@@ -169,9 +169,9 @@ namespace diptych::coupling
     return any == 1;
   }
 
-  int answer_for(const std::function<int()> &work,
-                 int (*code_of)(const std::exception &),
-                 std::string (*text_of)(const std::exception &))
+  int run_and_report(const std::function<int()> &work,
+                     int (*code_of)(const std::exception &),
+                     std::string (*text_of)(const std::exception &))
   {
     // A separate communicator: the barrier must not match one that `work` waits in.
     MPI_Comm communicator = MPI_COMM_NULL;

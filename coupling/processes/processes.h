@@ -11,7 +11,7 @@ namespace diptych::coupling
 {
   // Call before MPI is initialised. A process that was not started by mpirun needs no MPI daemon. The daemon requires PATH, ssh
   // and files in TMPDIR, and ends the process if one is missing.
-  void need_no_daemon();
+  void avoid_mpi_daemon();
 
   // All functions need an initialised MPI. All except the next three are collective.
   bool         is_first_process();
@@ -30,7 +30,7 @@ namespace diptych::coupling
 
   // Runs `work` and returns its exit code. An exception is printed to standard error, and `code_of` gives its code. If all
   // processes meet it, it is printed once. Otherwise it ends all processes (MPI_Abort), because the others would wait forever.
-  int answer_for(const std::function<int()> &work,
-                 int (*code_of)(const std::exception &),
-                 std::string (*text_of)(const std::exception &));
+  int run_and_report(const std::function<int()> &work,
+                     int (*code_of)(const std::exception &),
+                     std::string (*text_of)(const std::exception &));
 } // namespace diptych::coupling

@@ -18,7 +18,7 @@ namespace diptych::coupling
   void block_stop_signals();
   void unblock_stop_signals();
 
-  // For a process that receives SIGTERM when its parent dies (start_answerer). It then has `seconds` to end before SIGALRM
+  // For a process that receives SIGTERM when its parent dies (start_piped_program). It then has `seconds` to end before SIGALRM
   // kills it.
   void end_after_parent(unsigned int seconds);
 

@@ -67,7 +67,7 @@ namespace diptych::coupling
 
   int Worker::close_and_wait()
   {
-    const Answerer closed = std::exchange(process, Answerer{});
+    const PipedProgram closed = std::exchange(process, PipedProgram{});
     close(closed.socket);
     answer.clear();
     return wait_for(closed.program);
@@ -82,7 +82,7 @@ namespace diptych::coupling
       return;
     if (process.program != 0)
       close_and_wait(); // killed while it was idle
-    process = start_answerer(command);
+    process = start_piped_program(command);
     send(line); // ended() notices a process that dies at once
   }
 

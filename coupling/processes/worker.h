@@ -37,7 +37,7 @@ namespace diptych::coupling
     Worker(const Worker &) = delete;
     Worker(Worker &&other) noexcept
         : command(std::move(other.command)),
-          process(std::exchange(other.process, Answerer{})),
+          process(std::exchange(other.process, PipedProgram{})),
           answer(std::move(other.answer)),
           works(other.works),
           since(other.since)
@@ -57,7 +57,7 @@ namespace diptych::coupling
     int  close_and_wait(); // closes the socket, waits for the process and returns its exit code
 
     std::vector<std::string>              command;
-    Answerer                              process;
+    PipedProgram                          process;
     std::string                           answer; // the part received so far
     bool                                  works = false;
     std::chrono::steady_clock::time_point since;

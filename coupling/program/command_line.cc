@@ -381,7 +381,7 @@ namespace diptych::coupling
     if (!line.output.empty())
       scene.output.directory = line.output;
     scene.discrete.threads = line.threads;
-    for (const std::string &warning : line.tells_warnings ? scene.warnings : std::vector<std::string>())
+    for (const std::string &warning : line.prints_warnings ? scene.warnings : std::vector<std::string>())
       warn(warning);
     return scene;
   }

@@ -54,7 +54,7 @@ namespace diptych::coupling
     ForeignOptions                       foreign;               // of import
     std::string                          format;                // of export
     int                                  stage          = 0;    // of export
-    bool                                 tells_warnings = true; // the first of several processes does
+    bool                                 prints_warnings = true; // the first of several processes does
   };
 
   // The words after the program's name; or, where they ask for help, the version or a completion script or are wrong, the exit

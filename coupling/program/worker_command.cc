@@ -59,7 +59,7 @@ namespace diptych::coupling
     {
       const IntoLog    log(task.log);
       const ParsedLine parsed = parse_command_line(task.words);
-      return parsed.exit_code ? *parsed.exit_code : answer_for([&] { return execute(parsed.line); }, code_of, text_of_end);
+      return parsed.exit_code ? *parsed.exit_code : run_and_report([&] { return execute(parsed.line); }, code_of, text_of_end);
     }
   } // namespace
 

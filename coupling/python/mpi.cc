@@ -33,7 +33,7 @@ namespace diptych::python
         sc_set_log_defaults(nullptr, nullptr, SC_LP_SILENT); // as MPI_InitFinalize; otherwise p4est prints a line per mesh
         return;
       }
-    coupling::need_no_daemon();
+    coupling::avoid_mpi_daemon();
     struct sigaction interrupt, end;
     sigaction(SIGINT, nullptr, &interrupt);
     sigaction(SIGTERM, nullptr, &end);

@@ -241,7 +241,8 @@ namespace diptych::coupling
       const auto demand = [&](const Settings &settings) {
         for (const Entry &entry : settings)
           if (entry.section == "sample" && entry.key == "seed" && !study.seeds.empty())
-            root.refuse("seeds", " cannot be used together with sample/seed = " + entry.value + " , set at " + entry.place);
+            root.refuse("seeds",
+                        " cannot be used together with sample/seed = " + entry.value + ", set at " + text_of(entry.place));
       };
       demand(study.settings), demand(study.reference);
       for (const Family &family : study.families)
