@@ -139,7 +139,7 @@ namespace diptych::coupling
         if (reached || panel->report().progress > 0)
           add_snapshot();
       }
-    progress.finish();
+    progress.finish(panel->report().status == continuum::Status::finished);
     if (panel->report().status == continuum::Status::stopped_by_user && is_under_way)
       save();
     on_first_process([&] {
