@@ -179,7 +179,10 @@ namespace diptych::coupling
   {
     on_first_process([&] {
       if (Clock::now() - flushed >= std::chrono::seconds(1))
-        flush_rows(), flushed = Clock::now();
+        {
+          flush_rows();
+          flushed = Clock::now();
+        }
       return 0;
     });
   }
