@@ -105,7 +105,10 @@ namespace diptych::coupling
       on_first_process([&] {
         for (const TaskOutcome &outcome : outcomes)
           if (const Pending &one = pending[outcome.task]; is_refused_checkpoint(one, outcome))
-            numbers.push_back(double(one.run)), prepare_run_anew(asked.directory, *runs[one.run]);
+            {
+              numbers.push_back(double(one.run));
+              prepare_run_anew(asked.directory, *runs[one.run]);
+            }
         if (!numbers.empty())
           std::cerr << numbers.size() << " runs begin anew: what they were to go on from is damaged" << std::endl;
         return 0;

@@ -31,7 +31,8 @@ namespace diptych::coupling
         const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
         if (file < 0)
           throw std::runtime_error("cannot write " + log + ": " + std::strerror(errno));
-        dup2(file, STDOUT_FILENO), dup2(file, STDERR_FILENO);
+        dup2(file, STDOUT_FILENO);
+        dup2(file, STDERR_FILENO);
         close(file);
       }
       IntoLog(const IntoLog &)            = delete;
@@ -39,8 +40,10 @@ namespace diptych::coupling
       ~IntoLog()
       {
         std::cout.flush();
-        dup2(output, STDOUT_FILENO), dup2(errors, STDERR_FILENO);
-        close(output), close(errors);
+        dup2(output, STDOUT_FILENO);
+        dup2(errors, STDERR_FILENO);
+        close(output);
+        close(errors);
       }
 
     private:
