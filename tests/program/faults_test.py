@@ -70,7 +70,7 @@ class Inputs(Folder):
         for words, text in ((setting(sample_width=1e12), "sample/width"), (setting(discrete_step=1e-12), "discrete/step"),
                             (setting(loading_inertial_number=1e-12), "loading/inertial_number"), (["--threads", "100000"], "--threads")):
             self.expect(2, self.discrete(*words), text)
-        self.expect(4, self.discrete(*setting(loading_inertial_number=1e-9, discrete_step=0.011)), "discrete/history_interval", "nothing was written")
+        self.expect(4, self.discrete(*setting(loading_inertial_number=1e-9, discrete_step=0.011)), "discrete/history_interval")
         self.assertFalse(os.path.exists(self.folder))
 
     def test_scenes_that_are_refused(self):
@@ -173,7 +173,7 @@ class Results(Folder):
         self.expect(2, ["export", self.folder, "--format", "csv", "--output", self.folder], "--output")
         self.expect(2, ["compare", self.folder, "--output", "other"], "--output")
 
-    def test_an_ensemble_waits_for_no_run_in_the_folder_of_a_member(self):
+    def test_an_ensemble_and_a_run_in_the_folder_of_a_member_do_not_mix(self):
         words = self.run_both("--seeds", "1-2", "--jobs", "1")
         self.expect(0, words)
         member = os.path.join(self.folder, "seed_2")
@@ -183,12 +183,13 @@ class Results(Folder):
         os.kill(other.pid, signal.SIGSTOP)
         self.addCleanup(other.communicate)
         self.addCleanup(other.kill)
-        before = self.contents()
-        for more in ("--resume", "--overwrite"):
-            result = diptych(*words, more)
-            self.assertIn(result.returncode, (2, 4), result.stderr)
-            self.assertIn(member, result.stderr)
-            self.assertEqual(self.contents(), before)
+        self.assertIsNone(other.poll(), "it ended before the ensemble came")
+        for more, code in (("--resume", 3), ("--overwrite", 4)):
+            with self.subTest(more=more):
+                result = diptych(*words, more)
+                self.assertEqual(result.returncode, code, result.stderr)
+                self.assertIn(f"process {other.pid}", result.stderr)
+                self.assertNotIn("discrete.h5", os.listdir(member))
 
     def test_a_report_script_that_fails(self):
         shutil.copytree(self.whole, self.folder)
@@ -217,7 +218,7 @@ def with_limit(kind, value):
 class Machine(Folder):
     def test_a_signal_at_the_start_ends_with_code_3_and_writes_nothing(self):
         for command in ("discrete", "run", "continuum"):
-            self.expect(3, [command, QUICK, *BOTH, "--output", self.folder], "stopped on request; nothing was written", preexec_fn=with_waiting_signal)
+            self.expect(3, [command, QUICK, *BOTH, "--output", self.folder], "stopped on request", preexec_fn=with_waiting_signal)
             self.assertFalse(os.path.exists(self.folder))
 
     def test_the_program_after_an_exec_accepts_the_signal_too(self):
@@ -227,7 +228,8 @@ class Machine(Folder):
             self.skipTest("installed elsewhere, or a build without the continuum")
         result = subprocess.run([panels, "continuum", QUICK, *BOTH, "--output", self.folder], env=ENVIRONMENT, capture_output=True, text=True,
                                 preexec_fn=with_waiting_signal, check=False)
-        self.expect_message(result, 3, "stopped on request; nothing was written")
+        self.expect_message(result, 3, "stopped on request")
+        self.assertFalse(os.path.exists(self.folder))
 
     def test_a_full_disk_during_a_run(self):
         """Once the first stage is there, no file grows any more."""
@@ -246,17 +248,18 @@ class Machine(Folder):
     def test_a_folder_that_cannot_be_made(self):
         path = write(os.path.join(self.work, "file"), "mine")
         for command in ("run", "discrete", "continuum"):
-            self.expect(2, [command, QUICK, *FEW, "--output", os.path.join(path, "out"), "--quiet"], path, "nothing was written")
+            self.expect(2, [command, QUICK, *FEW, "--output", os.path.join(path, "out"), "--quiet"], path)
 
     def test_little_memory_is_no_wrong_input(self):
         table = write(os.path.join(self.work, "grains.csv"), "x,y,r\n" + "".join(f"{k % 700},{k // 700},0.5\n" for k in range(490000)))
         for words in (self.discrete(*setting(sample_file=table)), ["import", "csv", table, "--output", self.folder, "--quiet"]):
-            self.expect(4, words, "not enough memory", "nothing was written", table, preexec_fn=with_limit(resource.RLIMIT_AS, 120 << 20))
+            self.expect(4, words, "not enough memory", table, preexec_fn=with_limit(resource.RLIMIT_AS, 120 << 20))
+            self.assertFalse(os.path.exists(self.folder))
 
     def test_a_mesh_that_is_too_large_for_the_memory(self):
         words = FEW + setting(continuum_mesh="rectangle", continuum_rectangle_width=400, continuum_rectangle_height=600, continuum_element_size=1.2,
                               comparison_coarse_element_size=0)
-        self.expect(4, ["continuum", QUICK, *words, "--output", self.folder, "--quiet"], "GB of memory", "nothing was written",
+        self.expect(4, ["continuum", QUICK, *words, "--output", self.folder, "--quiet"], "GB of memory",
                     preexec_fn=with_limit(resource.RLIMIT_AS, 2 << 30))
 
     def test_a_closed_pipe_does_not_stop_a_run(self):

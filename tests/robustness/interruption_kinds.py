@@ -69,7 +69,7 @@ def two_writers(case):
     for process in (first, second):
         process.wait(cases.HANG)
     after = judge.digest(case.work)
-    outcomes = [case.end(process, after if process.returncode == 2 else before, case.work, codes=(0, 2, 4), names=(out, "out")) for process in (first, second)]
+    outcomes = [case.end(process, before if process.returncode == 0 else after, case.work, codes=(0, 2, 4), names=(out, "out")) for process in (first, second)]
     if all(outcome.code != 0 for outcome in outcomes):
         case.violations.append("both runs were refused")
         return

@@ -16,7 +16,7 @@ from running import setting
 
 COMMANDS = {"discrete": [QUICK, *TINY], "run": [QUICK, *BOTH, *setting(output_report="true")], "continuum": [QUICK, *NODES]}
 REPLACING = (  # commands on a folder with results of both panels, and the files that they do not compute anew
-    (["compare", "OUT"], ("discrete.", "continuum.", "scene.prm")), (["report", "OUT"], ("discrete.", "continuum.", "comparison.", "scene.prm")),
+    (["compare", "OUT"], ("discrete.", "continuum.")), (["report", "OUT"], ("discrete.", "continuum.", "comparison.", "scene.prm")),
     (["run", QUICK, *BOTH, *setting(comparison_max_bands=1), "--resume", "--output", "OUT"], ("discrete.", "continuum.")),
     (["run", QUICK, *BOTH, *setting(continuum_friction_angle_peak=30), "--resume", "--output", "OUT"], ("discrete.",)),
     (["continuum", QUICK, *BOTH, *setting(continuum_friction_angle_peak=30), "--output", "OUT"], ("discrete.",)),
