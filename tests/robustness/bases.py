@@ -117,7 +117,6 @@ SEEDS = ["--seeds", "1-2", "--jobs", "1"]
 MAKE = {
     "grains": make_grains,
     "both": run_of("run", QUICK, *BOTH),
-    "report": run_of("run", QUICK, *BOTH, *setting(output_report="true")),
     "other_grains": run_of("discrete", QUICK, *TINY, *setting(sample_seed=2)),
     "other_both": run_of("run", QUICK, *BOTH, *setting(sample_seed=2)),
     "long_grains": run_of("discrete", QUICK, *LONG),

@@ -14,13 +14,13 @@ from bases import BOTH, NODES, QUICK, TINY
 from cases import limit
 from running import setting
 
-COMMANDS = {"discrete": [QUICK, *TINY], "run": [QUICK, *BOTH, *setting(output_report="true")], "continuum": [QUICK, *NODES]}
+COMMANDS = {"discrete": [QUICK, *TINY], "run": [QUICK, *BOTH], "continuum": [QUICK, *NODES]}
 REPLACING = (  # commands on a folder with results of both panels, and the files that they do not compute anew
     (["compare", "OUT"], ("discrete.", "continuum.")), (["report", "OUT"], ("discrete.", "continuum.", "comparison.", "scene.prm")),
     (["run", QUICK, *BOTH, *setting(comparison_max_bands=1), "--resume", "--output", "OUT"], ("discrete.", "continuum.")),
     (["run", QUICK, *BOTH, *setting(continuum_friction_angle_peak=30), "--resume", "--output", "OUT"], ("discrete.",)),
     (["continuum", QUICK, *BOTH, *setting(continuum_friction_angle_peak=30), "--output", "OUT"], ("discrete.",)),
-    (["run", QUICK, *BOTH, "--overwrite", "--output", "OUT"], ("discrete.", "continuum.", "comparison.", "report.html", "scene.prm")),
+    (["run", QUICK, *BOTH, "--overwrite", "--output", "OUT"], ("discrete.", "continuum.", "comparison.", "scene.prm")),
 )
 
 
@@ -72,7 +72,7 @@ def disk(case):
             command = dice.choice(sorted(COMMANDS))
             line = [command, *COMMANDS[command], "--output", out]
         elif way == "replace":
-            shutil.copytree(os.path.join(case.base("report"), "out"), out)
+            shutil.copytree(os.path.join(case.base("both"), "out"), out)
             line, kept = dice.choice(REPLACING)
             line, keeps = [out if word == "OUT" else word for word in line], tuple("disk/out/" + name for name in os.listdir(out) if name.startswith(kept))
         else:

@@ -13,8 +13,8 @@ CHECKPOINTS = (  # base, the same run without interruption, damaged files, a com
     ("stopped_nodes", "long_nodes", ("continuum_checkpoint.h5", "continuum.csv"), ["continuum", QUICK, *LONG_NODES, "--resume"]),
 )
 RESULTS = (  # base, damaged files, commands that read them; OUT is the folder of the base
-    ("report", ("discrete.h5", "discrete.csv", "continuum.h5", "continuum.csv", "comparison.h5", "comparison.json", "provenance.json"),
-     (["compare", "OUT"], ["compare", "OUT"], ["report", "OUT"], ["report", "OUT"], ["run", QUICK, *BOTH, "--resume", "--output", "OUT"],
+    ("both", ("discrete.h5", "discrete.csv", "continuum.h5", "continuum.csv", "comparison.h5", "comparison.json", "provenance.json"),
+     (["compare", "OUT"], ["compare", "OUT"], ["report", "OUT"], ["run", QUICK, *BOTH, "--resume", "--output", "OUT"],
       ["export", "OUT", "--format", "csv", "--output", "theirs"])),
     ("grains", ("discrete.h5", "discrete.csv", "provenance.json"),
      (["discrete", QUICK, *TINY, "--resume", "--output", "OUT"], ["export", "OUT", "--format", "lammps", "--output", "theirs"])),
