@@ -1,85 +1,54 @@
-# diptych: one case of the robustness tests: its dice, its folder, the runs of the program in it
+# diptych: one random case: its dice, its folder, and the runs of the program in it
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A case is made again from its kind and seed alone."""
+"""The kind and the seed of a case determine its random numbers."""
 
-import collections
 import dataclasses
-import itertools
 import os
 import random
 import resource
 import shutil
 import signal
 import subprocess
-import threading
-import time
 
 import bases
 import damage
 import judge
-import special_files
+import same
 from running import ENVIRONMENT, PROGRAM
 
-MEMORY = 4 << 30  # bytes of address space that a run may have: no case may take the machine
-PATIENCE = 4  # seconds until a run that goes on is asked to stop; ending by itself or then are both right
-HANG = 60  # seconds from there to the end: hundreds of times what any case here needs
-SEEDS = 364000  # from the first seed of a run to that of the next: whole sets of the kind `pairs`
-SANITIZER = {}  # what a program that was built with sanitizers is told by its environment; empty: it was not
-
-
-def expect_sanitizers():
-    """Address sanitizer maps terabytes of which it uses little, so it is told the limit itself; what the libraries leave at their end is theirs."""
-    global HANG
-    HANG *= 5
-    SANITIZER["ASAN_OPTIONS"] = f"detect_leaks=0:allocator_may_return_null=1:hard_rss_limit_mb={MEMORY >> 20}"
-    SANITIZER["UBSAN_OPTIONS"] = "print_stacktrace=1"
-    ENVIRONMENT.update(SANITIZER)
+MEMORY = 4 << 30  # bytes of address space of a run
+PATIENCE = 4  # seconds until a long run gets SIGTERM
+HANG = 60  # seconds from there to SIGKILL: hundreds of times what any case needs
+SEEDS = 100000  # from the first seed of a run of the harness to that of the next
 
 
 def limit(memory=MEMORY, **limits):
-    """For preexec_fn: files that may not grow, little memory, few files. What a signal of the limit does is the program's affair, as in a shell."""
+    """For preexec_fn. The signals end a program also under nohup. Address sanitizer maps more addresses than any limit leaves."""
+    for one in (signal.SIGHUP, signal.SIGINT):
+        signal.signal(one, signal.SIG_DFL)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    if not SANITIZER:
+    if "ASAN_OPTIONS" not in os.environ:
         resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
     for name, value in limits.items():
         resource.setrlimit(getattr(resource, name), (value, value))
 
 
-def heard():
-    """For preexec_fn: a signal that is to end the program does, also where the tests were begun with nohup or in the background, which is inherited."""
-    for one in (signal.SIGHUP, signal.SIGINT):
-        signal.signal(one, signal.SIG_DFL)
-
-
-class Listener(threading.Thread):
-    """Reads a pipe to its end. What outlives the program and holds the pipe is not waited for."""
-
-    def __init__(self, pipe):
-        super().__init__(daemon=True)
-        self.pipe, self.pieces = pipe, []
-        self.start()
-
-    def run(self):
-        with self.pipe:
-            for piece in iter(lambda: self.pipe.read1(1 << 16), b""):
-                self.pieces.append(piece)
-
-    def text(self):
-        self.join(10)
-        return b"".join(self.pieces).decode("utf-8", "replace")
+def text_of(pipe):
+    """The text that a pipe holds. Workers of a killed run may keep the pipe open, so this does not wait for its end."""
+    os.set_blocking(pipe.fileno(), False)
+    with pipe:
+        return (pipe.read() or b"").decode("utf-8", "replace")
 
 
 class Case:
-    """`work` is all that the program sees; beside it lies what was run and said, where something is violated."""
+    """The program sees the folder `work`. A violated case keeps it, with case.txt beside it."""
 
     def __init__(self, kind, seed, keep):
-        self.kind, self.seed = kind, seed
+        self.kind, self.seed, self.keep = kind, seed, keep
         self.dice = random.Random(f"{kind}:{seed}")
-        self.keep = keep
         self.folder = os.path.join(keep, f"{kind}_{seed}")
         self.work = os.path.join(self.folder, "work")
-        self.violations, self.codes, self.commands, self.said, self.done = [], [], [], [], []
-        self.found = collections.defaultdict(set)  # what is told of all cases together, by a name
+        self.violations, self.codes, self.log = [], [], []
         shutil.rmtree(self.folder, ignore_errors=True)
         os.makedirs(self.work)
 
@@ -88,115 +57,92 @@ class Case:
 
     def write(self, name, content):
         with open(self.path(name), "wb") as file:
-            file.write(content if isinstance(content, bytes) else content.encode("utf-8", "surrogateescape"))
+            file.write(content if isinstance(content, bytes) else content.encode())
         return self.path(name)
 
-    def damage_arrays(self, name, often=""):
-        """True where it can be told from a whole file."""
-        what, is_plain = damage.damage_arrays(self.dice, self.path(name), often)
-        self.done.append(f"{name}: {what}")
-        return is_plain
-
     def base(self, name):
-        """A folder that was made once, not to be changed."""
+        """A folder that is made once and that no case changes."""
         return bases.prepared(self.keep, name)
 
-    def copy(self, name, to):
-        shutil.copytree(self.base(name), self.path(to), dirs_exist_ok=True, symlinks=True)
-        return self.path(to)
+    def copy(self, name):
+        """Copies a base into `work` and returns the folder of its results."""
+        shutil.copytree(self.base(name), self.work, dirs_exist_ok=True)
+        return self.path("out")
 
-    def violate(self, sentence):
-        self.violations.append(sentence)
+    def damage(self, path, changes):
+        """Changes the bytes of a file by one of the functions."""
+        change = self.dice.choice(changes)
+        self.log.append(f"{os.path.relpath(path, self.work)}: {change.__name__}")
+        self.write(path, change(self.dice, judge.read(path)))
 
-    def start(self, *words, env=None, cwd=None, preexec=limit, stdout=subprocess.PIPE, stderr=subprocess.PIPE):
-        """The process; its texts come through pipes, which no limit of files ends, and are not waited for longer than it runs."""
-        def begin():
-            heard()
-            preexec()
+    def damage_arrays(self, name, often=""):
+        """Changes a file by the HDF5 library. True if the change is more than another number."""
+        what, is_plain = damage.damage_arrays(self.dice, self.path(name), often)
+        self.log.append(f"{name}: {what}")
+        return is_plain
 
-        self.commands.append([os.fsdecode(word) for word in words])
-        process = subprocess.Popen([PROGRAM, *words], env={**(env or ENVIRONMENT), **SANITIZER}, cwd=cwd or self.work, stdin=subprocess.DEVNULL, stdout=stdout,
-                                   stderr=stderr, preexec_fn=begin, start_new_session=True)
-        process.words, process.sent = self.commands[-1], 0
-        process.told = {name: Listener(pipe) for name, pipe in (("out", process.stdout), ("errors", process.stderr)) if pipe}
+    def start(self, *words, preexec=limit):
+        self.log.append(" ".join(map(repr, words)))
+        process = subprocess.Popen([PROGRAM, *words], env=ENVIRONMENT, cwd=self.work, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, pipesize=1 << 20, preexec_fn=preexec, start_new_session=True)
+        process.sent = 0
         return process
 
-    def finish(self, process, patience=PATIENCE):
-        """Waits; asks to stop after `patience` seconds. True where it hung and had to be killed."""
-        patience = patience if not SANITIZER else 5 * patience
+    def finish(self, process, patience):
+        """Waits, and sends SIGTERM after `patience` seconds. True if the program had to be killed."""
         for wait, number in ((patience, signal.SIGTERM), (HANG, signal.SIGKILL)):
             try:
                 process.wait(wait)
                 return False
             except subprocess.TimeoutExpired:
-                try:
-                    os.killpg(process.pid, number)
-                except ProcessLookupError:
-                    pass
+                os.killpg(process.pid, number)
                 process.sent = process.sent or number
         process.wait()
         return True
 
-    def outcome(self, process, before, output, is_hung=False):
-        texts = {name: process.told[name].text() if name in process.told else "" for name in ("out", "errors")}
-        self.said.append(texts["out"][-3000:] + texts["errors"][-3000:])
-        return judge.Outcome(words=process.words, code=process.returncode, out=texts["out"], errors=texts["errors"], before=before,
-                             after=judge.digest(self.work), output=output, root=self.work, is_hung=is_hung, sent=process.sent)
-
-    def judge(self, outcome, **expected):
-        expected.setdefault("documented", bases.documented(self.keep))
+    def end(self, process, before, output, patience=HANG, **expected):
+        """Waits for the end of the process and judges it. `expected`: of judge.Expected."""
+        is_hung = self.finish(process, patience)
+        out, errors = text_of(process.stdout), text_of(process.stderr)
+        self.log.append(f"exit code {process.returncode}\n{out[-3000:]}{errors[-3000:]}")
+        outcome = judge.Outcome(code=process.returncode, out=out, errors=errors, before=before, after=judge.digest(self.work), output=output,
+                                root=self.work, is_hung=is_hung, sent=process.sent)
         self.codes.append(outcome.code)
-        for sentence in judge.judge(outcome, judge.Expected(**expected)):
-            self.violate(sentence)
+        self.violations += judge.judge(outcome, judge.Expected(**expected))
         return outcome
 
-    def run(self, *words, output="", patience=PATIENCE, names=(), **options):
-        """Runs the program and judges it. `names`, `all_names`, `codes`, `may_change`, `by_itself`: of judge.Expected; others of start()."""
-        expected = {key: tuple(options.pop(key)) for key in ("all_names", "codes", "may_change") if key in options}
-        expected["by_itself"] = options.pop("by_itself", False)
-        if not self.commands:
-            shutil.copytree(self.work, os.path.join(self.folder, "input"), symlinks=True, copy_function=special_files.copy)  # what it begins with, to be run again
+    def run(self, *words, output, patience=PATIENCE, preexec=limit, **expected):
         before = judge.digest(self.work)
-        process = self.start(*words, **options)
-        is_hung = self.finish(process, patience)
-        return self.judge(self.outcome(process, before, output, is_hung), names=tuple(names), **expected)
+        return self.end(self.start(*words, preexec=preexec), before, output, patience, **expected)
+
+    def expect_same(self, whole, found, without=()):
+        """Compares the results of two folders bit by bit."""
+        wrong = [name for name in same.differences(same.results(whole), same.results(found, without)) if not name.startswith(tuple(without))]
+        if wrong:
+            self.violations.append("other results than with undamaged files: " + "; ".join(wrong[:4]))
 
     def close(self):
-        """Removes the folder of a case without a violation; else says in it what was run."""
+        """Removes the folder of a case without violation."""
         if not self.violations:
             shutil.rmtree(self.folder, ignore_errors=True)
             return
         with open(os.path.join(self.folder, "case.txt"), "w", encoding="utf-8", errors="surrogateescape") as file:
-            file.write(f"{self.kind}:{self.seed}\n" + "\n".join(self.violations + self.done) + "\n")
-            for words, said in itertools.zip_longest(self.commands, self.said):
-                file.write("\n" + " ".join(map(repr, words)) + f"\n{said}\n")
+            file.write(f"{self.kind}:{self.seed}\n" + "\n".join(self.violations + self.log) + "\n")
 
 
 @dataclasses.dataclass
 class Made:
-    """What is left of a case."""
+    """What remains of a case."""
     violations: list
     codes: list = dataclasses.field(default_factory=list)
-    commands: list = dataclasses.field(default_factory=list)
+    log: list = dataclasses.field(default_factory=list)
     seconds: float = 0.0  # of CPU
-    found: dict = dataclasses.field(default_factory=dict)
 
 
 def run_case(kind, function, seed, keep):
     began = resource.getrusage(resource.RUSAGE_CHILDREN)
     case = Case(kind, seed, keep)
     function(case)
-    ended = resource.getrusage(resource.RUSAGE_CHILDREN)
     case.close()
-    seconds = ended.ru_utime + ended.ru_stime - began.ru_utime - began.ru_stime
-    return Made(case.violations + (case.done if case.violations else []), case.codes, case.commands, seconds, case.found)
-
-
-def wait_for(path, process, seconds=60):
-    """Until a file is there. False where the process ended without, or never wrote it."""
-    end = time.monotonic() + seconds
-    while process.poll() is None and time.monotonic() < end:
-        if os.path.exists(path):
-            return True
-        time.sleep(0.002)
-    return os.path.exists(path)
+    ended = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return Made(case.violations, case.codes, case.log, ended.ru_utime + ended.ru_stime - began.ru_utime - began.ru_stime)

@@ -1,250 +1,179 @@
-# diptych: scenes, keys and command lines that people and programs may write
+# diptych: damaged input files, and every key at its bounds
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
+import functools
 import json
 import os
+import random
 import re
+import shutil
 
 import bases
 import damage
-import keys
-import special_files
-from bases import BOTH, NODES, PROBLEM, TINY
-from pair_kind import TABLE, TIMES
-from running import QUICK, setting
+from bases import FORMATS, NODES, PROBLEM, QUICK, TIMES, TINY
+from judge import read
+from running import bits, setting
 
 
-def settings(*words):
-    """The keys of `--set` words."""
-    return dict(word.split("=", 1) for word in words if word != "--set")
+@functools.lru_cache(maxsize=None)
+def explained_keys():
+    """(section/key, allowed values) of all keys."""
+    found, section = [], ""
+    for line in bases.printed("explain").splitlines():
+        if re.match(r"[a-z]\w*$", line):
+            section = line
+        key = re.match(r"  (\w+) = .*?  \[.*?\]  (.*)$", line)
+        if key:
+            found.append((f"{section}/{key[1]}", key[2]))
+    return tuple(found)
 
 
-def as_sections(values):
+def key_names():
+    return tuple(name for name, _ in explained_keys())
+
+
+def values_of(allowed):
+    """Values that a key may accept, and values that it must refuse."""
+    good, bad = ["-0", "0x10", "", "1e-320", "+1", "auto", "true", "0", "ä", "a b # c"], []
+    bounds = re.search(r"(a whole number|a number|a list of numbers) from (\S+) to (\S+)", allowed)
+    if bounds:
+        low, high = float(bounds[2]), float(bounds[3])
+        good += [bounds[2], bounds[3]]
+        bad += ["nan", "inf", "1e400", "word", "1,2,x"]
+        if bounds[1] == "a whole number":
+            good += [str(int(low) + 1)]
+            bad += [str(int(low) - 1), str(int(high) + 1), repr(low + 0.5)]
+        else:
+            good += [repr((low * high) ** 0.5 if low > 0 else (low + high) / 2)]
+            bad += [repr(low - (abs(low) * 1e-6 or 1e-9)), repr(high + (abs(high) * 1e-6 or 1e-9))]
+    elif allowed.startswith("one of ") or allowed == "true or false":
+        words = re.split(", | or ", allowed.removeprefix("one of "))
+        good += words
+        bad += ["word", words[0].upper(), words[0] + "x", "nan"]
+    return good, bad
+
+
+@functools.lru_cache(maxsize=None)
+def all_values():
+    """(key, value, whether the program must refuse it) in a fixed order, so that consecutive seeds cover all keys."""
+    found = [(name, value, k == 1) for name, allowed in explained_keys() for k, values in enumerate(values_of(allowed)) for value in values]
+    random.Random("keys").shuffle(found)
+    return tuple(found)
+
+
+CONTEXT = (  # the keys without which other keys have no effect
+    ("discrete/penalty", setting(discrete_method="penalty")),
+    ("discrete/(side|wall)_", setting(discrete_lateral="rigid_walls")),
+    ("loading/normal_pressure", setting(loading_mode="plane_shear")),
+    ("loading/(duration|stage_time)|discrete/drive_", TIMES),
+    ("continuum/refinement_", setting(continuum_refinement="adaptive")),
+    ("continuum/weak_spot_", setting(continuum_weak_spot_strain=0.1)),
+    ("comparison/averaging_", setting(comparison_averaging="kernel")),
+    ("continuum/(critical_|strength_by|dilatancy_ratio|.*_start)", setting(continuum_hardening="critical_state", continuum_solid_fraction_start=0.82)),
+)
+
+
+def keys(case):
+    values = all_values()
+    name, value, must_fail = values[case.seed % len(values)]
+    command, words = {"continuum": case.dice.choice([("continuum", NODES), ("material-point", TINY)]),
+                      "comparison": ("run", bases.BOTH)}.get(name.split("/")[0], ("discrete", TINY))
+    for pattern, more in CONTEXT:
+        words = words + (more if re.match(pattern, name) else [])
+    out = case.path("out")
+    case.run(command, QUICK, *words, "--set", f"{name}={value}", "--output", out, "--quiet", output=out, patience=1.5,
+             names=(name,) if must_fail else key_names(), codes=(2,) if must_fail else (0, 2, 3, 4))
+
+
+def as_prm(sections):
+    return "".join(f"subsection {section}\n" + "".join(f"  set {key} = {value}\n" for key, value in items.items()) + "end\n"
+                   for section, items in sections.items())
+
+
+def scene_text(case, name):
     sections = {}
-    for name, value in values.items():
-        section, key = name.split("/")
-        sections.setdefault(section, {})[key] = value
-    return sections
-
-
-def as_prm(values):
-    text = "# a scene\n"
-    for section, items in as_sections(values).items():
-        text += f"subsection {section}\n" + "".join(f"  set {key} = {value}\n" for key, value in items.items()) + "end\n"
-    return text
-
-
-def as_json(values):
-    def number(text):
-        try:
-            return json.loads(text)
-        except ValueError:
-            return [float(part) for part in text.split(",")] if re.fullmatch(r"[\d., e-]+", text) else text
-    return json.dumps({section: {key: number(value) for key, value in items.items()} for section, items in as_sections(values).items()},
-                      indent=1)
-
-
-def deep_json(dice):
-    n, kind = dice.choice([60000, 300000]), dice.choice(["list", "object", "value", "open"])
-    if kind == "object":
-        return '{"a":' * n + "1" + "}" * n
-    if kind == "value":
-        return '{"sample": {"grains": ' + "[" * n + "]" * n + "}}"
-    return "[" * n + ("]" * n if kind == "list" else "")
-
-
-def odd_place(case):
-    """A scene that is no text file: its name as it is given."""
-    kind = case.dice.choice(["/dev/zero", "/dev/null", "/dev/full", "folder", "missing", "itself", "results"])
-    name = case.dice.choice(["scene.prm", "scene.json"])
-    if kind.startswith("/dev"):
-        os.symlink(kind, case.path(name))
-    elif kind == "folder":
-        os.mkdir(case.path(name))
-    elif kind == "itself":
-        os.symlink(name, case.path(name))
-    elif kind == "results":
-        os.symlink(os.path.join(case.base("grains"), "out", "discrete.h5"), case.path(name))
-    return name
-
-
-def scene_file(case):
-    dice = case.dice
-    if dice.random() < 0.06:
-        return odd_place(case)
-    if dice.random() < 0.08:
-        case.write("scene.json", deep_json(dice))
-        return "scene.json"
-    kind = dice.choice(["prm", "prm", "json", "echo"])
-    if kind == "echo":
-        with open(os.path.join(case.base("grains"), "out", "scene.prm"), "rb") as file:
-            content = file.read()
-    else:
-        content = (as_prm if kind == "prm" else as_json)(settings(*NODES)).encode()
-    name = "scene.json" if kind == "json" else "scene.prm"
-    case.write(name, damage.damage_text(dice, content))
-    return name
+    for word in NODES[1::2]:
+        section, key, value = re.fullmatch(r"(\w+)/(\w+)=(.*)", word).groups()
+        sections.setdefault(section, {})[key] = value if name.endswith(".prm") or not re.fullmatch(r"[\d.e-]+", value) else float(value)
+    deep = case.dice.choice([60000, 300000])
+    if case.dice.random() < 0.1:
+        return case.dice.choice(["[" * deep + "]" * deep, '{"a":' * deep + "1" + "}" * deep, "[" * deep, '{"sample": {"grains": ' + "[" * deep]).encode()
+    return damage.damage_text(case.dice, (as_prm(sections) if name.endswith(".prm") else json.dumps(sections, indent=1)).encode())
 
 
 def scenes(case):
-    name, out = scene_file(case), case.path("out")
+    """A scene that is damaged, or a folder or device in its place."""
+    name, out = case.dice.choice(["scene.prm", "scene.prm", "scene.json"]), case.path("out")
+    place = case.dice.choice([".", name, "/dev/zero", "/dev/null", os.path.join(case.base("grains"), "out", "discrete.h5")])
+    if case.dice.random() < 0.06:
+        os.symlink(place, case.path(name))
+    else:
+        case.write(name, scene_text(case, name))
     command = case.dice.choice(["discrete"] * 8 + ["material-point", "continuum"])
-    words = ["--set-file", name] if case.dice.random() < 0.1 and name.endswith(".prm") else []
-    expected = {"names": (name, *keys.names()), "patience": 2, **special_files.instead(case, name)}
-    outcome = case.run(command, QUICK if words else name, *(TINY if words else []), *words, "--output", out, "--quiet", output=out, **expected)
-    if outcome.code == 0 and case.dice.random() < 0.5:
-        again = case.path("again")
-        case.run(command, os.path.join(out, "scene.prm"), "--output", again, "--quiet", output=again, codes=(0,))
-        expect_same_echo(case, out, again)
+    case.run(command, name, "--output", out, "--quiet", output=out, names=(name, *key_names()), patience=2)
 
 
-def expect_same_echo(case, one, other):
-    """The echo of a scene is that scene: run again it says the same of every key but its own folder."""
-    lines = []
-    for folder in (one, other):
-        path = os.path.join(folder, "scene.prm")
-        with open(path, "rb") as file:
-            lines.append([line for line in file.read().split(b"\n") if not re.match(rb"\s*(set directory|#)", line)])
-    if lines[0] != lines[1]:
-        wrong = [pair for pair in zip(*lines) if pair[0] != pair[1]]
-        case.violate(f"the echo run again gives another echo: {wrong[0] if wrong else 'longer or shorter'}")
-
-
-# What a key needs to matter: by the beginning of its name.
-CONTEXT = (
-    ("discrete/penalty", setting(discrete_method="penalty")),
-    ("discrete/side_", setting(discrete_lateral="rigid_walls", discrete_side_motion="velocity")),
-    ("discrete/wall_", setting(discrete_lateral="rigid_walls")),
-    ("loading/normal_pressure", setting(loading_mode="plane_shear")),
-    ("loading/duration", TIMES), ("loading/stage_time", TIMES), ("discrete/drive_", TIMES),
-    ("continuum/refinement_", setting(continuum_refinement="adaptive")),
-    ("continuum/table_", TABLE),
-    ("continuum/weak_spot_", setting(continuum_weak_spot_strain=0.1)),
-    ("comparison/averaging_", setting(comparison_averaging="kernel")),
-)
-CRITICAL = ("critical_stress_ratio", "critical_solid_fraction", "strength_by_density", "dilatancy_ratio", "stress_ratio_start",
-            "solid_fraction_start")
-
-
-def context_of(name):
-    words = [word for beginning, words in CONTEXT if name.startswith(beginning) for word in words]
-    if name.split("/")[1] in CRITICAL:
-        words = words + setting(continuum_hardening="critical_state", continuum_solid_fraction_start=0.82)
-    return words
-
-
-def command_of(case, name):
-    section = name.split("/")[0]
-    if section == "continuum":
-        return case.dice.choice([("continuum", NODES), ("material-point", TINY)])
-    if section == "comparison" and case.dice.random() < 0.5:
-        return "run", BOTH
-    return "discrete", TINY
-
-
-def keys_kind(case):
-    values = keys.all_values()
-    key, value, must_fail, beside = values[case.seed % len(values)]
-    command, words = command_of(case, key.name)
-    if value == "true" and key.name == "output/report":
-        command, words = "discrete", TINY  # alone it draws nothing
+def csv(case):
+    """Samples, drive tables and gradings."""
+    name, words = case.dice.choice([
+        ("grains.csv", setting(sample_file="grains.csv")), ("grains.csv", setting(sample_file="grains.csv")),
+        ("speed.csv", TIMES + ["--set", "discrete/drive_upper_y=velocity speed.csv"]),
+        ("radii.csv", setting(sample_radius_distribution="table", sample_radius_table="radii.csv", sample_radius_min=0.3, sample_radius_max=0.7))])
+    case.write(name, damage.damage_text(case.dice, read(os.path.join(case.base("grains"), name))))
     out = case.path("out")
-    if key.name == "output/directory":
-        must_fail = False
-    case.run(command, QUICK, *words, *context_of(key.name), *beside, "--set", f"{key.name}={value}", "--output", out, "--quiet", output=out,
-             names=(key.name,) if must_fail else keys.names(), codes=(2,) if must_fail else (0, 2, 3, 4), patience=1.5)
+    case.run("discrete", QUICK, *TINY, *words, "--output", out, "--quiet", output=out, names=(name, *key_names()))
 
 
-OPTIONS = {
-    "run": ["--output", "--set", "--set-file", "--threads", "--resume", "--seeds", "--jobs", "--quiet"],
-    "study": ["--output", "--set", "--set-file", "--threads", "--jobs", "--resume", "--quiet"],
-    "plan": ["--accuracy", "--for", "--run", "--output", "--set", "--jobs", "--resume"],
-    "calibrate": ["--output", "--threads", "--jobs", "--resume", "--quiet"],
-    "discrete": ["--output", "--set", "--set-file", "--threads", "--resume", "--study", "--quiet"],
-    "continuum": ["--output", "--set", "--set-file", "--resume", "--quiet"],
-    "material-point": ["--output", "--set", "--set-file", "--quiet"],
-    "solve": ["--output", "--solver", "--tolerance", "--max-sweeps", "--form", "--threads"],
-    "compare": ["--set", "--set-file", "--quiet"],
-    "report": ["--quiet"],
-    "import": ["--output", "--columns", "--thickness", "--timestep", "--density", "--pressure", "--mean-diameter", "--walls-touch"],
-    "export": ["--format", "--output", "--stage", "--quiet"],
-    "explain": ["--help"],
-    "completion": ["--help"],
-}
-STRANGE = ["--frobnicate", "-x", "--", "--output=", "--set=", "--help=1", "--OUTPUT", "-", "--no-quiet", "---", "--threads=-1", "--quiet=2",
-           "\udcff\udcfe", "", " ", "a" * 100000, "../..", "/dev/null", "/dev/full", "nan", "1e400", "-1", "99999999999999999999",
-           "{}", "%s", "ä.prm", "discrete", "run", "*", "scene.prm/", "\n", "1-99999999999", "5-1", "1,,2", "sample/grains=", "=", "/=1"]
+def damage_hdf5(case, name, often=""):
+    """True if the program must notice the damage where it reads the item."""
+    if case.dice.random() < 0.7:
+        return case.damage_arrays(name, often)
+    case.damage(case.path(name), damage.BYTES)
+    return False
 
 
-def words(case):
-    """A command line put together from what commands take and what none does; what it writes goes into the case's folder."""
-    dice = case.dice
-    case.copy("grains", "done")
-    case.write("scene.prm", as_prm(settings(*NODES)))
-    with open(PROBLEM, "rb") as file:
-        case.write("problem.h5", file.read())
-    if dice.random() < special_files.OFTEN:
-        return special_words(case)
-    if dice.random() < 0.4:
-        return told_words(case)
-    command = dice.choice(sorted(OPTIONS))
-    target = {"compare": "done/out", "report": "done/out", "export": "done/out", "solve": "problem.h5", "explain": "sample",
-              "completion": "bash", "import": "csv"}.get(command, "scene.prm")
-    line = [command] + ([target] if dice.random() < 0.8 else [])
-    if command == "import":
-        line += ["done/grains.csv"]
-    for _ in range(dice.randrange(4)):
-        owner = command if dice.random() < 0.5 else dice.choice(sorted(OPTIONS))
-        line.append(dice.choice(OPTIONS[owner] + STRANGE))
-        if dice.random() < 0.6:
-            line.append(dice.choice(STRANGE + ["2", "psor", "csv", "out", "sample/grains=60", "1-2", "step"]))
-    if dice.random() < 0.5:
-        line.insert(dice.randrange(len(line) + 1), dice.choice(STRANGE))
-    line = [word for word in line if "\0" not in word]
-    # Where it writes is its own business here: it may be anywhere below the case's folder.
-    case.run(*[os.fsencode(word) for word in line], output=case.work, patience=2, cwd=case.work)
+def snapshots(case):
+    """Snapshots of an earlier run as a sample."""
+    name, out, whole = "snapshots.h5", case.path("out"), os.path.join(case.base("grains"), "out", "discrete.h5")
+    shutil.copy(whole, case.path(name))
+    is_plain = damage_hdf5(case, name, "grains/(position|radius|velocity|spin|rotation|fixed|mass)")
+    words = ["discrete", QUICK, *TINY, "--quiet"]
+    outcome = case.run(*words, *setting(sample_file=name), "--output", out, output=out, names=(name,))
+    if outcome.code == 0 and is_plain:
+        case.expect_same(bases.whole(case.keep, "snapshots", lambda to: [*words, *setting(sample_file=whole), "--output", to]), out)
 
 
-def special_words(case):
-    """A pipe, socket or device where a command wants a file."""
-    name = case.dice.choice(["one.json", "one.prm", "one.h5"])
-    special_files.put(case, name)
-    line = case.dice.choice({"one.json": [["study"], ["calibrate"], ["discrete"]], "one.h5": [["solve"]],
-                             "one.prm": [["plan", "--accuracy", "5 %"], ["continuum"], ["material-point"], ["discrete", "scene.prm", "--set-file"]]}[name])
-    case.run(*line, name, output=case.path("out"), all_names=(name,), codes=(2,), by_itself=True, patience=special_files.PATIENCE)
+def problems(case):
+    """FCLIB files for `diptych solve`."""
+    name, out = "problem.h5", case.path("solved.h5")
+    shutil.copy(PROBLEM, case.path(name))
+    is_plain = damage_hdf5(case, name, "fclib|nscd")
+    words = ["--form", case.dice.choice(["local", "body"]), "--max-sweeps", "20000", "--output"]
+    outcome = case.run("solve", name, *words, out, output=out, names=(name,))
+    if outcome.code == 0 and is_plain and ": group" not in case.log[0]:  # without one group it is a whole problem in the other form
+        whole = bases.whole(case.keep, "problem_" + words[1], lambda to: ["solve", PROBLEM, *words, to])
+        if any(bits(whole)[key] != bits(out)[key] for key in ("solution/r", "solution/u")):
+            case.violations.append("another solution than that of the undamaged problem")
 
 
-def told_words(case):
-    """Lines of which it is known what must be said."""
-    seed_list = case.dice.choice(["1-x", "5-1", "0x3", "1,,2", "1-99999999999"])
-    lines = [
-        (["discrete", "scene.prm", "--threads", "100000", "--output", "out"], ["--threads"]),
-        (["discrete", "scene.prm", "--seeds", "1-2", "--output", "out"], ["--seeds"]),
-        (["run", "scene.prm", "--seeds", seed_list, "--output", "out"], ["--seeds"]),
-        (["run", "scene.prm", "--jobs", "2", "--output", "out"], ["--jobs"]),
-        (["continuum", "scene.prm", "--threads", "2", "--output", "out"], ["--threads"]),
-        (["solve", "problem.h5", "--output", "scene.prm"], ["scene.prm"]),
-        (["solve", "problem.h5", "--tolerance", "2"], ["--tolerance"]),
-        (["solve", "scene.prm"], ["scene.prm"]),
-        (["compare", "done/out", "--output", "other"], ["--output"]),
-        (["report", "done/out", "--set", "sample/grains=60"], ["--set"]),
-        (["compare", "scene.prm"], ["scene.prm"]),
-        (["export", "done/out", "--format", "csv", "--stage", "77"], ["77"]),
-        (["import", "csv", "done/out/discrete.csv", "--output", "done/out"], ["done/out"]),
-        (["discrete", "scene.prm", "--set", "sample/file=done/out/discrete.csv", "--output", "done/out"], ["discrete.csv"]),
-        (["discrete", "scene.prm", "--set", "sample/grian=5", "--output", "out"], ["grian"]),
-        (["discrete", "scene.prm", "--set-file", "problem.h5", "--output", "out"], ["problem.h5"]),
-        (["discrete", "scene.prm", "--study", "grid", "--output", "out"], ["--study"]),
-        (["plan", "scene.prm", "--accuracy", "nan", "--output", "out"], ["--accuracy"]),
-        (["study", "scene.prm", "--output", "out"], ["scene.prm"]),
-        (["calibrate", "scene.prm", "--output", "out"], ["scene.prm"]),
-        (["material-point", "scene.prm", "--resume"], ["--resume"]),
-        (["explain", "nothing"], ["nothing"]),
-        (["discrete"], ["SCENE"]),
-        (["discrete", "scene.prm", "again.prm"], ["again.prm"]),
-    ]
-    line, names = case.dice.choice(lines)
-    case.run(*line, all_names=names, codes=(2,), output=case.path("out"), patience=2)
+def imports(case):
+    """Files of another code, in any order. In most cases one of them is damaged."""
+    kind = case.dice.choice(sorted(FORMATS))
+    form, _, words = FORMATS[kind]
+    names, out, is_plain = [os.path.basename(path) for path in bases.foreign(kind)], case.path("mine"), False
+    for path in bases.foreign(kind):
+        shutil.copy(path, case.work)
+    case.dice.shuffle(names)
+    is_whole = case.dice.random() < 0.05
+    if not is_whole and names[0].endswith(".h5"):
+        is_plain = damage_hdf5(case, names[0])
+    elif not is_whole:
+        case.write(names[0], damage.damage_text(case.dice, read(case.path(names[0]))))
+    case.dice.shuffle(names)
+    outcome = case.run("import", form, *names, *words, "--output", out, "--quiet", output=out, names=(*names, "the files", "--", "import " + form),
+                       codes=(0,) if is_whole else (0, 2, 3, 4), patience=20, has_numbers=False)
+    if outcome.code == 0 and (is_plain or is_whole) and "warning" not in outcome.errors:
+        case.expect_same(bases.whole(case.keep, kind, lambda to: ["import", form, *bases.foreign(kind), *words, "--output", to, "--quiet"]), out)
 
 
-KINDS = {"scenes": scenes, "keys": keys_kind, "words": words}
+KINDS = {"scenes": scenes, "keys": keys, "csv": csv, "snapshots": snapshots, "problems": problems, "imports": imports}

@@ -1,6 +1,6 @@
-# diptych: what a folder holds, without what a clock measured
+# diptych: the results of a folder, without measured times
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Two runs that must not differ are compared here: every bit of .h5, every text of .csv and .json but clocks and dates."""
+"""Compares every bit of .h5 files, and every text of .csv and .json files except times and dates."""
 
 import csv
 import json
@@ -9,48 +9,38 @@ import os
 from judge import OWN_STATE
 from running import bits
 
-CLOCKS = ("ns_per_update", "cpu_s", "wall_s", "seconds", "_mb", "of_cpu", "disturbed")
-OF_THE_MACHINE = ("load", )  # processes that ran beside
-NOT_COMPARED = ("provenance.json", "study_cost.json", "calibration_cost.json", "import.json")  # paths, clocks, dates
+CLOCKS = ("ns_per_update", "cpu_s", "wall_s", "seconds", "_mb", "of_cpu", "disturbed", "load")
+NOT_COMPARED = ("provenance.json", "study_cost.json", "calibration_cost.json", "import.json")  # paths, times, dates
 
 
 def is_of_clock(name):
-    """A study.csv names its columns `cpu_s of discrete`."""
-    return name.endswith(CLOCKS) or name.startswith("cpu_s of ") or name in OF_THE_MACHINE
+    return str(name).endswith(CLOCKS) or str(name).startswith("cpu_s of ")  # a column of study.csv
 
 
 def without_clocks(item):
     if isinstance(item, dict):
-        return {key: without_clocks(value) for key, value in item.items() if not is_of_clock(str(key))}
-    return [without_clocks(one) for one in item if not is_clock(one)] if isinstance(item, list) else item
+        return {key: without_clocks(value) for key, value in item.items() if not is_of_clock(key)}
+    if isinstance(item, list):  # in comparison.csv, a row is a number
+        return [without_clocks(one) for one in item if not (isinstance(one, dict) and is_of_clock(one.get("quantity", "")))]
+    return item
 
 
-def is_clock(row):
-    """Of comparison.csv, where a row is a number."""
-    return isinstance(row, dict) and str(row.get("quantity", "")).endswith(CLOCKS)
+def content_of(path):
+    if path.endswith(".h5"):
+        return bits(path)
+    with open(path, encoding="utf-8", newline="") as file:
+        return without_clocks(list(csv.DictReader(file)) if path.endswith(".csv") else json.load(file))
 
 
-def results(folder):
-    """By relative path."""
-    found = {}
-    for root, _, names in os.walk(folder):
-        for name in names:
-            path = os.path.join(root, name)
-            if name in OWN_STATE or name in NOT_COMPARED:
-                continue
-            if name.endswith(".h5"):
-                found[os.path.relpath(path, folder)] = bits(path)
-            elif name.endswith(".csv"):
-                with open(path, encoding="utf-8", newline="") as file:
-                    found[os.path.relpath(path, folder)] = without_clocks(list(csv.DictReader(file)))
-            elif name.endswith(".json"):
-                with open(path, encoding="utf-8") as file:
-                    found[os.path.relpath(path, folder)] = without_clocks(json.load(file))
-    return found
+def results(folder, without=()):
+    """The contents of all files by their relative path. `without`: damaged files that need not be readable."""
+    paths = [os.path.join(root, name) for root, _, names in os.walk(folder) for name in names
+             if name.endswith((".h5", ".csv", ".json")) and name not in OWN_STATE + NOT_COMPARED]
+    return {os.path.relpath(path, folder): content_of(path) for path in paths if os.path.relpath(path, folder) not in without}
 
 
 def differences(one, other):
-    """Names of files of two results() that differ; of .h5 with the arrays."""
+    """The files that differ between two results(), with the names of their different arrays."""
     found = []
     for name in sorted(set(one) | set(other)):
         a, b = one.get(name), other.get(name)
