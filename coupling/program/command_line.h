@@ -50,10 +50,10 @@ namespace diptych::coupling
     discrete::ContactSolver              solver = discrete::ContactSolver::psor; // --solver, --tolerance, --max-sweeps: of solve
     double                               tolerance  = 1e-8;
     int                                  max_sweeps = 1000000;
-    std::optional<discrete::ProblemForm> form;                  // --form; none: the better one that the file has
-    ForeignOptions                       foreign;               // of import
-    std::string                          format;                // of export
-    int                                  stage          = 0;    // of export
+    std::optional<discrete::ProblemForm> form;                   // --form; none: the better one that the file has
+    ForeignOptions                       foreign;                // of import
+    std::string                          format;                 // of export
+    int                                  stage           = 0;    // of export
     bool                                 prints_warnings = true; // the first of several processes does
   };
 

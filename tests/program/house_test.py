@@ -61,8 +61,7 @@ def functions(path):
 
 
 # Other changes are under way there: their chains of statements and second unnamed namespaces are not counted yet.
-NOT_YET = tuple(os.path.join("coupling", room, "") for room in
-                ("calibration", "studies", "plans", "ensembles", "import", "python", "report", "manual"))
+NOT_YET = tuple(os.path.join("coupling", room, "") for room in ("calibration", "ensembles", "plans", "python", "studies"))
 
 HEADS = re.compile(r"((if|for|while|switch) *(constexpr )?@\s*|(else|do)\b\s*|case [\w:@]+:\s+|default:\s+)*")
 CHAIN = re.compile(r"(\+\+|--|\*)?[\w:]+((\.|->)\w+|[@$])*(\+\+|--)?(\s*[-+*/%|&^]?=[^=,][^,]*)?,")
