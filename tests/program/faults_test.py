@@ -98,21 +98,24 @@ class Inputs(Folder):
 
     def test_an_input_is_never_moved_or_removed(self):
         """An input in the folder that --overwrite would rename, or in the earlier one that it would remove."""
-        for place in (self.folder, self.folder + ".1"):
-            shutil.copytree(self.whole, place)
-            for name in ("mine.prm", "mine.json", "mine.csv"):
-                write(os.path.join(place, name), content(QUICK).decode() if name.endswith("prm") else "{}")
-        for place in (self.folder, self.folder + ".1"):
-            scene, table = os.path.join(place, "mine.prm"), os.path.join(place, "mine.csv")
-            study = write(os.path.join(place, "mine.json"), json.dumps({
-                "scene": QUICK, "command": "discrete", "reference": {"discrete/step": 0.1}, "axes": [{"key": "discrete/step", "values": [0.4]}],
-                "quantities": [{"column": "volumetric_strain", "at": 0.005}]}))
-            grains = write(table, "x,y,r\n" + "".join(f"{x},{y},0.5\n" for x in range(12) for y in (0.5, 1.5)))
-            for words in (["run", scene, *BOTH], ["discrete", scene, *BOTH], ["continuum", scene, *BOTH], ["material-point", scene, *BOTH],
-                          ["discrete", QUICK, "--set-file", scene, *BOTH], ["run", scene, *BOTH, "--seeds", "1-2"], ["study", study],
-                          ["plan", scene, *BOTH, "--accuracy", "0.5"], ["import", "csv", grains, "--walls-touch"],
-                          ["run", QUICK, *BOTH, *setting(sample_file=grains)]):
-                with self.subTest(words=words[:2], place=os.path.basename(place)):
+        study = {"scene": QUICK, "command": "discrete", "reference": {"discrete/step": 0.1}, "axes": [{"key": "discrete/step", "values": [0.4]}],
+                 "quantities": [{"column": "volumetric_strain", "at": 0.005}]}
+        calibration = {"targets": [{"name": "a", "scene": QUICK, "seeds": "1"}], "quantities": ["stress_ratio"], "bins": [0.005],
+                       "parameters": [{"key": "friction_angle_peak", "start": 20, "low": 14, "high": 40}]}
+        inputs = {"mine.prm": content(QUICK).decode(), "study.json": json.dumps(study), "fit.json": json.dumps(calibration),
+                  "grains.csv": "x,y,r\n" + "".join(f"{x},{y},0.5\n" for x in range(12) for y in (0.5, 1.5))}
+        for line in (["run", "mine.prm", *BOTH], ["discrete", "mine.prm", *BOTH], ["continuum", "mine.prm", *BOTH], ["material-point", "mine.prm", *BOTH],
+                     ["discrete", QUICK, *BOTH, "--set-file", "mine.prm"], ["run", "mine.prm", *BOTH, "--seeds", "1-2"], ["study", "study.json"],
+                     ["calibrate", "fit.json"], ["plan", "mine.prm", *BOTH, "--accuracy", "0.5"], ["import", "csv", "grains.csv", "--walls-touch"],
+                     ["run", QUICK, *BOTH, *setting(sample_file="grains.csv")]):
+            for place in (self.folder, self.folder + ".1"):
+                for folder in (self.folder, self.folder + ".1"):
+                    shutil.rmtree(folder, ignore_errors=True)
+                    shutil.copytree(self.whole, folder)
+                for name, text in inputs.items():
+                    write(os.path.join(place, name), text)
+                words = [word.replace("=", "=" + place + "/") if word.endswith("=grains.csv") else os.path.join(place, word) if word in inputs else word for word in line]
+                with self.subTest(command=line[0], words=line[-1], place=os.path.basename(place)):
                     self.expect(2, [*words, "--overwrite", "--output", self.folder], place)
 
     def test_grains_that_carry_nothing_are_pointed_out(self):
