@@ -21,7 +21,8 @@ from running import ENVIRONMENT, PROBLEMS, PROGRAM, QUICK, SMALL, content, dipty
 FEW = SMALL + setting(sample_grains=60, output_report="false")
 BOTH = FEW + setting(continuum_element_size=2.5, continuum_initial_step=0.0025, continuum_max_step=0.0025,
                      comparison_coarse_element_size=0, comparison_band_resamples=0, comparison_probe_resamples=0)
-RECTANGLE = setting(continuum_mesh="rectangle", continuum_rectangle_width=40, continuum_rectangle_height=60)
+RECTANGLE = setting(continuum_mesh="rectangle", continuum_rectangle_width=40, continuum_rectangle_height=60,
+                    continuum_initial_step=1e-3, continuum_max_step=1e-3)
 
 
 class Folder(unittest.TestCase):
@@ -114,7 +115,7 @@ class Inputs(Folder):
                     shutil.copytree(self.whole, folder)
                 for name, text in inputs.items():
                     write(os.path.join(place, name), text)
-                words = [word.replace("=", "=" + place + "/") if word.endswith("=grains.csv") else os.path.join(place, word) if word in inputs else word for word in line]
+                words = [re.sub(r"(^|sample/file=)(mine.prm|study.json|fit.json|grains.csv)$", rf"\1{place}/\2", word) for word in line]
                 with self.subTest(command=line[0], words=line[-1], place=os.path.basename(place)):
                     self.expect(2, [*words, "--overwrite", "--output", self.folder], place)
 
@@ -237,7 +238,7 @@ class Machine(Folder):
     def test_a_full_disk_during_a_run(self):
         """Once the first stage is there, no file grows any more."""
         for command, begun, words in (("discrete", "discrete/stage_0000.h5", FEW),
-                                      ("continuum", "continuum/stage_0000.vtu", FEW + RECTANGLE + setting(continuum_initial_step=1e-3, continuum_max_step=1e-3))):
+                                      ("continuum", "continuum/stage_0000.vtu", FEW + RECTANGLE)):
             with self.subTest(command=command):
                 shutil.rmtree(self.folder, ignore_errors=True)
                 process = start(command, QUICK, *words, *setting(loading_axial_strain=0.2, comparison_window_edges="0,0.2"), "--output", self.folder, "--quiet")
@@ -260,20 +261,21 @@ class Machine(Folder):
             self.assertFalse(os.path.exists(self.folder))
 
     def test_a_mesh_that_is_too_large_for_the_memory(self):
-        words = FEW + setting(continuum_mesh="rectangle", continuum_rectangle_width=400, continuum_rectangle_height=600, continuum_element_size=1.2,
-                              comparison_coarse_element_size=0)
-        self.expect(4, ["continuum", QUICK, *words, "--output", self.folder, "--quiet"], "GB of memory",
+        words = setting(continuum_mesh="rectangle", continuum_rectangle_width=400, continuum_rectangle_height=600, continuum_element_size=1.2,
+                        comparison_coarse_element_size=0)
+        self.expect(4, ["continuum", QUICK, *FEW, *words, "--output", self.folder, "--quiet"], "GB of memory",
                     preexec_fn=with_limit(resource.RLIMIT_AS, 2 << 30))
 
     def test_a_closed_pipe_does_not_stop_a_run(self):
         """As in `diptych run ... 2>&1 | true`."""
-        for words, name in ((["run", *BOTH], "comparison.json"), (["run", *BOTH, "--seeds", "1-2", "--jobs", "1"], "ensemble.json"), (["discrete", *FEW], "discrete.csv")):
+        for words, name in ((["run", *BOTH], "comparison.json"), (["run", *BOTH, "--seeds", "1-2", "--jobs", "1"], "ensemble.json"),
+                            (["discrete", *FEW], "discrete.csv")):
             shutil.rmtree(self.folder, ignore_errors=True)
             reader, writer = os.pipe()
             os.close(reader)
             with open(writer, "wb") as pipe:
-                code = subprocess.run([PROGRAM, words[0], QUICK, *words[1:], "--output", self.folder], env=ENVIRONMENT, stdout=pipe, stderr=pipe, check=False).returncode
-            self.assertEqual(code, 0)
+                result = subprocess.run([PROGRAM, words[0], QUICK, *words[1:], "--output", self.folder], env=ENVIRONMENT, stdout=pipe, stderr=pipe, check=False)
+            self.assertEqual(result.returncode, 0)
             self.assertIn(name, listing(self.folder))
 
     def test_output_that_cannot_be_printed_is_reported(self):
