@@ -249,6 +249,16 @@ class Machine(Folder):
                 out, errors = process.communicate()
                 self.expect_message(subprocess.CompletedProcess(command, process.returncode, out, errors), 4, "kept in " + self.folder, "scene.prm")
 
+    def test_a_full_disk_under_a_comparison_with_other_keys(self):
+        """The earlier comparison is either still that of scene.prm, or no report shows it."""
+        shutil.copytree(self.whole, self.folder)
+        scene = content(os.path.join(self.folder, "scene.prm"))
+        self.expect(4, ["compare", self.folder, *setting(comparison_max_bands=1), "--quiet"], "comparison.h5", "kept in",
+                    preexec_fn=with_limit(resource.RLIMIT_FSIZE, 50000))
+        if scene != content(os.path.join(self.folder, "scene.prm")):
+            self.expect(2, ["report", self.folder, "--quiet"], self.folder)
+        self.expect(0, ["compare", self.folder, *setting(comparison_max_bands=1), "--quiet"])
+
     def test_a_folder_that_cannot_be_made(self):
         path = write(os.path.join(self.work, "file"), "mine")
         for command in ("run", "discrete", "continuum"):
