@@ -21,7 +21,8 @@ from running import ENVIRONMENT, PROBLEMS, PROGRAM, QUICK, SMALL, content, dipty
 FEW = SMALL + setting(sample_grains=60, output_report="false")
 BOTH = FEW + setting(continuum_element_size=2.5, continuum_initial_step=0.0025, continuum_max_step=0.0025,
                      comparison_coarse_element_size=0, comparison_band_resamples=0, comparison_probe_resamples=0)
-RECTANGLE = setting(continuum_mesh="rectangle", continuum_rectangle_width=40, continuum_rectangle_height=60)
+RECTANGLE = setting(continuum_mesh="rectangle", continuum_rectangle_width=40, continuum_rectangle_height=60,
+                    continuum_initial_step=1e-3, continuum_max_step=1e-3)
 
 
 class Folder(unittest.TestCase):
@@ -98,21 +99,24 @@ class Inputs(Folder):
 
     def test_an_input_is_never_moved_or_removed(self):
         """An input in the folder that --overwrite would rename, or in the earlier one that it would remove."""
-        for place in (self.folder, self.folder + ".1"):
-            shutil.copytree(self.whole, place)
-            for name in ("mine.prm", "mine.json", "mine.csv"):
-                write(os.path.join(place, name), content(QUICK).decode() if name.endswith("prm") else "{}")
-        for place in (self.folder, self.folder + ".1"):
-            scene, table = os.path.join(place, "mine.prm"), os.path.join(place, "mine.csv")
-            study = write(os.path.join(place, "mine.json"), json.dumps({
-                "scene": QUICK, "command": "discrete", "reference": {"discrete/step": 0.1}, "axes": [{"key": "discrete/step", "values": [0.4]}],
-                "quantities": [{"column": "volumetric_strain", "at": 0.005}]}))
-            grains = write(table, "x,y,r\n" + "".join(f"{x},{y},0.5\n" for x in range(12) for y in (0.5, 1.5)))
-            for words in (["run", scene, *BOTH], ["discrete", scene, *BOTH], ["continuum", scene, *BOTH], ["material-point", scene, *BOTH],
-                          ["discrete", QUICK, "--set-file", scene, *BOTH], ["run", scene, *BOTH, "--seeds", "1-2"], ["study", study],
-                          ["plan", scene, *BOTH, "--accuracy", "0.5"], ["import", "csv", grains, "--walls-touch"],
-                          ["run", QUICK, *BOTH, *setting(sample_file=grains)]):
-                with self.subTest(words=words[:2], place=os.path.basename(place)):
+        study = {"scene": QUICK, "command": "discrete", "reference": {"discrete/step": 0.1}, "axes": [{"key": "discrete/step", "values": [0.4]}],
+                 "quantities": [{"column": "volumetric_strain", "at": 0.005}]}
+        calibration = {"targets": [{"name": "a", "scene": QUICK, "seeds": "1"}], "quantities": ["stress_ratio"], "bins": [0.005],
+                       "parameters": [{"key": "friction_angle_peak", "start": 20, "low": 14, "high": 40}]}
+        inputs = {"mine.prm": content(QUICK).decode(), "study.json": json.dumps(study), "fit.json": json.dumps(calibration),
+                  "grains.csv": "x,y,r\n" + "".join(f"{x},{y},0.5\n" for x in range(12) for y in (0.5, 1.5))}
+        for line in (["run", "mine.prm", *BOTH], ["discrete", "mine.prm", *BOTH], ["continuum", "mine.prm", *BOTH], ["material-point", "mine.prm", *BOTH],
+                     ["discrete", QUICK, *BOTH, "--set-file", "mine.prm"], ["run", "mine.prm", *BOTH, "--seeds", "1-2"], ["study", "study.json"],
+                     ["calibrate", "fit.json"], ["plan", "mine.prm", *BOTH, "--accuracy", "0.5"], ["import", "csv", "grains.csv", "--walls-touch"],
+                     ["run", QUICK, *BOTH, *setting(sample_file="grains.csv")]):
+            for place in (self.folder, self.folder + ".1"):
+                for folder in (self.folder, self.folder + ".1"):
+                    shutil.rmtree(folder, ignore_errors=True)
+                    shutil.copytree(self.whole, folder)
+                for name, text in inputs.items():
+                    write(os.path.join(place, name), text)
+                words = [re.sub(r"(^|sample/file=)(mine.prm|study.json|fit.json|grains.csv)$", rf"\1{place}/\2", word) for word in line]
+                with self.subTest(command=line[0], words=line[-1], place=os.path.basename(place)):
                     self.expect(2, [*words, "--overwrite", "--output", self.folder], place)
 
     def test_grains_that_carry_nothing_are_pointed_out(self):
@@ -234,7 +238,7 @@ class Machine(Folder):
     def test_a_full_disk_during_a_run(self):
         """Once the first stage is there, no file grows any more."""
         for command, begun, words in (("discrete", "discrete/stage_0000.h5", FEW),
-                                      ("continuum", "continuum/stage_0000.vtu", FEW + RECTANGLE + setting(continuum_initial_step=1e-3, continuum_max_step=1e-3))):
+                                      ("continuum", "continuum/stage_0000.vtu", FEW + RECTANGLE)):
             with self.subTest(command=command):
                 shutil.rmtree(self.folder, ignore_errors=True)
                 process = start(command, QUICK, *words, *setting(loading_axial_strain=0.2, comparison_window_edges="0,0.2"), "--output", self.folder, "--quiet")
@@ -244,6 +248,16 @@ class Machine(Folder):
                 resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (60000, 60000))
                 out, errors = process.communicate()
                 self.expect_message(subprocess.CompletedProcess(command, process.returncode, out, errors), 4, "kept in " + self.folder, "scene.prm")
+
+    def test_a_full_disk_under_a_comparison_with_other_keys(self):
+        """The earlier comparison is either still that of scene.prm, or no report shows it."""
+        shutil.copytree(self.whole, self.folder)
+        scene = content(os.path.join(self.folder, "scene.prm"))
+        self.expect(4, ["compare", self.folder, *setting(comparison_max_bands=1), "--quiet"], "comparison.h5", "kept in",
+                    preexec_fn=with_limit(resource.RLIMIT_FSIZE, 50000))
+        if scene != content(os.path.join(self.folder, "scene.prm")):
+            self.expect(2, ["report", self.folder, "--quiet"], self.folder)
+        self.expect(0, ["compare", self.folder, *setting(comparison_max_bands=1), "--quiet"])
 
     def test_a_folder_that_cannot_be_made(self):
         path = write(os.path.join(self.work, "file"), "mine")
@@ -257,20 +271,21 @@ class Machine(Folder):
             self.assertFalse(os.path.exists(self.folder))
 
     def test_a_mesh_that_is_too_large_for_the_memory(self):
-        words = FEW + setting(continuum_mesh="rectangle", continuum_rectangle_width=400, continuum_rectangle_height=600, continuum_element_size=1.2,
-                              comparison_coarse_element_size=0)
-        self.expect(4, ["continuum", QUICK, *words, "--output", self.folder, "--quiet"], "GB of memory",
+        words = setting(continuum_mesh="rectangle", continuum_rectangle_width=400, continuum_rectangle_height=600, continuum_element_size=1.2,
+                        comparison_coarse_element_size=0)
+        self.expect(4, ["continuum", QUICK, *FEW, *words, "--output", self.folder, "--quiet"], "GB of memory",
                     preexec_fn=with_limit(resource.RLIMIT_AS, 2 << 30))
 
     def test_a_closed_pipe_does_not_stop_a_run(self):
         """As in `diptych run ... 2>&1 | true`."""
-        for words, name in ((["run", *BOTH], "comparison.json"), (["run", *BOTH, "--seeds", "1-2", "--jobs", "1"], "ensemble.json"), (["discrete", *FEW], "discrete.csv")):
+        for words, name in ((["run", *BOTH], "comparison.json"), (["run", *BOTH, "--seeds", "1-2", "--jobs", "1"], "ensemble.json"),
+                            (["discrete", *FEW], "discrete.csv")):
             shutil.rmtree(self.folder, ignore_errors=True)
             reader, writer = os.pipe()
             os.close(reader)
             with open(writer, "wb") as pipe:
-                code = subprocess.run([PROGRAM, words[0], QUICK, *words[1:], "--output", self.folder], env=ENVIRONMENT, stdout=pipe, stderr=pipe, check=False).returncode
-            self.assertEqual(code, 0)
+                result = subprocess.run([PROGRAM, words[0], QUICK, *words[1:], "--output", self.folder], env=ENVIRONMENT, stdout=pipe, stderr=pipe, check=False)
+            self.assertEqual(result.returncode, 0)
             self.assertIn(name, listing(self.folder))
 
     def test_output_that_cannot_be_printed_is_reported(self):

@@ -37,14 +37,14 @@ def checkpoints(case):
 def results(case):
     """A finished folder with a damaged file is refused, or the command gives the bits that it gives from undamaged files."""
     base, endings, commands = case.dice.choices(RESULTS, (10, 4, 1, 1, 1))[0]
-    out, words = case.copy(base), list(case.dice.choice(commands))
+    out, command = case.copy(base), case.dice.choice(commands)
+    words = ["out" if word == "OUT" else word for word in command] + ["--quiet"]
     name = case.dice.choice(sorted(path for path in files_of(out) if path.endswith(endings) and os.path.basename(path) not in OWN_STATE))
     case.damage(os.path.join(out, name), (damage.flip_bit,) * 12 + damage.BYTES)
     to = "theirs" if "theirs" in words else "out"
-    outcome = case.run(*["out" if word == "OUT" else word for word in words], "--quiet", output=case.path(to), patience=60,
-                       names=(os.path.basename(name), "out"), codes=(0, 2))
+    outcome = case.run(*words, output=case.path(to), patience=60, names=(os.path.basename(name), "out"), codes=(0, 2))
     if outcome.code == 0:
-        whole = bases.whole(case.keep, f"{base}_{commands.index(words)}", lambda _: [*["out" if word == "OUT" else word for word in words], "--quiet"], base, to)
+        whole = bases.whole(case.keep, f"{base}_{commands.index(command)}", lambda _: words, base, to)
         is_untouched = outcome.before.get("out/" + name) == outcome.after.get("out/" + name)
         case.expect_same(whole, case.path(to), without=(name,) if is_untouched else ())
 

@@ -68,7 +68,7 @@ def arguments():
     parser.add_argument("source")
     parser.add_argument("--cases", type=int, default=100)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--kinds", default=",".join(KINDS), help="with commas between; kills_BASE kills one sort of run: " + ", ".join(interruption_kinds.KILLED))
+    parser.add_argument("--kinds", default=",".join(KINDS), help="with commas between; kills_BASE kills one sort of run")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--keep", help="folder for violated cases (default: a temporary one)")
     parser.add_argument("--case", action="append", metavar="KIND:SEED", help="runs this case; may be repeated")
@@ -91,7 +91,7 @@ def main():
         counted[kind].update({"cases": 1, "violations": int(bool(made.violations)), "CPU s": made.seconds})
         counted[kind].update(str(code) if code >= 0 else "signal" for code in made.codes)
         if made.violations:
-            print("\n    ".join([f"--case {kind}:{seed}  in {os.path.join(keep, f'{kind}_{seed}')}", *made.violations, *made.log]), flush=True)
+            print("\n    ".join([f"--case {kind}:{seed}  in {keep}/{kind}_{seed}", *made.violations, *made.log]), flush=True)
         if n % max(20, len(plan) // 50) == 0:
             print(f"{n} of {len(plan)} cases", file=sys.stderr, flush=True)
     table(counted)
