@@ -75,6 +75,8 @@ def bits(path):
         if isinstance(item, h5py.Dataset):
             found[name] = (item.shape, item[()].tobytes())
         for key, value in item.attrs.items():
+            if key == "meaning":  # words
+                continue
             found[name + "@" + key] = (numpy.shape(value), numpy.asarray(value).tobytes())
 
     with h5py.File(path, "r") as file:
