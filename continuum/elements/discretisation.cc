@@ -54,6 +54,44 @@ namespace diptych::continuum
       GridTools::consistently_order_cells(cells);
       triangulation.create_triangulation(vertices, cells, lines);
     }
+
+    // d x / d unit coordinates at a point: J[i][j] = sum over nodes of x_i dN/d xi_j.
+    Tensor<2, 2> jacobian(const ReferenceElement             &reference,
+                          const unsigned int                  q,
+                          const Cell                         &cell,
+                          const std::vector<Eigen::Vector2d> &x)
+    {
+      Tensor<2, 2> J;
+      for (unsigned int node = 0; node < reference.n_nodes; ++node)
+        for (unsigned int i = 0; i < 2; ++i)
+          J[i] += x[cell.nodes[node]][i] * reference.gradient[q][node];
+      return J;
+    }
+
+    CellGeometry cell_geometry(const Discretisation &mesh, const Cell &cell, const std::vector<Eigen::Vector2d> &x)
+    {
+      const auto  &reference = mesh.reference;
+      CellGeometry geometry;
+      double       area = 0;
+      for (unsigned int q = 0; q < reference.n_points; ++q)
+        {
+          auto              &point     = geometry.points[q];
+          const Tensor<2, 2> J         = jacobian(reference, q, cell, x);
+          const Tensor<2, 2> inverse_t = transpose(invert(J));
+          point.area                   = determinant(J) * reference.weights[q];
+          area += point.area;
+          for (unsigned int node = 0; node < reference.n_nodes; ++node)
+            {
+              point.gradient[node] = inverse_t * reference.gradient[q][node];
+              geometry.mean_gradient[node] += point.area * point.gradient[node];
+            }
+          for (unsigned int corner = 0; corner < reference.n_rotations; ++corner)
+            point.rotation_gradient[corner] = inverse_t * reference.rotation_gradient[q][corner];
+        }
+      for (auto &gradient : geometry.mean_gradient)
+        gradient /= area;
+      return geometry;
+    }
   } // namespace
 
   Discretisation::Discretisation(const QuadMesh   &mesh,
@@ -222,47 +260,6 @@ namespace diptych::continuum
       result.emplace_back(node.initial.x() + displacement[node.local[0]], node.initial.y() + displacement[node.local[1]]);
     return result;
   }
-
-  namespace
-  {
-    // d x / d unit coordinates at a point: J[i][j] = sum over nodes of x_i dN/d xi_j.
-    Tensor<2, 2> jacobian(const ReferenceElement             &reference,
-                          const unsigned int                  q,
-                          const Cell                         &cell,
-                          const std::vector<Eigen::Vector2d> &x)
-    {
-      Tensor<2, 2> J;
-      for (unsigned int node = 0; node < reference.n_nodes; ++node)
-        for (unsigned int i = 0; i < 2; ++i)
-          J[i] += x[cell.nodes[node]][i] * reference.gradient[q][node];
-      return J;
-    }
-
-    CellGeometry cell_geometry(const Discretisation &mesh, const Cell &cell, const std::vector<Eigen::Vector2d> &x)
-    {
-      const auto  &reference = mesh.reference;
-      CellGeometry geometry;
-      double       area = 0;
-      for (unsigned int q = 0; q < reference.n_points; ++q)
-        {
-          auto              &point     = geometry.points[q];
-          const Tensor<2, 2> J         = jacobian(reference, q, cell, x);
-          const Tensor<2, 2> inverse_t = transpose(invert(J));
-          point.area                   = determinant(J) * reference.weights[q];
-          area += point.area;
-          for (unsigned int node = 0; node < reference.n_nodes; ++node)
-            {
-              point.gradient[node] = inverse_t * reference.gradient[q][node];
-              geometry.mean_gradient[node] += point.area * point.gradient[node];
-            }
-          for (unsigned int corner = 0; corner < reference.n_rotations; ++corner)
-            point.rotation_gradient[corner] = inverse_t * reference.rotation_gradient[q][corner];
-        }
-      for (auto &gradient : geometry.mean_gradient)
-        gradient /= area;
-      return geometry;
-    }
-  } // namespace
 
   Geometry geometry_at(const Discretisation &mesh, const std::vector<Eigen::Vector2d> &node_position)
   {

@@ -29,6 +29,22 @@ namespace diptych::continuum
     {
       return method == LinearMethod::amg ? Patience{200, 60} : Patience{25, 8};
     }
+
+    bool is_on_one_process(const TrilinosWrappers::SparseMatrix &matrix)
+    {
+      return matrix.trilinos_matrix().Comm().NumProc() == 1;
+    }
+
+    // All stored values, row by row.
+    std::pair<double *, std::size_t> stored_values(const TrilinosWrappers::SparseMatrix &matrix)
+    {
+      int    *start = nullptr, *column = nullptr;
+      double *value = nullptr;
+      auto   &crs   = const_cast<Epetra_CrsMatrix &>(matrix.trilinos_matrix());
+      crs.OptimizeStorage();
+      crs.ExtractCrsDataPointers(start, column, value);
+      return {value, std::size_t(start[crs.NumMyRows()])};
+    }
   } // namespace
 
   LinearMethod linear_method(const LinearChoice choice, const std::size_t n_unknowns, const MPI_Comm communicator)
@@ -92,25 +108,6 @@ namespace diptych::continuum
     is_stale = true;
   }
 
-  namespace
-  {
-    bool is_on_one_process(const TrilinosWrappers::SparseMatrix &matrix)
-    {
-      return matrix.trilinos_matrix().Comm().NumProc() == 1;
-    }
-
-    // All stored values, row by row.
-    std::pair<double *, std::size_t> stored_values(const TrilinosWrappers::SparseMatrix &matrix)
-    {
-      int    *start = nullptr, *column = nullptr;
-      double *value = nullptr;
-      auto   &crs   = const_cast<Epetra_CrsMatrix &>(matrix.trilinos_matrix());
-      crs.OptimizeStorage();
-      crs.ExtractCrsDataPointers(start, column, value);
-      return {value, std::size_t(start[crs.NumMyRows()])};
-    }
-  } // namespace
-
   KeptPreconditioner LinearSolver::kept() const
   {
     if (waiting)
@@ -151,7 +148,10 @@ namespace diptych::continuum
     if (fits)
       is_stale = kept.is_stale;
     else
-      umfpack.forget_pattern(), forget();
+      {
+        umfpack.forget_pattern();
+        forget();
+      }
     return fits;
   }
 

@@ -110,7 +110,8 @@ namespace diptych::continuum
         rate = 0.5 * (e.possible - e.mobilised) / (critical_state.mobilisation_strain * critical_state.dilatancy_ratio);
       }
     const auto dilatancy = angle(mean, rate);
-    s.dilatancy = dilatancy[0], s.dilatancy_rate = dilatancy[1];
+    s.dilatancy          = dilatancy[0];
+    s.dilatancy_rate     = dilatancy[1];
     return s;
   }
 
@@ -132,10 +133,14 @@ namespace diptych::continuum
     if (ql > 1e-6 && square > 0)
       {
         const double slow = std::exp((q - a) * l), fast = std::exp(-(q + a) * l);
-        even = 0.5 * (slow + fast), odd = 0.5 * (slow - fast) / q;
+        even = 0.5 * (slow + fast);
+        odd  = 0.5 * (slow - fast) / q;
       }
     else if (ql > 1e-6)
-      odd = even * std::sin(ql) / q, even *= std::cos(ql);
+      {
+        odd = even * std::sin(ql) / q;
+        even *= std::cos(ql);
+      }
     const double y = even * e.mobilised + odd * ((e.possible - e.mobilised) / g + a * e.mobilised);
     const double z = even * e.possible + odd * (a * e.possible - w * e.mobilised);
     end.stress_ratio_gain += y - e.mobilised;

@@ -68,7 +68,10 @@ namespace diptych::continuum
         for (unsigned int k = 0; k < n_directions; ++k)
           {
             const double phi = offset + k * spacing;
-            c1[k] = std::cos(phi), s1[k] = std::sin(phi), c2[k] = std::cos(2 * phi), s2[k] = std::sin(2 * phi);
+            c1[k]            = std::cos(phi);
+            s1[k]            = std::sin(phi);
+            c2[k]            = std::cos(2 * phi);
+            s2[k]            = std::sin(2 * phi);
           }
       }
     };

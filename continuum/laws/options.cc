@@ -156,8 +156,11 @@ namespace diptych::continuum
     const std::vector<const char *> table = {"table_strain", "table_friction_angle", "table_dilatancy_angle", "table_cohesion"};
     unless(is.is_cosserat, of_law, {"internal_length", "couple_shear_ratio"});
     unless(is.is_plastic, of_law, {"hardening", "viscosity"});
-    unless(is.is_plastic, of_law, peak), unless(is.is_plastic, of_law, residual), unless(is.is_plastic, of_law, start),
-      unless(is.is_plastic, of_law, mobilised), unless(is.is_plastic, of_law, critical);
+    unless(is.is_plastic, of_law, peak);
+    unless(is.is_plastic, of_law, residual);
+    unless(is.is_plastic, of_law, start);
+    unless(is.is_plastic, of_law, mobilised);
+    unless(is.is_plastic, of_law, critical);
     unless(is.is_plastic, of_law, table);
     if (is.is_plastic)
       {

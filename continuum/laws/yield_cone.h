@@ -42,7 +42,8 @@ namespace diptych::continuum
     {
       Cone       c    = at(hardening.after(start, multiplier));
       const Cone mean = of(hardening.over(start, multiplier));
-      c.dilation = mean.dilation, c.dilation_rate = mean.dilation_rate;
+      c.dilation      = mean.dilation;
+      c.dilation_rate = mean.dilation_rate;
       return c;
     }
 

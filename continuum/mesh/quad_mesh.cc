@@ -176,7 +176,10 @@ namespace diptych::continuum
       for (const auto &edge : mesh.boundary)
         if (edge.id == upper_platen)
           for (const unsigned int vertex : edge.vertices)
-            low = std::min(low, mesh.vertices[vertex].x()), high = std::max(high, mesh.vertices[vertex].x());
+            {
+              low  = std::min(low, mesh.vertices[vertex].x());
+              high = std::max(high, mesh.vertices[vertex].x());
+            }
       return high - low;
     }
 

@@ -38,17 +38,31 @@ namespace diptych::continuum
   // Calls visit(name, member) for every entry.
   template <class AnyCheckpoint, class Visit> void visit_entries(AnyCheckpoint &c, Visit &&visit)
   {
-    visit("cells", c.cells), visit("divisions", c.divisions);
-    visit("values_per_cell", c.values_per_cell), visit("values", c.values);
-    visit("stage", c.stage), visit("progress", c.progress), visit("step", c.step), visit("last_step", c.last_step);
-    visit("lower_platen_force", c.platen_force[0]), visit("upper_platen_force", c.platen_force[1]);
-    visit("localisation_progress", c.localisation_progress), visit("localisation_angle", c.localisation_angle);
-    visit("steps", c.steps), visit("cut_backs", c.cut_backs), visit("newton_iterations", c.newton_iterations);
-    visit("refinements", c.refinements), visit("linear_iterations", c.linear_iterations);
+    visit("cells", c.cells);
+    visit("divisions", c.divisions);
+    visit("values_per_cell", c.values_per_cell);
+    visit("values", c.values);
+    visit("stage", c.stage);
+    visit("progress", c.progress);
+    visit("step", c.step);
+    visit("last_step", c.last_step);
+    visit("lower_platen_force", c.platen_force[0]);
+    visit("upper_platen_force", c.platen_force[1]);
+    visit("localisation_progress", c.localisation_progress);
+    visit("localisation_angle", c.localisation_angle);
+    visit("steps", c.steps);
+    visit("cut_backs", c.cut_backs);
+    visit("newton_iterations", c.newton_iterations);
+    visit("refinements", c.refinements);
+    visit("linear_iterations", c.linear_iterations);
     visit("factorisations", c.factorisations);
-    visit("point_cpu_s", c.point_cpu_s), visit("assembly_cpu_s", c.assembly_cpu_s);
-    visit("geometry_cpu_s", c.geometry_cpu_s), visit("solve_cpu_s", c.solve_cpu_s);
-    visit("preconditioner_is_stale", c.preconditioner_is_stale), visit("analysed_matrix", c.analysed_matrix);
-    visit("factorised_matrix", c.factorised_matrix), visit("rigid_modes", c.rigid_modes);
+    visit("point_cpu_s", c.point_cpu_s);
+    visit("assembly_cpu_s", c.assembly_cpu_s);
+    visit("geometry_cpu_s", c.geometry_cpu_s);
+    visit("solve_cpu_s", c.solve_cpu_s);
+    visit("preconditioner_is_stale", c.preconditioner_is_stale);
+    visit("analysed_matrix", c.analysed_matrix);
+    visit("factorised_matrix", c.factorised_matrix);
+    visit("rigid_modes", c.rigid_modes);
   }
 } // namespace diptych::continuum

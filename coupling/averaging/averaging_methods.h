@@ -29,13 +29,21 @@ namespace diptych::coupling
     std::vector<double>       share;
     std::vector<bool>         outside; // n_grains: the grain has no place in the mesh and goes to a boundary cell
 
-    void add(const unsigned int c, const double s) { cell.push_back(c), share.push_back(s); }
+    void add(const unsigned int c, const double s)
+    {
+      cell.push_back(c);
+      share.push_back(s);
+    }
     void scale_row(const double factor) // scales the row that end_row() has not yet closed
     {
       for (std::size_t k = begin.back(); k < share.size(); ++k)
         share[k] *= factor;
     }
-    void end_row(const bool is_outside) { begin.push_back(cell.size()), outside.push_back(is_outside); }
+    void end_row(const bool is_outside)
+    {
+      begin.push_back(cell.size());
+      outside.push_back(is_outside);
+    }
   };
 
   // Sums over the shares of grains in each cell, and over their squares.
@@ -47,7 +55,11 @@ namespace diptych::coupling
         : sum(n_cells, 0.),
           squares(n_cells, 0.)
     {}
-    void add(const unsigned int cell, const double share) { sum[cell] += share, squares[cell] += share * share; }
+    void add(const unsigned int cell, const double share)
+    {
+      sum[cell] += share;
+      squares[cell] += share * share;
+    }
 
     std::vector<double> numbers() const
     {

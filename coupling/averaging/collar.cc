@@ -188,7 +188,10 @@ namespace diptych::coupling
       top = std::min(top, mesh.node[edge.from].y());
     double below = 0, above = 0;
     for (const Eigen::Vector2d &point : points)
-      below = std::max(below, bottom - point.y()), above = std::max(above, point.y() - top);
+      {
+        below = std::max(below, bottom - point.y());
+        above = std::max(above, point.y() - top);
+      }
 
     CollaredMesh result = without_collar(mesh, 0);
     const auto   add    = [&](const std::vector<BoundaryEdge> &edges, const double shift) {

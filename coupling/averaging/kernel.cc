@@ -101,18 +101,24 @@ namespace diptych::coupling
   {
     const std::vector<Point> points = quadrature_points(target.mesh, edge_over_width * kernel.width());
     bins.sort(points.size(), [&](const unsigned int p, const auto &into) { into(bins.bin_of({points[p].x, points[p].y})); });
-    x_.resize(Eigen::Index(points.size())), y_ = area_ = x_, cell_.resize(points.size());
+    x_.resize(Eigen::Index(points.size()));
+    y_ = area_ = x_;
+    cell_.resize(points.size());
     Eigen::Index k = 0;
     for (const unsigned int p : bins.sorted())
       {
-        x_[k] = points[p].x, y_[k] = points[p].y, area_[k] = points[p].area, cell_[k] = points[p].cell;
+        x_[k]    = points[p].x;
+        y_[k]    = points[p].y;
+        area_[k] = points[p].area;
+        cell_[k] = points[p].cell;
         ++k;
       }
   }
 
   void KernelQuadrature::weights(const Eigen::Vector2d &x, Weights &result)
   {
-    result.cell.clear(), result.value.clear();
+    result.cell.clear();
+    result.value.clear();
     result.sum = 0;
     if (period > 0)
       {
@@ -167,7 +173,10 @@ namespace diptych::coupling
     SegmentRule  rule;
     for (int k = 0; k < n; ++k)
       for (const double at : {0.5 - d, 0.5 + d})
-        rule.t.push_back((k + at) / n), rule.weight.push_back(0.5 / n);
+        {
+          rule.t.push_back((k + at) / n);
+          rule.weight.push_back(0.5 / n);
+        }
     return rule;
   }
 } // namespace diptych::coupling

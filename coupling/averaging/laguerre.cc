@@ -21,7 +21,8 @@ namespace diptych::coupling
                 position.push_back(carriers.position[i] + Eigen::Vector2d(shift, 0));
                 radius.push_back(carriers.radius[i]);
               }
-          lower.x() -= target.period, upper.x() += target.period;
+          lower.x() -= target.period;
+          upper.x() += target.period;
         }
       return power_cells(position, radius, carriers.position.size(), lower, upper);
     }
@@ -35,7 +36,10 @@ namespace diptych::coupling
         return false;
       Eigen::Vector2d lower = cell.corner[0], upper = lower;
       for (const Eigen::Vector2d &x : cell.corner)
-        lower = lower.cwiseMin(x), upper = upper.cwiseMax(x);
+        {
+          lower = lower.cwiseMin(x);
+          upper = upper.cwiseMax(x);
+        }
       target.search.triangles_in_box(lower, upper, triangles);
 
       const std::size_t first = shares.cell.size();
@@ -44,7 +48,10 @@ namespace diptych::coupling
         {
           const double area = shared_area(cell.corner, target.search.corners(t), scratch);
           if (area > 0)
-            shares.add(target.cell_of(t), area), sum += area;
+            {
+              shares.add(target.cell_of(t), area);
+              sum += area;
+            }
         }
       if (!(sum > 0))
         return false;

@@ -171,7 +171,8 @@ namespace diptych::coupling
       network = wrapped(std::move(network), period, left_end(mesh));
     const Ground       ground(mesh, period, network);
     discrete::Snapshot last = grains;
-    last.position = std::move(network.position), last.contacts = std::move(network.contacts);
+    last.position           = std::move(network.position);
+    last.contacts           = std::move(network.contacts);
 
     const MappedMoment mapped = map_segments(ground.cells.mesh, ground.search, last.position, last.contacts);
     if (!ground.has_collar || mapped.outside_weight > 0)

@@ -58,7 +58,10 @@ namespace diptych::coupling
 
     double low = INFINITY, high = -INFINITY; // range of the places
     for (const Eigen::Vector2d &x : place)
-      low = std::min(low, x.x()), high = std::max(high, x.x());
+      {
+        low  = std::min(low, x.x());
+        high = std::max(high, x.x());
+      }
     const PointBins              bins(place, 0.5 * kernel.reach());
     std::vector<Eigen::Matrix2d> stress;
     for (const Eigen::Vector2d &point : points)

@@ -16,7 +16,8 @@ namespace diptych::coupling
     // Keeps the part where normal . x <= bound. `neighbour` lies beyond the new edge. scratch keeps its memory between calls.
     void clip(PowerCell &cell, const Eigen::Vector2d &normal, const double bound, const int neighbour, PowerCell &scratch)
     {
-      scratch.corner.clear(), scratch.beyond.clear();
+      scratch.corner.clear();
+      scratch.beyond.clear();
       cut_polygon(
         cell.corner, [&](const Eigen::Vector2d &x) { return bound - normal.dot(x); },
         [&](const std::size_t k, const double here, const double there) {
@@ -100,7 +101,10 @@ namespace diptych::coupling
     // A bin holds about one disc.
     Eigen::Vector2d low = position.front(), high = low;
     for (const Eigen::Vector2d &x : position)
-      low = low.cwiseMin(x), high = high.cwiseMax(x);
+      {
+        low  = low.cwiseMin(x);
+        high = high.cwiseMax(x);
+      }
     const Eigen::Vector2d extent  = high - low;
     const double          largest = *std::max_element(radius.begin(), radius.end());
     const double          spacing = std::sqrt(std::max(extent.x() * extent.y(), extent.squaredNorm() / position.size()) /

@@ -72,7 +72,10 @@ namespace diptych::coupling
 
     Eigen::Vector2d lower = mesh.node[boundary[0].from], upper = lower;
     for (const auto &edge : boundary)
-      lower = lower.cwiseMin(mesh.node[edge.from]), upper = upper.cwiseMax(mesh.node[edge.from]);
+      {
+        lower = lower.cwiseMin(mesh.node[edge.from]);
+        upper = upper.cwiseMax(mesh.node[edge.from]);
+      }
     std::vector<Eigen::Vector2d> kernel = {lower, {upper.x(), lower.y()}, upper, {lower.x(), upper.y()}};
     for (const auto &edge : boundary)
       keep_left(mesh.node[edge.from], mesh.node[edge.to], kernel);

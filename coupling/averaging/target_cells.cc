@@ -16,6 +16,9 @@ namespace diptych::coupling
     lower = upper = mesh.node[mesh.cell.front()[0]];
     for (const CellTriangle &triangle : mesh.triangle)
       for (const unsigned int node : triangle.node)
-        lower = lower.cwiseMin(mesh.node[node]), upper = upper.cwiseMax(mesh.node[node]);
+        {
+          lower = lower.cwiseMin(mesh.node[node]);
+          upper = upper.cwiseMax(mesh.node[node]);
+        }
   }
 } // namespace diptych::coupling

@@ -22,7 +22,7 @@ namespace diptych::coupling
     }
 
     // One band at one point: z = (n.x - o)/delta, t = s.x/delta, profile = tanh z.
-    struct Place
+    struct PointInBand
     {
       double z, t, profile;
     };
@@ -90,9 +90,9 @@ namespace diptych::coupling
               misfit -= place[i][b].profile * coefficient.row(3 + b).transpose();
             for (int b = 0; b < K; ++b)
               {
-                const Place &p      = place[i][b];
-                const double factor = weight[i] * coefficient.row(3 + b).dot(misfit) * (1 - p.profile * p.profile);
-                const double bend = -2 * p.profile * factor, inverse = 1 / shape[b].half_width;
+                const PointInBand &p      = place[i][b];
+                const double       factor = weight[i] * coefficient.row(3 + b).dot(misfit) * (1 - p.profile * p.profile);
+                const double       bend = -2 * p.profile * factor, inverse = 1 / shape[b].half_width;
                 // First derivatives of z: -t by angle, -1/delta by offset, -z by log delta. The second by angle is -(z +
                 // o/delta), and so on.
                 sum[b](0, 0) += bend * p.t * p.t - factor * (p.z + shape[b].offset * inverse);
@@ -112,18 +112,18 @@ namespace diptych::coupling
         row.template head<3>() << 1, data.x[i].x(), data.x[i].y();
         for (int b = 0; b < K; ++b)
           {
-            const Place &p     = place[i][b];
-            const double slope = 1 - p.profile * p.profile;
-            row[3 + b]         = p.profile;
+            const PointInBand &p     = place[i][b];
+            const double       slope = 1 - p.profile * p.profile;
+            row[3 + b]               = p.profile;
             row.template segment<3>(3 + K + 3 * b) << -slope * p.t, -slope / shape[b].half_width, -slope * p.z;
           }
         row.template tail<2>() = data.u[i].transpose();
       }
 
-      const BandData                   &data;
-      const std::vector<double>        &weight;
-      const std::vector<BandShape>     &shape;
-      std::vector<std::array<Place, K>> place;
+      const BandData                         &data;
+      const std::vector<double>              &weight;
+      const std::vector<BandShape>           &shape;
+      std::vector<std::array<PointInBand, K>> place;
     };
 
     // Parameter k belongs to band k / 3; m is a component of the displacement.

@@ -36,7 +36,11 @@ namespace diptych::coupling
         {
           const double n = strips.count[k], x = 0.5 * (strips.edges[k] + strips.edges[k + 1]),
                        y = strips.mean[k] - 0.5 * band.jump * std::tanh((x - band.offset) / band.half_width);
-          w += n, wx += n * x, wy += n * y, wxx += n * x * x, wxy += n * x * y;
+          w += n;
+          wx += n * x;
+          wy += n * y;
+          wxx += n * x * x;
+          wxy += n * x * y;
         }
     const double determinant = w * wxx - wx * wx;
     if (!(determinant > 0))

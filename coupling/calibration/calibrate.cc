@@ -1,4 +1,4 @@
-// diptych: the continuum's parameters from the grains' curves
+// diptych: fits parameters of the continuum to the curves of the grains
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/calibration/calibrate.h"
 
@@ -18,7 +18,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    constexpr double same_minimum = 0.05; // in every coordinate, which run over [0, 1]
+    constexpr double same_minimum = 0.05; // in every coordinate; they run over [0, 1]
     constexpr double hardly_worse = 4;    // in chi^2: two deviations
 
     // The k-th point of the Halton sequence, in the middle four fifths of the cube.
@@ -65,7 +65,7 @@ namespace diptych::coupling
           data->add(paths[p].data, paths[p].left_out);
         record.n_observables = data->n_counting();
         if (record.n_observables == 0)
-          throw std::invalid_argument("no observable is left to fit");
+          throw std::invalid_argument("no observable is left to fit; check targets, quantities and bins");
       }
 
       void calibrate()
@@ -73,7 +73,7 @@ namespace diptych::coupling
         const LeastSquaresFit coarse = fit_coarse();
         const LeastSquaresFit fine   = fit_fine(coarse);
         best                         = fine.point;
-        tell(fine, coarse);
+        report(fine, coarse);
         profile(coarse);
         add_predictions();
         record.status = "finished";
@@ -108,7 +108,7 @@ namespace diptych::coupling
         return settings;
       }
 
-      // What all targets have in common, and what each has for itself.
+      // Records the settings that all targets share, and the values of single targets.
       void keep_settings(const Eigen::VectorXd &point)
       {
         record.settings = settings_at(point, "");
@@ -119,7 +119,7 @@ namespace diptych::coupling
               record.own.push_back({path.target.name, p.key, coordinates.values(point)[k]});
       }
 
-      // Not weighted, of the fitted paths one after the other; empty where one has no run.
+      // Unweighted values of the fitted paths, one after the other. Empty if a run failed.
       static Eigen::VectorXd joined_values(const std::vector<ModelRun> &runs)
       {
         Eigen::VectorXd joined;
@@ -134,7 +134,7 @@ namespace diptych::coupling
         return joined;
       }
 
-      // Behind what the data say stands what was known before: each coordinate to a deviation about the first start.
+      // Appends the prior: each coordinate has a deviation about the first start.
       Eigen::VectorXd with_prior(const Eigen::VectorXd &residual, const Eigen::VectorXd &point) const
       {
         if (residual.size() == 0)
@@ -186,7 +186,7 @@ namespace diptych::coupling
         auto found = std::min_element(fits.begin(), fits.end(),
                                       [](const LeastSquaresFit &a, const LeastSquaresFit &b) { return a.chi2 < b.chi2; });
         if (!std::isfinite(found->chi2))
-          throw std::invalid_argument("the continuum comes to its end at none of the starts");
+          throw std::invalid_argument("the continuum did not finish at any start; change start, low and high");
         if (found != fits.begin()) // so far with the Jacobian of its start
           {
             LeastSquaresOptions options;
@@ -194,7 +194,7 @@ namespace diptych::coupling
             options.most_jacobians = 2;
             *found                 = least_squares(residuals, found->point, options);
           }
-        tell_minima(std::size_t(found - fits.begin()), *found);
+        report_minima(std::size_t(found - fits.begin()), *found);
         record.chi2_coarse = chi2_of_data(*found);
         return *found;
       }
@@ -212,7 +212,7 @@ namespace diptych::coupling
         points.push_back(fit.point), totals.push_back(fit.chi2);
       }
 
-      void tell_minima(const std::size_t found, const LeastSquaresFit &fit)
+      void report_minima(const std::size_t found, const LeastSquaresFit &fit)
       {
         record.minima[found].is_best = true;
         record.minima[found].numbers = coordinates.numbers(fit.point);
@@ -223,9 +223,9 @@ namespace diptych::coupling
             {
               std::ostringstream text;
               text.precision(3);
-              text << "start " << k + 1 << " ended elsewhere, at " << totals[k] << " against " << fit.chi2
-                   << " (chi^2 with what was known beforehand)"
-                   << (totals[k] < fit.chi2 + hardly_worse ? ": the data hardly tell the two apart"
+              text << "start " << k + 1 << " ended at another point, with chi^2 (prior included) " << totals[k] << " instead of "
+                   << fit.chi2
+                   << (totals[k] < fit.chi2 + hardly_worse ? ": the data hardly distinguish the two"
                                                            : ": a second minimum, or a valley that the search did not leave");
               record.words.push_back(text.str());
             }
@@ -240,19 +240,19 @@ namespace diptych::coupling
         options.first_radius   = 0.1;
         LeastSquaresFit fine   = least_squares(residuals_on(ModelMesh::fine), coarse.point, options, coarse.jacobian);
         if (!std::isfinite(fine.chi2))
-          throw std::invalid_argument("the continuum does not come to its end on the samples' own mesh: " + fine.words);
+          throw std::invalid_argument("the continuum did not finish on the samples' own mesh: " + fine.words);
         record.chi2 = chi2_of_data(fine);
         keep_settings(fine.point);
         return fine;
       }
 
-      void tell(const LeastSquaresFit &fine, const LeastSquaresFit &coarse)
+      void report(const LeastSquaresFit &fine, const LeastSquaresFit &coarse)
       {
         jacobian = data->unweighted(fine.jacobian.topRows(data->size()));
-        // Where the law misses the data by more than their noise and what it was granted, that is noise, too.
+        // A misfit beyond noise and model tolerance counts as noise, too.
         record.misfit = std::sqrt(record.chi2 / expected_chi2(jacobian, data->weights(), data->noise_of_means()));
         if (record.n_observables <= int(coordinates.size()))
-          record.misfit = NAN; // nothing is left over to tell it
+          record.misfit = NAN; // nothing is left over to estimate it
         const double wider = std::pow(std::max(1., record.misfit), 2);
         knowledge          = identify(jacobian, data->weights(), wider * data->noise_of_means());
         take_degrees_of_freedom(jacobian, data->weights(), wider * data->scatter_of_means(), record.noise.degrees_of_freedom,
@@ -264,7 +264,7 @@ namespace diptych::coupling
             record.words.push_back(std::string("on ") + mesh + " mesh " + *words);
       }
 
-      // chi^2 one and a half deviations to either side, the others moved along as the linear model says.
+      // chi^2 one and a half deviations to either side; the linear model gives the other parameters.
       void profile(const LeastSquaresFit &coarse)
       {
         constexpr double             reach = 1.5;
@@ -296,7 +296,7 @@ namespace diptych::coupling
           }
       }
 
-      // All paths on their own meshes: as the scene had it, as calibrated, and with half the load step.
+      // All paths on their own meshes: before, calibrated, and calibrated with half the load step.
       void add_predictions()
       {
         std::vector<std::size_t> all;
@@ -332,7 +332,7 @@ namespace diptych::coupling
         return joined_values(of_fitted);
       }
 
-      // What was fitted on says itself what counts.
+      // Marks the observables that the fit used.
       void take_weights()
       {
         Eigen::Index at = 0;
@@ -347,8 +347,8 @@ namespace diptych::coupling
                            [&](const CalibrationParameter &p) { return p.belongs_to(a.name) == p.belongs_to(b.name); });
       }
 
-      // Of the observables of one path by the coordinates: the fit's, where the path was fitted or is one that was, on other
-      // samples; else on its coarse mesh.
+      // Jacobian of one path's observables. Reuses the fit's if the path was fitted, on these or other samples; else
+      // coarse-mesh differences.
       Eigen::MatrixXd jacobian_on(const std::size_t p)
       {
         const Eigen::Index n  = Eigen::Index(paths[p].data.observables.size());
@@ -380,10 +380,10 @@ namespace diptych::coupling
       std::vector<std::size_t>            fitted;
       std::optional<FittedData>           data;
       Eigen::VectorXd                     best;
-      std::vector<Eigen::VectorXd>        points; // where the starts ended
-      std::vector<double>                 totals; // and their chi^2, with what was known beforehand
+      std::vector<Eigen::VectorXd>        points; // ends of the searches
+      std::vector<double>                 totals; // and their chi^2 with the prior
       Identification                      knowledge;
-      Eigen::MatrixXd                     jacobian; // of the fitted observables by the coordinates
+      Eigen::MatrixXd                     jacobian; // d fitted observables / d coordinates
       double                              best_chi2 = std::numeric_limits<double>::infinity();
       ModelMesh                           best_mesh = ModelMesh::coarse;
     };

@@ -1,4 +1,4 @@
-// diptych: the continuum's parameters from the grains' curves
+// diptych: fits parameters of the continuum to the curves of the grains
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -11,9 +11,9 @@
 
 namespace diptych::coupling
 {
-  // Several starts on coarse meshes, then the samples' own with the coarse Jacobian; then what the data tell and do not tell,
-  // what load steps half as long change, and what is predicted on the paths that were not fitted. `on_best`: told of every better
-  // point, with the chi^2 so far. Throws std::invalid_argument where no start has a run.
+  // Searches from several starts on coarse meshes, then continues on the samples' own meshes with the coarse Jacobian.
+  // Afterwards it computes deviations of the parameters, the effect of load steps half as long, and predictions on paths that
+  // were not fitted. `record` always holds the best point so far. Throws std::invalid_argument if no start has a run.
   void calibrate(const Calibration                  &calibration,
                  const Coordinates                  &coordinates,
                  const std::vector<CalibrationPath> &paths,

@@ -1,4 +1,4 @@
-// diptych: what a calibration asks: which keys of the continuum, fitted to what of which grains
+// diptych: the contents of a calibration file: targets, quantities and parameters to be fitted
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -14,8 +14,9 @@
 
 namespace diptych::coupling
 {
-  // In what a parameter is searched for. Strengths, stiffnesses and lengths are searched for in their logarithm; a residual angle
-  // by how far it drops, and a dilatancy angle by its share of a friction angle, so that no pair contradicts itself.
+  // The coordinate in which a parameter is varied. Strengths, stiffnesses and lengths are varied in their logarithm. A residual
+  // angle is varied by its drop, and a dilatancy angle by its share of a friction angle, so that no combination contradicts
+  // itself.
   enum class Coordinate
   {
     value,
@@ -29,14 +30,14 @@ namespace diptych::coupling
                       std::pair{Coordinate::share_of, "share_of"}, std::pair{Coordinate::drop_from, "drop_from"}};
   }
 
-  // Start and bounds are numbers of the coordinate: the value itself (also of a logarithm), a share or a drop.
+  // Start and bounds are numbers of the coordinate: the value itself (also for a logarithm), a share or a drop.
   struct CalibrationParameter
   {
-    std::string              key; // of the section continuum
+    std::string              key; // a key of the section continuum
     Coordinate               coordinate = Coordinate::value;
-    std::string              other; // share_of, drop_from: a key of the section continuum
+    std::string              other; // the key that a share or drop refers to
     double                   start = 0, low = 0, high = 1;
-    std::vector<std::string> targets = {}; // whose own it is, by name; empty: one value for all
+    std::vector<std::string> targets = {}; // names of the targets it belongs to; empty: one value for all
 
     bool belongs_to(const std::string &target) const
     {
@@ -44,18 +45,18 @@ namespace diptych::coupling
     }
   };
 
-  // One path: a scene on several samples.
+  // A loading path: one scene on several samples.
   struct CalibrationTarget
   {
     std::string              name, scene;
-    std::vector<std::string> results; // result folders, one a seed, in the place of runs
+    std::vector<std::string> results; // result folders, one per seed, instead of runs
     Settings                 settings;
     std::vector<int>         seeds;
-    bool                     is_fitted = true; // else predicted
-    Settings                 before    = {};   // what the calibrated law is compared with; empty: the scene's own
+    bool                     is_fitted = true; // false: predicted
+    Settings                 before    = {};   // parameters to compare with; empty: those of the scene
   };
 
-  // But for its samples.
+  // True if the paths differ in their samples only.
   inline bool is_same_path(const CalibrationTarget &a, const CalibrationTarget &b)
   {
     const auto same = [](const Entry &x, const Entry &y) {
@@ -64,7 +65,7 @@ namespace diptych::coupling
     return a.scene == b.scene && std::equal(a.settings.begin(), a.settings.end(), b.settings.begin(), b.settings.end(), same);
   }
 
-  // What is held against each other.
+  // A kind of number that grains and continuum are compared by.
   enum class ObservableKind
   {
     stress_ratio,      // mean of t/s over a bin of the progress
@@ -78,12 +79,12 @@ namespace diptych::coupling
                       std::pair{ObservableKind::ln_width, "ln_width"}};
   }
 
-  // What the noise model is told in the place of an estimate from the samples (noise.h).
+  // Values given by the user replace the estimates from the samples (noise.h).
   struct NoiseOptions
   {
     std::optional<double> stress_level, stress_shape, volume_start, volume_growth, ln_width;
     double                correlation_strain = 0.005;
-    // How far the continuum's form itself may lie beside the grains: it goes into the weights and into the intervals.
+    // Model tolerance: the misfit that the form of the law may have. It enters the weights and the intervals.
     double stress_discrepancy = 0.008, early_stress_discrepancy = 0.03, early_strain = 0.002;
     double volume_discrepancy = 0.0008, width_discrepancy = 0.1;
   };
@@ -93,15 +94,15 @@ namespace diptych::coupling
     std::string                       name, file, title;
     std::vector<CalibrationTarget>    targets;
     std::vector<ObservableKind>       kinds;
-    std::vector<double>               bins; // edges of the strain bins, ascending; those beyond a target's end do not count there
+    std::vector<double>               bins; // ascending edges; a target uses those up to its end
     std::vector<CalibrationParameter> parameters;
-    Settings                          fixed; // continuum keys that are set and not searched for
+    Settings                          fixed; // continuum keys that are fixed during the search
     NoiseOptions                      noise;
     int                               starts              = 2;
-    int                               start_jacobians     = 1;     // of a search beyond the first
-    double                            load_step           = 0.001; // of the continuum
-    double                            coarse_element_size = 4;     // of the first stage [mean diameters]
-    int                               check_samples       = 2;     // of each fitted target, run again with half the grains' step
-    int                               seed                = 1;     // of the starts beyond the first
+    int                               start_jacobians     = 1;     // Jacobians of each search after the first
+    double                            load_step           = 0.001; // load step of the continuum
+    double                            coarse_element_size = 4;     // in the first stage [mean diameters]
+    int                               check_samples       = 2;     // samples per fitted target run again with half the step
+    int                               seed                = 1;     // seed of the starts after the first
   };
 } // namespace diptych::coupling

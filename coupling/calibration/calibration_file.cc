@@ -1,4 +1,4 @@
-// diptych: calibrations read and checked
+// diptych: reads and checks calibration files
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/calibration/calibration_file.h"
 
@@ -18,7 +18,7 @@ namespace diptych::coupling
   namespace
   {
     constexpr double      far             = 1e12;
-    constexpr std::size_t most_parameters = 12; // as many directions as the starts are spread over
+    constexpr std::size_t most_parameters = 12; // the starts are spread over at most so many directions
 
     std::string folder_of(const std::string &file)
     {
@@ -34,7 +34,7 @@ namespace diptych::coupling
       target.seeds = part.seeds("seeds");
     }
 
-    // sample, loading and discrete without the seed.
+    // Keys of sample, loading and discrete without the seed.
     Identity sample_part_of(const Scene &scene)
     {
       Identity identity = sample_identity(scene);
@@ -42,7 +42,7 @@ namespace diptych::coupling
       return identity;
     }
 
-    // Samples of one scene that differ by their seed and by nothing else; an imported sample's file is its seed.
+    // Samples must come from one scene and differ in their seed only. For imported samples the file is the seed.
     void demand_samples_of_one_scene(const Part &part, const CalibrationTarget &target)
     {
       const auto sample_of = [&](const std::size_t k) {
@@ -60,14 +60,14 @@ namespace diptych::coupling
             const auto [other_mark, other_scene] = sample_of(j);
             if (mark == other_mark)
               part.refuse("results",
-                          ": '" + target.results[k] + "' and '" + target.results[j] + "' hold one sample (" + mark + ")");
+                          ": '" + target.results[k] + "' and '" + target.results[j] + "' are the same sample (" + mark + ")");
             if (const std::string difference = first_difference(scene, other_scene); !difference.empty())
-              part.refuse("results",
-                          ": '" + target.results[k] + "' is of another scene than '" + target.results[j] + "': " + difference);
+              part.refuse("results", ": '" + target.results[k] + "' and '" + target.results[j] +
+                                       "' come from different scenes: " + difference);
           }
     }
 
-    // What changed since would be fitted as measured.
+    // A file that changed since its run would be fitted as if it were measured.
     void demand_as_left(const Part &part, const std::string &folder)
     {
       try
@@ -80,23 +80,23 @@ namespace diptych::coupling
         }
     }
 
-    // Finished result folders; their first scene is the continuum's.
+    // Reads finished result folders. The first one's scene is used for the continuum.
     void read_results(const Part &part, const std::string &file, CalibrationTarget &target)
     {
       if (part.has("scene") || part.has("seeds"))
-        part.refuse("results", " stand in the place of scene and seeds");
+        part.refuse("results", " replaces scene and seeds; give one or the other");
       for (const Part &one : part.list("results"))
         {
           const std::string          folder = resolved(value_text(one.json()), folder_of(file));
           const std::optional<Scene> scene  = resolved_scene(scene_prm(folder));
           if (!scene || !std::filesystem::exists(discrete_csv(folder)) || !std::filesystem::exists(discrete_h5(folder)))
-            one.refuse("results: '" + folder + "' is no result folder with scene.prm, discrete.csv and discrete.h5");
+            one.refuse("results: '" + folder + "' is not a result folder; scene.prm, discrete.csv and discrete.h5 are needed");
           demand_as_left(one, folder);
           target.results.push_back(folder);
           target.seeds.push_back(scene->sample.seed);
         }
       if (target.results.empty())
-        part.refuse("results", " is empty");
+        part.refuse("results", " is empty; name at least one result folder");
       demand_samples_of_one_scene(part, target);
       target.scene = scene_prm(target.results.front());
     }
@@ -111,7 +111,7 @@ namespace diptych::coupling
       for (const Entry &entry : settings)
         if (entry.section != "continuum")
           part.refuse("before",
-                      " = '" + fragment + "' sets " + entry.section + "/" + entry.key + ", which is no key of the continuum");
+                      " = '" + fragment + "' sets " + entry.section + "/" + entry.key + ", which is not a key of the continuum");
       return settings;
     }
 
@@ -130,7 +130,7 @@ namespace diptych::coupling
         target.before = before_of(part, file);
       const std::string use = part.word("use", "fit");
       if (use != "fit" && use != "predict")
-        part.refuse("use", " = '" + use + "' is not allowed: fit or predict is");
+        part.refuse("use", " = '" + use + "' is not allowed; use fit or predict");
       target.is_fitted = use == "fit";
       return target;
     }
@@ -138,7 +138,7 @@ namespace diptych::coupling
     constexpr const char *keys_of_the_search[] = {"mesh",         "element_size", "rectangle_width", "rectangle_height",
                                                   "initial_step", "max_step"};
 
-    // What a key is searched for in where the file does not say.
+    // The coordinate of a key if the file names none.
     Coordinate usual_coordinate(const std::string &key)
     {
       if (key == "friction_angle_residual")
@@ -158,15 +158,15 @@ namespace diptych::coupling
         part.refuse("start",
                     " = " + text_of(p.start) + " lies outside its bounds [" + text_of(p.low) + ", " + text_of(p.high) + "]");
       if (!(p.low >= low && p.high <= high))
-        part.refuse("low", " = " + text_of(p.low) + " and high = " + text_of(p.high) + ": a share or drop lies in [0, 1]");
+        part.refuse("low", " = " + text_of(p.low) + " and high = " + text_of(p.high) + ": shares and drops lie between 0 and 1");
       if (p.coordinate == Coordinate::logarithm && !(p.low > 0))
         part.refuse("low", " = " + text_of(p.low) + ": a logarithm needs bounds above 0");
-      if (!is_ratio) // the key's own range
+      if (!is_ratio) // must lie in the range of the key
         for (const char *name : {"low", "high"})
           part.setting(name, "continuum/" + p.key, part.json()[name]);
     }
 
-    // Whose own the parameter is; the data must know of one of them.
+    // Targets that the parameter belongs to; at least one of them must be fitted.
     std::vector<std::string> own_targets_of(const Part &part, const std::vector<CalibrationTarget> &targets)
     {
       std::vector<std::string> names;
@@ -182,7 +182,7 @@ namespace diptych::coupling
           is_fitted = is_fitted || found->is_fitted;
         }
       if (part.has("targets") && !is_fitted)
-        part.refuse("targets", " hold none that is fitted");
+        part.refuse("targets", ": none of these targets is fitted");
       return names;
     }
 
@@ -198,12 +198,12 @@ namespace diptych::coupling
       p.start = part.number("start", -far, far), p.low = part.number("low", -far, far), p.high = part.number("high", -far, far);
       const bool is_ratio = p.coordinate == Coordinate::share_of || p.coordinate == Coordinate::drop_from;
       if (!is_ratio && part.has("of"))
-        part.refuse("of", " belongs to coordinate = share_of or drop_from");
+        part.refuse("of", " is only allowed with coordinate = share_of or drop_from");
       p.other = is_ratio ? part.word("of", "friction_angle_peak") : "";
-      part.setting("key", "continuum/" + p.key, 0.3); // whether there is such a key
+      part.setting("key", "continuum/" + p.key, 0.3); // checks that the key exists
       for (const char *key : keys_of_the_search)
         if (p.key == key)
-          part.refuse("key", " = " + p.key + " is the search's own, no parameter of the law");
+          part.refuse("key", " = " + p.key + " is set by the calibration itself and cannot be a parameter");
       check_numbers(part, p);
       return p;
     }
@@ -220,22 +220,22 @@ namespace diptych::coupling
                                                                                  {"early_strain", &o.early_strain},
                                                                                  {"volume_discrepancy", &o.volume_discrepancy},
                                                                                  {"width_discrepancy", &o.width_discrepancy}};
-      const std::vector<std::pair<std::string, std::optional<double> *>> told = {{"stress_level", &o.stress_level},
-                                                                                 {"stress_shape", &o.stress_shape},
-                                                                                 {"volume_start", &o.volume_start},
-                                                                                 {"volume_growth", &o.volume_growth},
-                                                                                 {"ln_width", &o.ln_width}};
+      const std::vector<std::pair<std::string, std::optional<double> *>> estimates = {{"stress_level", &o.stress_level},
+                                                                                      {"stress_shape", &o.stress_shape},
+                                                                                      {"volume_start", &o.volume_start},
+                                                                                      {"volume_growth", &o.volume_growth},
+                                                                                      {"ln_width", &o.ln_width}};
       std::vector<std::string>                                           keys;
       for (const auto &[key, value] : set)
         keys.push_back(key);
-      for (const auto &[key, value] : told)
+      for (const auto &[key, value] : estimates)
         keys.push_back(key);
       part.allow(keys);
       const auto is_length = [](const std::string &key) { return key == "correlation_strain" || key == "early_strain"; };
       for (const auto &[key, value] : set)
         if (part.has(key))
           *value = part.number(key, is_length(key) ? 1e-9 : 0, far);
-      for (const auto &[key, value] : told)
+      for (const auto &[key, value] : estimates)
         if (part.has(key))
           *value = part.number(key, 0, far);
       return o;
@@ -249,15 +249,13 @@ namespace diptych::coupling
           const std::string word = value_text(part.json());
           const auto        kind = discrete::value_of<ObservableKind>(word);
           if (!kind)
-            part.refuse("quantities: '" + word + "' is not allowed: some of " + discrete::listed(names_of(ObservableKind())) +
-                        " are");
+            part.refuse("quantities: '" + word + "' is not allowed; use some of " + discrete::listed(names_of(ObservableKind())));
           if (std::find(kinds.begin(), kinds.end(), *kind) != kinds.end())
-            part.refuse("quantities: '" + word + "' stands there twice");
+            part.refuse("quantities: '" + word + "' is given twice");
           kinds.push_back(*kind);
         }
       if (kinds.empty())
-        root.refuse("quantities",
-                    " is missing or empty: some of " + discrete::listed(names_of(ObservableKind())) + " are needed");
+        root.refuse("quantities", " is missing or empty; use some of " + discrete::listed(names_of(ObservableKind())));
       return kinds;
     }
 
@@ -267,11 +265,11 @@ namespace diptych::coupling
       for (const Part &part : root.list("bins"))
         {
           if (!part.json().is_number() || !(part.json().get<double>() >= 0) || (!bins.empty() && !(part.json() > bins.back())))
-            part.refuse("bins: " + part.json().dump() + " is not allowed: edges ascend from 0 or above");
+            part.refuse("bins: " + part.json().dump() + " is not allowed; edges must ascend and begin at 0 or above");
           bins.push_back(part.json());
         }
       if (bins.size() < 2)
-        root.refuse("bins", " needs two edges or more");
+        root.refuse("bins", " needs at least two edges");
       return bins;
     }
 
@@ -281,7 +279,7 @@ namespace diptych::coupling
       for (std::size_t k = 0; k < list.size(); ++k)
         for (std::size_t j = 0; j < k; ++j)
           if (name(list[j]) == name(list[k]))
-            root.refuse(key, ": two are called '" + name(list[k]) + "'");
+            root.refuse(key, ": two entries have the name '" + name(list[k]) + "'");
     }
 
     void read_targets(const Part &root, Calibration &c)
@@ -289,7 +287,7 @@ namespace diptych::coupling
       for (const Part &part : root.list("targets"))
         c.targets.push_back(target_of(part, c.file));
       if (std::none_of(c.targets.begin(), c.targets.end(), [](const CalibrationTarget &t) { return t.is_fitted; }))
-        root.refuse("targets", " is missing or holds none that is fitted");
+        root.refuse("targets", " is missing, or none of the targets is fitted");
       demand_distinct(root, "targets", c.targets, [](const CalibrationTarget &t) { return t.name; });
     }
 
@@ -298,10 +296,10 @@ namespace diptych::coupling
       for (const Part &part : root.list("parameters"))
         c.parameters.push_back(parameter_of(part, c.targets));
       if (c.parameters.size() > most_parameters)
-        root.refuse("parameters", " are more than " + std::to_string(most_parameters));
+        root.refuse("parameters", ": at most " + std::to_string(most_parameters) + " parameters are allowed");
       if (c.parameters.empty())
-        root.refuse("parameters", " is missing or empty: what is to be found?");
-      for (const CalibrationTarget &target : c.targets) // each sees a key once
+        root.refuse("parameters", " is missing or empty; name the keys to be fitted");
+      for (const CalibrationTarget &target : c.targets) // each target uses a key once
         {
           std::vector<std::string> keys;
           for (const CalibrationParameter &p : c.parameters)
@@ -314,15 +312,15 @@ namespace diptych::coupling
         {
           if (entry.section != "continuum")
             root.refuse("set", ": " + entry.section + "/" + entry.key +
-                                 " is no key of the continuum; what grains need is set with the targets");
+                                 " is not a key of the continuum; set keys of the grains in the targets");
           for (const char *key : keys_of_the_search)
             if (entry.key == key)
               root.refuse("set", ": continuum/" + entry.key +
-                                   " is the search's own; set it with a target, or load_step and "
+                                   " is set by the calibration itself; set it in a target, or use load_step and "
                                    "coarse_element_size");
           for (const CalibrationParameter &p : c.parameters)
             if (p.key == entry.key)
-              root.refuse("set", ": continuum/" + entry.key + " is one of the parameters");
+              root.refuse("set", ": continuum/" + entry.key + " is already one of the parameters");
         }
     }
   } // namespace

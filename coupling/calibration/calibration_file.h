@@ -1,4 +1,4 @@
-// diptych: calibrations read and checked
+// diptych: reads and checks calibration files
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace diptych::coupling
 {
-  // Reads a .json file. Scenes and files that settings name are found from the file's own folder. Throws SceneError naming file,
-  // line, key, value and what is allowed.
+  // Reads a .json file. Paths of scenes and files are relative to its folder. Throws SceneError naming file, line, key, value
+  // and the allowed values.
   Calibration read_calibration(const std::string &file);
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: a calibration as files
+// diptych: result files of a calibration
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/calibration/calibration_output.h"
 

@@ -1,4 +1,4 @@
-// diptych: a calibration as files
+// diptych: result files of a calibration
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace diptych::coupling
 {
-  // calibration.json, calibration.csv (a row an observable), calibration_cost.json and calibrated.prm: the keys that were found,
-  // as a scene or --set-file takes them. What is there is replaced.
+  // Writes calibration.json, calibration.csv (a row per observable), calibration_cost.json and calibrated.prm, replacing
+  // existing files. A scene or --set-file takes the keys of calibrated.prm.
   void write_calibration(const std::string &directory, const CalibrationRecord &record);
 } // namespace diptych::coupling

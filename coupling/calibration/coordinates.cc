@@ -1,4 +1,4 @@
-// diptych: values of a scene's keys as points of the unit cube, in which they are searched for
+// diptych: maps values of continuum keys to points of the unit cube, in which the search works
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/calibration/coordinates.h"
 
@@ -19,7 +19,7 @@ namespace diptych::coupling
       return p.coordinate == Coordinate::logarithm ? std::log(number) : number;
     }
 
-    // "" is what all targets have in common.
+    // An empty name means: common to all targets.
     bool is_of(const CalibrationParameter &p, const std::string &target)
     {
       return target.empty() ? p.targets.empty() : p.belongs_to(target);
@@ -93,7 +93,7 @@ namespace diptych::coupling
         }
     const auto found = others.find(key);
     if (found == others.end())
-      throw std::invalid_argument(key + " has no value to refer to");
+      throw std::invalid_argument(key + " is needed by a share or drop, but has no value");
     return found->second;
   }
 

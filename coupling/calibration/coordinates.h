@@ -1,4 +1,4 @@
-// diptych: values of a scene's keys as points of the unit cube, in which they are searched for
+// diptych: maps values of continuum keys to points of the unit cube, in which the search works
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -15,8 +15,8 @@ namespace diptych::coupling
   class Coordinates
   {
   public:
-    // others: values of keys that shares and drops refer to and that are not searched for. Throws std::invalid_argument where
-    // one refers to a key that is neither, to one that belongs to other targets, or in a circle.
+    // others: values of fixed keys that shares and drops refer to. Throws std::invalid_argument if a parameter refers to an
+    // unknown key, to one that belongs to other targets, or to itself in a circle.
     Coordinates(std::vector<CalibrationParameter> parameters, std::map<std::string, double> others);
 
     std::size_t     size() const { return parameters.size(); }
@@ -24,15 +24,15 @@ namespace diptych::coupling
 
     // Numbers of the coordinates: value, share or drop.
     std::vector<double> numbers(const Eigen::VectorXd &point) const;
-    // Values of the keys themselves, in the order of the parameters.
+    // Values of the keys, in the order of the parameters.
     std::vector<double> values(const Eigen::VectorXd &point) const;
-    // Of one target; of none (""): what all have in common.
+    // Settings of one target. An empty name gives those that all targets share.
     Settings settings(const Eigen::VectorXd &point, const std::string &target) const;
 
     const CalibrationParameter &parameter(std::size_t k) const { return parameters[k]; }
 
   private:
-    // How one target sees the key.
+    // The value of the key for one target.
     double value_of(const std::string         &key,
                     const std::string         &target,
                     const std::vector<double> &numbers,

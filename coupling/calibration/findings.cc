@@ -1,4 +1,4 @@
-// diptych: the findings of a calibration, put down
+// diptych: turns the results of a fit into records and findings
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/calibration/findings.h"
 
@@ -44,29 +44,32 @@ namespace diptych::coupling
       return result;
     }
 
-    // One number of a path, sample by sample.
-    struct Held
+    // One number of a path: the grains' values, one per sample, and the continuum's.
+    struct PathNumber
     {
       std::vector<double> grains;
       double              before = NAN, after = NAN;
     };
 
-    PredictionRecord prediction(const std::string &quantity, const Held &held, const double margin, const bool is_relative)
+    PredictionRecord prediction(const std::string &quantity,
+                                const PathNumber  &number,
+                                const double       margin,
+                                const bool         is_relative)
     {
       PredictionRecord    record;
       std::vector<double> grains;
-      std::copy_if(held.grains.begin(), held.grains.end(), std::back_inserter(grains),
+      std::copy_if(number.grains.begin(), number.grains.end(), std::back_inserter(grains),
                    [](const double x) { return std::isfinite(x); });
-      record.quantity = quantity, record.margin = margin, record.before = held.before, record.after = held.after;
+      record.quantity = quantity, record.margin = margin, record.before = number.before, record.after = number.after;
       record.data = statistics(grains).mean;
       Equivalence test;
-      if (std::isfinite(held.after) && is_relative)
-        test = compare_relative(grains, std::vector<double>(grains.size(), held.after), margin);
-      else if (std::isfinite(held.after))
+      if (std::isfinite(number.after) && is_relative)
+        test = compare_relative(grains, std::vector<double>(grains.size(), number.after), margin);
+      else if (std::isfinite(number.after))
         {
           std::vector<double> differences;
           for (const double x : grains)
-            differences.push_back(held.after - x);
+            differences.push_back(number.after - x);
           test = compare_differences(differences, margin);
         }
       record.difference = test.difference, record.verdict = text_of(test.verdict), record.test = test;
@@ -82,22 +85,22 @@ namespace diptych::coupling
       return {};
     }
 
-    Held held_of(const CalibrationPath &path, const PathRuns &runs, const std::size_t k, const bool is_logarithm)
+    PathNumber path_number(const CalibrationPath &path, const PathRuns &runs, const std::size_t k, const bool is_logarithm)
     {
       const auto value = [&](const Observation &o) {
         const double x = o.values.size() > 0 ? o.values[Eigen::Index(k)] : NAN;
         return is_logarithm ? std::exp(x) : x;
       };
-      Held held{{}, value(runs.before.observation), value(runs.after.observation)};
+      PathNumber number{{}, value(runs.before.observation), value(runs.after.observation)};
       for (const Observation &sample : path.samples)
-        held.grains.push_back(value(sample));
-      return held;
+        number.grains.push_back(value(sample));
+      return number;
     }
 
     void add_predictions(const CalibrationPath &path, const PathRuns &runs, PathRecord &record)
     {
       const EquivalenceMargins &margins = path.scene.comparison.margins;
-      Held                      peak{{}, runs.before.observation.peak_stress_ratio, runs.after.observation.peak_stress_ratio};
+      PathNumber                peak{{}, runs.before.observation.peak_stress_ratio, runs.after.observation.peak_stress_ratio};
       std::vector<double>       turns;
       for (const Observation &sample : path.samples)
         {
@@ -109,11 +112,11 @@ namespace diptych::coupling
       record.predictions.push_back(prediction("peak_stress_ratio", peak, margins.peak_stress_ratio, true));
       if (const auto k = last_of(path.data.observables, ObservableKind::volumetric_strain))
         record.predictions.push_back(
-          prediction("volumetric_strain", held_of(path, runs, *k, false), margins.volumetric_strain, false));
+          prediction("volumetric_strain", path_number(path, runs, *k, false), margins.volumetric_strain, false));
       if (const auto k = last_of(path.data.observables, ObservableKind::ln_width))
         {
-          Held width = held_of(path, runs, *k, true);
-          if (!std::isfinite(runs.before.observation.angle_deg)) // half the height stands for no band in the fit alone
+          PathNumber width = path_number(path, runs, *k, true);
+          if (!std::isfinite(runs.before.observation.angle_deg)) // in the fit only, half the height replaces a missing band
             width.before = NAN;
           if (!std::isfinite(runs.after.observation.angle_deg))
             width.after = NAN;
@@ -132,7 +135,7 @@ namespace diptych::coupling
         }
     }
 
-    // Mean of the samples with two deviations of one of them to either side, and both curves of the continuum.
+    // Mean of the samples, plus and minus two deviations of one sample, and both curves of the continuum.
     void add_curves(const CalibrationPath &path, const PathRuns &runs, PathRecord &record)
     {
       const auto &first = path.samples.front();
@@ -173,18 +176,19 @@ namespace diptych::coupling
       {
         const std::string name = p.key + (p.targets.empty() ? "" : " (" + discrete::listed(p.targets) + ")");
         if (!p.is_identified)
-          record.words.push_back(name + " is not identified: the data leave " + text_of(std::round(100 * p.share_known)) +
-                                 " % of what was unknown before them");
+          record.words.push_back(name + " is not identified: its uncertainty is still " +
+                                 text_of(std::round(100 * p.share_known)) + " % of what it was before");
         if (p.at_bound)
-          record.words.push_back(name + " lies at its bound");
+          record.words.push_back(name + " lies at its bound; widen low and high, or fix it");
         else if (p.is_cut)
-          record.words.push_back("the interval of " + name + " is cut off by its bound: there the bound says it, not the data");
+          record.words.push_back("the interval of " + name +
+                                 " ends at its bound, so this end comes from the bound and not from the data");
       }
   }
 
   void add_parameters_to_predictions(const double quantile, PathRecord &record)
   {
-    // The peak is the largest of the curve: where the curve is flat it moves as the curve does there.
+    // The peak is the largest value of the curve. Near a flat peak it moves as the curve does.
     const ObservableRecord *highest = nullptr, *last_volume = nullptr, *last_width = nullptr;
     for (const ObservableRecord &one : record.observables)
       {
@@ -216,7 +220,7 @@ namespace diptych::coupling
     std::ostringstream text;
     text.precision(3);
     text << "chi^2 is " << record.chi2 << ", " << record.misfit * record.misfit
-         << " times what a right law would leave: the law lies beside the data by more than their noise and what it was granted; "
+         << " times the expected value: this law cannot reproduce the data within noise and model tolerance; "
             "deviations of the parameters are multiplied by "
          << record.misfit;
     record.words.push_back(text.str());

@@ -1,4 +1,4 @@
-// diptych: the findings of a calibration, put down
+// diptych: turns the results of a fit into records and findings
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -9,23 +9,23 @@
 
 namespace diptych::coupling
 {
-  // Values with their intervals, correlations, and in words what is not identified or lies at its bound.
+  // Adds values with intervals and correlations, and findings on parameters that are not identified or lie at a bound.
   void tell_parameters(const Coordinates     &coordinates,
                        const Identification  &knowledge,
                        const Eigen::VectorXd &point,
                        CalibrationRecord     &record);
 
-  // The continuum on one path: with the scene's own parameters, with the calibrated ones, and these with load steps half as long.
+  // The continuum on one path: before the calibration, calibrated, and calibrated with load steps half as long.
   struct PathRuns
   {
     const NoiseModel &noise;
     const ModelRun   &before, &after, &halved;
   };
-  // Where the law misses the data by more than a right one would.
+  // Adds a finding if the law misses the data by more than expected.
   void tell_misfit(CalibrationRecord &record);
 
-  // Predictions of a path that was not fitted: the deviation of the parameters goes into the intervals and verdicts, with
-  // this 97.5 % quantile. The angle has none: the data of the fit hold no derivative of it.
+  // Widens the predictions of a path that was not fitted by the deviation of the parameters, with this 97.5 % quantile. The
+  // angle is not widened, because the fit has no derivative of it.
   void add_parameters_to_predictions(double quantile, PathRecord &record);
 
   PathRecord path_record(const CalibrationPath &path, const PathRuns &runs);

@@ -41,8 +41,8 @@ namespace diptych::coupling
 
   namespace
   {
-    // What the options give is known, not estimated.
-    NoiseModel told_by_samples(NoiseModel noise, const NoiseOptions &options)
+    // Values given by the options are exact, so they do not count as estimated.
+    NoiseModel estimated_part(NoiseModel noise, const NoiseOptions &options)
     {
       for (const auto &[given, value] : {std::pair(&options.stress_level, &noise.stress_level),
                                          {&options.stress_shape, &noise.stress_shape},
@@ -72,7 +72,7 @@ namespace diptych::coupling
     for (const TargetData &path : paths)
       {
         const Eigen::VectorXd granted = discrepancy(options, path.observables);
-        const Eigen::MatrixXd one     = covariance(with_granted ? noise : told_by_samples(noise, options), path.observables);
+        const Eigen::MatrixXd one     = covariance(with_granted ? noise : estimated_part(noise, options), path.observables);
         const Eigen::Index    n       = granted.size();
         for (Eigen::Index i = 0; i < n; ++i)
           for (Eigen::Index j = 0; j < n; ++j)

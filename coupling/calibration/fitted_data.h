@@ -19,22 +19,22 @@ namespace diptych::coupling
           options(options)
     {}
 
-    // left_out: one entry an observable; where it is not empty the observable has no weight.
+    // left_out: one entry per observable. An observable with a reason in it has no weight.
     void add(const TargetData &path, const std::vector<std::string> &left_out);
 
     Eigen::Index           size() const { return weight.size(); }
     const Eigen::VectorXd &weights() const { return weight; }
     int                    n_counting() const { return int((weight.array() > 0).count()); }
 
-    // sqrt(weight) (values - mean); empty where a value that counts is not finite, or there are no values.
+    // sqrt(weight) (values - mean). Empty if there are no values or if a weighted one is not finite.
     [[nodiscard]] Eigen::VectorXd residual(const Eigen::VectorXd &values) const;
 
-    // The Jacobian of the observables from that of the residuals.
+    // Turns the Jacobian of the residuals into that of the observables.
     [[nodiscard]] Eigen::MatrixXd unweighted(const Eigen::MatrixXd &jacobian) const;
 
-    // Covariance of the means with what the law is granted, size() squared; samples of different paths have nothing in common.
+    // Covariance of the means plus the model tolerance, size() squared. Samples of different paths are independent.
     [[nodiscard]] Eigen::MatrixXd noise_of_means() const;
-    [[nodiscard]] Eigen::MatrixXd scatter_of_means() const; // the part that the samples told
+    [[nodiscard]] Eigen::MatrixXd scatter_of_means() const; // the part estimated from the samples
 
   private:
     Eigen::MatrixXd of_means(bool with_granted) const;

@@ -1,4 +1,4 @@
-// diptych: what the data say of the parameters, and what they do not
+// diptych: deviations of the fitted parameters, and which of them the data determine
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/calibration/identification.h"
 
@@ -59,10 +59,10 @@ namespace diptych::coupling
     if (degrees_of_freedom < 1)
       return;
     const Eigen::MatrixXd weighted = weights.asDiagonal() * jacobian, inverse = inverse_of(jacobian, weighted);
-    const Eigen::VectorXd told = (inverse * weighted.transpose() * scatter * weighted * inverse).diagonal();
-    for (Eigen::Index k = 0; k < told.size(); ++k)
-      if (told[k] > 0)
+    const Eigen::VectorXd estimated = (inverse * weighted.transpose() * scatter * weighted * inverse).diagonal();
+    for (Eigen::Index k = 0; k < estimated.size(); ++k)
+      if (estimated[k] > 0)
         knowledge.quantile[k] = student_quantile(0.975, degrees_of_freedom *
-                                                          std::pow(std::max(1., knowledge.covariance(k, k) / told[k]), 2));
+                                                          std::pow(std::max(1., knowledge.covariance(k, k) / estimated[k]), 2));
   }
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: nonlinear least squares within bounds, where every residual is a run
+// diptych: nonlinear least squares with bounds, where every residual needs a run
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/calibration/least_squares.h"
 
@@ -40,8 +40,8 @@ namespace diptych::coupling
             trial{fit.point, fit.residual}
       {}
 
-      bool has_failed = false, has_ever_failed = false; // a step that was turned down: the last one, any
-      bool is_little = false;                           // what the last accepted step brought
+      bool has_failed = false, has_ever_failed = false; // rejected steps: the last one, any
+      bool is_little = false;                           // the last accepted step gained little
 
       void update(const ROL::Vector<double> &, const ROL::UpdateType type, int) override
       {
@@ -95,7 +95,7 @@ namespace diptych::coupling
       Point                      trial;
     };
 
-    // Ends a search where a step fails with a Jacobian that is not fresh, or where steps bring nothing any more.
+    // Ends a search if a step fails with an old Jacobian, or if steps gain nothing any more.
     class EndOfSearch : public ROL::StatusTest<double>
     {
     public:
@@ -121,14 +121,14 @@ namespace diptych::coupling
       const LeastSquaresOptions &options;
     };
 
-    // From the fit's point with its Jacobian; whether no step was turned down.
+    // Searches from the fit's point with its Jacobian. Returns true if no step was rejected.
     bool search(const BatchResiduals &residuals, const LeastSquaresOptions &options, LeastSquaresFit &fit)
     {
       Teuchos::ParameterList list;
       auto                  &region = list.sublist("Step").sublist("Trust Region");
       region.set("Initial Radius", options.first_radius);
       region.set("Radius Growing Threshold", 0.75);
-      auto &krylov = list.sublist("General").sublist("Krylov"); // a few unknowns: the model's minimum is found exactly
+      auto &krylov = list.sublist("General").sublist("Krylov"); // with few unknowns the minimum of the model is found exactly
       krylov.set("Iteration Limit", 200);
       krylov.set("Absolute Tolerance", 1e-14);
       krylov.set("Relative Tolerance", 1e-8);
@@ -200,7 +200,7 @@ namespace diptych::coupling
     fit.evaluations = 1;
     if (fit.residual.size() == 0)
       {
-        fit.words = "there is no run at the start";
+        fit.words = "the run at the start failed";
         return fit;
       }
     fit.chi2 = fit.residual.squaredNorm();
@@ -229,7 +229,8 @@ namespace diptych::coupling
           }
         if (fit.jacobians >= options.most_jacobians)
           {
-            fit.words = "the last of " + std::to_string(fit.jacobians) + " Jacobians still brought chi^2 down";
+            fit.words = "the last of " + std::to_string(fit.jacobians) +
+                        " Jacobians still lowered chi^2; the search has not converged";
             return fit;
           }
         renew(residuals, options.difference, fit);

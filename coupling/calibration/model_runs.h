@@ -1,4 +1,4 @@
-// diptych: the paths of a calibration, and how the continuum is run on them
+// diptych: the paths of a calibration, and the function that runs the continuum on them
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -12,26 +12,26 @@
 
 namespace diptych::coupling
 {
-  // A path with what its samples show.
+  // A path with the observations of its samples.
   struct CalibrationPath
   {
     const CalibrationTarget &target;
     Scene                    scene;
     TargetData               data;
-    std::vector<Observation> samples;  // one a seed
-    std::vector<std::string> left_out; // why, one entry an observable; empty: it counts
+    std::vector<Observation> samples;  // one per seed
+    std::vector<std::string> left_out; // one reason per observable; empty: it counts
   };
 
   enum class ModelMesh
   {
     coarse, // a rectangle with large elements
-    fine    // the sample's own
+    fine    // the sample's own mesh
   };
 
   struct ModelRun
   {
     Observation observation;
-    std::string words; // why there is none; empty: it finished
+    std::string words; // reason if the run did not finish
   };
 
   struct ModelTask
@@ -42,6 +42,6 @@ namespace diptych::coupling
     double                             load_step = 0;
   };
 
-  // The continuum's runs of a task: [point][path]. May throw, which ends the calibration; the record holds what was found.
+  // Runs the continuum for a task: [point][path]. An exception ends the calibration; the record keeps the best point so far.
   using RunModel = std::function<std::vector<std::vector<ModelRun>>(const ModelTask &)>;
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: how the samples of a calibration scatter, and what weights that gives
+// diptych: scatter of the samples in a calibration, and the weights that follow from it
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/calibration/noise.h"
 
@@ -26,7 +26,7 @@ namespace diptych::coupling
     {
       double level = 0, shape = 0, width = 0;
       double n_level = 0, n_shape = 0, n_width = 0; // degrees of freedom
-      // deviation^2 of the volume against progress^2: v = start^2 + growth^2 progress^2
+      // The variance of the volume is linear in progress^2: v = start^2 + growth^2 progress^2.
       Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
       Eigen::Vector2d right  = Eigen::Vector2d::Zero();
     };
@@ -61,7 +61,7 @@ namespace diptych::coupling
               variance += std::pow(sample[k] - path.mean[k], 2) / (n - 1);
             const double          x = path.observables[std::size_t(k)].middle();
             const Eigen::Vector2d row(1, x * x);
-            // Variances scatter by their own size.
+            // The scatter of a variance is proportional to the variance.
             const double weight = 1 / std::pow(1e-8 + x * x, 2);
             sum.normal += weight * row * row.transpose();
             sum.right += weight * variance * row;
@@ -79,13 +79,13 @@ namespace diptych::coupling
           }
     }
 
-    double told_or_estimated(const std::optional<double> &told, const double square, const double freedom, const char *key)
+    double given_or_estimated(const std::optional<double> &given, const double square, const double freedom, const char *key)
     {
-      if (told)
-        return *told;
+      if (given)
+        return *given;
       if (!(freedom > 0))
         throw std::invalid_argument(std::string("noise: ") + key +
-                                    " must be given where no path has two samples that show how they scatter");
+                                    " must be given, because no path has two samples to estimate it from");
       return std::sqrt(std::max(0., square) / freedom);
     }
 
@@ -121,21 +121,21 @@ namespace diptych::coupling
       }
     if (has(paths, ObservableKind::stress_ratio))
       {
-        noise.stress_level = told_or_estimated(options.stress_level, sum.level, sum.n_level, "stress_level");
-        noise.stress_shape = told_or_estimated(options.stress_shape, sum.shape, sum.n_shape, "stress_shape");
+        noise.stress_level = given_or_estimated(options.stress_level, sum.level, sum.n_level, "stress_level");
+        noise.stress_shape = given_or_estimated(options.stress_shape, sum.shape, sum.n_shape, "stress_shape");
       }
     if (has(paths, ObservableKind::volumetric_strain))
       {
         const double          seen   = noise.degrees_of_freedom;
-        const double          scale  = 1e-12 * sum.normal.norm(); // one bin alone has no growth of its own
+        const double          scale  = 1e-12 * sum.normal.norm(); // one bin cannot give a growth
         const Eigen::Vector2d square = seen > 0 ? Eigen::Vector2d((sum.normal + scale * Eigen::Matrix2d::Identity()).inverse() *
                                                                   sum.right)
                                                 : Eigen::Vector2d::Zero();
-        noise.volume_start           = told_or_estimated(options.volume_start, square[0], seen > 0 ? 1 : 0, "volume_start");
-        noise.volume_growth          = told_or_estimated(options.volume_growth, square[1], seen > 0 ? 1 : 0, "volume_growth");
+        noise.volume_start           = given_or_estimated(options.volume_start, square[0], seen > 0 ? 1 : 0, "volume_start");
+        noise.volume_growth          = given_or_estimated(options.volume_growth, square[1], seen > 0 ? 1 : 0, "volume_growth");
       }
     if (has(paths, ObservableKind::ln_width))
-      noise.ln_width = told_or_estimated(options.ln_width, sum.width, sum.n_width, "ln_width");
+      noise.ln_width = given_or_estimated(options.ln_width, sum.width, sum.n_width, "ln_width");
     return noise;
   }
 

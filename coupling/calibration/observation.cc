@@ -1,4 +1,4 @@
-// diptych: what grains and continuum are held against each other by, read from a run
+// diptych: the observables of one run, by which grains and continuum are compared
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/calibration/observation.h"
 
@@ -49,7 +49,7 @@ namespace diptych::coupling
       return options;
     }
 
-    // Of every window, with find(from, to, place among the windows).
+    // Adds the band of every window; find(from, to, index of the window) returns its bands.
     template <class Snapshot, class Find>
     void add_bands(const Scene                   &scene,
                    const std::vector<Observable> &observables,
@@ -86,7 +86,7 @@ namespace diptych::coupling
             observables.push_back({kind, edges[k], edges[k + 1]});
       }
     if (observables.empty())
-      throw std::invalid_argument("no bin and no window lies within its loading");
+      throw std::invalid_argument("no bin and no window lies within the loading; check bins and comparison/window_edges");
     return observables;
   }
 
@@ -98,7 +98,7 @@ namespace diptych::coupling
         {
           const auto from = snapshot_at(snapshots, one.from), to = snapshot_at(snapshots, one.to);
           if (!from || !to)
-            throw std::invalid_argument("a window of comparison/window_edges is no stage of the grains");
+            throw std::invalid_argument("an edge of comparison/window_edges is not a stage of the grains");
           frames.push_back(sample_frame(snapshots[*from], snapshots[*to]));
         }
     return frames;

@@ -132,7 +132,10 @@ namespace diptych::coupling
             for (std::size_t k = i + 1; k < j; ++k)
               if (const double worst = std::min({best(i, k), roundness(x[polygon[i]], x[polygon[k]], x[polygon[j]]), best(k, j)});
                   worst > best(i, j))
-                best(i, j) = worst, apex(i, j) = k;
+                {
+                  best(i, j) = worst;
+                  apex(i, j) = k;
+                }
           }
       if (!(best(0, n - 1) > 0))
         refuse(number);

@@ -24,7 +24,10 @@ namespace diptych::coupling
         return;
       Eigen::Vector2d lower = position.front(), upper = lower;
       for (const Eigen::Vector2d &x : position)
-        lower = lower.cwiseMin(x), upper = upper.cwiseMax(x);
+        {
+          lower = lower.cwiseMin(x);
+          upper = upper.cwiseMax(x);
+        }
       const double          most   = 4096 + 64 * double(position.size());
       const Eigen::Vector2d extent = upper - lower;
       const double needed = std::max({bin_size, extent.maxCoeff() / most, std::sqrt(extent.x() / most) * std::sqrt(extent.y())});

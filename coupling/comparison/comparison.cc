@@ -162,7 +162,9 @@ namespace diptych::coupling
             break;
           pieces.next();
           Increment coarse;
-          coarse.from = window.from, coarse.to = window.to, coarse.frame = window.frame;
+          coarse.from      = window.from;
+          coarse.to        = window.to;
+          coarse.frame     = window.frame;
           coarse.continuum = continuum_increment(nodes[from], nodes[to], window.frame, scene.comparison.band,
                                                  std::uint64_t(scene.sample.seed));
           result.windows.push_back(std::move(coarse));

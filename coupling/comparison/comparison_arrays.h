@@ -188,7 +188,8 @@ namespace diptych::coupling
     std::vector<std::array<int, 2>> body;
     for (const discrete::ContactForce &contact : to.window_forces)
       {
-        point.push_back(contact.point), force.push_back(contact.force);
+        point.push_back(contact.point);
+        force.push_back(contact.force);
         body.push_back({contact.i, contact.j});
       }
     const std::vector<Eigen::Matrix2d> stress = arrays::grain_stress(to);

@@ -30,9 +30,15 @@ namespace diptych::coupling
       const Eigen::Vector2d   &travel = increment.frame.platen_increment;
       double                   angle = std::atan2(travel.y(), travel.x()) * 180 / M_PI, offset = 0;
       if (!grains.empty())
-        angle = grains[0].angle_deg, offset = grains[0].offset;
+        {
+          angle  = grains[0].angle_deg;
+          offset = grains[0].offset;
+        }
       else if (!nodes.empty())
-        angle = nodes[0].angle_deg, offset = nodes[0].offset;
+        {
+          angle  = nodes[0].angle_deg;
+          offset = nodes[0].offset;
+        }
       if (angle <= -90)
         angle += 180;
       return strip_means(field, increment.frame, angle, strip_edges(increment.frame, angle, offset));
@@ -44,7 +50,10 @@ namespace diptych::coupling
     Eigen::Vector2d low = to.outline.left.front(), high = to.outline.right.front();
     for (const auto *side : {&to.outline.left, &to.outline.right})
       for (const Eigen::Vector2d &x : *side)
-        low = low.cwiseMin(x), high = high.cwiseMax(x);
+        {
+          low  = low.cwiseMin(x);
+          high = high.cwiseMax(x);
+        }
     SampleFrame frame;
     frame.centre           = 0.5 * (low + high);
     frame.width            = high.x() - low.x();

@@ -1,4 +1,4 @@
-// diptych: what the realisations of an ensemble have in common: means, intervals, verdicts
+// diptych: statistics over the members of an ensemble: means, intervals, verdicts
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/ensembles/ensemble.h"
 
@@ -25,7 +25,7 @@ namespace diptych::coupling
       return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
     }
 
-    // What a place of comparison.json holds; nothing for a place that is not listed.
+    // Description of a place of comparison.json; nullptr if the place is not listed.
     const NumberDescription *description_of(const std::string &place)
     {
       static const NumberSchema                                     schema   = comparison_schema();
@@ -44,7 +44,7 @@ namespace diptych::coupling
       return number.kind == Kind::number || number.kind == Kind::line;
     }
 
-    // Stages of two seeds may differ by rounding: six digits name them alike.
+    // Stages of two seeds may differ by rounding; six digits give them the same name.
     std::string short_text(const double value)
     {
       char text[32];
@@ -52,7 +52,7 @@ namespace diptych::coupling
       return text;
     }
 
-    // A list whose entries have names is no list: "probes": [{"name": "zone", ...}] is "probe zone".
+    // Entries of a list with names get these in their own name: "probes": [{"name": "zone", ...}] is "probe zone".
     std::string name_of(const json &entry)
     {
       for (const char *key : {"name", "label"})
@@ -70,7 +70,7 @@ namespace diptych::coupling
       return found == names.end() ? key : found->second;
     }
 
-    // Where in comparison.json a value stands, and how a member calls it.
+    // Place of a value in comparison.json, and its name in a member.
     struct Place
     {
       std::string keys, name;
@@ -123,19 +123,19 @@ namespace diptych::coupling
                 member);
     }
 
-    // Of one panel's strongest band.
+    // True for a number of one panel's strongest band.
     bool is_of_bands(const NumberDescription &number, const std::string &key)
     {
       return ends_with(number.place, "/bands/" + key);
     }
 
-    // Between the panels' bands: continuum minus grains.
+    // True for a difference between the panels' bands: continuum minus grains.
     bool is_difference_of_bands(const NumberDescription &number, const std::string &key)
     {
       return number.place == "stages/difference/" + key || number.place == "windows/difference/" + key;
     }
 
-    // Names in the order of their first appearance, with one value a member.
+    // Names in the order of their first appearance, with one value per member.
     std::vector<Quantity> tabulated(const std::vector<Member> &members)
     {
       std::vector<Quantity>              quantities;
@@ -274,7 +274,7 @@ namespace diptych::coupling
       }
     catch (const json::exception &error)
       {
-        throw std::invalid_argument(std::string("no comparison of two panels: ") + plain_text(error));
+        throw std::invalid_argument(std::string("comparison.json does not compare two panels: ") + plain_text(error));
       }
     return member;
   }
@@ -291,7 +291,7 @@ namespace diptych::coupling
   void fold(Member &member)
   {
     const auto                    band_of = [](const std::string &name) { return name.substr(0, name.rfind(' ')); };
-    std::map<std::string, double> sign; // of the angle, by the band's place
+    std::map<std::string, double> sign; // of the angle, by the place of the band
     for (const MemberNumber &entry : member.numbers)
       if (is_of_bands(*entry.number, "angle_deg"))
         sign[band_of(entry.name)] = entry.value < 0 ? -1 : 1;

@@ -1,4 +1,4 @@
-// diptych: what the realisations of an ensemble have in common: means, intervals, verdicts
+// diptych: statistics over the members of an ensemble: means, intervals, verdicts
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -15,33 +15,33 @@
 
 namespace diptych::coupling
 {
-  // The numbers of one comparison.json that may be averaged over realisations.
+  // The numbers of one comparison.json that may be averaged over members.
   struct MemberNumber
   {
     std::string              name;
     double                   value  = 0;
-    const NumberDescription *number = nullptr; // what it is
+    const NumberDescription *number = nullptr; // its unit, kind and meaning
   };
 
   struct Member
   {
     int                                      seed = 0;
     std::vector<MemberNumber>                numbers;     // in the order of the file
-    std::vector<std::pair<std::string, int>> band_counts; // "window 0-0.01 discrete": bands found there
+    std::vector<std::pair<std::string, int>> band_counts; // "window 0-0.01 discrete" with the number of bands found
   };
 
-  // Names are made of the place and the key: "stage 0.04 discrete stress_ratio", "stage 0.04 discrete probe zone t_over_s",
-  // "window 0.02-0.04 continuum band angle_deg" (of the strongest band; absent where none was found), "discrete_summary
-  // peak_stress_ratio". Of {"value", "low", "high"} the value is taken; lists, texts, nulls, and what comparison_numbers.h lists
-  // as a setting or as measured by a clock are left out. Throws std::invalid_argument naming what is missing.
+  // Collects numbers by name: place and key. Examples: "stage 0.04 discrete stress_ratio", "stage 0.04 discrete probe zone
+  // t_over_s", "window 0.02-0.04 continuum band angle_deg" (of the strongest band; absent without one), "discrete_summary
+  // peak_stress_ratio". Of {"value", "low", "high"} it takes the value. It omits lists, texts, nulls, settings and measured
+  // times (comparison_numbers.h). Throws std::invalid_argument naming what is missing.
   Member member_of(const nlohmann::json &comparison);
 
-  // Whether nothing but chance tells left from right: vertical descent, no horizontal gravity, no wall driven by a key of its
+  // True if only chance distinguishes left from right: vertical descent, no horizontal gravity, and no wall with a drive of its
   // own.
   bool is_mirror_symmetric(const Scene &scene);
 
-  // Brings mirror images of a band together: angle_deg and offset_d become their absolute values, jump changes its sign with the
-  // angle. Differences of the panels' bands, which were taken between mirror images, are removed.
+  // Folds mirror images of a band onto each other. angle_deg and offset_d become absolute values, and jump changes its sign
+  // with the angle. Removes differences between the panels' bands, which may have been taken between mirror images.
   void fold(Member &member);
 
   struct Quantity
@@ -49,13 +49,13 @@ namespace diptych::coupling
     std::string         name, unit;
     bool                is_line = false; // an angle that repeats after 180 degrees
     SampleStatistics    statistics;
-    std::vector<double> values; // one a member; NaN where it has none
+    std::vector<double> values; // one per member; NaN if it has none
   };
 
   struct BandCount
   {
     std::string name;                   // "window 0-0.01 discrete"
-    int         members[3] = {0, 0, 0}; // in which no, one, two bands were found
+    int         members[3] = {0, 0, 0}; // members with no, one and two bands
   };
 
   // Continuum minus grains, member by member.
@@ -65,7 +65,7 @@ namespace diptych::coupling
     double              margin   = 0;
     bool                relative = false; // to the grains' mean
     Equivalence         equivalence;
-    std::vector<double> discrete, continuum; // one a member; NaN where it has none
+    std::vector<double> discrete, continuum; // one per member; NaN if it has none
   };
 
   struct Ensemble
@@ -73,27 +73,27 @@ namespace diptych::coupling
     std::vector<int>          seeds; // of the members, ascending
     std::vector<Quantity>     quantities;
     std::vector<BandCount>    bands;
-    std::vector<PanelVerdict> verdicts; // peak stress ratio, volumetric strain, angle and thickness of each window
+    std::vector<PanelVerdict> verdicts; // peak stress ratio, strength, volumetric strain; angle and width of each window
   };
 
   std::string text_of(const BandCount &count); // "one band in 6 of 8, none in 2"
 
   Ensemble evaluate(const std::vector<Member> &members, const EquivalenceMargins &margins);
 
-  // A realisation that ended with another exit code than 0.
+  // A member whose run ended with an exit code other than 0.
   struct FailedMember
   {
     int         seed      = 0;
-    int         exit_code = 0; // 128 + signal where a signal ended it
+    int         exit_code = 0; // 128 + signal if a signal ended it
     std::string message;
   };
 
-  // What became of each seed.
+  // The outcome of every seed.
   struct EnsembleRecord
   {
-    std::vector<int>          seeds;       // asked for, ascending
+    std::vector<int>          seeds;       // requested, ascending
     std::vector<FailedMember> failed;      // ascending
-    std::vector<int>          interrupted; // stopped or not begun, ascending
-    Ensemble                  ensemble;    // of the rest
+    std::vector<int>          interrupted; // stopped or not started, ascending
+    Ensemble                  ensemble;    // of the other seeds
   };
 } // namespace diptych::coupling

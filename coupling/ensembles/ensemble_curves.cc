@@ -1,4 +1,4 @@
-// diptych: running means of every member of an ensemble, and of all together
+// diptych: running means of every member of an ensemble, and their mean
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/ensembles/ensemble_curves.h"
 
@@ -31,7 +31,7 @@ namespace diptych::coupling
           const std::string      path = member_folder(directory, seed) + "/" + file;
           const std::vector<Row> rows = discrete::read_rows<Row>(path);
           if (rows.empty())
-            throw std::invalid_argument(path + ": holds no row");
+            throw std::invalid_argument(path + ": has no rows");
           tables.push_back(history_table(rows));
         }
       return tables;

@@ -21,7 +21,7 @@ namespace diptych::coupling
     using nlohmann::json;
     namespace fs = std::filesystem;
 
-    constexpr double largest_error_of_the_total = 1e-12; // beyond it `diptych run` ends with exit code 1
+    constexpr double largest_error_of_the_total = 1e-12; // above it `diptych run` ends with exit code 1
 
     // Throws SceneError naming the first key that differs.
     void demand_same_scene(const Scene &scene)
@@ -102,7 +102,7 @@ namespace diptych::coupling
         const json stages = comparison.value("stages", json::array());
         return stages.is_array() && std::all_of(stages.begin(), stages.end(), is_exact);
       }
-    catch (const json::exception &) // of another type than this version writes: not its own
+    catch (const json::exception &) // written by another version
       {
         return false;
       }

@@ -1,4 +1,4 @@
-// diptych: an ensemble as files
+// diptych: result files of an ensemble
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/ensembles/ensemble_output.h"
 

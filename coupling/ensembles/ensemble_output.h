@@ -1,4 +1,4 @@
-// diptych: an ensemble as files
+// diptych: result files of an ensemble
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -9,10 +9,10 @@
 
 namespace diptych::coupling
 {
-  // ensemble.json: every mean, interval and verdict with the value of every member (null where it has none); numbers of members
-  // are in the order of "done". Nothing in it depends on when, where and in which order the members ran.
+  // ensemble.json: every mean, interval and verdict with the values of all members (null if one has none), in the order of
+  // "done". It does not depend on when, where or in which order the members ran.
   void write_ensemble_json(const std::string &directory, const Scene &scene, const EnsembleRecord &record);
 
-  // ensemble.csv: a line a quantity, a column a seed.
+  // ensemble.csv: one line per quantity, one column per seed.
   void write_ensemble_csv(const std::string &directory, const Ensemble &ensemble);
 } // namespace diptych::coupling

@@ -28,7 +28,10 @@ namespace diptych::coupling
     {
       Eigen::Vector2d lower = mesh.node[0], upper = lower;
       for (const Eigen::Vector2d &x : mesh.node)
-        lower = lower.cwiseMin(x), upper = upper.cwiseMax(x);
+        {
+          lower = lower.cwiseMin(x);
+          upper = upper.cwiseMax(x);
+        }
       return regular_grid(lower, upper, size);
     }
 

@@ -69,7 +69,10 @@ namespace diptych::coupling
           row[grain::mass]                = to.mass[i];
           row.segment<2>(grain::momentum) = to.mass[i] * to.velocity[i].transpose();
           if (!std::isnan(energy[i]))
-            row[grain::fluctuating_mass] = to.mass[i], row[grain::fluctuation] = to.mass[i] * energy[i];
+            {
+              row[grain::fluctuating_mass] = to.mass[i];
+              row[grain::fluctuation]      = to.mass[i] * energy[i];
+            }
           row[grain::disc_area]               = M_PI * to.radius[i] * to.radius[i];
           row[grain::weight]                  = field.weight[i];
           row.segment<2>(grain::displacement) = field.weight[i] * field.increment[i].transpose();
@@ -124,7 +127,10 @@ namespace diptych::coupling
       c.uniform.resize(Eigen::Index(uniform.size()), half::n_columns);
       c.tapered.resize(Eigen::Index(tapered.size()), 2);
       for (std::size_t h = 0; h < uniform.size(); ++h)
-        c.uniform.row(Eigen::Index(h)) = uniform[h], c.tapered.row(Eigen::Index(h)) = tapered[h];
+        {
+          c.uniform.row(Eigen::Index(h)) = uniform[h];
+          c.tapered.row(Eigen::Index(h)) = tapered[h];
+        }
     }
 
     Carriers carriers_of(const TargetCells &target, const discrete::Snapshot &from, const discrete::Snapshot &to)

@@ -23,14 +23,20 @@ namespace diptych::coupling
     {
       Images images;
       for (unsigned int i = 0; i < position.size(); ++i)
-        images.position.push_back(target.wrapped(position[i])), images.grain.push_back(i);
+        {
+          images.position.push_back(target.wrapped(position[i]));
+          images.grain.push_back(i);
+        }
       if (target.period > 0)
         for (const double shift : {-target.period, target.period})
           for (unsigned int i = 0; i < position.size(); ++i)
             {
               const Eigen::Vector2d x = images.position[i] + Eigen::Vector2d(shift, 0);
               if (x.x() >= target.lower.x() - reach && x.x() <= target.upper.x() + reach)
-                images.position.push_back(x), images.grain.push_back(i);
+                {
+                  images.position.push_back(x);
+                  images.grain.push_back(i);
+                }
             }
       return images;
     }
@@ -50,8 +56,11 @@ namespace diptych::coupling
           return;
         const Eigen::Vector2d v = s.velocity[images.grain[k]] - s.velocity[i]; // relative to grain i, because a common velocity
                                                                                // would cost digits
-        ++n, sum_x += x, sum_v += v;
-        xx += x * x.transpose(), vx += v * x.transpose();
+        ++n;
+        sum_x += x;
+        sum_v += v;
+        xx += x * x.transpose();
+        vx += v * x.transpose();
       });
       if (n < 4)
         return NAN;

@@ -65,7 +65,10 @@ namespace diptych::coupling
         return false;
       double size = 0, difference = 0;
       for (std::size_t k = 0; k < a.size(); ++k)
-        size = std::max(size, b[k].cwiseAbs().maxCoeff()), difference = std::max(difference, (a[k] - b[k]).norm());
+        {
+          size       = std::max(size, b[k].cwiseAbs().maxCoeff());
+          difference = std::max(difference, (a[k] - b[k]).norm());
+        }
       return difference <= 1e-9 * size;
     }
 

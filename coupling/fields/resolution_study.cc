@@ -40,7 +40,10 @@ namespace diptych::coupling
     {
       double sum = 0, sum_value = 0, squares = 0;
       for (std::size_t k = 0; k < value.size(); ++k)
-        sum += area[k], sum_value += area[k] * value[k];
+        {
+          sum += area[k];
+          sum_value += area[k] * value[k];
+        }
       const double mean = sum_value / sum;
       for (std::size_t k = 0; k < value.size(); ++k)
         squares += area[k] * (value[k] - mean) * (value[k] - mean);
@@ -51,7 +54,10 @@ namespace diptych::coupling
     {
       std::vector<double> s, t;
       for (const Eigen::Matrix2d &tensor : stress)
-        s.push_back(mean_of(tensor)), t.push_back(deviator_of(tensor));
+        {
+          s.push_back(mean_of(tensor));
+          t.push_back(deviator_of(tensor));
+        }
       row.scatter_s = relative_scatter(s, area);
       row.scatter_t = relative_scatter(t, area);
     }
@@ -100,7 +106,10 @@ namespace diptych::coupling
       for (const StudyPoint &point : points)
         places.push_back(point.position);
       for (const unsigned int k : grid.covered)
-        places.push_back(cell_centre(grid.mesh, k)), area.push_back(grid.area[k]);
+        {
+          places.push_back(cell_centre(grid.mesh, k));
+          area.push_back(grid.area[k]);
+        }
       const std::vector<Eigen::Matrix2d> stress = stress_at_points(region.mesh, grains, places, kernel, width * d);
 
       ResolutionRow row;
@@ -135,7 +144,10 @@ namespace diptych::coupling
       std::vector<Eigen::Matrix2d> covered;
       std::vector<double>          area;
       for (const unsigned int k : grid.covered)
-        covered.push_back(stress(k)), area.push_back(grid.area[k]);
+        {
+          covered.push_back(stress(k));
+          area.push_back(grid.area[k]);
+        }
       take_scatter(covered, area, row);
       return row;
     }
@@ -188,7 +200,10 @@ namespace diptych::coupling
         {
           const double ratio = rows[last].width / rows[first].width;
           if (ratio >= least_ratio && ratio > widest_ratio && largest_deviation(rows, first, last) <= tolerance)
-            widest = {{rows[first].width, rows[last].width}}, widest_ratio = ratio;
+            {
+              widest       = {{rows[first].width, rows[last].width}};
+              widest_ratio = ratio;
+            }
         }
     return widest;
   }

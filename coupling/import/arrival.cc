@@ -1,4 +1,4 @@
-// diptych: another code's sample put in order and checked
+// diptych: puts another code's sample in order and checks it
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/import/arrival.h"
 
@@ -32,10 +32,10 @@ namespace diptych::coupling
           const ForeignGrain &g = grains[k];
           if (k > 0 && grains[k - 1].id == g.id)
             throw SceneError(at(frame.grain_file, g.line) + ": frame " + frame.name + ": grain " + std::to_string(g.id) +
-                             " stands twice");
+                             " occurs twice");
           if (!g.position.allFinite() || !(g.radius > 0) || !std::isfinite(g.radius))
             throw SceneError(at(frame.grain_file, g.line) + ": frame " + frame.name + ": grain " + std::to_string(g.id) +
-                             " has no finite place or no positive radius");
+                             " has no finite position or no positive radius");
         }
       return grains;
     }
@@ -44,13 +44,17 @@ namespace diptych::coupling
     {
       for (const ForeignGrain &g : grains)
         {
-          to.position.push_back(g.position), to.velocity.push_back(g.velocity), to.resultant.push_back(g.resultant / thickness);
-          to.radius.push_back(g.radius), to.mass.push_back(g.mass / thickness);
-          to.rotation.push_back(g.rotation), to.spin.push_back(g.spin);
+          to.position.push_back(g.position);
+          to.velocity.push_back(g.velocity);
+          to.resultant.push_back(g.resultant / thickness);
+          to.radius.push_back(g.radius);
+          to.mass.push_back(g.mass / thickness);
+          to.rotation.push_back(g.rotation);
+          to.spin.push_back(g.spin);
         }
     }
 
-    // The ids of the first frame, which all others must have.
+    // All frames must have the grains of the first one.
     void require_same_grains(const std::vector<long> &ids, const std::vector<ForeignGrain> &grains, const ForeignFrame &frame)
     {
       std::set<long> here;
@@ -59,27 +63,27 @@ namespace diptych::coupling
       for (const long id : ids)
         if (here.count(id) == 0)
           throw SceneError(frame.grain_file + ": frame " + frame.name + " lacks grain " + std::to_string(id) +
-                           " of the first frame: displacements need the same grains in all frames");
+                           " of the first frame; displacements need the same grains in all frames");
       if (here.size() != ids.size())
         throw SceneError(frame.grain_file + ": frame " + frame.name + " has " + std::to_string(here.size()) +
-                         " grains, the first frame " + std::to_string(ids.size()));
+                         " grains, but the first frame has " + std::to_string(ids.size()));
     }
 
     void require_later_time(const Arrival &arrival, const ArrivedFrame &frame, const std::string &file)
     {
-      if (!arrival.frames.empty() && frame.time <= arrival.frames.back().time) // false where one is not told
-        throw SceneError(file + ": frame " + frame.name + " is of the time " + discrete::exact_text(frame.time) + ", frame " +
-                         arrival.frames.back().name + " before it of " + discrete::exact_text(arrival.frames.back().time));
+      if (!arrival.frames.empty() && frame.time <= arrival.frames.back().time) // false without a time
+        throw SceneError(file + ": frame " + frame.name + " has the time " + discrete::exact_text(frame.time) + ", but frame " +
+                         arrival.frames.back().name + " before it has " + discrete::exact_text(arrival.frames.back().time));
     }
 
-    // Layers of spheres: forces are of the whole thickness.
+    // Spheres lie in one layer, and forces are those of its whole thickness.
     double thickness_of(const ForeignSample &sample, const ForeignOptions &options)
     {
       if (!options.thickness && sample.is_spheres)
         throw SceneError(
           "import " + sample.format +
-          ": the grains are spheres: --thickness T says over which thickness the forces act (stress = force / (length "
-          "x T)); 1 keeps forces per length");
+          ": the grains are spheres; give --thickness T, the thickness over which the forces act (stress = force / (length "
+          "x T)), or 1 to keep forces per length");
       return options.thickness.value_or(1.);
     }
 
@@ -88,44 +92,49 @@ namespace diptych::coupling
       throw SceneError("import " + sample.format + ": " + option + " would have no effect: " + why);
     }
 
-    // Whoever says what the files leave no room for believes that it counts.
+    // A user who gives an option without effect believes that it counts.
     void require_effect(const ForeignSample &sample, const ForeignOptions &options)
     {
       if (options.timestep && !sample.counts_steps)
-        refuse_without_effect(sample, "--timestep", "these files do not count steps; their times are taken as they stand");
+        refuse_without_effect(sample, "--timestep", "these files contain times and not steps");
       if (options.pressure && sample.frames.size() == 1)
-        refuse_without_effect(sample, "--pressure", "one frame is no loading, so there is no scene");
+        refuse_without_effect(sample, "--pressure", "a single frame has no loading, so there is no scene");
       for (const std::string &text : options.columns)
         {
           const std::string kind = text.substr(0, text.find('='));
           if (text.size() < kind.size() + 2 || (kind != "contacts" && kind != "walls"))
-            throw SceneError("--columns " + text + ": is not KIND=NAME,NAME,... with KIND contacts or walls");
+            throw SceneError("--columns " + text + ": is not KIND=NAME,NAME,..., where KIND is contacts or walls");
           if (std::find(sample.unnamed.begin(), sample.unnamed.end(), kind) == sample.unnamed.end())
-            refuse_without_effect(sample, "--columns " + text, "no file of " + kind + " leaves them without names");
+            refuse_without_effect(sample, "--columns " + text, "every file of " + kind + " names its columns");
         }
     }
 
-    // Masses that grow as r^3 are of spheres, whatever the dimension of the run was.
+    // Masses that grow as r^3 belong to spheres, even if the run was in the plane.
     bool has_masses_of_spheres(const std::vector<ForeignGrain> &grains)
     {
       double lowest_2 = HUGE_VAL, highest_2 = 0, lowest_3 = HUGE_VAL, highest_3 = 0;
       for (const ForeignGrain &g : grains)
         {
           const double area = g.radius * g.radius, volume = area * g.radius;
-          lowest_2 = std::min(lowest_2, g.mass / area), highest_2 = std::max(highest_2, g.mass / area);
-          lowest_3 = std::min(lowest_3, g.mass / volume), highest_3 = std::max(highest_3, g.mass / volume);
+          lowest_2  = std::min(lowest_2, g.mass / area);
+          highest_2 = std::max(highest_2, g.mass / area);
+          lowest_3  = std::min(lowest_3, g.mass / volume);
+          highest_3 = std::max(highest_3, g.mass / volume);
         }
       return highest_3 < 1.001 * lowest_3 && highest_2 > 1.01 * lowest_2;
     }
 
-    // Over the area of the discs: what enters inertial numbers and weights.
+    // Mass per area of the discs, for inertial numbers and weights.
     double density_of(const ArrivedFrame &frame, const ForeignSample &sample, const ForeignOptions &options)
     {
       double mass = 0, area = 0;
       for (std::size_t i = 0; i < frame.mass.size(); ++i)
-        mass += frame.mass[i], area += M_PI * frame.radius[i] * frame.radius[i];
+        {
+          mass += frame.mass[i];
+          area += M_PI * frame.radius[i] * frame.radius[i];
+        }
       if (std::isfinite(mass) && options.density)
-        refuse_without_effect(sample, "--density", "the files tell the masses of the grains");
+        refuse_without_effect(sample, "--density", "the files contain the masses of the grains");
       if (std::isfinite(mass))
         return mass / area;
       return options.density.value_or(sample.is_spheres ? not_told : sample.density);
@@ -170,7 +179,7 @@ namespace diptych::coupling
   Arrival arrive(ForeignSample sample, const ForeignOptions &options)
   {
     if (sample.frames.empty())
-      throw SceneError("import " + sample.format + ": the files hold no frame");
+      throw SceneError("import " + sample.format + ": the files contain no frame");
     require_effect(sample, options);
     std::vector<std::vector<ForeignGrain>> grains;
     for (ForeignFrame &frame : sample.frames)
@@ -197,7 +206,7 @@ namespace diptych::coupling
         require_same_grains(arrival.id, grains[k], from);
         if (k > 0 && !from.has_contacts)
           throw SceneError(from.grain_file + ": frame " + from.name +
-                           " has no contacts: stresses of every frame after the first are made of them");
+                           " has no contacts; every frame after the first needs them for its stresses");
         ArrivedFrame frame;
         frame.name       = from.name;
         frame.grain_file = from.grain_file;
@@ -211,7 +220,7 @@ namespace diptych::coupling
       }
     if (options.walls_touch &&
         std::none_of(arrival.frames.begin(), arrival.frames.end(), [](const auto &f) { return f.walls_touch; }))
-      refuse_without_effect(sample, "--walls-touch", "the files place every wall");
+      refuse_without_effect(sample, "--walls-touch", "the files give the place of every wall");
     arrival.density = density_of(arrival.frames.front(), sample, options);
     for (const std::string &text : sample.lacking)
       arrival.lacking.push_back(text);

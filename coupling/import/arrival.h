@@ -1,4 +1,4 @@
-// diptych: another code's sample put in order and checked
+// diptych: puts another code's sample in order and checks it
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace diptych::coupling
 {
-  // Throws SceneError naming file, line and what is impossible: contacts to nobody, grains that stand twice or are in one frame
-  // and not in another, pairs with two forces, walls that cannot be told from each other, spheres without a thickness.
+  // Throws SceneError naming file, line and the contradiction: contacts of unknown bodies, repeated grains, grains that are
+  // missing in a frame, pairs with two forces, walls that cannot be distinguished, spheres without a thickness.
   Arrival arrive(ForeignSample sample, const ForeignOptions &options);
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: what a sample of another code is checked for on arrival
+// diptych: checks of an imported sample
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/import/arrival_check.h"
 #include "coupling/scene/scene_error.h"
@@ -14,23 +14,23 @@ namespace diptych::coupling
 {
   namespace
   {
-    // Above these a user should look. Balance is over the mean contact force: 1e-6 where a code writes nine digits of forces that
-    // it integrated, 0.02 where it evaluates them anew after the step. In slow motion without resultants the rms of all stays
-    // below 0.3; the worst grain of tests/foreign and of moreau_quick, exported, is at 0.044. Contacts of rigid grains have gaps
-    // up to 0.002 mean diameters, points of soft ones lie up to half an overlap off.
+    // Values above these limits cause a warning. The balance is relative to the mean contact force. It is 1e-6 if a code writes
+    // nine digits of the forces that it integrated, and 0.02 if it evaluates them again after the step. In slow motion without
+    // resultants the rms over all grains stays below 0.3. The worst grain of tests/foreign and of an exported moreau_quick has
+    // 0.044. Contacts of rigid grains have gaps up to 0.002 mean diameters. Contact points of soft ones lie up to half an
+    // overlap off.
     constexpr double doubtful_balance = 0.05, doubtful_motion = 0.3, doubtful_grain = 3, doubtful_stress = 0.05,
                      doubtful_overlap = 0.05, doubtful_overlap_told = 0.005, doubtful_wall_force = 0.03,
                      doubtful_wall_place = 0.02, doubtful_apart = 0.05;
 
-    // Contacts that carry force, per grain: discs with friction that hold each other have 1.5 without those that float among
-    // them.
+    // Contacts with a force, per grain. Discs with friction that support each other have 1.5, if floating grains do not count.
     constexpr double few_contacts = 0.5;
 
-    // From one frame to the next: rigid grains keep their radius to the digits of the file, and no sample of a test becomes that
-    // much denser.
+    // Changes from one frame to the next. Rigid grains keep their radius to the digits of the file, and no tested sample
+    // densifies so much.
     constexpr double doubtful_radius = 1e-4, doubtful_density = 0.15;
 
-    // Pairs of discs in touch are at most three a disc, of whatever sizes.
+    // Discs that touch have at most three pairs per disc, whatever their sizes.
     constexpr std::size_t most_overlaps = 20;
 
     double area_of(const ArrivedFrame &f)
@@ -42,7 +42,7 @@ namespace diptych::coupling
     {
       for (const auto &[low, high] : {std::pair(Side::lower, Side::upper), std::pair(Side::left, Side::right)})
         if (f.wall[std::size_t(low)] >= f.wall[std::size_t(high)])
-          throw SceneError(f.wall_file + ": frame " + f.name + ": the " + side_names[int(low)] + " wall stands beyond the " +
+          throw SceneError(f.wall_file + ": frame " + f.name + ": the " + side_names[int(low)] + " wall lies beyond the " +
                            side_names[int(high)] + " one");
     }
 
@@ -82,7 +82,7 @@ namespace diptych::coupling
           mean += c.force.norm() / double(f.contacts.size());
         }
       check.against_resultants = f.resultant[0].allFinite();
-      const bool has_sides     = std::isfinite(f.wall[int(Side::left)]); // what presses on free ones is told nowhere
+      const bool has_sides     = std::isfinite(f.wall[int(Side::left)]); // the files do not contain the pressure on free sides
       double     square = 0, worst = -1;
       for (std::size_t i = 0; i < n; ++i)
         {
@@ -92,12 +92,17 @@ namespace diptych::coupling
                               mean;
           square += miss * miss / double(n);
           if (miss > worst)
-            worst = miss, check.balance_worst_grain = arrival.id[i];
+            {
+              worst                     = miss;
+              check.balance_worst_grain = arrival.id[i];
+            }
         }
-      check.balance_rms = std::sqrt(square), check.balance_worst = worst;
+      check.balance_rms   = std::sqrt(square);
+      check.balance_worst = worst;
     }
 
-    // Force (x) branch, row of the force, with walls' contact points; and the same of the walls alone about the origin.
+    // Sums of force (x) branch, row of the force. Branches end at the contact points on walls. The stress of the walls uses the
+    // origin.
     void add_stresses(const ArrivedFrame &f, ArrivalCheck &check)
     {
       const std::size_t n        = f.position.size();
@@ -126,7 +131,10 @@ namespace diptych::coupling
         {
           const Eigen::Vector2d &told = f.told_wall_force[std::size_t(side)], &sum = f.wall_force[std::size_t(side)];
           if (told.allFinite() && sum.allFinite())
-            difference = std::max(difference, (told - sum).norm()), scale = std::max(scale, told.norm());
+            {
+              difference = std::max(difference, (told - sum).norm());
+              scale      = std::max(scale, told.norm());
+            }
         }
       if (scale > 0)
         check.wall_force_difference = difference / scale;
@@ -145,7 +153,8 @@ namespace diptych::coupling
                 largest             = std::max(largest, f.radius[i] - (side % 2 == 0 ? height : -height));
               }
         }
-      // Each looks for those that are not larger, so that one large grain among many small ones does not make all pairs near.
+      // Each grain searches those that are not larger. One large grain among many small ones then does not make all pairs
+      // neighbours.
       const PointBins bins(f.position, 2 * mean);
       std::size_t     n_overlaps = 0;
       for (unsigned int i = 0; i < f.position.size(); ++i)
@@ -160,7 +169,7 @@ namespace diptych::coupling
           });
           if (n_overlaps > most_overlaps * f.position.size())
             throw SceneError(f.grain_file + ": frame " + f.name + ": more than " + std::to_string(most_overlaps) +
-                             " overlaps per grain; grains stand on each other");
+                             " overlaps per grain; do grains lie on top of each other?");
         }
       check.largest_overlap = largest / arrival.mean_diameter;
     }
@@ -176,33 +185,35 @@ namespace diptych::coupling
           arrival.doubtful.push_back(text.str());
       };
       const std::string grain = "grain " + std::to_string(c.balance_worst_grain);
-      // Where contacts with walls are lacking, which is told, grains at them cannot be in balance.
+      // Without contacts on walls, which is reported, grains at the walls cannot be in balance.
       const bool all_told = std::find(arrival.lacking.begin(), arrival.lacking.end(), "contacts with walls") ==
                             arrival.lacking.end();
       doubt(all_told && c.against_resultants && c.balance_worst > doubtful_balance,
-            "contact forces miss the resultant of " + grain + " by, over the mean contact force,", c.balance_worst);
+            "contact forces on " + grain + " differ from its resultant; difference / mean contact force:", c.balance_worst);
       doubt(all_told && !c.against_resultants && c.balance_rms > doubtful_motion,
-            "grains are far from balance (a contact missing, of the wrong sign or twice?): rms over the mean contact force",
+            "grains are far from balance (a contact missing, repeated or of the wrong sign?); rms / mean contact force:",
             c.balance_rms);
-      doubt(all_told && !c.against_resultants && c.balance_worst > doubtful_grain,
-            grain + " is far from balance (a contact missing or of another grain?): over the mean contact force",
-            c.balance_worst);
-      doubt(c.stress_difference > doubtful_stress, "stress of contacts and of wall forces differ by", c.stress_difference);
-      doubt(c.wall_force_difference > doubtful_wall_force, "wall forces told and summed over contacts differ by",
-            c.wall_force_difference);
-      doubt(c.largest_overlap > doubtful_overlap, "discs or disc and wall overlap by up to, over a mean diameter,",
-            c.largest_overlap);
+      doubt(
+        all_told && !c.against_resultants && c.balance_worst > doubtful_grain,
+        grain + " is far from balance (a contact missing or of another grain?); residual / mean contact force:", c.balance_worst);
+      doubt(c.stress_difference > doubtful_stress,
+            "stress of contacts and stress of wall forces differ; relative difference:", c.stress_difference);
+      doubt(c.wall_force_difference > doubtful_wall_force,
+            "wall forces in the files and sums over their contacts differ; relative difference:", c.wall_force_difference);
+      doubt(c.largest_overlap > doubtful_overlap,
+            "discs overlap each other or a wall; largest overlap / mean diameter:", c.largest_overlap);
       doubt(f.overlap_miss > doubtful_overlap_told * diameter,
-            "overlaps told and those of the discs differ by up to, over a mean diameter,", f.overlap_miss / diameter);
-      doubt(f.wall_miss > doubtful_wall_place * diameter, "a wall and its contact points lie apart by, over a mean diameter,",
-            f.wall_miss / diameter);
+            "overlaps in the files and of the discs differ; largest difference / mean diameter:", f.overlap_miss / diameter);
+      doubt(f.wall_miss > doubtful_wall_place * diameter,
+            "a wall lies apart from its contact points; distance / mean diameter:", f.wall_miss / diameter);
       const double contacts = double(f.contacts.size()) / double(c.grains);
-      doubt(f.has_contacts && contacts < few_contacts, "contacts are too few to hold the grains (lost?): per grain", contacts);
-      doubt(f.widest_gap > doubtful_apart * diameter, "a contact joins two that stand apart by, over a mean diameter,",
-            f.widest_gap / diameter);
+      doubt(f.has_contacts && contacts < few_contacts,
+            "there are too few contacts to hold the grains (contacts lost?); contacts per grain:", contacts);
+      doubt(f.widest_gap > doubtful_apart * diameter,
+            "two bodies in contact do not touch; gap / mean diameter:", f.widest_gap / diameter);
       doubt(f.point_miss > doubtful_apart * diameter,
-            "a contact point lies off the place where the two meet by, over a mean diameter,", f.point_miss / diameter);
-      doubt(f.has_contacts && c.contact_stress.trace() <= 0, "the mean stress pulls: its trace over its largest component is",
+            "a contact point lies off the place where the surfaces meet; distance / mean diameter:", f.point_miss / diameter);
+      doubt(f.has_contacts && c.contact_stress.trace() <= 0, "the mean stress is tensile; trace / largest component:",
             c.contact_stress.trace() / c.contact_stress.cwiseAbs().maxCoeff());
     }
 
@@ -212,13 +223,13 @@ namespace diptych::coupling
       const auto          say = [&](const std::string &what, const double was, const double is) {
         std::ostringstream text;
         text.precision(6);
-        text << "frame " << now.name << ": " << what << " is " << is << ", in the frame before " << was;
+        text << "frame " << now.name << ": " << what << " is " << is << " instead of " << was << " in the frame before";
         arrival.doubtful.push_back(text.str());
       };
       const auto compare = [&](const std::string &what, const std::vector<double> &was, const std::vector<double> &is) {
         for (std::size_t i = 0; i < is.size(); ++i)
           if (std::abs(is[i] - was[i]) > doubtful_radius * was[i])
-            return say("the " + what + " of grain " + std::to_string(arrival.id[i]), was[i], is[i]); // one tells it
+            return say("the " + what + " of grain " + std::to_string(arrival.id[i]), was[i], is[i]); // one such grain is enough
       };
       compare("radius", before.radius, now.radius);
       compare("mass", before.mass, now.mass);
@@ -239,7 +250,10 @@ namespace diptych::coupling
         check_walls(f);
         double mass = 0, discs = 0;
         for (std::size_t i = 0; i < f.position.size(); ++i)
-          mass += f.mass[i], discs += M_PI * f.radius[i] * f.radius[i];
+          {
+            mass += f.mass[i];
+            discs += M_PI * f.radius[i] * f.radius[i];
+          }
         check.mass           = mass;
         check.solid_fraction = discs / area_of(f);
         const double first   = arrival.frames[0].wall[1] - arrival.frames[0].wall[0];

@@ -1,4 +1,4 @@
-// diptych: what a sample of another code is checked for on arrival
+// diptych: checks of an imported sample
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -6,6 +6,6 @@
 
 namespace diptych::coupling
 {
-  // Fills arrival.checks, one a frame, and arrival.doubtful. Throws SceneError where walls stand in the wrong order.
+  // Fills arrival.checks, one per frame, and arrival.doubtful. Throws SceneError if walls are in the wrong order.
   void check_arrival(Arrival &arrival);
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: contacts and walls of another code's frame put in order
+// diptych: puts contacts and walls of another code's frame in order
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/import/arrival_contacts.h"
 #include "coupling/scene/scene_error.h"
@@ -13,10 +13,10 @@ namespace diptych::coupling
   {
     using discrete::ContactForce;
 
-    constexpr int    axis_of[]   = {1, 1, 0, 0};   // across which a side lies
-    constexpr double inward_of[] = {1, -1, 1, -1}; // along that axis, into the sample
-    constexpr double same_force  = 1e-6;           // of the two rows of one pair, relative
-    constexpr double flat        = 0.02;           // scatter of a wall's contact points across it [mean radii]
+    constexpr int    axis_of[]   = {1, 1, 0, 0};   // axis normal to a side
+    constexpr double inward_of[] = {1, -1, 1, -1}; // direction into the sample along that axis
+    constexpr double same_force  = 1e-6;           // for the two rows of one pair, relative
+    constexpr double flat        = 0.02;           // allowed scatter of a wall's contact points along its normal [mean radii]
 
     Eigen::Vector2d inward(const int side)
     {
@@ -46,7 +46,7 @@ namespace diptych::coupling
     {
       const int index = index_of(arrival, id);
       if (index < 0)
-        throw SceneError(place_of(frame, c) + ": a contact of body " + std::to_string(id) + ", which is no grain of " +
+        throw SceneError(place_of(frame, c) + ": a contact of body " + std::to_string(id) + ", which is not a grain of " +
                          frame.grain_file);
       return index;
     }
@@ -65,7 +65,7 @@ namespace diptych::coupling
       return e;
     }
 
-    // The side whose extreme the touching grains are nearest to, in the mean.
+    // The side whose outermost surface is nearest to the touching grains, on average.
     Side nearest_side(const ForeignFrame &from, const Arrival &arrival, const int wall, const ArrivedFrame &to)
     {
       const std::array<double, 4> extreme  = extremes(to);
@@ -85,11 +85,11 @@ namespace diptych::coupling
       if (!(mean < arrival.mean_diameter))
         throw SceneError((from.contact_file.empty() ? from.grain_file : from.contact_file) + ": frame " + from.name + ": " +
                          from.walls[std::size_t(wall)].name +
-                         " touches no grain at the lower, upper, left or right end of the sample: which wall is it?");
+                         " touches no grain at the lower, upper, left or right end of the sample, so its side is unknown");
       return Side(best - distance.begin());
     }
 
-    // Side of each of from.walls; a wall of a table and the wall of contacts may be one.
+    // The side of each of from.walls. A wall in a table and one in contacts may be the same.
     std::vector<int> sides_of(const ForeignFrame &from, const Arrival &arrival, const ArrivedFrame &to)
     {
       std::vector<int>           sides;
@@ -101,19 +101,20 @@ namespace diptych::coupling
                                                    [w](const auto &c) { return c.wall == int(w); });
           if (!wall.side && !touched && std::isnan(wall.place))
             {
-              sides.push_back(-1); // a wall that nothing touches
+              sides.push_back(-1); // nothing touches this wall
               continue;
             }
           const int side = int(wall.side ? *wall.side : nearest_side(from, arrival, int(w), to));
           if (touched && !of_contacts.emplace(side, w).second)
             throw SceneError(from.contact_file + ": frame " + from.name + ": " + from.walls[of_contacts[side]].name + " and " +
-                             wall.name + " both seem to be the " + side_names[side] + " wall");
+                             wall.name + " both appear to be the " + side_names[side] + " wall");
           sides.push_back(side);
         }
       return sides;
     }
 
-    // Where contact points of a wall lie across it; NaN without any. Throws where they scatter more than that [length].
+    // Mean position of a wall's contact points along its normal; NaN without contacts. Throws if they scatter more than
+    // most_scatter [length].
     double place_from_points(const ForeignFrame &from, const std::vector<int> &sides, const int side, const double most_scatter)
     {
       double sum = 0, low = HUGE_VAL, high = -HUGE_VAL;
@@ -122,13 +123,17 @@ namespace diptych::coupling
         if (c.wall >= 0 && sides[std::size_t(c.wall)] == side && c.point.allFinite())
           {
             const double x = c.point[axis_of[side]];
-            ++n, sum += x, low = std::min(low, x), high = std::max(high, x);
+            ++n;
+            sum += x;
+            low  = std::min(low, x);
+            high = std::max(high, x);
           }
       if (n == 0)
         return not_told;
       if (high - low > most_scatter)
         throw SceneError(from.contact_file + ": frame " + from.name + ": contact points of the " + side_names[side] +
-                         " wall scatter over " + std::to_string(high - low) + " [length] across it; a flat wall is needed");
+                         " wall scatter over " + std::to_string(high - low) +
+                         " [length] along its normal; a flat wall is needed");
       return sum / n;
     }
 
@@ -142,7 +147,8 @@ namespace diptych::coupling
       for (const double r : to.radius)
         radius += r / double(to.radius.size());
       const std::array<double, 4> extreme = extremes(to);
-      to.wall_force.fill({not_told, not_told}), to.told_wall_force.fill({not_told, not_told});
+      to.wall_force.fill({not_told, not_told});
+      to.told_wall_force.fill({not_told, not_told});
       for (const int side : {0, 1, 2, 3})
         {
           bool there = false;
@@ -165,16 +171,18 @@ namespace diptych::coupling
           else if (std::isfinite(from_points))
             to.wall_miss = std::max(to.wall_miss, std::abs(from_points - to.wall[std::size_t(side)]));
           if (options.walls_touch && std::isnan(to.wall[std::size_t(side)]) && (there || axis_of[side] == 1))
-            to.wall[std::size_t(side)] = extreme[std::size_t(side)], to.walls_touch = true;
+            {
+              to.wall[std::size_t(side)] = extreme[std::size_t(side)];
+              to.walls_touch             = true;
+            }
           if (there && std::isnan(to.wall[std::size_t(side)]))
-            throw SceneError(
-              from.grain_file + ": frame " + from.name + ": where the " + side_names[side] +
-              " wall stands is in none of the files; give a table with frame, width and height (or left_x, right_x, "
-              "lower_y, upper_y), or say --walls-touch: they stand where the grains reach farthest");
+            throw SceneError(from.grain_file + ": frame " + from.name + ": the place of the " + side_names[side] +
+                             " wall is in none of the files; give a table with frame, width and height (or left_x, right_x, "
+                             "lower_y, upper_y), or --walls-touch to place walls at the outermost grains");
         }
     }
 
-    // Forces of one kind point apart; where their sum pulls, the file tells those on the other body.
+    // Contact forces push bodies apart. If their sum pulls, the file contains the forces on the other body.
     template <class Contacts> bool turn_if_pulling(Contacts &contacts, const bool of_walls, const int n_grains)
     {
       double pushes = 0;
@@ -194,7 +202,7 @@ namespace diptych::coupling
       int                                        repeated = 0;
     };
 
-    // Of a pair that stands in two rows: the same force on i, or a file at odds with itself.
+    // True if the pair occurred before with the same force on i. Throws if the two forces differ.
     bool is_repeated(const ForeignFrame   &from,
                      const ForeignContact &c,
                      const ContactForce   &contact,
@@ -207,12 +215,12 @@ namespace diptych::coupling
       const Eigen::Vector2d &other = to.contacts[found->second].force;
       if ((other - contact.force).norm() > same_force * (other.norm() + contact.force.norm()))
         throw SceneError(place_of(from, c) + ": the pair " + std::to_string(c.first) + ", " + std::to_string(c.second) +
-                         " stands twice with different forces");
+                         " occurs twice with different forces");
       ++order.repeated;
       return true;
     }
 
-    // Normal, and contact point where the file has none: the middle of the overlap, or the foot on the wall.
+    // Sets the normal. Without a contact point in the file it uses the middle of the overlap, or the nearest point of the wall.
     void complete(const ForeignContact &c, ContactForce &contact, ArrivedFrame &to)
     {
       const std::size_t     i = std::size_t(contact.i), n = to.position.size();
@@ -260,36 +268,41 @@ namespace diptych::coupling
         if (contact.j == contact.i)
           throw SceneError(place_of(from, c) + ": grain " + std::to_string(c.first) + " touches itself");
         if (contact.j < contact.i)
-          std::swap(contact.i, contact.j), contact.force = -contact.force;
+          {
+            std::swap(contact.i, contact.j);
+            contact.force = -contact.force;
+          }
         if (contact.j < n && is_repeated(from, c, contact, to, order))
           continue;
         complete(c, contact, to);
         if (!contact.point.allFinite() || !contact.normal.allFinite())
           throw SceneError(place_of(from, c) + ": grains " + std::to_string(c.first) + " and " + std::to_string(c.second) +
-                           " stand in one place");
+                           " have the same position");
         to.contacts.push_back(contact);
         to.status.push_back(c.status);
       }
     if (order.repeated > 0)
-      remark_once(arrival, "pairs of grains stand in two rows: each was taken once");
+      remark_once(arrival, "pairs of grains occur in two rows; each was counted once");
     if (turn_if_pulling(to.contacts, false, n))
-      remark_once(arrival,
-                  "forces between grains were turned round: as they stand they pull (they are those on the other grain)");
+      remark_once(arrival, "forces between grains were reversed: in the files they pull, so they act on the other grain");
     if (turn_if_pulling(to.contacts, true, n))
-      remark_once(arrival, "forces of walls on grains were turned round: as they stand they pull (they are those on the wall)");
+      remark_once(arrival, "forces of walls on grains were reversed: in the files they pull, so they act on the wall");
     std::array<Eigen::Vector2d, 4> sum;
     std::array<bool, 4>            touched = {};
     sum.fill(Eigen::Vector2d::Zero());
     for (const ContactForce &c : to.contacts)
       if (c.j >= n)
-        sum[std::size_t(c.j - n)] += c.force, touched[std::size_t(c.j - n)] = true;
+        {
+          sum[std::size_t(c.j - n)] += c.force;
+          touched[std::size_t(c.j - n)] = true;
+        }
     for (const int side : {0, 1, 2, 3})
       {
         Eigen::Vector2d &told = to.told_wall_force[std::size_t(side)];
         if (told.allFinite() && told.dot(inward(side)) < 0)
           {
             told = -told;
-            remark_once(arrival, "wall forces told beside the contacts are those on the walls: turned round");
+            remark_once(arrival, "wall forces in the files act on the walls; they were reversed");
           }
         to.wall_force[std::size_t(side)] = touched[std::size_t(side)] ? sum[std::size_t(side)] : told;
       }

@@ -1,4 +1,4 @@
-// diptych: contacts and walls of another code's frame put in order
+// diptych: puts contacts and walls of another code's frame in order
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -6,8 +6,8 @@
 
 namespace diptych::coupling
 {
-  // Fills contacts, status and walls of `to`, whose grains stand there in the order of arrival.id. Pairs that stand twice are
-  // taken once; forces that pull where all push are turned; a wall without a side is where the grains touch it. Each of these is
-  // said in arrival.remarks, once for all frames. Throws SceneError as arrive() says.
+  // Fills contacts, status and walls of `to`; its grains are already there, in the order of arrival.id. Repeated pairs are
+  // counted once. Forces that pull are reversed. A wall without a side is located by the grains that touch it. arrival.remarks
+  // reports each of these once for all frames. Throws SceneError like arrive().
   void take_contacts(const ForeignFrame &from, Arrival &arrival, const ForeignOptions &options, ArrivedFrame &to);
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: dump files of LAMMPS and LIGGGHTS
+// diptych: reads dump files of LAMMPS and LIGGGHTS
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/import/dump_file.h"
 
@@ -24,7 +24,7 @@ namespace diptych::coupling
       for (std::size_t axis = 0; axis < 2; ++axis)
         section.is_periodic[axis] = words.size() > 3 + axis && words[3 + axis] == "pp";
       if (words.size() > 6)
-        lines.refuse("a triclinic box; only upright ones are read");
+        lines.refuse("a triclinic box; only orthogonal boxes are supported");
       for (int axis = 0; axis < 3; ++axis)
         {
           const auto bounds = words_of(lines.take("the bounds of the box"));
@@ -69,8 +69,8 @@ namespace diptych::coupling
           const std::string_view text = lines.take("row " + std::to_string(row + 1) + " of " + std::to_string(count) +
                                                    " of step " + std::to_string(section.step));
           if (begins(text, "ITEM:"))
-            lines.refuse("step " + std::to_string(section.step) + " has " + std::to_string(row) + " rows; its head says " +
-                         std::to_string(count));
+            lines.refuse("step " + std::to_string(section.step) + " has " + std::to_string(row) + " rows instead of " +
+                         std::to_string(count) + " as in its head");
           add_row(section.table, lines, text);
         }
       return section;

@@ -1,4 +1,4 @@
-// diptych: dump files of LAMMPS and LIGGGHTS
+// diptych: reads dump files of LAMMPS and LIGGGHTS
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -20,6 +20,6 @@ namespace diptych::coupling
 
   bool is_dump(const std::string &path);
 
-  // Throws SceneError naming file, line and what was expected.
+  // Throws SceneError naming file, line and the expected text.
   std::vector<DumpSection> read_dump(const std::string &path);
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: files to be written for another code
+// diptych: files written for another code
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,5 +8,5 @@
 
 namespace diptych::coupling
 {
-  using ExportedFiles = std::vector<std::pair<std::string, std::string>>; // name and text of each
+  using ExportedFiles = std::vector<std::pair<std::string, std::string>>; // name and text of each file
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: a sample of ours as a start for other codes
+// diptych: exports a sample as a start for other codes
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/import/exported_sample.h"
 
@@ -19,7 +19,7 @@ namespace diptych::coupling
     using discrete::exact_text;
     using discrete::Snapshot;
 
-    // Lower left and upper right corner of the walls; sides where the sample has none are NaN.
+    // Lower left and upper right corner of the walls; missing sides are NaN.
     struct ExportBox
     {
       double left, right, lower, upper;
@@ -30,16 +30,16 @@ namespace diptych::coupling
     ExportBox box_of(const Snapshot &s)
     {
       if (s.cell_width > 0)
-        throw SceneError("export: discrete/lateral = periodic: the sample has no side walls that another code could take");
+        throw SceneError("export: the sample is periodic (discrete/lateral) and has no side walls, which other codes need");
       return {s.left_x, s.right_x, s.lower_y, s.upper_y};
     }
 
-    struct Untold
+    struct IsMissing
     {
       bool operator()(const double x) const { return std::isnan(x); }
       bool operator()(const Eigen::Vector2d &x) const { return x.array().isNaN().any(); }
     };
-    constexpr Untold is_untold;
+    constexpr IsMissing is_missing;
 
     std::ostringstream exact_stream()
     {
@@ -51,9 +51,9 @@ namespace diptych::coupling
     ExportedFiles as_csv(const Snapshot &s, const int stage)
     {
       std::ostringstream particles = exact_stream(), contacts = exact_stream(), walls = exact_stream();
-      // What an imported sample was not told is left out.
-      const auto told = [](const auto &values) { return std::none_of(values.begin(), values.end(), is_untold); };
-      const bool mass = told(s.mass), motion = told(s.velocity), spin = told(s.spin);
+      // Columns that an imported sample does not have are omitted.
+      const auto is_complete = [](const auto &values) { return std::none_of(values.begin(), values.end(), is_missing); };
+      const bool mass = is_complete(s.mass), motion = is_complete(s.velocity), spin = is_complete(s.spin);
       particles << "id,x,y,r" << (mass ? ",mass" : "") << (motion ? ",vx,vy" : "") << (spin ? ",omega" : "") << '\n';
       for (std::size_t i = 0; i < s.radius.size(); ++i)
         {
@@ -126,7 +126,10 @@ namespace diptych::coupling
       const double       room  = 2 * s.mean_diameter;
       double             low_x = HUGE_VAL, high_x = -HUGE_VAL;
       for (const Eigen::Vector2d &x : s.position)
-        low_x = std::min(low_x, x.x()), high_x = std::max(high_x, x.x());
+        {
+          low_x  = std::min(low_x, x.x());
+          high_x = std::max(high_x, x.x());
+        }
       out << "LAMMPS data file: discs of a prepared sample; in.sample sets density/disc\n\n"
           << s.radius.size() << " atoms\n1 atom types\n\n"
           << low_x - 5 * room << ' ' << high_x + 5 * room << " xlo xhi\n"

@@ -1,4 +1,4 @@
-// diptych: a sample of ours as a start for other codes
+// diptych: exports a sample as a start for other codes
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -10,9 +10,9 @@
 
 namespace diptych::coupling
 {
-  // Name and text of every file. `lammps`: data file and script; `yade`: table of spheres and script; `lmgc90`: DATBOX with
-  // DOF.INI (text); `csv`: particles, contacts, walls, the stage in their names. Grains, walls, friction and pressure are those
-  // of the snapshot and the scene; contact stiffness and damping, which rigid grains do not have, are said at the head of the
-  // scripts. Throws SceneError where the sample has no walls that the format needs (periodic sides).
+  // Returns name and text of every file. `lammps`: data file and script. `yade`: table of spheres and script. `lmgc90`: DATBOX
+  // with DOF.INI (text). `csv`: particles, contacts and walls, with the stage in their names. Grains and walls come from the
+  // snapshot, friction and pressure from the scene. Rigid grains have no contact stiffness and damping; the scripts state the
+  // values that they use. Throws SceneError if the sample has no walls that the format needs (periodic sides).
   ExportedFiles exported_sample(const std::string &format, const Scene &scene, const discrete::Snapshot &snapshot, int stage);
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: frames of another code in the place of the discrete panel
+// diptych: uses an imported sample as results of the discrete panel
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/import/imported_folder.h"
 
@@ -29,27 +29,27 @@ namespace diptych::coupling
 
   namespace
   {
-    // Samples of one ensemble were written at nearly the same strains, not at the same bits.
-    constexpr double same_stage = 1e-3; // of the stage
+    // Samples of one ensemble have nearly the same strains, but not the same bits.
+    constexpr double same_stage = 1e-3; // relative to the stage
 
     void take_stages(const Scene &scene, const std::string &file, DiscreteResults &results)
     {
       const std::vector<double> wanted = stages(scene.loading);
       if (results.snapshots.size() != wanted.size() + 1)
         throw SceneError("discrete/file = '" + file + "' holds " + std::to_string(results.snapshots.size()) +
-                         " frames; loading/stages are " + std::to_string(wanted.size()) + " and the start");
+                         " frames, but loading/stages need " + std::to_string(wanted.size()) + " and one at the start");
       for (std::size_t k = 0; k < wanted.size(); ++k)
         if (std::abs(results.snapshots[k + 1].progress - wanted[k]) > same_stage * wanted[k])
           throw SceneError("discrete/file = '" + file + "': frame " + std::to_string(k + 1) + " is at " +
-                           text_of(results.snapshots[k + 1].progress) + ", loading/stages say " + text_of(wanted[k]));
+                           text_of(results.snapshots[k + 1].progress) + ", but loading/stages has " + text_of(wanted[k]));
       if (results.rows.size() != results.snapshots.size())
-        throw SceneError("discrete/file = '" + file + "': discrete.csv beside it has " + std::to_string(results.rows.size()) +
-                         " rows, not one a frame");
+        throw SceneError("discrete/file = '" + file + "': discrete.csv in the same folder has " +
+                         std::to_string(results.rows.size()) + " rows instead of one per frame");
       for (std::size_t k = 0; k < wanted.size(); ++k)
         results.snapshots[k + 1].progress = results.rows[k + 1].progress = wanted[k];
     }
 
-    // What the import found; runs take it along as it stands.
+    // Runs copy the record of the import unchanged, so it must be valid.
     void check_record_of_import(const std::string &file)
     {
       if (!std::filesystem::exists(file))
@@ -57,7 +57,7 @@ namespace diptych::coupling
       constexpr std::size_t most_bytes = std::size_t(1) << 28;
       const nlohmann::json  record     = nlohmann::json::parse(discrete::read_input(file, most_bytes), nullptr, false);
       if (!record.is_object() || !record.contains("format") || !record.contains("frames"))
-        throw std::invalid_argument(file + ": is no record of an import");
+        throw std::invalid_argument(file + ": is not the record of an import");
     }
   } // namespace
 
@@ -65,7 +65,7 @@ namespace diptych::coupling
   {
     const std::string file = imported_file(scene);
     if (file.empty())
-      throw SceneError("discrete/file is empty, but discrete/method = imported: name the discrete.h5 of `diptych import`");
+      throw SceneError("discrete/method = imported needs discrete/file, the discrete.h5 of `diptych import`");
     const std::string folder = std::filesystem::path(file).parent_path().string();
     DiscreteResults   results;
     try
@@ -94,7 +94,10 @@ namespace diptych::coupling
         const discrete::Snapshot &s   = results.snapshots[k];
         const auto                add = [&](discrete::TimeTable &table, const double value) {
           if (std::isfinite(value))
-            table.time.push_back(s.progress), table.value.push_back(value);
+            {
+              table.time.push_back(s.progress);
+              table.value.push_back(value);
+            }
         };
         add(walls.upper_x, s.upper_platen_displacement.x());
         add(walls.upper_y, s.upper_y - s.lower_y - walls.initial_height);

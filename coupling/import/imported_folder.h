@@ -1,4 +1,4 @@
-// diptych: frames of another code in the place of the discrete panel
+// diptych: uses an imported sample as results of the discrete panel
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -13,17 +13,18 @@ namespace diptych::coupling
   // discrete/file with {seed} replaced by sample/seed.
   std::string imported_file(const Scene &scene);
 
-  // discrete.h5, discrete.csv and the facts of an import. Throws SceneError naming key and file where they are missing or broken,
-  // or hold other stages
-  // than the scene, by more than a thousandth; less is taken for the scene\'s.
+  // Reads discrete.h5, discrete.csv and the facts of an import. Throws SceneError naming key and file if one is missing or
+  // damaged, or if the stages differ from the scene's by more than a thousandth. Smaller differences are replaced by the
+  // scene's stages.
   DiscreteResults load_imported(const Scene &scene);
 
   // Motion of the walls over the progress (the tables' time), linear between frames.
   struct ImportedWalls
   {
     double              initial_height = 0;
-    discrete::TimeTable upper_x, upper_y;        // displacement of the upper platen [length]
-    discrete::TimeTable right_x, right_pressure; // of the right wall, outwards [length], on the sample [pressure]; empty: none
+    discrete::TimeTable upper_x, upper_y; // displacement of the upper platen [length]
+    discrete::TimeTable right_x,
+      right_pressure; // right wall: outward displacement, pressure on the sample; may be empty
   };
   ImportedWalls imported_walls(const DiscreteResults &results);
 } // namespace diptych::coupling

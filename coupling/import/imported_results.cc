@@ -1,4 +1,4 @@
-// diptych: another code's sample as results of the discrete panel
+// diptych: converts another code's sample to results of the discrete panel
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/import/imported_results.h"
 
@@ -37,7 +37,7 @@ namespace diptych::coupling
       return state;
     }
 
-    // (1/2) omega^2 I of discs; 0 where spin or mass is not told.
+    // (1/2) omega^2 I of discs; 0 if spin or mass is unknown.
     std::vector<double> spin_terms(const ArrivedFrame &f)
     {
       std::vector<double> terms;
@@ -57,9 +57,14 @@ namespace diptych::coupling
       s.axial_strain              = 1 - (f.wall[int(Side::upper)] - f.wall[int(Side::lower)]) / height;
       s.shear_strain              = s.upper_platen_displacement.x() / height;
       s.time                      = f.time - (std::isfinite(first.time) ? first.time : 0);
-      s.step = not_told, s.residual = not_told;
-      s.mean_diameter = diameter;
-      s.position = f.position, s.velocity = f.velocity, s.spin = f.spin, s.radius = f.radius, s.mass = f.mass;
+      s.step                      = not_told;
+      s.residual                  = not_told;
+      s.mean_diameter             = diameter;
+      s.position                  = f.position;
+      s.velocity                  = f.velocity;
+      s.spin                      = f.spin;
+      s.radius                    = f.radius;
+      s.mass                      = f.mass;
       for (std::size_t i = 0; i < f.position.size(); ++i)
         {
           s.displacement.push_back(f.position[i] - first.position[i]);
@@ -67,19 +72,22 @@ namespace diptych::coupling
         }
       s.fixed.assign(f.position.size(), 0);
       s.applied_force.assign(f.position.size(), Eigen::Vector2d::Zero());
-      s.lower_y = f.wall[int(Side::lower)], s.upper_y = f.wall[int(Side::upper)];
-      s.left_x = f.wall[int(Side::left)], s.right_x = f.wall[int(Side::right)];
-      s.lower_platen_force = f.wall_force[int(Side::lower)], s.upper_platen_force = f.wall_force[int(Side::upper)];
+      s.lower_y                       = f.wall[int(Side::lower)];
+      s.upper_y                       = f.wall[int(Side::upper)];
+      s.left_x                        = f.wall[int(Side::left)];
+      s.right_x                       = f.wall[int(Side::right)];
+      s.lower_platen_force            = f.wall_force[int(Side::lower)];
+      s.upper_platen_force            = f.wall_force[int(Side::upper)];
       constexpr double most_diameters = 1e5;
       if (const double n = (s.upper_y - s.lower_y) / diameter; !(n >= 1 && n <= most_diameters))
-        throw SceneError(f.wall_file + ": frame " + f.name + ": the lower and the upper wall stand " + discrete::exact_text(n) +
-                         " mean diameters apart; 1 to 100000 are possible");
+        throw SceneError(f.wall_file + ": frame " + f.name + ": the lower and the upper wall are " + discrete::exact_text(n) +
+                         " mean diameters apart; 1 to 100000 are allowed");
       const discrete::State state = state_of(f);
       s.outline                   = discrete::make_outline(state, diameter);
       s.area                      = discrete::outline_area(s.outline);
     }
 
-    // One instant stands for the mean over the stage: no file tells more.
+    // One instant replaces the mean over the stage, because files contain no more.
     void add_contacts(const ArrivedFrame &f, Snapshot &s)
     {
       const std::size_t n = f.position.size();
@@ -102,7 +110,10 @@ namespace diptych::coupling
       s.window_forces        = s.contacts;
       s.mean_internal_moment = s.internal_moment;
       if (!f.has_contacts)
-        s.internal_moment.assign(n, Eigen::Matrix2d::Constant(not_told)), s.mean_internal_moment = s.internal_moment;
+        {
+          s.internal_moment.assign(n, Eigen::Matrix2d::Constant(not_told));
+          s.mean_internal_moment = s.internal_moment;
+        }
     }
 
     double kinetic_energy(const ArrivedFrame &f)
@@ -135,7 +146,10 @@ namespace diptych::coupling
       int closed = 0, sliding = 0;
       for (std::size_t k = 0; k < f.contacts.size(); ++k)
         if (const int wall = f.contacts[k].j - int(f.position.size()); wall == 0 || wall == 1)
-          ++closed, sliding += f.status[k] == discrete::ContactStatus::slipping;
+          {
+            ++closed;
+            sliding += f.status[k] == discrete::ContactStatus::slipping;
+          }
       const bool told = std::none_of(f.status.begin(), f.status.end(),
                                      [](const auto s) { return s == discrete::ContactStatus::unknown; });
       return told && closed > 0 ? double(sliding) / closed : not_told;
@@ -145,17 +159,25 @@ namespace diptych::coupling
     {
       const ArrivedFrame &f = arrival.frames[k];
       HistoryRow          row;
-      row.step = int(k);
-      row.time = s.time, row.axial_strain = s.axial_strain, row.shear_strain = s.shear_strain;
-      row.progress = s.progress, row.walk = s.walk;
+      row.step         = int(k);
+      row.time         = s.time;
+      row.axial_strain = s.axial_strain;
+      row.shear_strain = s.shear_strain;
+      row.progress     = s.progress;
+      row.walk         = s.walk;
       row.stress.setZero();
       double discs = 0;
       for (std::size_t i = 0; i < s.internal_moment.size(); ++i)
-        row.stress += s.internal_moment[i] / s.area, discs += M_PI * s.radius[i] * s.radius[i];
-      row.stress_ratio      = row.stress.allFinite() ? discrete::stress_ratio(row.stress) : not_told;
-      row.volumetric_strain = 1 - s.area / first_area;
-      row.solid_fraction    = discs / s.area;
-      row.lower_force = f.wall_force[0], row.upper_force = f.wall_force[1], row.left_force = f.wall_force[2],
+        {
+          row.stress += s.internal_moment[i] / s.area;
+          discs += M_PI * s.radius[i] * s.radius[i];
+        }
+      row.stress_ratio         = row.stress.allFinite() ? discrete::stress_ratio(row.stress) : not_told;
+      row.volumetric_strain    = 1 - s.area / first_area;
+      row.solid_fraction       = discs / s.area;
+      row.lower_force          = f.wall_force[0];
+      row.upper_force          = f.wall_force[1];
+      row.left_force           = f.wall_force[2];
       row.right_force          = f.wall_force[3];
       row.contacts             = int(f.contacts.size());
       row.rattlers             = int(std::count(s.rattler.begin(), s.rattler.end(), 1));
@@ -187,10 +209,11 @@ namespace diptych::coupling
       const bool axial = ascends([](const Snapshot &s) { return s.axial_strain; }),
                  shear = ascends([](const Snapshot &s) { return s.shear_strain; });
       if (!axial && !shear)
-        throw SceneError(
-          arrival.frames.back().wall_file + ": frame " + arrival.frames.front().name + " to frame " + arrival.frames.back().name +
-          ": the frames are no loading: neither the descent of the upper wall nor its travel to the right grows from each "
-          "frame to the next; import frames of one monotonic path (each frame once)");
+        throw SceneError(arrival.frames.back().wall_file + ": frame " + arrival.frames.front().name + " to frame " +
+                         arrival.frames.back().name +
+                         ": the frames are not a monotonic loading: neither the descent of the upper wall nor its motion to the "
+                         "right grows from "
+                         "frame to frame; import frames of one monotonic path, each once");
       return axial && std::abs(snapshots.back().axial_strain) >= std::abs(snapshots.back().shear_strain) ? Walk::axial_strain
              : axial && !shear                                                                           ? Walk::axial_strain
                                                                                                          : Walk::shear_strain;
@@ -211,8 +234,8 @@ namespace diptych::coupling
     for (const ArrivedFrame &f : arrival.frames)
       if (!std::isfinite(f.wall[int(Side::lower)]) || !std::isfinite(f.wall[int(Side::upper)]))
         throw SceneError(f.grain_file + ": frame " + f.name +
-                         ": where the lower and the upper wall stand is in none of the files; give a table with "
-                         "frame, lower_y and upper_y (or width and height), or say --walls-touch");
+                         ": the places of the lower and the upper wall are in none of the files; give a table with "
+                         "frame, lower_y and upper_y (or width and height), or use --walls-touch");
     DiscreteResults results;
     for (const ArrivedFrame &f : arrival.frames)
       {
@@ -225,7 +248,10 @@ namespace diptych::coupling
       {
         const Walk walk = walk_of(results.snapshots, arrival);
         for (Snapshot &s : results.snapshots)
-          s.walk = walk, s.progress = walk == Walk::axial_strain ? s.axial_strain : s.shear_strain;
+          {
+            s.walk     = walk;
+            s.progress = walk == Walk::axial_strain ? s.axial_strain : s.shear_strain;
+          }
       }
     for (std::size_t k = 0; k < arrival.frames.size(); ++k)
       results.rows.push_back(row_of(arrival, k, results.snapshots[k], results.snapshots.front().area));
@@ -235,9 +261,10 @@ namespace diptych::coupling
     facts.preparation_solid_fraction = results.rows.front().solid_fraction;
     facts.initial_height             = first.upper_y - first.lower_y;
     facts.finished                   = true;
-    facts.reached_progress = last.progress, facts.reached_axial_strain = last.axial_strain,
-    facts.reached_shear_strain = last.shear_strain;
-    facts.message              = "imported: " + arrival.format;
+    facts.reached_progress           = last.progress;
+    facts.reached_axial_strain       = last.axial_strain;
+    facts.reached_shear_strain       = last.shear_strain;
+    facts.message                    = "imported: " + arrival.format;
     return results;
   }
 } // namespace diptych::coupling

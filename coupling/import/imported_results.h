@@ -1,4 +1,4 @@
-// diptych: another code's sample as results of the discrete panel
+// diptych: converts another code's sample to results of the discrete panel
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -10,11 +10,11 @@
 
 namespace diptych::coupling
 {
-  // Snapshots, one a frame, the first as the start of the loading; rows of the ledger at the frames. What was not told is NaN.
-  // Throws SceneError where the upper wall neither descends nor travels steadily from frame to frame.
+  // One snapshot and one history row per frame; the first frame is the start of the loading. Unknown quantities are NaN. Throws
+  // SceneError if the upper wall neither descends nor moves sideways steadily from frame to frame.
   DiscreteResults imported_results(const Arrival &arrival);
 
-  // A scene that runs on them: discrete/method = imported, `file` beside it. `pressure`: none: that of the side walls in the
-  // first frame that has contacts. Throws SceneError where there are no side walls and no pressure was given.
+  // A scene that runs on these results: discrete/method = imported, with `file` beside it. Without `pressure` it takes that of
+  // the side walls in the first frame with contacts. Throws SceneError if there are neither side walls nor a pressure.
   std::string imported_scene(const Arrival &arrival, const DiscreteResults &results, const std::optional<double> &pressure);
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: a scene that runs on another code's sample
+// diptych: writes a scene that runs on another code's sample
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 #include <sstream>
@@ -30,11 +30,11 @@ namespace diptych::coupling
           return sxx;
       throw SceneError(
         arrival.frames.front().wall_file + ": frame " + arrival.frames.front().name +
-        ": no lateral pressure can be found: in no frame is the right wall pressed, or the horizontal stress above 0; say "
+        ": no lateral pressure was found, because no frame has a force on the right wall or a horizontal stress above 0; give "
         "--pressure P");
     }
 
-    // Two windows where there are stages enough, else one.
+    // Two windows if there are enough stages, else one.
     std::vector<double> windows(const std::vector<double> &stages)
     {
       if (stages.size() < 2)
@@ -60,7 +60,7 @@ namespace diptych::coupling
     const auto         end = [&] { out << "end\n"; };
     out << "# A sample of " << arrival.format << ", imported; lengths, forces and masses in the units of its files"
         << (arrival.thickness != 1 ? ", per unit thickness (" + exact_text(arrival.thickness) + ")" : std::string()) << ".\n"
-        << "# The continuum walks as its walls did. Keys of the continuum and of the comparison may be changed.\n";
+        << "# The continuum is loaded by the motion of its walls. Keys of the continuum and of the comparison may be changed.\n";
     begin("sample");
     set("mean_diameter", exact_text(arrival.mean_diameter));
     if (std::isfinite(arrival.density))
@@ -88,7 +88,7 @@ namespace diptych::coupling
       }
     begin("comparison");
     set("window_edges", text_of(windows(stages)));
-    set("averaging_strain", exact_text(1e-3 * shortest)); // frames are instants: so is what the continuum is held against
+    set("averaging_strain", exact_text(1e-3 * shortest)); // the continuum is compared at instants, too
     end();
     return out.str();
   }

@@ -1,4 +1,4 @@
-// diptych: LAMMPS: dump custom of grains and walls, dump local of contacts, data files
+// diptych: reads LAMMPS: dump custom of grains and walls, dump local of contacts, data files
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    // What compute pair/local and property/local were asked for, in the order that README.md proposes.
+    // Columns of compute pair/local and property/local in the order of README.md.
     const std::vector<std::string> lammps_contact_columns = {"index", "patom1", "patom2", "dist", "force",
                                                              "fx",    "fy",     "p1",     "p2",   "p4"};
 
@@ -35,12 +35,12 @@ namespace diptych::coupling
       for (const int axis : {0, 1})
         if (section.is_periodic[axis])
           throw SceneError(section.table.path + ": the box is periodic along " + "xy"[axis] +
-                           "; contacts across its edge cannot be told from the files; walls are needed");
+                           "; the files do not show contacts across its edge, so walls are needed");
       auto             &place = is_grains ? files.grains : is_walls ? files.walls : files.contacts;
       const std::string path  = section.table.path;
       const long        step  = section.step;
       if (!place.emplace(step, std::move(section)).second)
-        throw SceneError(path + ": step " + std::to_string(step) + " stands twice");
+        throw SceneError(path + ": step " + std::to_string(step) + " occurs twice");
     }
 
     bool is_data_file(const std::string &path)
@@ -68,7 +68,7 @@ namespace diptych::coupling
           files.data_files.push_back(path);
         else
           throw SceneError(path +
-                           ": neither a dump (ITEM: TIMESTEP), a data file (N atoms) nor a wall table (step, width, height)");
+                           ": is neither a dump (ITEM: TIMESTEP), a data file (N atoms) nor a wall table (step, width, height)");
       return files;
     }
 
@@ -86,7 +86,7 @@ namespace diptych::coupling
         names = lammps_contact_columns;
       if (!names.empty() && names.size() != table.columns.size())
         throw SceneError(table.path + ": rows have " + std::to_string(table.columns.size()) + " columns, not " +
-                         std::to_string(names.size()) + "; say what they are with --columns contacts=index,patom1,patom2,...");
+                         std::to_string(names.size()) + "; name them with --columns contacts=index,patom1,patom2,...");
       if (!names.empty())
         table.columns = names;
       return {table.place_of_any({"patom1", "id1"}, "the first grain"),
@@ -99,7 +99,7 @@ namespace diptych::coupling
               table.find("force")};
     }
 
-    // That the columns are what they are taken for: the distance is that of the two centres, the normal force lies along them.
+    // Checks the meaning of the columns: the distance is that of the centres, and the normal force is parallel to them.
     void verify(const NumberTable &table, const std::size_t row, const ContactColumns &c, const Eigen::Vector2d &branch)
     {
       const Eigen::Vector2d force(table.at(row, c.fx), table.at(row, c.fy));
@@ -107,11 +107,11 @@ namespace diptych::coupling
       const bool   else_normal  = c.force && std::abs(std::abs(table.at(row, *c.force)) - force.norm()) > 1e-5 * force.norm();
       const double off          = std::abs(branch.x() * force.y() - branch.y() * force.x());
       if (far || else_normal || off > 1e-4 * branch.norm() * force.norm())
-        table.refuse(row,
-                     std::string(far           ? "the distance of the centres"
-                                 : else_normal ? "the size of the normal force"
-                                               : "the direction of the normal force") +
-                       " is another one; is the column of another meaning (--columns contacts=index,patom1,patom2,dist,...)?");
+        table.refuse(row, std::string(far           ? "the distance of the centres"
+                                      : else_normal ? "the size of the normal force"
+                                                    : "the direction of the normal force") +
+                            " does not agree with the grains; does the column have another meaning (--columns "
+                            "contacts=index,patom1,patom2,dist,...)?");
     }
 
     void add_contacts(DumpSection &section, const ForeignOptions &options, ForeignFrame &frame)
@@ -126,8 +126,9 @@ namespace diptych::coupling
       for (std::size_t row = 0; row < table.n_rows(); ++row)
         {
           ForeignContact contact;
-          contact.first = table.whole(row, c.first), contact.second = table.whole(row, c.second);
-          contact.line = table.line[row];
+          contact.first  = table.whole(row, c.first);
+          contact.second = table.whole(row, c.second);
+          contact.line   = table.line[row];
           const auto a = centre.find(contact.first), b = centre.find(contact.second);
           if (a != centre.end() && b != centre.end())
             verify(table, row, c, a->second - b->second);
@@ -167,7 +168,7 @@ namespace diptych::coupling
         }
     }
 
-    // "Atoms # sphere": id, type, diameter, density, x, y, z. The density is of a sphere in any dimension: not taken.
+    // "Atoms # sphere": id, type, diameter, density, x, y, z. The density is always that of a sphere and is not used.
     ForeignFrame data_frame(const std::string &path)
     {
       TextLines    lines(path);
@@ -182,7 +183,7 @@ namespace diptych::coupling
           if (words.empty() || words[0] != "Atoms")
             continue;
           if (words.size() > 2 && words[2] != "sphere")
-            lines.refuse("atom_style " + std::string(words[2]) + "; only sphere has radii");
+            lines.refuse("atom_style " + std::string(words[2]) + "; use atom_style sphere, which has radii");
           while (discrete::trimmed(lines.peek()).empty() && !lines.at_end())
             lines.skip();
           for (long row = 0; row < count; ++row)
@@ -199,7 +200,7 @@ namespace diptych::coupling
             }
         }
       if (count < 1 || long(frame.grains.size()) != count)
-        throw SceneError(path + ": has no section Atoms with the grains that its head counts");
+        throw SceneError(path + ": the section Atoms does not have as many grains as the head announces");
       return frame;
     }
 
@@ -220,7 +221,7 @@ namespace diptych::coupling
       return frame;
     }
 
-    // Steps that only one of two kinds of files has.
+    // Refuses steps that only one kind of file has.
     void require_same_steps(const LammpsFiles &files, ForeignSample &sample)
     {
       for (const auto &[step, section] : files.grains)
@@ -233,7 +234,8 @@ namespace diptych::coupling
         for (const auto &[step, section] : *others)
           unused += files.grains.count(step) == 0;
       if (unused > 0)
-        sample.remarks.push_back(std::to_string(unused) + " sections of contacts or walls are of steps without grains: not used");
+        sample.remarks.push_back(std::to_string(unused) +
+                                 " sections of contacts or walls belong to steps without grains and were not used");
     }
   } // namespace
 
@@ -247,10 +249,10 @@ namespace diptych::coupling
         for (const std::string &path : files.data_files)
           sample.frames.push_back(data_frame(path));
         if (sample.frames.empty())
-          throw SceneError("import lammps: no file holds grains (dump custom with id, x, y, radius, or a data file)");
+          throw SceneError("import lammps: no file contains grains (dump custom with id, x, y, radius, or a data file)");
       }
     else if (!files.data_files.empty())
-      sample.remarks.push_back(files.data_files.front() + ": a data file beside dumps is not used");
+      sample.remarks.push_back(files.data_files.front() + ": this data file was not used, because there are dumps");
     require_same_steps(files, sample);
     sample.counts_steps = !files.grains.empty();
     if (!files.contacts.empty())
@@ -260,7 +262,8 @@ namespace diptych::coupling
     add_wall_tables(sample, files.wall_tables);
     const auto has_tangential = [](const auto &entry) { return entry.second.table.has("p1"); };
     if (!files.contacts.empty() && !std::any_of(files.contacts.begin(), files.contacts.end(), has_tangential))
-      sample.lacking.push_back("tangential forces (fx, fy of compute pair/local are the normal part; p1, p2 the tangential one)");
+      sample.lacking.push_back(
+        "tangential forces (fx, fy of compute pair/local are the normal part, p1, p2 the tangential part)");
     return sample;
   }
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: LIGGGHTS: dump custom of grains, dump local of contacts and wall contacts, STL of plates
+// diptych: reads LIGGGHTS: dump custom of grains, dump local of contacts and wall contacts, STL of plates
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <cmath>
@@ -14,13 +14,13 @@ namespace diptych::coupling
 {
   namespace
   {
-    // Keywords of compute pair/gran/local and wall/gran/local with the number of columns of each.
+    // Keywords of compute pair/gran/local and wall/gran/local with their numbers of columns.
     const std::map<std::string, int> keyword_columns = {
       {"pos", 6},    {"id", 3},       {"force", 3},        {"force_normal", 3}, {"force_tangential", 3},
       {"torque", 3}, {"torque_n", 3}, {"torque_t", 3},     {"history", 3},      {"contactArea", 1},
       {"delta", 1},  {"heatFlux", 1}, {"contactPoint", 3}, {"vel", 6}};
 
-    // pos.1 ... pos.6, id.1 ...: columns by keyword.
+    // pos.1 ... pos.6, id.1 ...: column names from keywords.
     std::vector<std::string> expanded(const std::vector<std::string> &keywords)
     {
       std::vector<std::string> columns;
@@ -28,7 +28,7 @@ namespace diptych::coupling
         {
           const auto known = keyword_columns.find(keyword);
           if (known == keyword_columns.end())
-            throw SceneError("--columns: '" + keyword + "' is no keyword of compute pair/gran/local");
+            throw SceneError("--columns: '" + keyword + "' is not a keyword of compute pair/gran/local");
           for (int k = 1; k <= known->second; ++k)
             columns.push_back(keyword + "." + std::to_string(k));
         }
@@ -40,7 +40,7 @@ namespace diptych::coupling
       Eigen::Vector3d place;
     };
 
-    // Planes of an STL whose normal is along x or y, each once: what the plates are is seen from where they stand.
+    // Planes of an STL with a normal along x or y, each once. Their places later show which wall they are.
     std::vector<std::pair<int, double>> planes_of_stl(const std::string &path)
     {
       TextLines                           lines(path);
@@ -65,11 +65,11 @@ namespace diptych::coupling
                 planes.push_back(plane);
         }
       if (corner.empty() || corner.size() % 3 != 0)
-        throw SceneError(path + ": holds no whole triangle");
+        throw SceneError(path + ": contains no complete triangle");
       return planes;
     }
 
-    // Places of plates where nothing tells them more exactly (an STL has six digits).
+    // An STL has six digits, so it gives only places that no other file contains.
     void add_stl(const std::string &path, ForeignFrame &frame)
     {
       Eigen::Vector2d middle = Eigen::Vector2d::Zero();
@@ -97,7 +97,7 @@ namespace diptych::coupling
       std::vector<std::string>    wall_tables;
     };
 
-    // Rows of wall contacts name no second grain: their mesh and triangle count from 0, and their sixth column is the grain.
+    // Rows of wall contacts have no second grain. Mesh and triangle count from 0, and the grain is in the sixth column.
     bool is_of_walls(const DumpSection &section, const ForeignOptions &options)
     {
       const std::vector<std::string> named = columns_for(options, "walls");
@@ -117,14 +117,14 @@ namespace diptych::coupling
               auto &place = section.kind == "ATOMS" ? files.grains : is_of_walls(section, options) ? files.walls : files.contacts;
               const long step = section.step;
               if (!place.emplace(step, std::move(section)).second)
-                throw SceneError(path + ": step " + std::to_string(step) + " stands twice");
+                throw SceneError(path + ": step " + std::to_string(step) + " occurs twice");
             }
         else if (std::filesystem::path(path).extension() == ".stl")
           files.plates[number_in_name(path)] = path;
         else if (is_wall_table(path))
           files.wall_tables.push_back(path);
         else
-          throw SceneError(path + ": neither a dump (ITEM: TIMESTEP), an .stl nor a wall table (step, width, height)");
+          throw SceneError(path + ": is neither a dump (ITEM: TIMESTEP), an .stl nor a wall table (step, width, height)");
       return files;
     }
 
@@ -137,7 +137,7 @@ namespace diptych::coupling
           for (const std::string &keyword : keywords)
             text += (text.empty() ? "" : ",") + keyword;
           throw SceneError(table.path + ": rows have " + std::to_string(table.columns.size()) + " columns, but " + text +
-                           " are " + std::to_string(columns.size()) + "; give the keywords of the compute with --columns " +
+                           " has " + std::to_string(columns.size()) + "; give the keywords of the compute with --columns " +
                            kind + "=" + text);
         }
       table.columns = columns;
@@ -165,14 +165,16 @@ namespace diptych::coupling
       for (std::size_t row = 0; row < table.n_rows(); ++row)
         {
           ForeignContact contact;
-          contact.first = table.whole(row, table.place_of("id.1")), contact.second = table.whole(row, table.place_of("id.2"));
+          contact.first  = table.whole(row, table.place_of("id.1"));
+          contact.second = table.whole(row, table.place_of("id.2"));
           if (table.at(row, table.place_of("id.3")) != 0)
             table.refuse(row, "a contact across a periodic edge; walls are needed");
           const auto a = centre.find(contact.first);
           if (a != centre.end() && table.has("pos.1") &&
               (a->second - pair_at(table, row, "pos", 1)).norm() > 1e-6 * a->second.norm())
             table.refuse(row, "grain " + std::to_string(contact.first) +
-                                " stands elsewhere in the dump of the grains: another frame, or columns of another meaning "
+                                " has another position in the dump of the grains; are these files of different frames, or "
+                                "columns of another meaning "
                                 "(--columns contacts=pos,id,force,...)");
           contact.force = pair_at(table, row, "force", 1);
           if (table.has("contactPoint.1"))
@@ -184,7 +186,7 @@ namespace diptych::coupling
         }
     }
 
-    // The contact point is the first place of `pos`; the keyword contactPoint is 0 for plates.
+    // The contact point is the first point of `pos`; the keyword contactPoint is 0 for plates.
     void add_wall_contacts_of(NumberTable &table, const ForeignOptions &options, ForeignFrame &frame)
     {
       std::vector<std::string> keywords = columns_for(options, "walls");
@@ -247,7 +249,7 @@ namespace diptych::coupling
     for (auto &[step, grains] : files.grains)
       sample.frames.push_back(liggghts_frame(grains, files, options));
     if (sample.frames.empty())
-      throw SceneError("import liggghts: no file holds grains (dump custom with id, x, y, radius)");
+      throw SceneError("import liggghts: no file contains grains (dump custom with id, x, y, radius)");
     add_wall_tables(sample, files.wall_tables);
     for (ForeignFrame &frame : sample.frames)
       if (const auto plates = files.plates.find(*frame.step); plates != files.plates.end())

@@ -1,4 +1,4 @@
-// diptych: LMGC90: BODIES.DAT with DOF and Vloc_Rloc files, or with its HDF5 file
+// diptych: reads LMGC90: BODIES.DAT with DOF and Vloc_Rloc files, or with its HDF5 file
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <cmath>
@@ -69,27 +69,28 @@ namespace diptych::coupling
       contact.slides         = words[9].substr(0, 2) == "sl";
       const auto       field = [&](const std::string_view line, const char *name) { return lmgc90_field(lines, line, name); };
       std::string_view line  = lines.take("rlt/H and rln/H");
-      contact.tangential = field(line, "rlt/H"), contact.normal = field(line, "rln/H");
+      contact.tangential     = field(line, "rlt/H");
+      contact.normal         = field(line, "rln/H");
       (void)lines.take("vlt and vln");
       contact.gap       = field(lines.take("gapTT"), "gapTT");
       line              = lines.take("n(1) and n(2)");
       contact.direction = {field(line, "n(1)="), field(line, "n(2)=")};
       if (!is_unit(contact.direction))
-        lines.refuse("n(1), n(2) are no normal: their squares add up to " +
+        lines.refuse("n(1), n(2) are not a unit normal; the sum of their squares is " +
                      discrete::exact_text(contact.direction.squaredNorm()));
       line          = lines.take("coo1 and coo2");
       contact.point = {field(line, "coo1="), field(line, "coo2=")};
       return contact;
     }
 
-    // Rows without force are near pairs, not contacts.
+    // Rows without a force are close pairs and not contacts.
     void read_contacts(const std::string &path, const std::map<long, int> &walls, ForeignFrame &frame)
     {
       TextLines    lines(path);
       ForeignFrame instant;
       read_instant(lines, instant);
       if (instant.step != frame.step || std::abs(*instant.time - *frame.time) > 1e-9 * std::abs(*frame.time))
-        lines.refuse("step " + std::to_string(*instant.step) + " is not that of " + frame.grain_file + " (" +
+        lines.refuse("step " + std::to_string(*instant.step) + " differs from that of " + frame.grain_file + " (" +
                      std::to_string(*frame.step) + "): the frames do not match");
       frame.has_contacts = true;
       frame.contact_file = path;
@@ -107,7 +108,7 @@ namespace diptych::coupling
     struct Lmgc90Files
     {
       std::string                        bodies, behaviours, hdf5;
-      std::map<std::string, std::string> motions, contacts; // by what follows DOF. and Vloc_Rloc.
+      std::map<std::string, std::string> motions, contacts; // by the text after DOF. and Vloc_Rloc.
       std::vector<std::string>           wall_tables, unused;
     };
 
@@ -133,12 +134,12 @@ namespace diptych::coupling
           else if (is_wall_table(path))
             files.wall_tables.push_back(path);
           else
-            throw SceneError(path + ": none of BODIES.*, BULK_BEHAV.*, DOF.*, Vloc_Rloc.*, *.h5, and no wall table");
+            throw SceneError(path + ": is none of BODIES.*, BULK_BEHAV.*, DOF.*, Vloc_Rloc.*, *.h5, nor a wall table");
         }
       if (files.bodies.empty())
-        throw SceneError("import lmgc90: BODIES.DAT is missing: radii and walls stand nowhere else");
+        throw SceneError("import lmgc90: BODIES.DAT is missing; it contains radii and walls");
       if (files.motions.empty() && files.hdf5.empty())
-        throw SceneError("import lmgc90: no DOF.OUT.* and no .h5: nothing says where the bodies are");
+        throw SceneError("import lmgc90: DOF.OUT.* or a .h5 file is missing; they contain the positions of the bodies");
       for (const auto &[tail, path] : files.contacts)
         if (files.motions.count(tail) == 0)
           throw SceneError(path + ": there is no DOF." + tail + ": the frames do not match");
@@ -168,7 +169,7 @@ namespace diptych::coupling
       for (ForeignFrame &frame : read_lmgc90_hdf5(files.hdf5, bodies, densities))
         sample.frames.push_back(std::move(frame));
     for (const std::string &path : files.unused)
-      sample.remarks.push_back(path + ": not needed");
+      sample.remarks.push_back(path + ": this file is not needed");
     std::sort(sample.frames.begin(), sample.frames.end(), [](const auto &a, const auto &b) { return *a.time < *b.time; });
     add_wall_tables(sample, files.wall_tables);
     return sample;

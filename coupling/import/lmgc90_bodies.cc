@@ -1,4 +1,4 @@
-// diptych: bodies of an LMGC90 run as both of its formats need them
+// diptych: bodies of an LMGC90 run, shared by its two formats
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/import/lmgc90_bodies.h"
 
@@ -28,7 +28,7 @@ namespace diptych::coupling
         if (const long number = lmgc90_body_number(lines, line); number > 0)
           {
             if (bodies.count(number) > 0)
-              lines.refuse("body " + std::to_string(number) + " stands twice");
+              lines.refuse("body " + std::to_string(number) + " occurs twice");
             body = &bodies[number];
           }
         if (body == nullptr)
@@ -44,17 +44,20 @@ namespace diptych::coupling
         if (holds(line, "byrd="))
           body->disc_radius = lmgc90_field(lines, line, "byrd=");
         if (holds(line, "axe1="))
-          body->half_length = lmgc90_field(lines, line, "axe1="), body->half_thickness = lmgc90_field(lines, line, "axe2=");
+          {
+            body->half_length    = lmgc90_field(lines, line, "axe1=");
+            body->half_thickness = lmgc90_field(lines, line, "axe2=");
+          }
         if (holds(line, "DISKx") || holds(line, "JONCx") || !holds(line, "color"))
           continue;
-        lines.refuse("a contactor that is neither DISKx nor JONCx");
+        lines.refuse("this contactor is neither DISKx nor JONCx");
       }
     for (const auto &[number, found] : bodies)
       if (!found.reference.allFinite() || (!found.is_wall() && !(found.disc_radius > 0)))
         throw SceneError(path + ": body " + std::to_string(number) +
-                         " has no place (coo1, coo2) or no radius (byrd); is the file cut off?");
+                         " has no position (coo1, coo2) or no radius (byrd); is the file truncated?");
     if (bodies.empty())
-      throw SceneError(path + ": holds no body RBDY2");
+      throw SceneError(path + ": contains no body RBDY2");
     return bodies;
   }
 
@@ -70,7 +73,7 @@ namespace diptych::coupling
           densities[std::string(words[0])] = lmgc90_field(lines, line, "Umas=");
       }
     if (densities.empty())
-      throw SceneError(path + ": holds no density (Umas=)");
+      throw SceneError(path + ": contains no density (Umas=)");
     return densities;
   }
 
@@ -118,7 +121,8 @@ namespace diptych::coupling
           const Eigen::Vector2d centre = body.reference + motion.displacement.head<2>();
           const double          turn   = std::abs(std::sin(motion.displacement.z()));
           if (turn > 1e-4 && turn < 1 - 1e-8)
-            throw SceneError(frame.grain_file + ": wall body " + std::to_string(number) + " lies oblique (X(3))");
+            throw SceneError(frame.grain_file + ": wall body " + std::to_string(number) +
+                             " is inclined (X(3)); only horizontal and vertical walls are supported");
           const bool  upright = turn > 0.5;
           ForeignWall wall;
           wall.name   = "body " + std::to_string(number);

@@ -1,4 +1,4 @@
-// diptych: bodies of an LMGC90 run as both of its formats need them
+// diptych: bodies of an LMGC90 run, shared by its two formats
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -22,29 +22,29 @@ namespace diptych::coupling
   };
   using Lmgc90Bodies = std::map<long, Lmgc90Body>; // by number, from 1
 
-  // BODIES.DAT. Throws SceneError naming file, line and what was expected.
+  // Reads BODIES.DAT. Throws SceneError naming file, line and the expected text.
   Lmgc90Bodies read_lmgc90_bodies(const std::string &path);
 
-  // BULK_BEHAV.DAT: density by nickname [mass/length^2].
+  // Reads BULK_BEHAV.DAT: density by nickname [mass/length^2].
   std::map<std::string, double> read_lmgc90_densities(const std::string &path);
 
-  // Displacement from the reference and velocity at one instant, x, y and rotation each.
+  // Displacement from the reference and velocity at one instant: x, y and rotation.
   struct Lmgc90Motion
   {
     Eigen::Vector3d displacement = Eigen::Vector3d::Zero(), velocity = Eigen::Vector3d::Zero();
   };
 
-  // Grains and walls of one instant. The rotation of a wall is how it lies, not a motion; its inner face is half_thickness before
-  // its centre. Throws SceneError where a body has no motion or a wall is oblique.
+  // Adds grains and walls of one instant. The rotation of a wall is its orientation and not a motion. Its inner face is
+  // half_thickness before its centre. Throws SceneError if a body has no motion or a wall is inclined.
   void place_lmgc90_bodies(const Lmgc90Bodies                  &bodies,
                            const std::map<std::string, double> &densities,
                            const std::map<long, Lmgc90Motion>  &motions,
                            ForeignFrame                        &frame);
 
-  // Place in frame.walls of a body number.
+  // Index in frame.walls for a body number.
   std::map<long, int> lmgc90_walls(const Lmgc90Bodies &bodies);
 
-  // A contact: force on the candidate = rln n + rlt t with t = (n_y, -n_x). The antagonist may be a wall.
+  // A contact. The force on the candidate is rln n + rlt t with t = (n_y, -n_x). The antagonist may be a wall.
   struct Lmgc90Contact
   {
     long            candidate = 0, antagonist = 0;

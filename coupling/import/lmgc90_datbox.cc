@@ -1,4 +1,4 @@
-// diptych: a sample of ours as LMGC90 reads it
+// diptych: writes a sample in the format of LMGC90
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/import/lmgc90_datbox.h"
 
@@ -28,7 +28,7 @@ namespace diptych::coupling
       std::string bodies, motions, drives;
       int         n = 0;
 
-      // `mass`: nickname of the bulk, equivalent radius, radius of gyration; `contactor`: the line below $tacty.
+      // `mass`: nickname of the bulk, equivalent radius, radius of gyration. `contactor`: the line below $tacty.
       void add(const Eigen::Vector2d &x, const double turn, const std::string &mass, const std::string &contactor)
       {
         const std::string head = "$bdyty\n RBDY2  " + text_with("%5.0f", ++n) + "\n";
@@ -38,7 +38,7 @@ namespace diptych::coupling
                    "\n                             V(1)=" + real(0) + "  V(2)=" + real(0) + "  V(3)=" + real(0) + "\n$$$$$$\n";
       }
 
-      // At rest in all three components.
+      // Fixes all three components.
       void hold()
       {
         drives += "$bdyty\n RBDY2  " + text_with("%5.0f", n) +
@@ -75,9 +75,13 @@ namespace diptych::coupling
       const bool   sides = std::isfinite(left) && std::isfinite(right);
       if (!sides)
         {
-          left = HUGE_VAL, right = -HUGE_VAL;
+          left  = HUGE_VAL;
+          right = -HUGE_VAL;
           for (const Eigen::Vector2d &x : s.position)
-            left = std::min(left, x.x()), right = std::max(right, x.x());
+            {
+              left  = std::min(left, x.x());
+              right = std::max(right, x.x());
+            }
         }
       const double middle = 0.5 * (left + right), half = 0.75 * (right - left);
       add_wall(box, {middle, s.lower_y - t}, false, half, t);
@@ -105,7 +109,7 @@ namespace diptych::coupling
   ExportedFiles lmgc90_datbox(const Scene &scene, const discrete::Snapshot &s)
   {
     if (s.cell_width > 0)
-      throw SceneError("export: discrete/lateral = periodic: the sample has no side walls that another code could take");
+      throw SceneError("export: the sample is periodic (discrete/lateral) and has no side walls, which other codes need");
     Datbox box;
     for (std::size_t i = 0; i < s.radius.size(); ++i)
       box.add(s.position[i], 0., "DISCx  avrd=" + real(s.radius[i]) + "  gyrd=" + real(s.radius[i] / std::sqrt(2.)),

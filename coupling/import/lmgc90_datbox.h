@@ -1,4 +1,4 @@
-// diptych: a sample of ours as LMGC90 reads it
+// diptych: writes a sample in the format of LMGC90
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace diptych::coupling
 {
-  // DATBOX/BODIES.DAT, DOF.INI, BULK_BEHAV.DAT, TACT_BEHAV.DAT and DRV_DOF.DAT: discs DISKx, walls JONCx half a mean diameter
-  // thick, at rest. Seven digits, as LMGC90 writes them.
+  // Writes DATBOX/BODIES.DAT, DOF.INI, BULK_BEHAV.DAT, TACT_BEHAV.DAT and DRV_DOF.DAT. Grains are discs DISKx, walls are JONCx
+  // half a mean diameter thick, all at rest. Numbers have seven digits, as in LMGC90.
   ExportedFiles lmgc90_datbox(const Scene &scene, const discrete::Snapshot &snapshot);
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: LMGC90's HDF5 file
+// diptych: reads LMGC90's HDF5 file
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/import/lmgc90_hdf5.h"
 
@@ -16,10 +16,10 @@ namespace diptych::coupling
   {
     using discrete::Hdf5Reader;
 
-    // Statuses of a contact in LMGC90 2025 (Help/parameters/status): 6 and 7 slide backward and forward.
+    // Status of a contact in LMGC90 2025 (Help/parameters/status): 6 and 7 slide backward and forward.
     constexpr int slides_backward = 6, slides_forward = 7;
 
-    // First column, counted from 0, of a quantity whose columns Help names from 1 on, both ends included.
+    // First column of a quantity, counted from 0. Help names columns from 1 on, both ends included.
     std::size_t column_of(const Hdf5Reader &file, const std::string &quantity, const int n)
     {
       const std::string      name  = "Help/" + quantity + "/bound";
@@ -34,7 +34,7 @@ namespace diptych::coupling
     {
       const std::vector<std::size_t> extents = file.extents(name);
       if (extents.size() != 2)
-        throw SceneError(file.path() + ": " + name + " is no table of rows and columns");
+        throw SceneError(file.path() + ": " + name + " is not a table of rows and columns");
       return {extents[0], extents[1]};
     }
 
@@ -47,7 +47,7 @@ namespace diptych::coupling
       double at(const std::size_t row, const std::size_t column) const
       {
         if (column >= n_columns)
-          throw SceneError(place + " has " + std::to_string(n_columns) + " columns, fewer than Help says");
+          throw SceneError(place + " has " + std::to_string(n_columns) + " columns, fewer than in Help");
         const double value = values[row * n_columns + column];
         if (!std::isfinite(value))
           throw SceneError(place + ", row " + std::to_string(row) + ", column " + std::to_string(column) +
@@ -86,23 +86,26 @@ namespace diptych::coupling
                         rl = column_of(file, "VlocRloc/rdata/rl", 2), gap = column_of(file, "VlocRloc/rdata/gapTT", 1),
                         coor = column_of(file, "VlocRloc/rdata/coor", 2), uc = column_of(file, "VlocRloc/rdata/uc", 2);
       if (shape[0] != real.n_rows)
-        throw SceneError(file.path() + ": " + name + " has " + std::to_string(shape[0]) + " rows, rdata beside it " +
+        throw SceneError(file.path() + ": " + name + " has " + std::to_string(shape[0]) + " rows, but rdata has " +
                          std::to_string(real.n_rows));
       if (std::max(body + 1, status) >= shape[1])
-        throw SceneError(file.path() + ": " + name + " has fewer columns than Help says");
+        throw SceneError(file.path() + ": " + name + " has fewer columns than in Help");
       const std::map<long, int>   walls = lmgc90_walls(bodies);
       std::vector<ForeignContact> contacts;
       for (std::size_t row = 0; row < real.n_rows; ++row)
         {
           const int    *numbers = &whole[row * shape[1]];
           Lmgc90Contact c;
-          c.candidate = numbers[body], c.antagonist = numbers[body + 1];
-          c.tangential = real.at(row, rl), c.normal = real.at(row, rl + 1);
-          c.gap       = real.at(row, gap);
-          c.point     = {real.at(row, coor), real.at(row, coor + 1)};
-          c.direction = {real.at(row, uc), real.at(row, uc + 1)};
+          c.candidate  = numbers[body];
+          c.antagonist = numbers[body + 1];
+          c.tangential = real.at(row, rl);
+          c.normal     = real.at(row, rl + 1);
+          c.gap        = real.at(row, gap);
+          c.point      = {real.at(row, coor), real.at(row, coor + 1)};
+          c.direction  = {real.at(row, uc), real.at(row, uc + 1)};
           if (!is_unit(c.direction))
-            throw SceneError(real.place + ": row " + std::to_string(row + 1) + ": uc is no normal: its squares add up to " +
+            throw SceneError(real.place + ": row " + std::to_string(row + 1) +
+                             ": uc is not a unit normal; the sum of its squares is " +
                              discrete::exact_text(c.direction.squaredNorm()));
           c.slides = numbers[status] == slides_backward || numbers[status] == slides_forward;
           if (c.normal > 0)
@@ -140,7 +143,7 @@ namespace diptych::coupling
         frames.push_back(std::move(frame));
       }
     if (frames.empty())
-      throw SceneError(path + ": Evolution holds no frame");
+      throw SceneError(path + ": Evolution contains no frame");
     return frames;
   }
 } // namespace diptych::coupling

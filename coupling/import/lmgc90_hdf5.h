@@ -1,4 +1,4 @@
-// diptych: LMGC90's HDF5 file
+// diptych: reads LMGC90's HDF5 file
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -6,7 +6,8 @@
 
 namespace diptych::coupling
 {
-  // Frames Evolution/ID_k; the file has no geometry, which BODIES.DAT holds. Throws SceneError naming file and dataset.
+  // Reads the frames Evolution/ID_k. The file has no geometry; `bodies` come from BODIES.DAT. Throws SceneError naming file and
+  // dataset.
   std::vector<ForeignFrame> read_lmgc90_hdf5(const std::string                   &path,
                                              const Lmgc90Bodies                  &bodies,
                                              const std::map<std::string, double> &densities);

@@ -1,4 +1,4 @@
-// diptych: fields of LMGC90's fixed columns
+// diptych: reads fields of LMGC90's fixed columns
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/import/lmgc90_text.h"
 #include "discrete/files/words.h"
@@ -9,7 +9,7 @@ namespace diptych::coupling
   {
     const std::size_t at = line.find(name);
     if (at == std::string_view::npos)
-      lines.refuse("no '" + std::string(name) + "'");
+      lines.refuse("expected '" + std::string(name) + "'");
     return lines.number(discrete::trimmed(line.substr(at + name.size(), 14)), std::string(name));
   }
 

@@ -1,4 +1,4 @@
-// diptych: fields of LMGC90's fixed columns
+// diptych: reads fields of LMGC90's fixed columns
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,10 +8,10 @@
 
 namespace diptych::coupling
 {
-  // The number behind a name. Columns are fixed and run together ("rlt/H-0.3499289D+01"): up to 14 characters belong to it.
-  // Throws SceneError naming the line where the name or the number is not there.
+  // The number after a name. Columns are fixed and may touch ("rlt/H-0.3499289D+01"), so up to 14 characters are read. Throws
+  // SceneError naming the line if name or number is missing.
   double lmgc90_field(const TextLines &lines, std::string_view line, std::string_view name);
 
-  // N of " RBDY2   N" below "$bdyty"; 0 where the line is none.
+  // N of " RBDY2 N" below "$bdyty"; 0 for other lines.
   long lmgc90_body_number(const TextLines &lines, std::string_view line);
 } // namespace diptych::coupling

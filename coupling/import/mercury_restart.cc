@@ -1,4 +1,4 @@
-// diptych: the full state of a MercuryDPM run
+// diptych: reads restart files of MercuryDPM
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/import/mercury_restart.h"
 
@@ -14,12 +14,12 @@ namespace diptych::coupling
   {
     using Words = std::vector<std::string_view>;
 
-    // `n` words after a keyword of a line "Name key value value key value".
+    // `n` words after a keyword, in a line "Name key value value key value".
     Words after(const TextLines &lines, const Words &words, const std::string_view key, const std::size_t n)
     {
       const auto found = std::find(words.begin(), words.end(), key);
       if (found == words.end() || std::size_t(words.end() - found) <= n)
-        lines.refuse("no '" + std::string(key) + "' with " + std::to_string(n) + " values");
+        lines.refuse("expected '" + std::string(key) + "' with " + std::to_string(n) + " values");
       return {found + 1, found + 1 + long(n)};
     }
 
@@ -34,7 +34,7 @@ namespace diptych::coupling
       return {lines.number(values[0], key), lines.number(values[1], key)};
     }
 
-    // The wall's normal, out of the sample, is the x axis turned by its quaternion (w, x, y, z).
+    // The wall's normal points out of the sample. It is the x axis, turned by the quaternion (w, x, y, z).
     Side side_of(const TextLines &lines, const Words &words)
     {
       const Words  q = after(lines, words, "orientation", 4);
@@ -45,14 +45,14 @@ namespace diptych::coupling
         return nx < 0 ? Side::left : Side::right;
       if (std::abs(ny) > 0.99)
         return ny < 0 ? Side::lower : Side::upper;
-      lines.refuse("a wall whose normal is neither along x nor along y");
+      lines.refuse("the normal of this wall is neither along x nor along y");
     }
 
     void read_wall(TextLines &lines, std::map<long, int> &place, ForeignFrame &frame)
     {
       const Words words = words_of(lines.take("a wall"));
       if (words.empty() || words[0] != "InfiniteWall")
-        lines.refuse("expected an InfiniteWall; walls of other shapes are not read");
+        lines.refuse("expected an InfiniteWall; other shapes are not supported");
       ForeignWall wall;
       const long  id                 = lines.whole(after(lines, words, "id", 1)[0], "id");
       wall.name                      = "wall " + std::to_string(id);
@@ -93,10 +93,11 @@ namespace diptych::coupling
       const bool     is_wall = has(words, "particleWallIds");
       const Words    pair    = after(lines, words, is_wall ? "particleWallIds" : "particleIds", 2);
       ForeignContact c;
-      c.first = lines.whole(pair[0], "the first body"), c.second = lines.whole(pair[1], "the second body");
-      c.point = plane_vector(lines, words, "contactPoint");
-      c.force = plane_vector(lines, words, "force");
-      c.line  = lines.line();
+      c.first  = lines.whole(pair[0], "the first body");
+      c.second = lines.whole(pair[1], "the second body");
+      c.point  = plane_vector(lines, words, "contactPoint");
+      c.force  = plane_vector(lines, words, "force");
+      c.line   = lines.line();
       if (is_wall)
         {
           const auto wall = walls.find(c.second);
@@ -157,7 +158,7 @@ namespace diptych::coupling
       }
     restart.frame.has_contacts = interactions;
     if (restart.frame.grains.empty() || !restart.frame.time)
-      lines.refuse("the file ends without particles or without a time: no restart file, or cut off");
+      lines.refuse("the file ends without particles or without a time; is it a restart file, and complete?");
     return restart;
   }
 } // namespace diptych::coupling

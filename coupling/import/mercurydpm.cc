@@ -1,4 +1,4 @@
-// diptych: MercuryDPM: .data with .fstat, .restart
+// diptych: reads MercuryDPM: .data with .fstat, .restart
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <cmath>
@@ -15,9 +15,9 @@ namespace diptych::coupling
 {
   namespace
   {
-    constexpr double same_time = 1e-8; // relative: ten digits are written
+    constexpr double same_time = 1e-8; // relative; files have ten digits
 
-    // x y vx vy r angle omega info, or with z: x y z vx vy vz r and three angles, three spins, info. The line is the index.
+    // 2D: x y vx vy r angle omega info. 3D: x y z vx vy vz r, three angles, three spins, info. The row number is the id.
     ForeignGrain grain_of_row(TextLines &lines, const long index, const bool is_3d)
     {
       const auto        words  = words_of(lines.take("grain " + std::to_string(index)));
@@ -66,10 +66,10 @@ namespace diptych::coupling
       for (ForeignFrame &frame : sample.frames)
         if (std::abs(*frame.time - time) <= same_time * std::abs(time))
           return frame;
-      lines.refuse("no frame of the .data file has this time: the frames do not match");
+      lines.refuse("no frame of the .data file has this time; the frames do not match");
     }
 
-    // Wall k stands as j = -k-1, with normal and force as they act on the wall; its face lies half an overlap before the point.
+    // Wall k is j = -k-1. Normal and force act on the wall. Its face lies half an overlap before the contact point.
     struct FstatWalls
     {
       std::map<long, int>    place_in_frame;
@@ -103,7 +103,7 @@ namespace diptych::coupling
       const auto            number = [&](const std::size_t k, const char *what) { return lines.number(words[k], what); };
       const Eigen::Vector2d normal(number(10, "nx"), number(11, "ny")), tangent(number(13, "tx"), number(14, "ty"));
       if (!is_unit(normal))
-        lines.refuse("nx, ny are no normal: their squares add up to " + discrete::exact_text(normal.squaredNorm()));
+        lines.refuse("nx, ny are not a unit normal; the sum of their squares is " + discrete::exact_text(normal.squaredNorm()));
       ForeignContact contact;
       contact.first   = lines.whole(words[1], "the first grain");
       contact.second  = lines.whole(words[2], "the second body");
@@ -139,9 +139,9 @@ namespace diptych::coupling
               continue;
             }
           if (frame == nullptr)
-            lines.refuse("a contact before the first head '# TIME 1'");
+            lines.refuse("this contact comes before the first head '# TIME 1'");
           if (std::abs(lines.number(words[0], "time") - *frame->time) > same_time * std::abs(*frame->time))
-            lines.refuse("the time is not that of the frame's head");
+            lines.refuse("the time differs from that of the frame's head");
           add_fstat_row(lines, words, *frame, walls[frame]);
         }
       for (auto &[of, found] : walls)
@@ -149,7 +149,8 @@ namespace diptych::coupling
           of->walls[std::size_t(place)].place = found.sum[wall] / found.count[wall];
     }
 
-    // Every contact of two free grains stands as (i, j) and as (j, i): one that stands once, with no fixed grain about, is half.
+    // A contact of two free grains occurs as (i, j) and as (j, i). Without fixed grains, a contact that occurs once shows a
+    // truncated file.
     void require_both_halves(const ForeignFrame &frame, const bool may_be_fixed)
     {
       std::map<std::pair<long, long>, int> seen;
@@ -159,11 +160,11 @@ namespace diptych::coupling
       for (const auto &[pair, times] : seen)
         if (times != 2 && !may_be_fixed)
           throw SceneError(frame.contact_file + ": frame " + frame.name + ": the contact of " + std::to_string(pair.first) +
-                           " and " + std::to_string(pair.second) + " stands " + std::to_string(times) +
-                           " times, not twice; is the file cut off? (with fixed grains give the .restart, too)");
+                           " and " + std::to_string(pair.second) + " occurs " + std::to_string(times) +
+                           " times, not twice; is the file truncated? (With fixed grains, add the .restart file.)");
     }
 
-    // The .ene file counts the contacts of every frame.
+    // The .ene file contains the number of contacts of every frame.
     void check_counts(const std::string &path, const ForeignSample &sample)
     {
       const NumberTable table = read_number_table(path);
@@ -197,7 +198,7 @@ namespace diptych::coupling
                                      : suffix == ".ene"   ? &files.energies
                                                           : nullptr;
           if (place != nullptr && !place->empty())
-            throw SceneError(path + ": " + *place + " was given, too; one run at a time");
+            throw SceneError(path + ": " + *place + " was given as well; import one run at a time");
           if (place != nullptr)
             *place = path;
           else if (path.find(".restart") != std::string::npos)
@@ -205,11 +206,11 @@ namespace diptych::coupling
           else if (is_wall_table(path) || !columns_for(options, "walls").empty())
             files.wall_tables.push_back(path);
           else
-            throw SceneError(path + ": not called *.data, *.fstat, *.restart* or *.ene, and no wall table (time, width, height; "
-                                    "without a head say --columns walls=time,width,height,...)");
+            throw SceneError(path + ": is neither *.data, *.fstat, *.restart* or *.ene nor a wall table (time, width, height; "
+                                    "without column names use --columns walls=time,width,height,...)");
         }
       if (files.data.empty() && files.restarts.empty())
-        throw SceneError("import mercurydpm: no file holds grains (*.data or *.restart)");
+        throw SceneError("import mercurydpm: no file contains grains (*.data or *.restart)");
       if (!files.fstat.empty() && files.data.empty())
         throw SceneError(files.fstat + ": needs the .data file of the same run");
       return files;
@@ -251,7 +252,7 @@ namespace diptych::coupling
     if (!restarts.empty())
       take_masses(restarts.front(), sample);
     else
-      sample.lacking.push_back("density (a .restart of the run holds it)");
+      sample.lacking.push_back("density (a .restart file of the run contains it)");
     for (const std::string &path : files.wall_tables)
       {
         const bool is_named = is_wall_table(path);

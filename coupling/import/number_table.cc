@@ -1,4 +1,4 @@
-// diptych: tables of numbers under named columns, as other codes write them
+// diptych: tables of numbers with named columns, as other codes write them
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/import/number_table.h"
 
@@ -19,7 +19,7 @@ namespace diptych::coupling
       return !word.empty() && std::isalpha(static_cast<unsigned char>(word[0])) != 0 && word != "nan" && word != "inf";
     }
 
-    // "force_x y z" names force_x, force_y and force_z.
+    // "force_x y z" stands for force_x, force_y and force_z.
     std::vector<std::string> names_of(const std::vector<std::string_view> &words)
     {
       std::vector<std::string> names;
@@ -33,7 +33,7 @@ namespace diptych::coupling
       return names;
     }
 
-    // "# x y" and "#x,y" as "x y".
+    // Turns "# x y" and "#x,y" into "x y".
     std::string_view without_mark(std::string_view line)
     {
       line = discrete::trimmed(line);
@@ -73,7 +73,7 @@ namespace diptych::coupling
   {
     if (const auto found = find_any(names))
       return *found;
-    throw SceneError(path + ": no column for " + what + " (" + discrete::listed(names) + "); it has " +
+    throw SceneError(path + ": no column for " + what + " (" + discrete::listed(names) + "); its columns are " +
                      discrete::listed(columns));
   }
 
@@ -115,7 +115,7 @@ namespace diptych::coupling
     NumberTable table;
     table.path      = path;
     table.columns   = columns;
-    bool are_marked = true; // the names; a remark below names without a mark is none
+    bool are_marked = true; // the names have a mark; a comment below unmarked names is skipped
     while (!lines.at_end())
       {
         const std::string_view text = lines.take("a row"), plain = without_mark(text);
@@ -123,24 +123,27 @@ namespace diptych::coupling
           continue;
         auto words = words_of(plain);
         if (words.size() > 1 && words[0].empty() && table.columns.empty())
-          words[0] = "-"; // the index that pandas writes has no name
+          words[0] = "-"; // pandas writes its index without a name
         const bool is_names  = std::all_of(words.begin() + (words[0] == "-" ? 1 : 0), words.end(), starts_with_a_letter);
         const bool is_marked = discrete::trimmed(text)[0] == '#';
         if (is_names && table.n_rows() == 0 && columns.empty() && (are_marked || !is_marked))
-          table.columns = names_of(words), are_marked = is_marked;
+          {
+            table.columns = names_of(words);
+            are_marked    = is_marked;
+          }
         if (is_names && table.n_rows() > 0 && !is_marked && names_of(words) != table.columns)
-          lines.refuse("words among rows of numbers: neither a row nor the names of the columns again");
+          lines.refuse("text among rows of numbers; expected numbers, or the same column names again");
         if (is_names || is_marked)
           continue;
         if (table.columns.empty())
-          lines.refuse("numbers, but no line above names the columns");
+          lines.refuse("no line above these numbers names the columns");
         add_row(table, lines, text);
       }
     if (table.n_rows() == 0)
-      throw SceneError(path + ": holds no row of numbers");
+      throw SceneError(path + ": contains no row of numbers");
     for (std::size_t c = 0; c < table.columns.size(); ++c)
       if (std::count(table.columns.begin(), table.columns.end(), table.columns[c]) > 1 && table.columns[c] != "-")
-        throw SceneError(path + ": two columns are called " + table.columns[c]);
+        throw SceneError(path + ": two columns have the name " + table.columns[c]);
     return table;
   }
 

@@ -1,4 +1,4 @@
-// diptych: tables of numbers under named columns, as other codes write them
+// diptych: tables of numbers with named columns, as other codes write them
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -24,10 +24,10 @@ namespace diptych::coupling
     double      at(std::size_t row, std::size_t column) const { return values[row * columns.size() + column]; }
     bool        has(const std::string &column) const { return find(column).has_value(); }
 
-    std::optional<std::size_t> find(const std::string &column) const; // capitals or not
-    // Of the first of these names that is there.
+    std::optional<std::size_t> find(const std::string &column) const; // ignores case
+    // The first of these names that exists.
     std::optional<std::size_t> find_any(const std::vector<std::string> &names) const;
-    // Throws SceneError naming the file and what it has.
+    // Throws SceneError naming the file and its columns.
     std::size_t place_of(const std::string &column) const;
     std::size_t place_of_any(const std::vector<std::string> &names, const std::string &what) const;
 
@@ -36,17 +36,17 @@ namespace diptych::coupling
     double            positive(std::size_t row, std::size_t column) const;
   };
 
-  // One line of numbers. Throws SceneError where there are not as many as columns.
+  // Adds one line of numbers. Throws SceneError if their number differs from that of the columns.
   void add_row(NumberTable &table, const TextLines &lines, std::string_view text);
 
-  // Names in the first line of words (after a '#' where there is one), numbers below; further comments and blank lines are
-  // skipped. A table without names takes `columns`. Throws SceneError where it has neither.
+  // Reads column names from the first line of words (after '#', if there is one) and numbers below it. Skips further comments
+  // and blank lines. A table without names uses `columns`. Throws SceneError if it has neither.
   NumberTable read_number_table(const std::string &path, const std::vector<std::string> &columns = {});
 
-  // Grains and contacts of a table with columns of known names: id, x, y, r or radius, mass, vx, vy, omega, rotation, fx, fy, ...
-  // Throws SceneError naming the file and what is missing or impossible.
+  // Reads grains from columns with known names: id, x, y, r or radius, mass, vx, vy, omega, rotation, fx, fy, ... Throws
+  // SceneError naming the file and the missing or impossible entry.
   std::vector<ForeignGrain> grains_of(const NumberTable &table);
 
-  // "contacts=a,b,c": the names after `kind`=; empty where the command line has none.
+  // The names after "kind=" in an option such as "contacts=a,b,c"; empty if there is none.
   std::vector<std::string> columns_for(const ForeignOptions &options, const std::string &kind);
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: plain tables of particles and contacts
+// diptych: reads plain tables of particles and contacts
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ namespace diptych::coupling
       std::optional<NumberTable> particles, contacts;
     };
 
-    // The column "frame" of a table, or the number in the file's name.
+    // Splits a table by its column "frame". Without one, the number in the file's name is the frame.
     std::map<long, NumberTable> split_by_frame(const NumberTable &table)
     {
       const auto column = table.find("frame");
@@ -35,7 +35,8 @@ namespace diptych::coupling
       for (std::size_t row = 0; row < table.n_rows(); ++row)
         {
           NumberTable &part = parts[table.whole(row, *column)];
-          part.path = table.path, part.columns = table.columns;
+          part.path         = table.path;
+          part.columns      = table.columns;
           part.values.insert(part.values.end(), table.values.begin() + long(row * table.columns.size()),
                              table.values.begin() + long((row + 1) * table.columns.size()));
           part.line.push_back(table.line[row]);
@@ -43,7 +44,7 @@ namespace diptych::coupling
       return parts;
     }
 
-    // A negative second body is a wall; which one is seen from the grains that touch it.
+    // A negative second body is a wall. The grains that touch it show which one.
     void add_csv_contacts(const NumberTable &table, ForeignFrame &frame)
     {
       const std::size_t i = table.place_of_any({"i", "id1", "a"}, "the first grain"),
@@ -57,13 +58,14 @@ namespace diptych::coupling
       for (std::size_t row = 0; row < table.n_rows(); ++row)
         {
           ForeignContact contact;
-          contact.first = table.whole(row, i), contact.second = table.whole(row, j);
-          contact.force = {table.at(row, fx), table.at(row, fy)};
-          contact.line  = table.line[row];
+          contact.first  = table.whole(row, i);
+          contact.second = table.whole(row, j);
+          contact.force  = {table.at(row, fx), table.at(row, fy)};
+          contact.line   = table.line[row];
           if (contact.first < 0)
             {
               if (contact.second < 0)
-                table.refuse(row, "a contact of two walls");
+                table.refuse(row, "this is a contact of two walls");
               std::swap(contact.first, contact.second);
               contact.force = -contact.force;
             }
@@ -88,8 +90,10 @@ namespace diptych::coupling
     ForeignFrame csv_frame(const long number, const CsvFrameFiles &files)
     {
       if (!files.particles)
-        throw SceneError(files.contacts->path + ": there are no particles of frame " + std::to_string(number) +
-                         " (the number in the file's name, or a column frame)");
+        throw SceneError(files.contacts->path +
+                         (number < 0 ? ": its name contains no frame number, and it has no column frame. "
+                                     : ": there are no particles of frame " + std::to_string(number) + ". ") +
+                         "The last number in a file name is the frame, as in contacts_3.csv with particles_3.csv");
       ForeignFrame frame;
       frame.name       = std::to_string(number);
       frame.step       = number;
@@ -98,7 +102,7 @@ namespace diptych::coupling
       if (const auto time = files.particles->find("time"))
         frame.time = files.particles->at(0, *time);
       if (files.contacts && !files.particles->has("id"))
-        throw SceneError(files.particles->path + ": no column id, but " + files.contacts->path + " names grains");
+        throw SceneError(files.particles->path + ": has no column id, but " + files.contacts->path + " refers to grains by id");
       if (files.contacts)
         add_csv_contacts(*files.contacts, frame);
       return frame;
@@ -117,13 +121,13 @@ namespace diptych::coupling
           {
             const bool is_particles = table.has("x") && table.has("y"), is_contacts = table.has("fx") && table.has("fy");
             if (!is_particles && !is_contacts)
-              throw SceneError(
-                path +
-                ": names neither particles (id, x, y, r), contacts (i, j, fx, fy) nor walls (frame, width, height); it has " +
-                listed_names(table.columns));
+              throw SceneError(path +
+                               ": has the columns of neither particles (id, x, y, r), contacts (i, j, fx, fy) nor walls (frame, "
+                               "width, height); its columns are " +
+                               listed_names(table.columns));
             std::optional<NumberTable> &place = is_particles ? frames[number].particles : frames[number].contacts;
             if (place)
-              throw SceneError(path + ": " + place->path + " is of the same frame " + std::to_string(number));
+              throw SceneError(path + ": " + place->path + " belongs to the same frame " + std::to_string(number));
             place = table;
           }
     ForeignSample sample;

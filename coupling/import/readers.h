@@ -1,4 +1,4 @@
-// diptych: readers of other codes' files, one a format
+// diptych: readers of other codes' files, one per format
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -6,8 +6,8 @@
 
 namespace diptych::coupling
 {
-  // Which file is what is seen from its content, in any order. All throw SceneError naming the file, its line or dataset, what
-  // stood there and what was expected. README.md beside this header says which files and columns each reads.
+  // Files are recognised by their content, in any order. All readers throw SceneError naming the file, its line or dataset,
+  // what was found and what was expected. README.md beside this header lists the files and columns of each format.
   ForeignSample read_lammps(const ForeignOptions &options);
   ForeignSample read_liggghts(const ForeignOptions &options);
   ForeignSample read_yade(const ForeignOptions &options);
@@ -15,7 +15,7 @@ namespace diptych::coupling
   ForeignSample read_mercurydpm(const ForeignOptions &options);
   ForeignSample read_plain_csv(const ForeignOptions &options);
 
-  // VTKRecorder's .vtu of spheres and .vtp of interactions, in pairs. The direction of tangential forces and all wall contacts
-  // are lost in them.
+  // Reads VTKRecorder's .vtu of spheres and .vtp of interactions, in pairs. These files lack the direction of tangential forces
+  // and all wall contacts.
   ForeignSample read_yade_vtk(const ForeignOptions &options, const std::vector<std::string> &files);
 } // namespace diptych::coupling

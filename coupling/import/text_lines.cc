@@ -1,4 +1,4 @@
-// diptych: lines of words and numbers of other codes' text files, with their places
+// diptych: reads lines of words and numbers from other codes' text files
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/import/text_lines.h"
 
@@ -18,13 +18,13 @@ namespace diptych::coupling
   namespace
   {
     constexpr char        blanks[]                = " \t\r\f\v";
-    constexpr std::size_t lines_between_questions = 4096; // whether to stop
+    constexpr std::size_t lines_between_questions = 4096; // checks for a stop request this often
 
     std::string content_of(const std::string &path)
     {
       std::error_code none;
       if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none))
-        throw SceneError(path + ": is no file but a " + (std::filesystem::is_directory(path, none) ? "folder" : "device") +
+        throw SceneError(path + ": is not a file but a " + (std::filesystem::is_directory(path, none) ? "folder" : "device") +
                          "; a file is needed");
       std::ifstream in(path, std::ios::binary);
       if (!in)
@@ -35,10 +35,10 @@ namespace diptych::coupling
       if (text.empty())
         throw SceneError(path + ": is empty");
       if (const std::size_t zero = text.find('\0'); zero != std::string::npos)
-        throw SceneError(path + ": byte " + std::to_string(zero) + " is 0; a text file was expected");
+        throw SceneError(path + ": byte " + std::to_string(zero) + " is 0; a text file is needed");
       if (text.back() != '\n')
         throw SceneError(path + ", line " + std::to_string(1 + std::count(text.begin(), text.end(), '\n')) +
-                         ": has no line end; is the file cut off? If not, end it with a new line");
+                         ": has no line end; is the file truncated? If not, add a line end");
       return text;
     }
 
@@ -92,7 +92,7 @@ namespace diptych::coupling
 
   double TextLines::number(std::string_view word, const std::string &what) const
   {
-    // Fortran writes 0.1D+02; std::from_chars takes no plus sign.
+    // Fortran writes 0.1D+02, and std::from_chars does not accept a plus sign.
     char        buffer[64];
     std::size_t n = 0;
     for (const char c : word)

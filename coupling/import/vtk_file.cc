@@ -1,4 +1,4 @@
-// diptych: arrays of VTK's XML files
+// diptych: reads arrays from VTK's XML files
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/import/vtk_file.h"
 
@@ -19,7 +19,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    constexpr std::size_t most_bytes = std::size_t(1) << 34; // of one array: larger ones are a damaged head
+    constexpr std::size_t most_bytes = std::size_t(1) << 34; // of one array; larger numbers show a damaged header
 
     int sextet(const char c)
     {
@@ -32,7 +32,7 @@ namespace diptych::coupling
       return c == '+' ? 62 : c == '/' ? 63 : -1;
     }
 
-    // Reads base64 from a text piece by piece; every piece was encoded by itself.
+    // Reads base64 from a text piece by piece; every piece was encoded separately.
     class Base64
     {
     public:
@@ -45,7 +45,7 @@ namespace diptych::coupling
       {
         const std::size_t n_characters = (n_bytes + 2) / 3 * 4;
         if (n_bytes > most_bytes || at + n_characters > text.size())
-          throw SceneError(place + " is cut off");
+          throw SceneError(place + " is truncated");
         std::string   bytes;
         std::uint32_t bits = 0;
         for (std::size_t k = 0; k < n_characters; ++k)
@@ -53,7 +53,7 @@ namespace diptych::coupling
             const char c     = text[at + k];
             const int  value = c == '=' ? 0 : sextet(c);
             if (value < 0)
-              throw SceneError(place + " is no base64: damaged");
+              throw SceneError(place + " is damaged: not base64");
             bits = bits << 6 | std::uint32_t(value);
             if (k % 4 == 3)
               for (const int shift : {16, 8, 0})
@@ -80,17 +80,18 @@ namespace diptych::coupling
     std::string inflate_block(const std::string &packed, const std::size_t n_bytes, const std::string &place)
     {
       if (n_bytes > most_bytes)
-        throw SceneError(place + " has a damaged head");
+        throw SceneError(place + " has a damaged header");
       std::string bytes(n_bytes, '\0');
       uLongf      size = uLongf(n_bytes);
       if (uncompress(reinterpret_cast<Bytef *>(bytes.data()), &size, reinterpret_cast<const Bytef *>(packed.data()),
                      uLong(packed.size())) != Z_OK ||
           size != n_bytes)
-        throw SceneError(place + " cannot be unpacked: damaged");
+        throw SceneError(place + " is damaged: decompression failed");
       return bytes;
     }
 
-    // Head: number of blocks, their size, size of the last (0: as the others), packed size of each; without compression the size.
+    // Header: number of blocks, their size, size of the last (0: like the others), packed size of each. Without compression:
+    // the size.
     std::string bytes_of(const std::string_view text, const bool compressed, const std::size_t width, const std::string &place)
     {
       Base64 encoded(text, place);
@@ -99,12 +100,12 @@ namespace diptych::coupling
           // size and data are one piece
           const std::uint64_t n = head_number(Base64(text, place).take(width), 0, width);
           if (n > most_bytes)
-            throw SceneError(place + " has a damaged head");
+            throw SceneError(place + " has a damaged header");
           return encoded.take(width + n).substr(width);
         }
       const std::size_t n_blocks = head_number(Base64(text, place).take(3 * width), 0, width);
       if (n_blocks > text.size())
-        throw SceneError(place + " has a damaged head");
+        throw SceneError(place + " has a damaged header");
       const std::string head  = encoded.take((3 + n_blocks) * width);
       std::size_t       total = 0;
       for (std::size_t k = 0; k < n_blocks; ++k)
@@ -142,7 +143,7 @@ namespace diptych::coupling
         {"UInt8", append_as<std::uint8_t>}};
       const auto reader = readers.find(type);
       if (reader == readers.end())
-        throw SceneError(place + " is of type " + type + "; Float64, Float32, Int64, Int32 and UInt8 are read");
+        throw SceneError(place + " is of type " + type + "; supported are Float64, Float32, Int64, Int32 and UInt8");
       reader->second(bytes, values);
       return values;
     }
@@ -161,19 +162,19 @@ namespace diptych::coupling
   VtkFile::VtkFile(const std::string &file)
       : path(file)
   {
-    const TextLines              checked(path); // there, a text, not cut off within its last line
+    const TextLines              checked(path); // checks that the file exists, is a text and ends with a complete line
     pugi::xml_document           document;
     const pugi::xml_parse_result parsed = document.load_file(path.c_str());
     if (!parsed)
-      throw SceneError(path + ": no XML from byte " + std::to_string(parsed.offset) + " on: " + parsed.description());
+      throw SceneError(path + ": invalid XML from byte " + std::to_string(parsed.offset) + " on: " + parsed.description());
     const pugi::xml_node root = document.child("VTKFile");
     if (std::string(root.attribute("byte_order").value()) != "LittleEndian")
-      throw SceneError(path + ": no VTKFile of byte_order LittleEndian");
+      throw SceneError(path + ": is not a VTKFile of byte_order LittleEndian");
     compressed                = root.attribute("compressor");
     wide_header               = std::string(root.attribute("header_type").value()) == "UInt64";
     const pugi::xml_node data = root.child(root.attribute("type").value()), piece = data.child("Piece");
     if (!piece || piece.next_sibling("Piece"))
-      throw SceneError(path + ": one Piece is read; it has " + (piece ? "several" : "none"));
+      throw SceneError(path + ": needs one Piece, but has " + (piece ? "several" : "none"));
     for (const pugi::xml_node &element : piece.children())
       for (const pugi::xml_node &array : element.children("DataArray"))
         entries.push_back({element.name(), array.attribute("Name").value(), array.attribute("type").value(),
@@ -183,7 +184,7 @@ namespace diptych::coupling
     const pugi::xml_node all = root.child("AppendedData");
     const std::string    raw = all.text().get();
     if (all && std::string(all.attribute("encoding").value()) != "base64")
-      throw SceneError(path + ": AppendedData of encoding raw; base64 is read");
+      throw SceneError(path + ": AppendedData has an unsupported encoding; only base64 is supported");
     if (const std::size_t mark = raw.find('_'); all && mark != std::string::npos)
       appended = raw.substr(mark + 1);
   }
@@ -209,7 +210,7 @@ namespace diptych::coupling
       {
         const bool is_appended = found->format == "appended";
         if (is_appended && found->offset >= appended.size())
-          throw SceneError(place + " begins beyond the appended data: cut off");
+          throw SceneError(place + " begins beyond the appended data; the file is truncated");
         const std::string_view text =
           is_appended
             ? std::string_view(appended).substr(found->offset)
@@ -218,10 +219,10 @@ namespace diptych::coupling
         array.values = numbers_in(bytes_of(text, compressed, wide_header ? 8 : 4, place), found->type, place);
       }
     if (array.values.size() % components != 0)
-      throw SceneError(place + " holds no whole rows");
+      throw SceneError(place + " does not contain complete rows");
     for (const double value : array.values)
       if (!std::isfinite(value))
-        throw SceneError(place + " holds a number that is not finite");
+        throw SceneError(place + " contains a number that is not finite");
     return array;
   }
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: arrays of VTK's XML files
+// diptych: reads arrays from VTK's XML files
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -16,9 +16,9 @@ namespace diptych::coupling
     std::size_t n_rows() const { return values.size() / components; }
   };
 
-  // The arrays below an element of the one Piece of a .vtu or .vtp: "PointData", "CellData", "Points", "Lines". ASCII, binary and
-  // appended base64, compressed by zlib or not, little endian. Throws SceneError naming file and array where something is
-  // missing, cut off, damaged or not finite.
+  // Arrays below an element of the single Piece of a .vtu or .vtp: "PointData", "CellData", "Points", "Lines". Supports ASCII,
+  // binary and appended base64, with or without zlib, little endian. Throws SceneError naming file and array if something is
+  // missing, truncated, damaged or not finite.
   class VtkFile
   {
   public:

@@ -1,4 +1,4 @@
-// diptych: places and forces of walls as a table beside another code's files
+// diptych: places and forces of walls from a table beside another code's files
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/import/wall_table.h"
 
@@ -31,9 +31,9 @@ namespace diptych::coupling
     {
       for (std::size_t column = 0; column < one.table->columns.size(); ++column)
         if (other.table->at(other.row, column) != one.table->at(one.row, column))
-          other.table->refuse(other.row, "frame " + frame.name + " stands in line " + std::to_string(one.table->line[one.row]) +
-                                           (one.table == other.table ? "" : " of " + one.table->path) + " with another " +
-                                           one.table->columns[column]);
+          other.table->refuse(other.row, "frame " + frame.name + " has another " + one.table->columns[column] + " in line " +
+                                           std::to_string(one.table->line[one.row]) +
+                                           (one.table == other.table ? "" : " of " + one.table->path));
     }
 
     std::vector<WallRow> rows_of(const std::vector<NumberTable> &tables)
@@ -45,7 +45,7 @@ namespace diptych::coupling
       return rows;
     }
 
-    // The row of a frame: that of its step, its time or its number. `columns`: of a table with those of all.
+    // The row of a frame, found by its step, time or number. `columns`: a table with the columns of all.
     WallRow row_of(const std::vector<WallRow> &rows,
                    const NumberTable          &columns,
                    const ForeignFrame         &frame,
@@ -149,7 +149,7 @@ namespace diptych::coupling
       {
         tables.push_back(read_number_table(path));
         if (tables.back().columns != tables.front().columns)
-          throw SceneError(path + ": other columns than " + tables.front().path);
+          throw SceneError(path + ": its columns differ from those of " + tables.front().path);
       }
     if (!tables.empty())
       add_wall_rows(sample, tables);

@@ -1,4 +1,4 @@
-// diptych: Yade: text exports of spheres, interactions and walls
+// diptych: reads Yade: text exports of spheres, interactions and walls
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    // id1 id2, then contactPoint, normal, normalForce, shearForce (three each), penetrationDepth.
+    // id1 id2, then contactPoint, normal, normalForce, shearForce (three columns each), penetrationDepth.
     const std::vector<std::string> yade_contact_columns = {
       "id1",           "id2",          "contactPoint_x", "contactPoint_y", "contactPoint_z",
       "normal_x",      "normal_y",     "normal_z",       "normalForce_x",  "normalForce_y",
@@ -48,7 +48,7 @@ namespace diptych::coupling
       return std::find(words.begin(), words.end(), word) != words.end();
     }
 
-    // By the names in the comments above the numbers; without them a row of 15 numbers is an interaction.
+    // Uses the names in the comments above the numbers. Without them a row of 15 numbers is an interaction.
     YadeKind kind_of(const std::string &path)
     {
       const std::string ending = std::filesystem::path(path).extension().string();
@@ -75,7 +75,7 @@ namespace diptych::coupling
       return YadeKind::unknown;
     }
 
-    // "# iter N time T", then rows: name, id, axis, position x y, force x y on the wall.
+    // Reads "# iter N time T" and then rows: name, id, axis, position x y, force x y on the wall.
     std::vector<std::pair<std::string, YadeWall>> walls_in(const std::string &path, ForeignFrame &frame)
     {
       TextLines                                     lines(path);
@@ -102,7 +102,7 @@ namespace diptych::coupling
           walls.emplace_back(words[0], wall);
         }
       if (walls.empty())
-        throw SceneError(path + ": holds no wall");
+        throw SceneError(path + ": contains no wall");
       return walls;
     }
 
@@ -118,16 +118,16 @@ namespace diptych::coupling
               continue;
             }
           if (kind == YadeKind::unknown)
-            throw SceneError(path +
-                             ": the comments above its numbers name neither spheres (x y z r id ...), interactions (id1 id2 "
-                             "...) nor walls (name id axis ...)");
+            throw SceneError(
+              path + ": the comments above its numbers name columns of neither spheres (x y z r id ...), interactions (id1 id2 "
+                     "...) nor walls (name id axis ...)");
           const std::string digits = std::to_string(number_in_name(path));
           YadeFiles        &files  = frames[std::string(12 - std::min<std::size_t>(12, digits.size()), ' ') + digits];
           std::string      &place  = kind == YadeKind::spheres    ? files.spheres
                                      : kind == YadeKind::contacts ? files.contacts
                                                                   : files.walls;
           if (!place.empty())
-            throw SceneError(path + ": " + place + " is of the same frame (the number in the name tells frames apart)");
+            throw SceneError(path + ": " + place + " belongs to the same frame (the last number in the name is the frame)");
           place = path;
         }
       return frames;
@@ -139,10 +139,10 @@ namespace diptych::coupling
       for (; !lines.at_end(); lines.skip())
         if (const std::string_view line = discrete::trimmed(lines.peek()); !line.empty())
           return read_number_table(path, line[0] == '#' ? std::vector<std::string>() : yade_contact_columns);
-      throw SceneError(path + ": holds no row of numbers");
+      throw SceneError(path + ": contains no row of numbers");
     }
 
-    // normalForce + shearForce acts on id2. A wall is always id1, whichever number it has.
+    // normalForce + shearForce acts on id2. A wall is always id1, whatever its number.
     void add_interactions(const std::string &path, const std::map<long, int> &walls, ForeignFrame &frame)
     {
       const NumberTable table = interactions(path);
@@ -153,7 +153,7 @@ namespace diptych::coupling
                         ny = table.place_of("normalForce_y");
       const auto sx = table.find("shearForce_x"), sy = table.find("shearForce_y"), px = table.find("contactPoint_x"),
                  py = table.find("contactPoint_y"), depth = table.find("penetrationDepth");
-      std::map<long, int> found = walls; // bodies that are no spheres
+      std::map<long, int> found = walls; // bodies other than spheres
       frame.has_contacts        = true;
       frame.contact_file        = path;
       for (std::size_t row = 0; row < table.n_rows(); ++row)
@@ -164,7 +164,7 @@ namespace diptych::coupling
           contact.second       = first;
           contact.line         = table.line[row];
           if (grains.count(contact.first) == 0)
-            table.refuse(row, "id2 = " + std::to_string(contact.first) + " is no sphere of " + frame.grain_file);
+            table.refuse(row, "id2 = " + std::to_string(contact.first) + " is not a sphere of " + frame.grain_file);
           if (grains.count(first) == 0)
             {
               if (found.count(first) == 0)
@@ -189,14 +189,18 @@ namespace diptych::coupling
     ForeignFrame frame_of(const YadeFiles &files, const std::string &number)
     {
       if (files.spheres.empty())
-        throw SceneError((files.contacts.empty() ? files.walls : files.contacts) + ": there are no spheres of frame " + number);
+        throw SceneError((files.contacts.empty() ? files.walls : files.contacts) +
+                         (discrete::trimmed(number) == "-1"
+                            ? ": its name contains no frame number. "
+                            : ": there are no spheres of frame " + std::string(discrete::trimmed(number)) + ". ") +
+                         "The last number in a file name is the frame, as in contacts_3.txt with spheres_3.txt");
       ForeignFrame frame;
       frame.name              = "_" + std::string(discrete::trimmed(number));
       frame.grain_file        = files.spheres;
       const NumberTable table = read_number_table(files.spheres);
       if (!table.has("id") && !files.contacts.empty())
-        throw SceneError(files.spheres + ": has no ids (export.text closes holes in their order), but " + files.contacts +
-                         " names grains by them; export.textExt with format='x_y_z_r_attrs' and attrs=['b.id', ...] writes them");
+        throw SceneError(files.spheres + ": has no ids (export.text renumbers the spheres), but " + files.contacts +
+                         " refers to grains by id; use export.textExt with format='x_y_z_r_attrs' and attrs=['b.id', ...]");
       frame.grains = grains_of(table);
       std::map<long, int> walls;
       frame.wall_file = files.walls;

@@ -1,4 +1,4 @@
-// diptych: Yade's VTKRecorder: spheres and interactions
+// diptych: reads Yade's VTKRecorder: spheres and interactions
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 #include <filesystem>
@@ -33,33 +33,33 @@ namespace diptych::coupling
                      spin = optional("angVelVec", 3), force = optional("forceVec", 3);
       for (const VtkArray *array : {&radii, &id, &mass, &velocity, &spin, &force})
         if (array->n_rows() != points.n_rows())
-          throw SceneError(path + ": array " + array->name + " has " + std::to_string(array->n_rows()) + " rows, Points " +
-                           std::to_string(points.n_rows()));
+          throw SceneError(path + ": array " + array->name + " has " + std::to_string(array->n_rows()) +
+                           " rows, but Points has " + std::to_string(points.n_rows()));
       std::vector<ForeignGrain> grains(points.n_rows());
       for (std::size_t k = 0; k < grains.size(); ++k)
         {
           ForeignGrain &g = grains[k];
           if (vtk_at(id, k, 0) != std::floor(vtk_at(id, k, 0)) || std::abs(vtk_at(id, k, 0)) > 9e15)
-            throw SceneError(path + ": id of point " + std::to_string(k) + " is no whole number");
+            throw SceneError(path + ": id of point " + std::to_string(k) + " is not a whole number");
           g.id        = long(vtk_at(id, k, 0));
           g.position  = {vtk_at(points, k, 0), vtk_at(points, k, 1)};
           g.radius    = vtk_at(radii, k, 0);
           g.mass      = vtk_at(mass, k, 0);
           g.velocity  = {vtk_at(velocity, k, 0), vtk_at(velocity, k, 1)};
           g.spin      = vtk_at(spin, k, 2);
-          g.resultant = {not_told, not_told}; // of contacts that the other file lacks, too: no check of it
+          g.resultant = {not_told, not_told}; // includes contacts that the other file lacks, so it cannot be checked
         }
       return grains;
     }
 
-    // Lines join points, which are bodies in the order of their ids, walls among them: grains are found by their places.
+    // Lines join points, which are bodies in the order of their ids, including walls. Grains are found by their positions.
     void add_vtk_interactions(const std::string &path, ForeignFrame &frame)
     {
       const VtkFile  file(path);
       const VtkArray points = file.read("Points", "Points", 3), ends = file.read("Lines", "connectivity", 1),
                      normal = file.read("CellData", "forceN", 1);
       if (ends.n_rows() != 2 * normal.n_rows())
-        throw SceneError(path + ": " + std::to_string(ends.n_rows()) + " ends of lines, " + std::to_string(normal.n_rows()) +
+        throw SceneError(path + ": " + std::to_string(ends.n_rows()) + " ends of lines, but " + std::to_string(normal.n_rows()) +
                          " forces");
       std::map<std::pair<double, double>, const ForeignGrain *> at;
       for (const ForeignGrain &g : frame.grains)
@@ -77,13 +77,14 @@ namespace diptych::coupling
                                  std::to_string(long(index)) + ", which does not exist");
               const auto found = at.find({vtk_at(points, std::size_t(index), 0), vtk_at(points, std::size_t(index), 1)});
               if (found == at.end())
-                throw SceneError(path + ": line " + std::to_string(k) + " (counted from 0) ends at no sphere of " +
+                throw SceneError(path + ": line " + std::to_string(k) + " (counted from 0) does not end at a sphere of " +
                                  frame.grain_file + ": the frames do not match");
               grain[end] = found->second;
             }
           ForeignContact c;
-          c.first = grain[0]->id, c.second = grain[1]->id;
-          c.force = vtk_at(normal, k, 0) * (grain[0]->position - grain[1]->position).normalized();
+          c.first  = grain[0]->id;
+          c.second = grain[1]->id;
+          c.force  = vtk_at(normal, k, 0) * (grain[0]->position - grain[1]->position).normalized();
           frame.contacts.push_back(c);
         }
     }
@@ -99,12 +100,12 @@ namespace diptych::coupling
         if (ending != ".vtu" && ending != ".vtp")
           {
             if (!is_wall_table(path))
-              throw SceneError(path + ": neither .vtu, .vtp nor a wall table; text exports are imported without VTK files");
+              throw SceneError(path + ": is neither .vtu, .vtp nor a wall table; import text exports without VTK files");
             tables.push_back(path);
           }
         else if (const auto [at, is_new] = (ending == ".vtu" ? spheres : interactions).emplace(number_in_name(path), path);
                  !is_new)
-          throw SceneError(path + ": " + at->second + " is of the same frame");
+          throw SceneError(path + ": " + at->second + " belongs to the same frame");
       }
     ForeignSample sample;
     sample.format     = "yade";

@@ -1,16 +1,15 @@
 #!/usr/bin/env python3
-# diptych: the manual as pages
+# diptych: build the manual as HTML pages
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: build.py SOURCE PROGRAM OUTPUT
 
-Made of what the program, the READMEs and the headers say; pages/*.md are the only words of its own, and their keys, commands and
-options are held against the program. OUTPUT is replaced as a whole. Exit code 1 naming what is stale: an equation that its source does
-not state, an unknown key or option, a link that leads nowhere."""
+Writes all pages as Markdown into a temporary folder and runs mkdocs on it. The site replaces the folder OUTPUT. The pages come from
+pages/*.md, from the READMEs, from the comments of the headers and from what PROGRAM prints. Exit code 1: a file or a link that a page
+names does not exist."""
 import glob
-import html
+import importlib
 import json
 import os
-import posixpath
 import re
 import shutil
 import subprocess
@@ -18,21 +17,17 @@ import sys
 import tempfile
 import textwrap
 
-import equations
 import headers
-import links
+import module_docs
 import readmes
 import reference
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-KATEX = "/usr/share/javascript/katex"
-UNUSED = ("404.html", "sitemap.xml", "sitemap.xml.gz", os.path.join("assets", "javascripts", "lunr"), os.path.join("assets", "javascripts", "workers"))
-PAGES = [("index", "Start"), ("install", "Install"), ("first_comparison", "First comparison"), ("own_scene", "A scene of your own"),
-         ("own_data", "Data of your own"), ("studies", "Studies and plans"), ("calibration", "Calibration"), ("python", "From Python")]
-
-
-class Stale(Exception):
-    """What the manual says is not so any more."""
+UNUSED = ("404.html", "sitemap.xml", "sitemap.xml.gz", "assets/javascripts/lunr", "assets/javascripts/workers")
+PAGES = [("index", "Start"), ("install", "Install"), ("first_comparison", "First comparison"), ("own_scene", "Your own scene"),
+         ("own_data", "Your own data"), ("result_folders", "Result folders"), ("ensembles", "Ensembles"), ("studies", "Studies and plans"),
+         ("calibration", "Calibration"), ("python", "Python"), ("cost", "What it costs"), ("conventions", "Conventions"),
+         ("equations", "Equations"), ("limits", "Limits"), ("glossary", "Glossary")]
 
 
 def text_of(path):
@@ -47,195 +42,132 @@ def write(path, text):
 
 
 class Directives:
-    """Lines of a hand-written page that are filled in: `<!-- WORD: ARGUMENT -->`."""
+    """Fills in the lines `<!-- WORD: ARGUMENT -->` of the pages in pages/."""
 
-    def __init__(self, source, commands, tree):
-        self.source, self.commands, self.tree, self.shown = source, commands, tree, set()
-
-    def path(self, name, optional=False):
-        path = os.path.join(self.source, name)
-        if not optional and not os.path.exists(path):
-            raise Stale(f"coupling/manual/pages name {name}, which is not there")
-        return path
+    def __init__(self, source, program, docs, tree):
+        self.source, self.program, self.docs, self.tree = source, program, docs, tree
 
     def filled(self, text):
         return re.sub(r"^<!-- (\w+): (.+?) -->$", lambda match: getattr(self, "do_" + match[1])(match[2]), text, flags=re.MULTILINE)
 
+    def path(self, name):
+        path = os.path.join(self.source, name)
+        if not os.path.exists(path):
+            raise ValueError(f"coupling/manual/pages name {name}, which does not exist")
+        return path
+
     def do_file(self, name):
-        """A file of the tree as code."""
+        """A file of the source tree as a code block."""
         return "```\n" + text_of(self.path(name)).rstrip() + "\n```"
 
-    def do_help(self, name):
-        return "```\n" + self.commands.helps[name].split("\n\nExit codes:")[0].rstrip() + "\n```"
-
     def do_packages(self, name):
-        """The packages that a script of the tree installs."""
+        """The Debian packages that a shell script of the source tree installs."""
         block = re.search(r"packages=\((.*?)\)", text_of(self.path(name)), re.DOTALL)
-        words = "apt-get install " + " ".join(block[1].split())
-        return "```\n" + " \\\n".join(textwrap.wrap(words, 80, subsequent_indent="    ", break_on_hyphens=False)) + "\n```"
+        command = "apt-get install " + " ".join(block[1].split())
+        return "```\n" + " \\\n".join(textwrap.wrap(command, 80, subsequent_indent="    ", break_on_hyphens=False)) + "\n```"
 
-    def do_section(self, argument):
-        """A section of a README, by its heading: FILE, HEADING."""
-        name, heading = argument.split(", ", 1)
-        match = re.search(rf"^## {re.escape(heading)}\n(.*?)(?=^## |\Z)", text_of(self.path(name)), re.DOTALL | re.MULTILINE)
-        if not match:
-            raise Stale(f"{name} has no section '{heading}' any more, which coupling/manual/pages show")
-        return self.moved(match[1], posixpath.dirname(name))
-
-    def moved(self, text, folder):
-        """Words of a README of a folder as a page at the top of the manual shows them."""
-        text = readmes.LINK.sub(lambda m: m[0] if re.match(r"\w+:|#", m[2]) else f"{m[1]}({posixpath.join('source', folder, m[2])})", text)
-        return self.tree.with_links(readmes.spaced(text.strip()), "index.html", folder)
-
-    def do_readme(self, argument):
-        """A README where there is one, below a heading in the place of its title: FILE, HEADING."""
-        name, heading = argument.split(", ", 1)
-        if not os.path.exists(self.path(name, optional=True)):
-            return ""
-        text = self.moved(re.sub(r"\A#.*\n", "", text_of(self.path(name))), posixpath.dirname(name)).split("```")
-        deeper = [part if k % 2 else re.sub(r"^#(?=#* )", "##", part, flags=re.MULTILINE) for k, part in enumerate(text)]
-        return f"## {heading}\n\n" + "```".join(deeper)
-
-    def do_docstrings(self, folder):
-        """Docstrings of the Python package that was built beside the program; else of the modules of a folder; else nothing."""
-        built = os.path.join(os.path.dirname(self.commands.program), "python")
-        if glob.glob(os.path.join(built, "diptych", "*.so")):
-            done = subprocess.run([sys.executable, "-B", os.path.join(HERE, "module_docs.py"), "diptych"], capture_output=True, text=True,
-                                  check=False, env={**os.environ, "PYTHONPATH": built})
-            if done.returncode != 0:
-                raise RuntimeError("the Python package does not load: " + done.stderr)
-            return "## What it has\n\n" + done.stdout
-        found = []
-        for root, folders, names in os.walk(self.path(folder, optional=True)):
-            folders.sort()
-            for name in sorted(names):
-                said = headers.docstrings(os.path.join(root, name)) if name.endswith(".py") else ""
-                if said.strip():
-                    found.append(f"## `{os.path.relpath(os.path.join(root, name), self.source)}`\n\n" + said)
-        return "\n".join(found)
+    def do_equations(self, name):
+        """The comments of a source file that hold a formula, below a link to the page of the file."""
+        page = self.tree.page_of(name)
+        found = [f'<div class="equation">{headers.flowing(comment)}</div>' for comment in headers.formulas(text_of(self.path(name)))]
+        return "\n\n".join([f"[`{name}`]({page})" if page else f"`{name}`", *found])
 
     def do_figure(self, argument):
-        """A figure of the tree with its words: FILE, WORDS."""
-        name, words = argument.split(", ", 1)
-        self.path(name)
-        self.shown.add("source/" + name)
-        return f"![{words}](source/{name})\n\n*{words}*"
-
-
-def own_pages(docs, directives, keys, commands):
-    for name, _ in PAGES:
-        text = text_of(os.path.join(HERE, "pages", name + ".md"))
-        unknown = reference.unknown_words(text, keys, commands)
-        if unknown:
-            raise Stale(f"coupling/manual/pages/{name}.md: the program does not know {', '.join(unknown)}")
-        filled = directives.filled(text)
-        write(os.path.join(docs, name + ".md"), directives.tree.with_links(readmes.spaced(filled), name + ".html", ""))
-    for figure in directives.shown:
-        target = os.path.join(docs, figure)
+        """A figure of the source tree with its caption: FILE, CAPTION."""
+        name, caption = argument.split(", ", 1)
+        target = os.path.join(self.docs, "source", name)
         os.makedirs(os.path.dirname(target), exist_ok=True)
-        shutil.copyfile(os.path.join(directives.source, figure[len("source/"):]), target)
+        shutil.copyfile(self.path(name), target)
+        return f"![{caption}](source/{name})\n\n*{caption}*"
+
+    def do_docstrings(self, package):
+        """Signatures and docstrings of the Python package beside the program; empty if the package was not built."""
+        built = os.path.join(os.path.dirname(self.program), "python")
+        if not glob.glob(os.path.join(built, package, "*.so")):
+            return ""
+        sys.path.insert(0, built)
+        return module_docs.page(importlib.import_module(package))
 
 
 def find_page(entries):
-    """The page that finds keys, numbers, commands and equations by a word."""
+    """The page that searches keys, numbers, commands and headers."""
     rows = [[name, kind, link, meaning[:160]] for name, kind, link, meaning in entries]
     data = json.dumps(rows, ensure_ascii=False).replace("</", "<\\/")
-    return ("# Find\n\nKeys of scenes, columns and datasets of results, commands, equations, headers: all of them, by any words in them.\n\n"
+    return ("# Find\n\nSearches keys, columns, datasets, commands and headers. All words must occur.\n\n"
             '<input id="words" type="search" placeholder="internal length" aria-label="words to find">\n<p id="found-count"></p>\n'
             f'<div id="found"></div>\n<script id="find-data" type="application/json">{data}</script>\n')
 
 
-def navigation(key_pages, result_pages, header_pages, tree):
-    """The tree of pages, as mkdocs takes it."""
-    def under(prefix):
-        return [{readmes.title(tree.texts[path], path): "source/" + path} for path in tree.paths if path.startswith(prefix)]
+def navigation(keys, results, rooms, tree):
+    def under(*folders):
+        paths = [path for folder in folders for path in tree.paths if path.startswith(folder)]
+        return [{readmes.title(tree.texts[path], path): "source/" + path} for path in paths]
+
+    def listed(pages):
+        return [{title: page} for page, title, _ in pages]
+
     project = [{readmes.title(tree.texts[path], path): "source/" + path} for path in tree.paths if "/" not in path]
-    return [*({title: name + ".md"} for name, title in PAGES), {"Find": "find.md"},
-            {"Commands": "reference/commands.md"}, {"Keys of a scene": [{title: page} for page, title, _ in key_pages]},
-            {"Results": [{title: page} for page, title, _ in result_pages]}, {"Equations": "reference/equations.md"},
-            {"Benchmarks": under("benchmarks/")},
-            {"How it is made": under("discrete/") + under("continuum/") + under("coupling/") + under("meshes/")},
-            {"Headers": [{title: page} for page, title, _ in header_pages]}, {"Project": project}]
+    return [*({title: name + ".md"} for name, title in PAGES), {"Find": "find.md"}, {"Commands": "reference/commands.md"},
+            {"Keys of a scene": listed(keys)}, {"Results": listed(results)}, {"Benchmarks": under("benchmarks/")},
+            {"Modules": under("discrete/", "continuum/", "coupling/", "meshes/")}, {"Headers": listed(rooms)}, {"Project": project}]
 
 
 def settings(docs, site, nav):
-    """mkdocs.yml; JSON is YAML. Everything stands in the folder: no fonts, scripts or search from elsewhere."""
+    """Text of mkdocs.yml (JSON is YAML). The pages load nothing from the network."""
     return json.dumps({
         "site_name": "Diptych", "docs_dir": docs, "site_dir": site, "use_directory_urls": False, "plugins": [], "nav": nav,
         "theme": {"name": "material", "font": False, "palette": {"primary": "blue grey", "accent": "deep orange"}},
-        "extra": {"generator": False},
-        "extra_css": ["theme/katex/katex.min.css", "theme/manual.css"],
-        "extra_javascript": ["theme/katex/katex.min.js", "theme/manual.js"],
+        "extra": {"generator": False}, "extra_css": ["theme/manual.css"], "extra_javascript": ["theme/manual.js"],
         "markdown_extensions": ["tables", "sane_lists", "fenced_code", {"toc": {"permalink": False, "toc_depth": 3}}]})
 
 
-def add_theme(docs):
-    """Style, script and KaTeX, which sets formulas without any network."""
-    shutil.copytree(os.path.join(HERE, "theme"), os.path.join(docs, "theme"))
-    katex = os.path.join(docs, "theme", "katex")
-    os.makedirs(os.path.join(katex, "fonts"))
-    for name in ("katex.min.css", "katex.min.js"):
-        shutil.copyfile(os.path.join(KATEX, name), os.path.join(katex, name))
-    for name in os.listdir(os.path.join(KATEX, "fonts")):
-        if name.endswith(".woff2"):
-            shutil.copyfile(os.path.join(KATEX, "fonts", name), os.path.join(katex, "fonts", name))
-
-
 def assemble(source, program, docs):
-    """All pages as Markdown in docs; their navigation."""
-    missing = equations.missing(source)
-    if missing:
-        raise Stale("\n".join(f"equation '{name}': {path} does not say '{words}' any more" for name, path, words in missing))
+    """Writes all pages as Markdown into docs; returns their navigation."""
     keys, results, commands = reference.Keys(program), reference.Results(program), reference.Commands(program)
-    tree = readmes.Tree(source, headers.pages_of(source), keys)
-    from_reference = lambda path: (lambda page: posixpath.relpath(page, "reference") if page else None)(tree.page_of(path))
-    key_pages, result_pages, header_pages = list(keys.pages()), list(results.pages()), list(headers.pages(source, tree.page_of))
-    for path, _, text in key_pages + result_pages + header_pages:
+    tree = readmes.Tree(source, headers.links(source), keys)
+    key_pages, result_pages, rooms = list(keys.pages()), list(results.pages()), list(headers.pages(source, tree.page_of))
+    for path, _, text in key_pages + result_pages + rooms:
         write(os.path.join(docs, path), text)
     write(os.path.join(docs, "reference", "commands.md"), commands.page())
-    write(os.path.join(docs, "reference", "equations.md"), equations.page(from_reference))
     tree.write(docs)
-    own_pages(docs, Directives(source, commands, tree), keys, commands)
-    stated = [(name, "equation", "reference/equations.html#" + equations.anchor(name), path)
-              for _, listed in equations.SECTIONS for name, _, path, _ in listed]
-    in_headers = [(path, "header", link, headers.comments(text_of(os.path.join(source, path)))[0]) for path, link in tree.headers.items()
-                  if path.endswith(".h")]
-    write(os.path.join(docs, "find.md"), find_page([*commands.index(), *keys.index(), *stated, *results.index(), *in_headers]))
-    add_theme(docs)
-    return navigation(key_pages, result_pages, header_pages, tree)
+    directives = Directives(source, program, docs, tree)
+    for name, _ in PAGES:
+        text = readmes.spaced(directives.filled(text_of(os.path.join(HERE, "pages", name + ".md"))))
+        write(os.path.join(docs, name + ".md"), tree.with_links(text, name + ".html", ""))
+    titles = [(path, "header", link, headers.title(text_of(os.path.join(source, path)))) for path, link in tree.headers.items()
+              if path.endswith(".h")]
+    write(os.path.join(docs, "find.md"), find_page([*commands.index(), *keys.index(), *results.index(), *titles]))
+    shutil.copytree(os.path.join(HERE, "theme"), os.path.join(docs, "theme"))
+    return navigation(key_pages, result_pages, rooms, tree)
+
+
+def remove(path):
+    if os.path.isdir(path):
+        shutil.rmtree(path)
+    elif os.path.exists(path):
+        os.remove(path)
 
 
 def build(source, program, output):
-    """The site at `output`. Stale where something is not so any more."""
     with tempfile.TemporaryDirectory() as work:
-        docs, site = os.path.join(work, "docs"), output + ".part"
-        shutil.rmtree(site, ignore_errors=True)
-        write(os.path.join(work, "mkdocs.yml"), settings(docs, site, assemble(source, program, docs)))
-        done = subprocess.run(["mkdocs", "build", "-q", "-f", os.path.join(work, "mkdocs.yml")], capture_output=True, text=True, check=False)
+        docs, site, config = os.path.join(work, "docs"), output + ".part", os.path.join(work, "mkdocs.yml")
+        remove(site)
+        write(config, settings(docs, site, assemble(source, program, docs)))
+        done = subprocess.run(["mkdocs", "build", "-q", "-f", config], capture_output=True, text=True, check=False)
         if done.returncode != 0:
             raise RuntimeError("mkdocs: " + done.stderr)
-    for name in UNUSED:
-        path = os.path.join(site, name)
-        shutil.rmtree(path) if os.path.isdir(path) else os.path.exists(path) and os.remove(path)
-    for root, _, names in os.walk(site):
-        for name in names:
-            if name.endswith(".map"):
-                os.remove(os.path.join(root, name))
-    broken, external = links.check(site)
-    if broken:
-        raise Stale("\n".join(f"{page}: {link} leads nowhere" for page, link in broken))
-    write(os.path.join(site, "external_links.txt"), "\n".join(external) + "\n")
-    shutil.rmtree(output, ignore_errors=True)
+    for path in [os.path.join(site, name) for name in UNUSED] + glob.glob(os.path.join(site, "**", "*.map"), recursive=True):
+        remove(path)
+    remove(output)
     os.rename(site, output)
 
 
 if __name__ == "__main__":
     if len(sys.argv) != 4:
         sys.exit(__doc__)
-    if not shutil.which("mkdocs") or not os.path.isdir(KATEX):
-        sys.exit("manual: it is made by mkdocs and KaTeX: apt-get install mkdocs mkdocs-material libjs-katex")
+    if not shutil.which("mkdocs"):
+        sys.exit("manual: mkdocs is missing: apt-get install mkdocs mkdocs-material")
     try:
         build(*(os.path.abspath(word) for word in sys.argv[1:]))
-    except (Stale, ValueError) as error:
-        print("manual: " + str(error), file=sys.stderr)
-        sys.exit(1)
+    except ValueError as error:
+        sys.exit(f"manual: {error}")

@@ -1,34 +1,27 @@
-#!/usr/bin/env python3
-# diptych: what a Python package says of itself once it is imported, compiled parts included
+# diptych: signatures and docstrings of a Python package, compiled parts included
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: PYTHONPATH=FOLDER module_docs.py PACKAGE
-
-Prints Markdown: the package's own words, then every public class and function with its signature and words, in the order of __all__
-or of the alphabet. What has no words is left out."""
-import importlib
 import inspect
-import sys
+import textwrap
 
 
 def signature(name, thing):
-    """As Python knows it; pybind11 puts it into the first line of the words instead."""
+    """The call with its arguments and defaults, without types; None if unknown: pybind11 writes it into the docstring."""
     try:
-        return name + str(inspect.signature(thing))
+        known = inspect.signature(thing)
     except (TypeError, ValueError):
-        return name
-
-
-def code(text):
-    return "    " + inspect.cleandoc(text).replace("\n", "\n    ") + "\n"
+        return None
+    plain = [p.replace(annotation=inspect.Parameter.empty) for p in known.parameters.values() if p.name != "self"]
+    call = name + str(inspect.Signature(plain))
+    return "\n".join(textwrap.wrap(call, 90, subsequent_indent=" " * (len(name) + 1), break_long_words=False))
 
 
 def described(name, thing, level):
-    """Markdown of a class with its public members, of a function, method or property."""
-    words = inspect.getdoc(thing)
-    if not words or name.startswith("_"):
+    """Lines of Markdown of a class with its public members, of a function, method or property."""
+    text = inspect.getdoc(thing)
+    if not text or name.startswith("_"):
         return []
-    shown = name if inspect.isclass(thing) or isinstance(thing, property) else signature(name, thing)
-    lines = ["#" * level + f" `{shown}`", "", code(words)]
+    call = None if isinstance(thing, property) else signature(name, thing)
+    lines = ["#" * level + f" `{name}`", "", textwrap.indent((call + "\n\n" if call else "") + text, "    "), ""]
     if inspect.isclass(thing):
         for member, value in vars(thing).items():
             lines += described(member, value, level + 1)
@@ -36,15 +29,10 @@ def described(name, thing, level):
 
 
 def page(package):
-    lines = [inspect.getdoc(package) or "", ""]
+    """Markdown with every documented public class and function of an imported package, in the order of __all__ or of the alphabet."""
+    lines = []
     for name in getattr(package, "__all__", None) or sorted(vars(package)):
         thing = getattr(package, name)
-        if inspect.isclass(thing) or callable(thing):
+        if callable(thing):
             lines += described(name, thing, 3)
     return "\n".join(lines)
-
-
-if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    print(page(importlib.import_module(sys.argv[1])))

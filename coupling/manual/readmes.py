@@ -1,6 +1,6 @@
-# diptych: the READMEs of the source tree as pages
+# diptych: pages from the READMEs of the source tree
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Pages keep the folders of the tree below source/, so that links between READMEs and to their figures hold as they are."""
+"""The pages keep the folders of the tree below source/. So links between READMEs and to their figures stay valid."""
 import os
 import posixpath
 import re
@@ -9,71 +9,53 @@ import shutil
 SKIPPED = {"build", "results", ".git", "__pycache__"}
 LINK = re.compile(r"(!?\[[^\]]*\])\(([^)\s]+)\)")
 CODE = re.compile(r"`([^`\n]+)`")
+ITEM = re.compile(r"(?:[-*+]|\d+\.) ")
 
 
 def find(source):
-    """Paths of all .md files of a tree from its top, the manual's own pages left out, sorted."""
+    """Sorted paths of all .md files of the tree, without the manual's own pages."""
     found = []
     for root, folders, names in os.walk(source):
         folders[:] = sorted(name for name in folders if name not in SKIPPED and not name.startswith("."))
         path = os.path.relpath(root, source)
-        if path.startswith(os.path.join("coupling", "manual", "")):
-            continue
-        found += [posixpath.normpath(posixpath.join(path, name)) for name in sorted(names) if name.endswith(".md")]
+        if not path.startswith(os.path.join("coupling", "manual", "")):
+            found += [posixpath.normpath(posixpath.join(path, name)) for name in sorted(names) if name.endswith(".md")]
     return found
 
 
 def title(text, path):
-    """First heading, or the folder."""
+    """The first heading, or else the folder."""
     match = re.search(r"^# (.+)$", text, re.MULTILINE)
     return match[1].replace("`", "") if match else posixpath.dirname(path)
 
 
 def spaced(text):
-    """What GitHub's Markdown takes and Python's does not: lists and tables that begin right below a paragraph, and words in
-    angle brackets."""
-    lines, out, fenced = text.split("\n"), [], False
-    item, row = re.compile(r"(?:[-*+]|\d+\.) "), re.compile(r"\|")
-    for line in lines:
-        if line.startswith("```"):
-            fenced = not fenced
-            if fenced and out and out[-1].strip():
-                out.append("")
+    """The text with a blank line before and after each list, table and code block. GitHub's Markdown does not need it, Python's does."""
+    out, fenced, in_list = [], False, False
+    for line in text.split("\n"):
         before = out[-1] if out else ""
-        if not fenced and before.strip() and not before.startswith(("```", "    ")):
-            begins_list = item.match(line) and not item.match(before) and not (before.startswith(" ") and in_list(out, item))
-            begins_list = begins_list and not in_list(out, item)
-            begins_table = row.match(line) and not row.match(before)
-            ends_table = row.match(before) and not row.match(line) and line.strip()
-            if begins_list or begins_table or ends_table:
-                out.append("")
+        is_fence = line.startswith("```")
+        is_text = not fenced and before.strip() and not before.startswith(("```", "    "))
+        if is_text and (is_fence or line.startswith("|") != before.startswith("|") or (ITEM.match(line) and not in_list)) and line.strip():
+            out.append("")
+        fenced ^= is_fence
+        in_list = not fenced and bool(line.strip()) and (in_list or bool(ITEM.match(line)))
         out.append(line)
     return "\n".join(out)
 
 
-def in_list(lines, item):
-    """Whether the last paragraph is an item of a list."""
-    for line in reversed(lines):
-        if not line.strip():
-            return False
-        if item.match(line):
-            return True
-    return False
-
-
 class Tree:
-    """The READMEs of a source tree, and where a path of the tree is shown in the manual."""
+    """The READMEs of a source tree, and the pages that show its files and folders."""
 
     def __init__(self, source, headers, keys):
         self.source, self.headers, self.keys = source, headers, keys
-        self.paths = find(source)
-        self.texts = {}
+        self.paths, self.texts = find(source), {}
         for path in self.paths:
             with open(os.path.join(source, path), encoding="utf-8") as file:
                 self.texts[path] = file.read()
 
     def page_of(self, path):
-        """Page (.html, from the top of the site) that shows a file or folder of the tree; None where none does."""
+        """The page (.html, from the top of the site) that shows a file or folder of the tree, or None."""
         path = posixpath.normpath(path)
         for candidate in (path, posixpath.join(path, "README.md")):
             if candidate in self.texts:
@@ -82,7 +64,7 @@ class Tree:
         return self.headers.get(path)
 
     def meant(self, word, folder):
-        """Page that a word in code means as seen from a folder: a path of the tree, of a unit, or a key."""
+        """The page for a word in code within a text of `folder`: a key, or a path of the tree with or without its ending; or None."""
         if word in self.keys.names:
             return self.keys.link(word)
         if not re.fullmatch(r"[\w./*-]+", word) or not re.search(r"[/.]", word):
@@ -96,38 +78,36 @@ class Tree:
                     return page
         return None
 
-    def with_links(self, text, path, to_page):
-        """Words in code that the manual has a page for become links. path: page (.html) that shows the text, to_page: None or
-        the folder of the tree that words are relative to."""
+    def with_links(self, text, path, folder):
+        """The text, shown on the page `path`, with links at the words in code that have a page of their own."""
         def linked(match):
-            page = self.meant(match[1], to_page)
-            if not page or page.partition("#")[0] == path:
+            page, _, place = (self.meant(match[1], folder) or "").partition("#")
+            if page in ("", path):
                 return match[0]
-            return f'[{match[0]}]({posixpath.relpath(page.partition("#")[0], posixpath.dirname(path) or ".")}' + \
-                   ("#" + page.partition("#")[2] if "#" in page else "") + ")"
+            return f'[{match[0]}]({posixpath.relpath(page, posixpath.dirname(path) or ".")}{"#" + place if place else ""})'
+
         out, fenced = [], False
         for line in text.split("\n"):
             fenced ^= line.startswith("```")
-            is_code = fenced or line.startswith("    ")
-            spans = [line] if is_code or line.startswith("#") else re.split(r"(!?\[[^\]]*\]\([^)]*\))", line)
-            out.append(spans[0] if len(spans) == 1 and (is_code or line.startswith("#"))
-                       else "".join(s if k % 2 else CODE.sub(linked, s) for k, s in enumerate(spans)))
+            if not (fenced or line.startswith(("    ", "#"))):  # neither code nor a heading
+                parts = re.split(r"(!?\[[^\]]*\]\([^)]*\))", line)  # existing links stay
+                line = "".join(part if k % 2 else CODE.sub(linked, part) for k, part in enumerate(parts))
+            out.append(line)
         return "\n".join(out)
 
     def write(self, docs):
-        """Pages and the files that they show below docs/source. ValueError naming README and link where one leads nowhere."""
+        """Writes the pages and the files that they link to below docs/source. Raises ValueError if a linked file does not exist."""
         for path in self.paths:
             folder = posixpath.dirname(path)
-            for _, link in LINK.findall(self.texts[path]):
-                target = posixpath.normpath(posixpath.join(folder, link.partition("#")[0]))
-                full = os.path.join(self.source, target)
-                if "://" in link or link.startswith("#") or target in self.texts:
-                    continue
-                if not os.path.isfile(full):
-                    raise ValueError(f"{path}: the link to {link} leads to no file")
-                os.makedirs(os.path.dirname(os.path.join(docs, "source", target)), exist_ok=True)
-                shutil.copyfile(full, os.path.join(docs, "source", target))
             out = os.path.join(docs, "source", path)
             os.makedirs(os.path.dirname(out), exist_ok=True)
             with open(out, "w", encoding="utf-8") as file:
                 file.write(self.with_links(spaced(self.texts[path]), self.page_of(path), folder))
+            for _, link in LINK.findall(self.texts[path]):
+                target = posixpath.normpath(posixpath.join(folder, link.partition("#")[0]))
+                if "://" in link or link.startswith("#") or target in self.texts:
+                    continue
+                if not os.path.isfile(os.path.join(self.source, target)):
+                    raise ValueError(f"{path}: the link to {link} leads to no file")
+                os.makedirs(os.path.dirname(os.path.join(docs, "source", target)), exist_ok=True)
+                shutil.copyfile(os.path.join(self.source, target), os.path.join(docs, "source", target))

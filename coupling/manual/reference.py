@@ -1,6 +1,6 @@
-# diptych: the pages that the program writes: keys, numbers of results, commands
+# diptych: pages of keys, numbers of results and commands
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""`diptych explain` and `diptych COMMAND --help` as pages."""
+"""Reads what `diptych explain` and `diptych COMMAND --help` print."""
 import html
 import re
 import subprocess
@@ -8,8 +8,8 @@ import subprocess
 from headers import with_code
 
 
-def told(program, *words):
-    """What the program says. RuntimeError where it ends with another code than 0."""
+def output_of(program, *words):
+    """Standard output of the program. Raises RuntimeError if its exit code is not 0."""
     done = subprocess.run([program, *words], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise RuntimeError(f"{program} {' '.join(words)}: {done.stderr}")
@@ -17,35 +17,21 @@ def told(program, *words):
 
 
 def groups(text):
-    """[(heading, [(head, meaning)])] of what `explain` prints: headings at the margin, heads two deep, meanings six."""
+    """[(heading, [(name, unit, facts, meaning)])] of the output of `explain`. Headings are not indented, entries such as
+    "step = auto  [time]  auto or a number" by two, meanings by six."""
     found = []
-    for line in text.split("\n"):
+    for line in filter(str.strip, text.split("\n")):
         depth = len(line) - len(line.lstrip())
-        if not line.strip():
-            continue
         if depth == 0:
             found.append((line.strip(), []))
         elif depth == 2:
-            found[-1][1].append([line.strip(), ""])
+            match = re.fullmatch(r"(.*?)  \[(.*?)\](?:  (.*))?", line.strip())
+            if not match:
+                raise RuntimeError("the manual cannot parse this line of `diptych explain`: " + line)
+            found[-1][1].append([match[1], "" if match[2] == "-" else f"[{match[2]}]", match[3] or "", ""])
         else:
-            found[-1][1][-1][1] = (found[-1][1][-1][1] + " " + line.strip()).strip()
+            found[-1][1][-1][3] = (found[-1][1][-1][3] + " " + line.strip()).strip()
     return found
-
-
-def key_parts(head):
-    """(key, default, unit, range) of "step = auto  [time]  auto or a number"."""
-    match = re.fullmatch(r"(\S+) = (.*?)  \[(.*?)\](?:  (.*))?", head)
-    if not match:
-        raise RuntimeError("diptych explain prints a key in a form that the manual does not know: " + head)
-    return match[1], match[2], match[3], match[4] or ""
-
-
-def number_parts(head):
-    """(name, unit, kind) of "time  [time]  column, number"."""
-    match = re.fullmatch(r"(.*?)  \[(.*?)\](?:  (.*))?", head)
-    if not match:
-        raise RuntimeError("diptych explain results prints an entry in a form that the manual does not know: " + head)
-    return match[1], match[2], match[3] or ""
 
 
 def anchor(*words):
@@ -53,22 +39,18 @@ def anchor(*words):
 
 
 def entry(identity, head, facts, meaning):
-    """One key or number: what it is called, small facts about it, what it means."""
+    """HTML of one key or number: its name, its facts in small print, its meaning."""
     small = "".join(f'<span class="fact">{html.escape(fact)}</span>' for fact in facts if fact)
     return (f'<div class="entry" id="{identity}"><p class="head"><a href="#{identity}"><code>{html.escape(head)}</code></a>{small}</p>'
             f'<p class="meaning">{with_code(meaning)}</p></div>')
 
 
-def unit_fact(unit):
-    return "" if unit == "-" else "[" + unit + "]"
-
-
 class Keys:
-    """Every key of a scene: a page a section."""
+    """The keys of a scene, one page per section."""
 
     def __init__(self, program):
-        self.sections = groups(told(program, "explain"))
-        self.names = {section + "/" + key_parts(head)[0] for section, entries in self.sections for head, _ in entries}
+        self.sections = groups(output_of(program, "explain"))
+        self.names = {section + "/" + name.split(" = ")[0] for section, entries in self.sections for name, *_ in entries}
 
     def link(self, name):
         section, key = name.split("/", 1)
@@ -76,53 +58,47 @@ class Keys:
 
     def pages(self):
         for section, entries in self.sections:
-            lines = [f"# Section `{section}`", "", f"{len(entries)} keys, as `diptych explain {section}` tells them. In a scene:", "",
-                     f"    subsection {section}", f"      set {key_parts(entries[0][0])[0]} = {key_parts(entries[0][0])[1]}", "    end", "",
+            lines = [f"# Section `{section}`", "", f"{len(entries)} keys; `diptych explain {section}` prints the same list. In a scene:", "",
+                     f"    subsection {section}", f"      set {entries[0][0]}", "    end", "",
                      f"or on the command line `--set {section}/KEY=VALUE`.", ""]
-            for head, meaning in entries:
-                key, default, unit, bounds = key_parts(head)
-                lines += [entry(anchor(section, key), f"{key} = {default}", (unit_fact(unit), bounds), meaning), ""]
+            for name, unit, bounds, meaning in entries:
+                lines += [entry(anchor(section, name.split(" = ")[0]), name, (unit, bounds), meaning), ""]
             yield f"reference/keys_{section}.md", f"Section {section}", "\n".join(lines)
 
     def index(self):
         for section, entries in self.sections:
-            for head, meaning in entries:
-                yield section + "/" + key_parts(head)[0], "key", self.link(section + "/" + key_parts(head)[0]), meaning
+            for name, _, _, meaning in entries:
+                key = section + "/" + name.split(" = ")[0]
+                yield key, "key", self.link(key), meaning
 
 
 class Results:
-    """Every column, number and dataset of result files: a page a family of files."""
+    """The columns, numbers and datasets of result files, one page per family of files: the first word of the heading."""
 
     def __init__(self, program):
-        self.files = groups(told(program, "explain", "results"))
         self.families = {}
-        for heading, entries in self.files:
+        for heading, entries in groups(output_of(program, "explain", "results")):
             self.families.setdefault(re.match(r"[a-z]+", heading)[0], []).append((heading, entries))
-
-    def entries(self):
-        for family, files in self.families.items():
-            for heading, entries in files:
-                for head, meaning in entries:
-                    name, unit, kind = number_parts(head)
-                    yield family, heading, name, unit, kind, meaning
 
     def pages(self):
         for family, files in self.families.items():
-            lines = [f"# Results: {family}", "", "As `diptych explain results` tells them. Stress and strain are positive in compression.", ""]
+            lines = [f"# Results: {family}", "", "`diptych explain results` prints the same list. Stress and strain are positive in compression.", ""]
             for heading, entries in files:
                 lines += ["## " + heading, ""]
-                for head, meaning in entries:
-                    name, unit, kind = number_parts(head)
-                    lines += [entry(anchor(heading, name), name, (unit_fact(unit), kind), meaning), ""]
+                for name, unit, kind, meaning in entries:
+                    lines += [entry(anchor(heading, name), name, (unit, kind), meaning), ""]
             yield f"reference/results_{family}.md", f"Results: {family}", "\n".join(lines)
 
     def index(self):
-        for family, heading, name, _, kind, meaning in self.entries():
-            yield name, heading + (", " + kind if kind else ""), f"reference/results_{family}.html#{anchor(heading, name)}", meaning
+        for family, files in self.families.items():
+            for heading, entries in files:
+                for name, _, kind, meaning in entries:
+                    page = f"reference/results_{family}.html#{anchor(heading, name)}"
+                    yield name, heading + (", " + kind if kind else ""), page, meaning
 
 
 def options(text):
-    """[(head, meaning)] of the positionals and options that CLI11 prints; a head that is too long has its meaning in the next line."""
+    """[(head, meaning)] of the arguments and options that CLI11 prints. The meaning of a long head is on the next line."""
     found = []
     for block in re.findall(r"^(?:Positionals|Options|Subcommands):\n(.*?)(?=^\S|\Z)", text, re.DOTALL | re.MULTILINE):
         for line in block.split("\n"):
@@ -135,20 +111,16 @@ def options(text):
 
 
 class Commands:
-    """What `diptych --help` and `diptych COMMAND --help` print."""
+    """The commands with their options."""
 
     def __init__(self, program):
-        self.program = program
-        self.overview = told(program, "--help")
+        self.overview = output_of(program, "--help")
         block = self.overview.split("Subcommands:\n")[1].split("\n\n")[0]
         self.names = re.findall(r"^  (\S+)", block, re.MULTILINE)
-        self.helps = {name: told(program, name, "--help") for name in self.names}
-
-    def options(self, name):
-        return set(re.findall(r"^  (?:-\w,)?(--[a-z-]+)", self.helps[name], re.MULTILINE))
+        self.helps = {name: output_of(program, name, "--help") for name in self.names}
 
     def page(self):
-        lines = ["# Commands", "", "As `diptych --help` and `diptych COMMAND --help` tell them.", ""]
+        lines = ["# Commands", "", "`diptych --help` and `diptych COMMAND --help` print the same.", ""]
         for name in self.names:
             first, rest = self.helps[name].split("\n", 1)
             lines += [f"## diptych {name}", "", html.escape(first[:1].upper() + first[1:]) + ".", "",
@@ -163,16 +135,3 @@ class Commands:
         for name in self.names:
             yield "diptych " + name, "command", "reference/commands.html#diptych-" + name, self.helps[name].split("\n", 1)[0]
 
-
-def unknown_words(text, keys, commands):
-    """What a hand-written page says that the program does not know: keys `section/key`, and commands and options in its code blocks."""
-    sections = "|".join(section for section, _ in keys.sections)
-    wrong = [name for name in re.findall(rf"(?<![\w/.-])((?:{sections})/[a-z_]+)(?![\w/.])", text) if name not in keys.names]
-    for line in re.findall(r"^\s*(?:\$ )?(?:\S*/)?diptych ([a-z].*)$", text, re.MULTILINE):
-        words = re.sub(r"\s#.*$", "", line).split()
-        if words[0] not in commands.names:
-            wrong.append("diptych " + words[0])
-            continue
-        wrong += [f"diptych {words[0]} {word}" for word in words
-                  if word.startswith("--") and word.split("=")[0] not in commands.options(words[0])]
-    return wrong

@@ -142,7 +142,10 @@ namespace diptych::coupling
       };
       auto &[x, y] = loading.platens[1];
       if (o.mode == LoadingMode::descent)
-        x = travel(o.horizontal_over_vertical * sample.height), y = travel(-sample.height);
+        {
+          x = travel(o.horizontal_over_vertical * sample.height);
+          y = travel(-sample.height);
+        }
       else if (o.mode != LoadingMode::time)
         x = travel(sample.height);
       if (o.mode == LoadingMode::plane_shear)
@@ -255,10 +258,7 @@ namespace diptych::coupling
                            " (allowed: outline, rectangle, or a .msh or .geo file that can be read)");
         }
     }
-  } // namespace
 
-  namespace
-  {
     // The upper platen follows that of the imported sample, scaled to the mesh's height. The right wall has the imported mean
     // pressure frame by frame, or the imported motion if discrete/side_motion = velocity. Between frames all values are linear.
     void follow_imported_walls(const Scene &scene, const ContinuumSample &sample, continuum::Loading &loading)

@@ -37,7 +37,10 @@ namespace diptych::coupling
     {
       Eigen::Vector2d lower = points.front(), upper = points.front();
       for (const Eigen::Vector2d &x : points)
-        lower = lower.cwiseMin(x), upper = upper.cwiseMax(x);
+        {
+          lower = lower.cwiseMin(x);
+          upper = upper.cwiseMax(x);
+        }
       BinGrid bins(lower, upper, size);
       bins.sort(points.size(), [&](const std::size_t k, const auto &put) { put(bins.bin_of(points[k])); });
       return bins;
@@ -88,7 +91,8 @@ namespace diptych::coupling
           if (!cover.covered[other] || !inside[other])
             return;
           const double weight = area[other] * std::exp(-(centres[other] - centres[k]).squaredNorm() / (2 * sigma * sigma));
-          sum += weight * cover.solid_fraction[other], weights += weight;
+          sum += weight * cover.solid_fraction[other];
+          weights += weight;
         });
         if (weights > 0)
           fraction[k] = sum / weights;

@@ -44,9 +44,15 @@ namespace diptych::coupling
     const RunFacts facts = read_run_facts(scene.output.directory);
     for (const ContinuumPart &part : continuum_parts(scene))
       if (std::filesystem::exists(part.checkpoint()))
-        check_interrupted(scene, part), check_files(scene.output.directory, part.name);
+        {
+          check_interrupted(scene, part);
+          check_files(scene.output.directory, part.name);
+        }
       else if ((part.is_coarse ? facts.continuum_coarse : facts.continuum).finished &&
                std::filesystem::exists(continuum_h5(part.directory)))
-        check_results(part), check_files(scene.output.directory, part.name);
+        {
+          check_results(part);
+          check_files(scene.output.directory, part.name);
+        }
   }
 } // namespace diptych::coupling

@@ -139,7 +139,7 @@ namespace diptych::coupling
         if (reached || panel->report().progress > 0)
           add_snapshot();
       }
-    progress.finish();
+    progress.finish(panel->report().status == continuum::Status::finished);
     if (panel->report().status == continuum::Status::stopped_by_user && is_under_way)
       save();
     on_first_process([&] {
@@ -179,7 +179,10 @@ namespace diptych::coupling
   {
     on_first_process([&] {
       if (Clock::now() - flushed >= std::chrono::seconds(1))
-        flush_rows(), flushed = Clock::now();
+        {
+          flush_rows();
+          flushed = Clock::now();
+        }
       return 0;
     });
   }

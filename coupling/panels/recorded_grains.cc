@@ -69,7 +69,7 @@ namespace diptych::coupling
         if (reached || panel.has_snapshot())
           add_snapshot();
       }
-    progress.finish();
+    progress.finish(panel.report().status == discrete::Status::finished);
     if (table)
       table->flush();
     if (panel.report().status == discrete::Status::stopped_by_user && table)

@@ -1,4 +1,4 @@
-// diptych: what of a continuum may be coarser, finer or simpler
+// diptych: settings of the continuum that a plan varies
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/plans/continuum_knobs.h"
 

@@ -1,4 +1,4 @@
-// diptych: what of a continuum may be coarser, finer or simpler
+// diptych: settings of the continuum that a plan varies
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -11,13 +11,13 @@
 
 namespace diptych::coupling
 {
-  // A size that is halved.
+  // A size that the plan halves.
   struct Knob
   {
     std::string name;
     double      coarsest = 1, share = 0; // share of the accuracy
     Settings (*settings)(double size) = nullptr;
-    std::size_t least_points          = 2; // of which an error is believed
+    std::size_t least_points          = 2; // values needed for an error estimate
     bool        may_have_no_limit     = false;
     double      dearer_per_halving    = 8;
   };
@@ -25,7 +25,7 @@ namespace diptych::coupling
   Settings of_element_size(double size);
   Settings of_load_step(double size);
 
-  // The law without and with an internal length; none with one for a law that does not yield or that has one.
+  // The law without and with an internal length. with_length() is empty for a law that does not yield or already has one.
   const char                *without_length(continuum::LawKind law);
   std::optional<std::string> with_length(continuum::LawKind law);
 

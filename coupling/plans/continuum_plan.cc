@@ -1,4 +1,4 @@
-// diptych: elements, load steps, tolerance, law and geometry that the continuum needs
+// diptych: plans elements, load steps, tolerance, law and geometry of the continuum
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/plans/continuum_plan.h"
 
@@ -16,13 +16,13 @@ namespace diptych::coupling
 {
   namespace
   {
-    // Of the accuracy. What is left over, the last share at least, is for what samples differ in.
+    // Shares of the accuracy. The rest, at least the last share, is for the scatter of the samples.
     constexpr double share_of_elements = 0.4, share_of_load_steps = 0.2, share_of_tolerance = 0.05, share_of_models = 0.15,
                      share_of_samples = 0.2;
     constexpr int    most_sizes = 6, scatter_samples = 4;
     constexpr double longest_pilot        = 120; // CPU s of one run
     constexpr double worth_saving         = 0.05;
-    constexpr double elements_over_length = 2, elements_across = 12; // where refining begins
+    constexpr double elements_over_length = 2, elements_across = 12; // start of the refinement
     constexpr double longest_load_step = 0.01, coarsest_tolerance = 1e-3;
 
     class Continuum
@@ -53,7 +53,7 @@ namespace diptych::coupling
       PanelPlan plan_it()
       {
         if (scene.continuum.mesh.kind == continuum::MeshOption::Kind::file)
-          plan.decisions.emplace_back("elements: those of the mesh file; their error is not known, and not in the budget");
+          plan.decisions.emplace_back("elements: from the mesh file; their error is unknown and not in the budget");
         else if (!settle_elements())
           return plan;
         Knob load_step = {"continuum/max_step", std::min(longest_load_step, scene.loading.stage_strain), share_of_load_steps,
@@ -74,13 +74,13 @@ namespace diptych::coupling
       {
         Settings all = question.changes;
         append(all, chosen);
-        // The grains take no part but for their outline; the bands' windows need their run.
+        // Only the grains' outline is used, but the windows of the bands need a run of the grains.
         if (plan.command == StudyCommand::run)
           all.push_back(planned("discrete", "accuracy", "0.05"));
         return run({plan.command, all, {more}, seeds, quantities}).front();
       }
 
-      // Between two points on one sample, relative to the second.
+      // Difference of two points on one sample, relative to the second.
       double shift(const PilotPoint &a, const PilotPoint &b, const std::size_t q) const
       {
         return relative_difference(quantities[q], a.values[q], b.values[q]).mean;
@@ -91,9 +91,9 @@ namespace diptych::coupling
       {
         std::vector<double>     sizes;
         std::vector<PilotPoint> points;
-        std::vector<Refinement> laws; // one a quantity, of values relative to the finest
+        std::vector<Refinement> laws; // one per quantity, of values relative to the finest
         bool                    reached = false;
-        std::string             words; // why a run did not finish
+        std::string             words; // reason if a run did not finish
       };
 
       std::vector<Refinement> laws_of(const Settled &settled) const
@@ -120,34 +120,35 @@ namespace diptych::coupling
               {
                 settled.words = knob.name + " = " + text_of(size) + ": " + point.words;
                 if (settled.points.empty())
-                  continue; // too coarse to run at all
+                  continue; // too coarse to run
                 break;
               }
-            tell(knob, size, point);
+            report_size(knob, size, point);
             if (!settled.points.empty() && settled.points.back().values == point.values)
-              settled.sizes.pop_back(), settled.points.pop_back(); // the size before was not what bounded anything
+              settled.sizes.pop_back(), settled.points.pop_back(); // the previous size limited nothing
             settled.sizes.push_back(size);
             settled.points.push_back(point);
             settled.laws = laws_of(settled);
-            // By what the order of the last changes makes of them.
+            // Estimated from the order of the last changes.
             settled.reached = settled.points.size() >= knob.least_points &&
                               std::all_of(settled.laws.begin(), settled.laws.end(), [&](const Refinement &law) {
                                 return law.error <= knob.share * question.accuracy && law.converges;
                               });
-            if (knob.dearer_per_halving * point.cpu_s > longest_pilot || (knob.may_have_no_limit && goes_on(settled, knob)))
+            if (knob.dearer_per_halving * point.cpu_s > longest_pilot ||
+                (knob.may_have_no_limit && keeps_changing(settled, knob)))
               break;
           }
         return settled;
       }
 
-      // Changes that do not become smaller, and matter.
-      bool goes_on(const Settled &settled, const Knob &knob) const
+      // True if changes stay as large as before and exceed the share.
+      bool keeps_changing(const Settled &settled, const Knob &knob) const
       {
         return std::any_of(settled.laws.begin(), settled.laws.end(),
                            [&](const Refinement &law) { return !law.converges && law.error > knob.share * question.accuracy; });
       }
 
-      void tell(const Knob &knob, const double size, const PilotPoint &point)
+      void report_size(const Knob &knob, const double size, const PilotPoint &point)
       {
         std::string text = knob.name + " = " + text_of(size) + ":";
         for (std::size_t q = 0; q < quantities.size(); ++q)
@@ -155,7 +156,7 @@ namespace diptych::coupling
         plan.decisions.push_back(text + "; " + rounded(point.cpu_s) + " CPU s");
       }
 
-      // The largest size that keeps to the share, between those that were run.
+      // The largest size within the share, limited to the sizes that were run.
       double size_of(const Knob &knob, const Settled &settled) const
       {
         double size = settled.sizes.front();
@@ -169,21 +170,22 @@ namespace diptych::coupling
       {
         const double size = settled.reached ? rounded_to_two_digits(size_of(knob, settled)) : settled.sizes.back();
         append(chosen, knob.settings(size));
-        std::string text = "  taken: " + knob.name + " = " + text_of(size);
+        std::string text = "  used: " + knob.name + " = " + text_of(size);
         for (std::size_t q = 0; q < quantities.size(); ++q)
           {
             const double error = error_at(settled.laws[q], size);
             parts[q].push_back({knob.name, error, settled.laws[q].sign * error, NAN});
             text += (q > 0 ? ", " : "; error ") + percent(parts[q].back().error);
           }
-        plan.decisions.push_back(text + (settled.reached ? "" : "; its share of the accuracy is not reached"));
+        plan.decisions.push_back(text + (settled.reached ? "" : "; this exceeds its share of the accuracy"));
         plan.reaches = plan.reaches && settled.reached;
       }
 
       static std::string why_unsettled(const Knob &knob, const Settled &settled)
       {
-        return settled.words.empty() ? knob.name + ": a second size would take more than " + rounded(longest_pilot) + " CPU s"
-                                     : settled.words;
+        return settled.words.empty()
+                 ? knob.name + ": not refined, because a second size would take more than " + rounded(longest_pilot) + " CPU s"
+                 : settled.words;
       }
 
       bool settle(const Knob &knob)
@@ -222,9 +224,9 @@ namespace diptych::coupling
           {
             plan.decisions.push_back("continuum/law = " + text_of(law) + ": " +
                                      (settled.words.empty()
-                                        ? "results go on changing with the elements, or elements small enough are too dear"
+                                        ? "the results keep changing with the elements, or small enough elements cost too much"
                                         : settled.words) +
-                                     "; the law has no length; taken: " + *other +
+                                     "; this law has no internal length; used instead: " + *other +
                                      " with continuum/internal_length = " + text_of(scene.continuum.material.internal_length));
             chosen.push_back(planned("continuum", "law", *other));
             has_changed_law        = true;
@@ -243,7 +245,7 @@ namespace diptych::coupling
         return false;
       }
 
-      // The loosest of those that change nothing.
+      // Uses the loosest tolerance that does not change the results.
       void settle_tolerance()
       {
         const auto       at = [&](const double tolerance) { return run_with({planned("continuum", "tolerance", tolerance)}); };
@@ -259,15 +261,15 @@ namespace diptych::coupling
             chosen.push_back(planned("continuum", "tolerance", tolerance));
             for (std::size_t q = 0; q < quantities.size(); ++q)
               parts[q].push_back({"continuum/tolerance", difference(point, reference, q), shift(point, reference, q), NAN});
-            plan.decisions.push_back("taken: continuum/tolerance = " + text_of(tolerance) + "; error " + percent(worst));
+            plan.decisions.push_back("used: continuum/tolerance = " + text_of(tolerance) + "; error " + percent(worst));
             now = point;
             return;
           }
         now = run_with({});
-        plan.decisions.emplace_back("continuum/tolerance: kept, looser ones change the results");
+        plan.decisions.emplace_back("continuum/tolerance: unchanged, because looser values change the results");
       }
 
-      // A cheaper model in the place of the scene's.
+      // Tries a cheaper model instead of the scene's.
       void try_model(const std::string &what, const Settings &settings)
       {
         const PilotPoint point = run_with(settings);
@@ -282,8 +284,8 @@ namespace diptych::coupling
         const double saving = 1 - point.cpu_s / now.cpu_s;
         if (worst > left_for_models || saving < worth_saving)
           {
-            plan.decisions.push_back(what + ": kept as it is; it would save " + percent(std::max(0., saving)) +
-                                     " of the time and move a quantity by " + percent(worst));
+            plan.decisions.push_back(what + ": not used; it would save " + (saving > 0 ? percent(saving) + " of the" : "no") +
+                                     " time and change a quantity by up to " + percent(worst));
             return;
           }
         for (std::size_t q = 0; q < quantities.size(); ++q)
@@ -291,7 +293,7 @@ namespace diptych::coupling
         append(chosen, settings);
         left_for_models -= worst;
         now = point;
-        plan.decisions.push_back(what + ": taken, saves " + percent(saving) + " of the time and moves a quantity by " +
+        plan.decisions.push_back(what + ": used; it saves " + percent(saving) + " of the time and changes a quantity by up to " +
                                  percent(worst));
       }
 
@@ -316,7 +318,7 @@ namespace diptych::coupling
         return sum;
       }
 
-      // The continuum takes its outline from a sample.
+      // The outline of the continuum comes from a sample.
       void settle_samples()
       {
         if (!shares_sample || !scene.sample.file.empty())
@@ -335,7 +337,7 @@ namespace diptych::coupling
             n                   = std::max(n, needed);
           }
         if (!point.words.empty())
-          plan.decisions.push_back("scatter of the samples is not known: " + point.words);
+          plan.decisions.push_back("the scatter of the samples is unknown: " + point.words);
         else
           {
             now = point;
@@ -363,9 +365,9 @@ namespace diptych::coupling
       std::vector<StudyQuantity>          quantities;
       Settings                            chosen;
       bool                                shares_sample = false, has_changed_law = false;
-      std::vector<std::vector<ErrorPart>> parts; // one list a quantity
+      std::vector<std::vector<ErrorPart>> parts; // one list per quantity
       std::vector<double>                 values, scatter;
-      PilotPoint                          now; // as chosen
+      PilotPoint                          now; // with the chosen settings
       double                              left_for_models = 0;
     };
   } // namespace

@@ -1,4 +1,4 @@
-// diptych: elements, load steps, tolerance, law and geometry that the continuum needs
+// diptych: plans elements, load steps, tolerance, law and geometry of the continuum
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -7,9 +7,10 @@
 
 namespace diptych::coupling
 {
-  // From coarse elements and long load steps on one knob after the other is halved until what the changes say of the error is
-  // within its share of the accuracy (error_law.h); then the largest size is taken that the share allows. Cheaper models (small
-  // strain, a law without an internal length, simpler elements) are taken where they move nothing by more than their share. A law
-  // without an internal length whose results go on changing with the elements is replaced by the one with it, and that is said.
+  // Starts from coarse elements and long load steps and halves one size after the other, until the estimated error
+  // (error_law.h) is within its share of the accuracy. Then takes the largest size that the share allows. Cheaper models (small
+  // strain, a law without an internal length, simpler elements) are used if they change the results by less than their share.
+  // If the results of a law without an internal length keep changing with the elements, its Cosserat counterpart replaces it,
+  // and the plan reports this.
   PanelPlan plan_continuum(const PlanQuestion &question, const Scene &scene, const RunPilot &run);
 } // namespace diptych::coupling

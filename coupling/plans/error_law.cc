@@ -1,4 +1,4 @@
-// diptych: what a few cheap runs say of the error of a setting
+// diptych: estimates the error of a setting from a few cheap runs
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/plans/error_law.h"
 
@@ -12,8 +12,8 @@ namespace diptych::coupling
   namespace
   {
     constexpr double least_order = 0.5, largest_order = 2, least_share_of_earlier_change = 0.25;
-    constexpr double of_one_sample    = 3.18; // Student's, of a deviation that four samples told
-    constexpr double still_converging = 0.8;  // of the change before: slower than that, there may be no limit
+    constexpr double of_one_sample    = 3.18; // Student's factor for a deviation known from four samples
+    constexpr double still_converging = 0.8;  // of the change before; with slower convergence there may be no limit
     constexpr int    most_samples     = 1000000;
   } // namespace
 

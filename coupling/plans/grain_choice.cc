@@ -1,4 +1,4 @@
-// diptych: the accuracy of the grains and the number of samples that cost least
+// diptych: chooses the accuracy of the grains and the number of samples with the least cost
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/plans/grain_choice.h"
 
@@ -12,12 +12,12 @@ namespace diptych::coupling
 {
   namespace
   {
-    constexpr int most_samples_of_a_plan = 2000; // beyond, larger samples are the answer
+    constexpr int most_samples_of_a_plan = 2000; // if more are needed, larger samples are better
   }                                              // namespace
 
   double cost_at(const std::vector<CostPoint> &measured, const double accuracy)
   {
-    std::size_t k = 1; // the pair about it, or the last one
+    std::size_t k = 1; // the enclosing pair, or the last one
     while (k + 1 < measured.size() && accuracy < measured[k].accuracy)
       ++k;
     const CostPoint &a = measured[k - 1], &b = measured[k];

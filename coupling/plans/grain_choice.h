@@ -1,4 +1,4 @@
-// diptych: the accuracy of the grains and the number of samples that cost least
+// diptych: chooses the accuracy of the grains and the number of samples with the least cost
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -10,22 +10,22 @@ namespace diptych::coupling
 {
   constexpr double coarsest_accuracy = 0.05, finest_accuracy = 0.001; // of discrete/accuracy
 
-  // CPU seconds of a sample at a discrete/accuracy.
+  // CPU seconds of one sample at a discrete/accuracy.
   struct CostPoint
   {
     double accuracy, cpu_s;
   };
 
-  // Between two that were measured, and beyond, along the line through the two nearest in logarithms. Accuracies descending, two
-  // or more.
+  // Interpolates, and extrapolates along the line through the two nearest points in logarithms. `measured` holds two or more
+  // points with descending accuracies.
   double cost_at(const std::vector<CostPoint> &measured, double accuracy);
 
-  // A quantity's errors at discrete/accuracy 1, as a multiple of it, and of one sample.
+  // Errors of a quantity: proportional to discrete/accuracy, and the scatter of one sample.
   struct GrainErrors
   {
-    Estimate step;        // per accuracy
+    Estimate step;        // at discrete/accuracy 1
     double   scatter;     // relative
-    bool     from_a_rule; // else the deviation counts as an error, too
+    bool     from_a_rule; // false: the deviation of the estimate counts as an error, too
 
     double at(double accuracy) const;
   };
@@ -33,10 +33,10 @@ namespace diptych::coupling
   struct GrainChoice
   {
     double accuracy = 0;
-    int    samples  = 0; // 0: none suffices
+    int    samples  = 0; // 0: no number suffices
   };
 
-  // `samples`: 0 where their number is free.
+  // `samples`: the fixed number of samples, or 0 if it is free.
   GrainChoice cheapest_choice(const std::vector<GrainErrors> &errors,
                               const std::vector<CostPoint>   &cost,
                               double                          target,

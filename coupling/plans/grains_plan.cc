@@ -1,4 +1,4 @@
-// diptych: step, tolerance, snapshots and number of samples that the grains need
+// diptych: plans step, tolerance, snapshots and number of samples of the grains
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/plans/grains_plan.h"
 
@@ -18,13 +18,14 @@ namespace diptych::coupling
   namespace
   {
     constexpr int      pilot_samples = 8, paired_samples = 4;
-    constexpr int      largest_first_seed = 2140000000; // room for more
-    constexpr double   finer              = 0.5;        // the second level of the pilot, of the first
+    constexpr int      largest_first_seed = 2140000000; // leaves room for more seeds
+    constexpr double   finer              = 0.5;        // second level of the pilot / first level
     constexpr Estimate rule = {1, 0.5}, no_rule = {0, 1};
-    // A knob is turned down where that saves more than the first and moves no quantity by more than the second share of the
-    // accuracy.
+    // A cheaper setting is used if it saves more than the first share of the time and changes no quantity by more than the
+    // second share of the accuracy.
     constexpr double worth_trying = 0.1, share_of_a_knob = 0.25;
-    constexpr double far_from_the_pilot = 1.5, furthest_ahead = 4; // a choice beyond the first is run, at most so far ahead
+    // A choice finer than the pilot by the first factor is run, at most the second factor ahead at a time.
+    constexpr double far_from_the_pilot = 1.5, furthest_ahead = 4;
 
     struct Level
     {
@@ -32,14 +33,14 @@ namespace diptych::coupling
       PilotPoint point;
     };
 
-    // A cheaper setting that was taken, and how far it moves each quantity.
-    struct TurnedDown
+    // A cheaper setting that is used, and its effect on each quantity.
+    struct CheaperSetting
     {
       std::string         what;
-      std::vector<double> shifts; // with their sign
+      std::vector<double> shifts; // with sign
     };
 
-    // The pilot of one question.
+    // The pilot for one question.
     class Grains
     {
     public:
@@ -61,11 +62,11 @@ namespace diptych::coupling
         common = {planned("discrete", "step", "auto"), planned("discrete", "tolerance", "auto")};
         if (scene.discrete.time.step || scene.discrete.accuracy.tolerance)
           plan.decisions.emplace_back(
-            "step and tolerance: auto in the place of the scene's, so that discrete/accuracy says both");
+            "step and tolerance: auto instead of the scene's values, so that discrete/accuracy sets both");
         if (scene.discrete.sampling.snapshot_max_sweeps > 0)
           {
             common.push_back(planned("discrete", "snapshot_max_sweeps", "0"));
-            plan.decisions.emplace_back("sampled snapshots: off, no quantity needs single grains");
+            plan.decisions.emplace_back("sampled snapshots: off, because no quantity needs single grains");
           }
         if (plan.command == StudyCommand::run)
           for (const char *key : {"coarse_element_size", "band_resamples", "probe_resamples"})
@@ -79,7 +80,7 @@ namespace diptych::coupling
         levels.push_back({coarsest_accuracy, run_at(coarsest_accuracy, {}, seeds)});
         if (!finished(levels.back()))
           return plan;
-        levels.push_back({finer * coarsest_accuracy, run_at(finer * coarsest_accuracy, {}, few())});
+        levels.push_back({finer * coarsest_accuracy, run_at(finer * coarsest_accuracy, {}, first_samples())});
         if (!finished(levels.back()))
           return plan;
         if (seeds.empty())
@@ -90,7 +91,7 @@ namespace diptych::coupling
         while (choice.samples > 0 && choice.accuracy * far_from_the_pilot < levels.back().accuracy)
           {
             const double next = std::max(choice.accuracy, rounded_to_two_digits(levels.back().accuracy / furthest_ahead));
-            levels.push_back({next, run_at(next, {}, few())});
+            levels.push_back({next, run_at(next, {}, first_samples())});
             if (!finished(levels.back()))
               return plan;
             choice = choose();
@@ -100,7 +101,7 @@ namespace diptych::coupling
       }
 
     private:
-      std::vector<int> few() const
+      std::vector<int> first_samples() const
       {
         return {seeds.begin(), seeds.begin() + std::ptrdiff_t(std::min(seeds.size(), std::size_t(paired_samples)))};
       }
@@ -122,7 +123,7 @@ namespace diptych::coupling
       {
         if (!level.point.remark.empty())
           plan.decisions.push_back("discrete/accuracy = " + text_of(level.accuracy) +
-                                   ": samples are left out: " + level.point.remark);
+                                   ": some samples are left out: " + level.point.remark);
         if (level.point.words.empty())
           return true;
         plan.reaches = false;
@@ -130,7 +131,7 @@ namespace diptych::coupling
         return false;
       }
 
-      // Both upwards: long steps add to the strength, and take from the dilation, which is negative.
+      // Both errors are upwards: long steps increase the strength and decrease the dilation, which is negative.
       double expected(const Level &level, const std::size_t q) const
       {
         const double dilation = level.point.dilation_error, strength = level.point.strength_error;
@@ -162,7 +163,7 @@ namespace diptych::coupling
         return errors;
       }
 
-      // Of the first samples, which all levels have.
+      // Mean over the first samples, which all levels have.
       static double cost_of(const PilotPoint &point)
       {
         const std::size_t n = std::min(point.sample_cpu_s.size(), std::size_t(paired_samples));
@@ -179,11 +180,11 @@ namespace diptych::coupling
         return points;
       }
 
-      // What knobs that were turned down add to a quantity's error.
-      double of_knobs(const std::size_t q) const
+      // Error that the cheaper settings add to a quantity.
+      double error_of_knobs(const std::size_t q) const
       {
         double sum = 0;
-        for (const TurnedDown &knob : turned_down)
+        for (const CheaperSetting &knob : cheaper_settings)
           sum += std::abs(knob.shifts[q]);
         return sum;
       }
@@ -192,7 +193,7 @@ namespace diptych::coupling
       {
         double most = 0;
         for (std::size_t q = 0; q < quantities.size(); ++q)
-          most = std::max(most, of_knobs(q) + (one_run.empty() ? 0. : one_run[q]));
+          most = std::max(most, error_of_knobs(q) + (one_run.empty() ? 0. : one_run[q]));
         return cheapest_choice(all_errors(), cost(), question.accuracy - most, seeds.empty() ? 1 : 0);
       }
 
@@ -211,7 +212,7 @@ namespace diptych::coupling
         const std::vector<GrainErrors> errors = all_errors();
         for (std::size_t q = 0; q < quantities.size(); ++q)
           plan.quantities.push_back(budget(q, errors[q], choice));
-        tell_levels();
+        report_levels();
         advise();
       }
 
@@ -227,12 +228,12 @@ namespace diptych::coupling
           result.parts.push_back({"samples", half_interval(errors.scatter, choice.samples), 0, NAN});
         else
           result.parts.push_back({"one run", one_run[q], 0, NAN});
-        for (const TurnedDown &knob : turned_down)
+        for (const CheaperSetting &knob : cheaper_settings)
           result.parts.push_back({knob.what, std::abs(knob.shifts[q]), knob.shifts[q], NAN});
         return result;
       }
 
-      // Grains part from the last digit on: runs with almost the same accuracy say how far one run may lie from their mean.
+      // Runs diverge from the last digit on. Runs with almost the same accuracy show how far one run may lie from their mean.
       void find_repeatability()
       {
         std::vector<std::vector<double>> values(quantities.size());
@@ -246,11 +247,11 @@ namespace diptych::coupling
           one_run.push_back(half_interval(summary_of(quantities[q], values[q]).scatter, 1));
       }
 
-      void tell_levels()
+      void report_levels()
       {
         for (const Level &level : levels)
           plan.decisions.push_back("discrete/accuracy = " + text_of(level.accuracy) + ": " + rounded(level.point.cpu_s) +
-                                   " CPU s a sample");
+                                   " CPU s per sample");
         for (std::size_t q = 0; q < quantities.size() && !seeds.empty(); ++q)
           {
             const SampleStatistics d = difference(levels[0].point, levels[1].point, q);
@@ -260,30 +261,30 @@ namespace diptych::coupling
           }
       }
 
-      // Runs a cheaper setting where it is worth it and where eight samples can tell, and keeps it where it moves nothing much.
-      // deviations: expected of the differences, one a quantity.
+      // Runs a cheaper setting if it may be worth it and eight samples can measure its effect. Keeps it if the effect is small.
+      // deviations: expected deviations of the differences, one per quantity.
       void try_knob(const std::string &what, const Entry &cheaper, const double saving, const std::vector<double> &deviations)
       {
         const double most     = share_of_a_knob * question.accuracy;
         const double interval = half_interval(*std::max_element(deviations.begin(), deviations.end()), int(seeds.size()));
         std::string  verdict;
         if (saving < worth_trying)
-          verdict = "would save " + percent(std::max(0., saving)) + " of the time: not worth a trial";
+          verdict = "not tried; it would save " + (saving > 0 ? "only " + percent(saving) + " of the" : "no") + " time";
         else if (!(interval <= most))
-          verdict = "would save " + percent(saving) + ", but " + std::to_string(seeds.size()) + " samples tell its error to " +
-                    percent(interval) + " only: kept";
+          verdict = "not used; it would save " + percent(saving) + " of the time, but " + std::to_string(seeds.size()) +
+                    " samples give its error only to +- " + percent(interval);
         else
-          verdict = judged(what, cheaper, saving);
+          verdict = verdict_on(what, cheaper, saving);
         plan.decisions.push_back(what + ": " + verdict);
       }
 
-      std::string judged(const std::string &what, const Entry &cheaper, const double saving)
+      std::string verdict_on(const std::string &what, const Entry &cheaper, const double saving)
       {
         const PilotPoint point = run_at(coarsest_accuracy, {cheaper}, seeds);
         if (!point.words.empty())
           return point.words;
-        TurnedDown knob{what, {}};
-        double     reach = 0;
+        CheaperSetting knob{what, {}};
+        double         reach = 0;
         for (std::size_t q = 0; q < quantities.size(); ++q)
           {
             const SampleStatistics d = difference(point, levels.front().point, q);
@@ -291,21 +292,21 @@ namespace diptych::coupling
             reach = std::max(reach, std::abs(d.mean) + half_interval(d.deviation, d.n));
           }
         if (!(reach <= share_of_a_knob * question.accuracy))
-          return "kept, what is cheaper moves a quantity by up to " + percent(reach);
+          return "not used; it changes a quantity by up to " + percent(reach);
         const Settings before = common;
         common.push_back(cheaper);
-        const PilotPoint second = run_at(levels[1].accuracy, {}, few());
+        const PilotPoint second = run_at(levels[1].accuracy, {}, first_samples());
         if (!second.words.empty())
           {
             common = before;
             return second.words;
           }
-        turned_down.push_back(knob);
-        levels[0].point = point, levels[1].point = second; // the samples are others now
-        return "taken, saves " + percent(saving);
+        cheaper_settings.push_back(knob);
+        levels[0].point = point, levels[1].point = second; // the samples have changed
+        return "used; it saves " + percent(saving);
       }
 
-      // Another preparation makes other samples: pairs are pairs in name only.
+      // Another preparation makes different samples, so pairing brings nothing.
       void try_less_preparation()
       {
         const int           less = preparation_steps / 3;
@@ -318,7 +319,7 @@ namespace diptych::coupling
                    2. / 3 * levels.back().point.preparation_cpu_s / levels.back().point.cpu_s, deviations);
       }
 
-      // One sample tells the cost; grains part as much as they do between two steps.
+      // One sample gives the cost. The runs diverge as much as between two steps.
       void try_without_correction()
       {
         if (penetration_correction == "none")
@@ -339,32 +340,32 @@ namespace diptych::coupling
       {
         if (seeds.empty())
           {
-            plan.decisions.emplace_back("the sample is one from a file: how samples scatter is not known, and not in the budget");
+            plan.decisions.emplace_back(
+              "there is one sample from a file: the scatter of samples is unknown and not in the budget");
             return;
           }
         const auto   larger   = [](const QuantityBudget &a, const QuantityBudget &b) { return a.scatter < b.scatter; };
         const auto   deciding = std::max_element(plan.quantities.begin(), plan.quantities.end(), larger);
         const double left     = question.accuracy - (deciding->total() - half_interval(deciding->scatter, plan.n_samples()));
         const auto   text     = [&](const int n) { return n > 0 ? std::to_string(n) : std::string("more than a million"); };
-        plan.decisions.push_back(
-          "eight samples know a scatter to a factor of 0.66 to 2.0: " + text(samples_for(0.66 * deciding->scatter, left)) +
-          " to " + text(samples_for(2.0 * deciding->scatter, left)) + " samples may be needed");
-        plan.decisions.push_back(deciding->name + " decides the number of samples: one scatters by " +
-                                 percent(deciding->scatter) +
-                                 "; larger samples scatter less, by about the square root of their number of grains");
+        plan.decisions.push_back("eight samples give the scatter to within a factor of 0.66 to 2.0, so " +
+                                 text(samples_for(0.66 * deciding->scatter, left)) + " to " +
+                                 text(samples_for(2.0 * deciding->scatter, left)) + " samples may be needed");
+        plan.decisions.push_back(deciding->name + " determines the number of samples; one sample scatters by " +
+                                 percent(deciding->scatter) + "; the scatter falls with the square root of the number of grains");
       }
 
-      const PlanQuestion        &question;
-      const RunPilot            &run;
-      PanelPlan                  plan;
-      std::vector<StudyQuantity> quantities;
-      std::vector<int>           seeds;
-      Settings                   common;
-      std::string                penetration_correction;
-      int                        preparation_steps = 0;
-      std::vector<Level>         levels; // of the pilot, ever finer
-      std::vector<TurnedDown>    turned_down;
-      std::vector<double>        one_run; // of a single sample: half an interval of its quantities
+      const PlanQuestion         &question;
+      const RunPilot             &run;
+      PanelPlan                   plan;
+      std::vector<StudyQuantity>  quantities;
+      std::vector<int>            seeds;
+      Settings                    common;
+      std::string                 penetration_correction;
+      int                         preparation_steps = 0;
+      std::vector<Level>          levels; // of the pilot, ever finer
+      std::vector<CheaperSetting> cheaper_settings;
+      std::vector<double>         one_run; // half an interval of each quantity, for a single sample
     };
   } // namespace
 

@@ -1,4 +1,4 @@
-// diptych: step, tolerance, snapshots and number of samples that the grains need
+// diptych: plans step, tolerance, snapshots and number of samples of the grains
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -7,9 +7,9 @@
 
 namespace diptych::coupling
 {
-  // A pilot of eight samples at the coarsest discrete/accuracy, four of them at half of it: scatter, cost, and whether step and
-  // tolerance err as the rule expects (a factor, 1 +- 0.5 beforehand). Of all accuracies the one is taken that reaches what is
-  // asked with the least CPU time: a coarser one is cheaper, but leaves less to the interval of the mean and so takes more
-  // samples.
+  // The pilot runs eight samples at the coarsest discrete/accuracy and four of them at half of it. They give scatter and cost,
+  // and test the rule for the errors of step and tolerance (a factor, 1 +- 0.5 beforehand). The plan takes the accuracy that
+  // reaches the goal with the least CPU time. A coarser one is cheaper, but leaves less for the interval of the mean and so
+  // needs more samples.
   PanelPlan plan_grains(const PlanQuestion &question, const Scene &scene, const RunPilot &run);
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: values of a pilot's samples, relative
+// diptych: relative values and differences of a pilot's samples
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/plans/pilot_values.h"
 

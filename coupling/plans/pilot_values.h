@@ -1,4 +1,4 @@
-// diptych: values of a pilot's samples, relative
+// diptych: relative values and differences of a pilot's samples
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace diptych::coupling
 {
-  // Of the samples that have a value (a band, for one). Angles of lines turn, and what they scatter by is relative to 45 degrees.
+  // Uses the samples that have a value (for example a band). For the angle of a line, the scatter is relative to 45 degrees.
   struct PilotSummary
   {
     SampleStatistics statistics;    // in the quantity's unit
@@ -17,7 +17,7 @@ namespace diptych::coupling
   };
   [[nodiscard]] PilotSummary summary_of(const StudyQuantity &quantity, const std::vector<double> &values);
 
-  // One list less another, sample by sample, relative to the mean of the other, or to 45 degrees.
+  // Differences values - others, sample by sample, relative to the mean of the others, or to 45 degrees.
   [[nodiscard]] SampleStatistics relative_difference(const StudyQuantity       &quantity,
                                                      const std::vector<double> &values,
                                                      const std::vector<double> &others);

@@ -1,4 +1,4 @@
-// diptych: what a scene needs for the accuracy that is asked of it: question and answer
+// diptych: question and answer of a plan: the settings that a scene needs for an accuracy
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -14,12 +14,12 @@
 
 namespace diptych::coupling
 {
-  // What a rule says beforehand of how a quantity of the grains errs with step and tolerance.
+  // The rule that predicts the error of a quantity of the grains from step and tolerance.
   enum class StepError
   {
-    strength, // as the strength does
-    dilation, // as the dilation does
-    unknown   // no rule speaks of it: measured only
+    strength, // errs like the strength
+    dilation, // errs like the dilation
+    unknown   // no rule: measured only
   };
 
   struct PlanQuantity
@@ -30,11 +30,11 @@ namespace diptych::coupling
 
   struct PlanQuestion
   {
-    std::string scene;           // file
-    Settings    changes;         // --set
-    double      accuracy = 0.02; // of the mean of every quantity, relative: errors of the method and 95 % interval together
-    std::vector<PlanQuantity> grains, continuum;        // empty: nothing is asked of that panel
-    bool                      needs_comparison = false; // one of them is a number of the comparison
+    std::string               scene;             // file
+    Settings                  changes;           // --set
+    double                    accuracy = 0.02;   // relative, of the mean of every quantity: method errors plus 95 % interval
+    std::vector<PlanQuantity> grains, continuum; // empty: this panel is not planned
+    bool                      needs_comparison = false; // a quantity is a number of the comparison
   };
 
   // Points of a scene on the same samples.
@@ -49,24 +49,24 @@ namespace diptych::coupling
 
   struct PilotPoint
   {
-    std::string                      remark;       // why a few samples are left out; empty where all finished
-    std::vector<double>              sample_cpu_s; // of those that finished
-    std::string                      words;        // why a run did not finish; empty where all did
-    std::vector<std::vector<double>> values;       // [quantity][sample]; NaN where there is none
-    double                           cpu_s = NAN, preparation_cpu_s = 0, peak_memory_mb = 0; // a sample: mean, mean, largest
-    double                           strength_error = NAN, dilation_error = NAN;             // that the rule of the step expects
+    std::string                      remark;       // reason if a few samples are left out
+    std::vector<double>              sample_cpu_s; // of the samples that finished
+    std::string                      words;        // reason if a run did not finish
+    std::vector<std::vector<double>> values;       // [quantity][sample]; NaN if there is none
+    double                           cpu_s = NAN, preparation_cpu_s = 0, peak_memory_mb = 0; // per sample: mean, mean, largest
+    double                           strength_error = NAN, dilation_error = NAN;             // expected by the rule of the step
   };
 
   // Runs a task; what was run before is not run again. Throws StoppedOnRequest on a stop signal.
   using RunPilot = std::function<std::vector<PilotPoint>(const PilotTask &)>;
 
-  // A share of the error of a mean.
+  // One part of the error of a mean.
   struct ErrorPart
   {
     std::string cause;
-    double      error     = 0;                                        // relative, at most about
-    double      bias      = 0;                                        // expected, with its sign; 0: only chance
-    double      deviation = std::numeric_limits<double>::quiet_NaN(); // of that estimate, where it is known
+    double      error     = 0;                                        // relative, upper estimate
+    double      bias      = 0;                                        // expected, with sign; 0: chance only
+    double      deviation = std::numeric_limits<double>::quiet_NaN(); // of that estimate, if known
   };
 
   struct QuantityBudget
@@ -91,12 +91,12 @@ namespace diptych::coupling
     }
   };
 
-  // What --run found.
+  // The result of --run.
   struct QuantityOutcome
   {
     std::string      name;
     SampleStatistics statistics;
-    double           scatter = NAN, half_interval = NAN; // of one sample, of the mean; relative
+    double           scatter = NAN, half_interval = NAN; // of one sample; of the mean; relative
   };
 
   struct PanelPlan
@@ -104,11 +104,11 @@ namespace diptych::coupling
     std::string                  panel; // discrete or continuum
     StudyCommand                 command = StudyCommand::discrete;
     Settings                     settings;
-    std::vector<int>             seeds;                           // of the samples; empty: the one of the scene
+    std::vector<int>             seeds;                           // of the samples; empty: the one sample of the scene
     double                       cpu_s = NAN, peak_memory_mb = 0; // of one sample
-    bool                         reaches = true;                  // the accuracy that was asked for
+    bool                         reaches = true;                  // the required accuracy
     std::vector<QuantityBudget>  quantities;
-    std::vector<std::string>     decisions; // what was found of every knob
+    std::vector<std::string>     decisions; // findings on every setting
     std::vector<QuantityOutcome> outcomes;
     double                       outcome_cpu_s = NAN; // of one sample
 
@@ -123,7 +123,7 @@ namespace diptych::coupling
     double                 pilot_cpu_s = 0;
     std::vector<PanelPlan> panels;
 
-    // Both panels come from the same runs.
+    // True if both panels come from the same runs.
     bool shares_samples() const
     {
       for (const PanelPlan &panel : panels)

@@ -1,4 +1,4 @@
-// diptych: a plan as files
+// diptych: result files of a plan
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/plans/plan_output.h"
 

@@ -1,4 +1,4 @@
-// diptych: a plan as files
+// diptych: result files of a plan
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace diptych::coupling
 {
-  // plan.json, planned.prm: the scene with the settings of all panels. Throws SceneError where they contradict each other,
-  // std::runtime_error where a file cannot be written.
+  // Writes plan.json and planned.prm, the scene with the settings of all panels. Throws SceneError if settings contradict each
+  // other, std::runtime_error if a file cannot be written.
   void write_plan(const std::string &directory, const PlanQuestion &question, const Plan &plan);
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: what a plan is asked, from the words of the command line
+// diptych: reads the question of a plan from the command line
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/plans/plan_question.h"
 
@@ -13,11 +13,11 @@ namespace diptych::coupling
 {
   namespace
   {
-    constexpr double early_strain = 0.003; // below it strengths hang on how the loading began
+    constexpr double early_strain = 0.003; // below it the strength depends on how the loading started
 
     const std::string discrete_panel_name = "discrete", continuum_panel_name = "continuum";
 
-    // A name of --for by itself, of one panel.
+    // One name of --for, for one panel.
     struct Wanted
     {
       std::string name, panel;
@@ -80,13 +80,13 @@ namespace diptych::coupling
       return {band_number(wanted, scene, wanted.name == "angle" ? "angle_deg" : "width_10_90_d"), StepError::unknown};
     }
 
-    // Which panels a scene shows.
+    // The panels that a scene describes.
     struct Panels
     {
       bool grains = false, continuum = false;
     };
 
-    // Those of which it sets keys; an echo sets all.
+    // Panels with keys in the scene file; a resolved scene sets all keys.
     Panels panels_of(const std::string &file, const Scene &scene)
     {
       const bool shares_sample = scene.continuum.mesh.kind == continuum::MeshOption::Kind::outline;
@@ -120,7 +120,7 @@ namespace diptych::coupling
       return text.compare(0, begin.size(), begin) == 0;
     }
 
-    // Takes "discrete." or "continuum." away; both panels where there is neither.
+    // Removes the prefix "discrete." or "continuum."; without one, both panels are meant.
     Panels taken_prefix(std::string &word)
     {
       for (const std::string &panel : {discrete_panel_name, continuum_panel_name})
@@ -139,7 +139,7 @@ namespace diptych::coupling
       (wanted.panel == discrete_panel_name ? question.grains : question.continuum).push_back(quantity);
     }
 
-    // A number of comparison.json, by its whole name: of the panel that it names.
+    // Adds a number of comparison.json for the panel in its name.
     bool add_number(PlanQuestion &question, const std::string &name)
     {
       const bool of_grains    = name.find(" discrete ") != std::string::npos || begins_with(name, "discrete_summary "),
@@ -161,13 +161,13 @@ namespace diptych::coupling
     void check(const PlanQuestion &question, const Scene &scene)
     {
       if (scene.loading.mode == discrete::LoadingMode::time)
-        throw SceneError(question.scene + ": loading/mode = time: plans know loadings that walk along a strain");
+        throw SceneError(question.scene + ": loading/mode = time; plans support loadings along a strain only");
       if (!question.grains.empty() && scene.discrete.method.method != discrete::Method::nscd)
         throw SceneError(question.scene + ": discrete/method = " + text_of(scene.discrete.method.method) +
-                         ": plans know nscd; benchmarks/penalty and benchmarks/rigid_limit say what springs cost");
+                         "; plans support nscd only (cost of springs: benchmarks/penalty, benchmarks/rigid_limit)");
       if (question.needs_comparison && scene.continuum.mesh.kind != continuum::MeshOption::Kind::outline)
         throw SceneError(question.scene + ": continuum/mesh = " + text_of(scene.continuum.mesh) +
-                         ": --for asks for a number of the comparison, which needs both panels on one sample (outline)");
+                         "; --for asks for a number of the comparison, which needs both panels on one sample (mesh = outline)");
     }
   } // namespace
 
@@ -179,7 +179,7 @@ namespace diptych::coupling
     unit.erase(0, unit.find_first_not_of(' '));
     const double accuracy = unit == "%" ? value / 100 : value;
     if (rest == text.c_str() || !(unit.empty() || unit == "%") || !(accuracy >= 0.001 && accuracy <= 0.5))
-      throw SceneError("--accuracy '" + text + "': a number from 0.001 to 0.5 or from 0.1 % to 50 %");
+      throw SceneError("--accuracy '" + text + "' is not allowed; use a number from 0.001 to 0.5, or from 0.1 % to 50 %");
     return accuracy;
   }
 
@@ -199,9 +199,9 @@ namespace diptych::coupling
         if (std::find(short_names().begin(), short_names().end(), word) == short_names().end())
           {
             if (!add_number(question, whole))
-              throw SceneError("--for '" + whole + "': " + listed_names() +
-                               ", with discrete. or continuum. before it for one panel; or a number of comparison.json as "
-                               "ensemble.csv names it");
+              throw SceneError("--for '" + whole + "' is unknown; use " + listed_names() +
+                               ", with the prefix discrete. or continuum. for one panel, or a number of comparison.json with "
+                               "its name in ensemble.csv");
             continue;
           }
         const bool names_one = wanted.grains != wanted.continuum;

@@ -1,4 +1,4 @@
-// diptych: what a plan is asked, from the words of the command line
+// diptych: reads the question of a plan from the command line
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -19,14 +19,15 @@ namespace diptych::coupling
   };
 
   // Names of --for: peak_stress_ratio, strength, final_volumetric_strain, width_10_90 and angle (of the first band in the last
-  // window), each of both panels or with discrete. or continuum. before it of one; or a number of comparison.json as ensembles
-  // name it. A panel is asked where the scene sets keys of it: sample and discrete, or continuum. Throws SceneError.
+  // window). A name asks both panels; with the prefix discrete. or continuum. it asks one. A number of comparison.json with its
+  // name in ensemble.csv is allowed, too. A panel is planned if the scene sets keys of it: sample and discrete, or continuum.
+  // Throws SceneError.
   PlanQuestion read_question(const PlanWords &words);
 
   // A relative accuracy from 0.1 to 50 %. Throws SceneError.
   double read_accuracy(const std::string &text);
 
-  // An assignment that the plan makes.
+  // A setting that the plan makes.
   Entry planned(const std::string &section, const std::string &key, const std::string &value);
   Entry planned(const std::string &section, const std::string &key, double value);
 } // namespace diptych::coupling

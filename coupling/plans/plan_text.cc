@@ -1,4 +1,4 @@
-// diptych: numbers of a plan in words
+// diptych: the report of a plan as text
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/plans/plan_text.h"
 
@@ -51,7 +51,7 @@ namespace diptych::coupling
     {
       if (panel.outcomes.empty())
         return;
-      out << "  found, at " << rounded(panel.outcome_cpu_s) << " CPU s a sample:\n";
+      out << "  result, at " << rounded(panel.outcome_cpu_s) << " CPU s per sample:\n";
       for (const QuantityOutcome &one : panel.outcomes)
         {
           out << "    " << padded(one.name, name_width - 2) << rounded(one.statistics.mean);
@@ -85,7 +85,7 @@ namespace diptych::coupling
   std::string text_of(const Plan &plan)
   {
     std::ostringstream out;
-    out << plan.scene << " to " << with_digits(100 * plan.accuracy, 4) << " %" << '\n';
+    out << plan.scene << ": plan for an accuracy of " << with_digits(100 * plan.accuracy, 4) << " %" << '\n';
     for (const PanelPlan &panel : plan.panels)
       {
         out << '\n' << panel.panel << '\n';
@@ -93,7 +93,7 @@ namespace diptych::coupling
           out << "  " << decision << '\n';
         if (panel.quantities.empty())
           {
-            out << "  there is no plan for it: the accuracy is NOT reached\n";
+            out << "  no plan was found: the accuracy is NOT reached\n";
             continue;
           }
         add_budget(panel, out);
@@ -110,7 +110,7 @@ namespace diptych::coupling
         add_outcomes(panel, out);
       }
     if (plan.shares_samples())
-      out << "\nBoth panels are computed by `diptych run`, on the same samples.\n";
+      out << "\n`diptych run` computes both panels on the same samples.\n";
     out << "\nCPU time of the plan " << rounded(plan.total_cpu_s()) << " s; the pilot took " << rounded(plan.pilot_cpu_s)
         << " s\n";
     return out.str();

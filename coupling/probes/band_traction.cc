@@ -59,7 +59,10 @@ namespace diptych::coupling
       int    n = 0;
       for (const double v : values)
         if (std::isfinite(v))
-          sum += v, ++n;
+          {
+            sum += v;
+            ++n;
+          }
       for (const double v : values)
         if (std::isfinite(v))
           squares += (v - sum / n) * (v - sum / n);
@@ -72,7 +75,10 @@ namespace diptych::coupling
       int    n   = 0;
       for (const double v : values)
         if (std::isfinite(v))
-          sum += v, ++n;
+          {
+            sum += v;
+            ++n;
+          }
       return n > 0 ? sum / n : NAN;
     }
 

@@ -195,7 +195,10 @@ namespace diptych::coupling
       const auto norm = [&](const std::vector<int> &times) {
         double sum_q = 0, sum_p = 0;
         for (std::size_t b = 0; b < q.size(); ++b)
-          sum_q += times[b] * q[b], sum_p += times[b] * p[b];
+          {
+            sum_q += times[b] * q[b];
+            sum_p += times[b] * p[b];
+          }
         return relative_norm(sum_q, sum_p);
       };
       const double                 value = norm(std::vector<int>(q.size(), 1));
@@ -294,7 +297,10 @@ namespace diptych::coupling
     const Squares of_angles  = squares(probe);
     double        difference = 0, predicted = 0;
     for (std::size_t k = 0; k < of_angles.predicted.size(); ++k)
-      difference += of_angles.difference[k], predicted += of_angles.predicted[k];
+      {
+        difference += of_angles.difference[k];
+        predicted += of_angles.predicted[k];
+      }
     probe.relative_l2.value = relative_norm(difference, predicted);
     return probe;
   }

@@ -49,7 +49,10 @@ namespace diptych::coupling
         double        mean = 0;
         std::set<int> used;
         for (const Value &v : all)
-          mean += v.value / all.size(), used.insert(v.tile);
+          {
+            mean += v.value / all.size();
+            used.insert(v.tile);
+          }
         for (const int tile : used)
           result.place.emplace_back(tile % tiles.columns, tile / tiles.columns);
         for (Value &v : result.all)
@@ -82,7 +85,10 @@ namespace diptych::coupling
         return result;
       double sum = 0, above = 0;
       for (const double v : values)
-        sum += v, above += v > 1;
+        {
+          sum += v;
+          above += v > 1;
+        }
       result.mean             = sum / values.size();
       result.share_above_mean = above / values.size();
       for (std::size_t k = 0; k < chain_quantiles.size(); ++k)

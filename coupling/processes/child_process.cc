@@ -1,4 +1,4 @@
-// diptych: programs run beside this one
+// diptych: starts other programs and waits for them
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/processes/child_process.h"
 
@@ -26,7 +26,7 @@ namespace diptych::coupling
   {
     bool belongs_to_mpi_job(const std::string &variable)
     {
-      // Permission to run as root is the user's, not the job's.
+      // Permission to run as root belongs to the user, not to the job.
       if (variable.rfind("OMPI_ALLOW_RUN_AS_ROOT", 0) == 0)
         return false;
       for (const char *prefix : {"OMPI_", "PMIX_", "PMI_", "PRTE_", "ORTE_"})
@@ -44,7 +44,7 @@ namespace diptych::coupling
       return result;
     }
 
-    // In the place of the standard ones; -1: nothing to read, this process's own output and errors.
+    // Replaces standard streams. -1: no input; output and errors of this process.
     struct Streams
     {
       int in = -1, out = -1, errors = -1;
@@ -56,19 +56,19 @@ namespace diptych::coupling
       return descriptors;
     }
 
-    // After fork: only calls that are safe there. The descriptors ascend.
+    // Runs after fork, so only calls that are safe there. The descriptors ascend.
     void close_all_but(const int *const kept, const std::size_t n)
     {
-      unsigned int next = 3; // behind the standard ones
+      unsigned int next = 3; // after the standard streams
       for (std::size_t k = 0; k < n; ++k)
         if (const auto one = static_cast<unsigned int>(kept[k]); one >= next)
           {
             if (one > next)
               close_range(next, one - 1, 0);
-            fcntl(kept[k], F_SETFD, 0); // open over exec, too
+            fcntl(kept[k], F_SETFD, 0); // stay open in exec
             next = one + 1;
           }
-      close_range(next, ~0U, 0); // sockets of an MPI job among them
+      close_range(next, ~0U, 0); // includes sockets of an MPI job
     }
 
     [[noreturn]] void become(char *const            *words,
@@ -80,7 +80,7 @@ namespace diptych::coupling
       const int input = streams.in >= 0 ? streams.in : open("/dev/null", O_RDONLY);
       setpgid(0, 0);
       prctl(PR_SET_PDEATHSIG, SIGTERM);
-      if (getppid() != parent) // it ended before it could be asked to tell
+      if (getppid() != parent) // the parent ended before the line above
         _exit(127);
       dup2(input, STDIN_FILENO);
       if (streams.out >= 0)
@@ -115,17 +115,17 @@ namespace diptych::coupling
     }
   } // namespace
 
-  void hold_in_programs(const int descriptor)
+  void keep_open_in_programs(const int descriptor)
   {
     held().insert(descriptor);
   }
 
-  void no_longer_hold_in_programs(const int descriptor)
+  void close_in_programs(const int descriptor)
   {
     held().erase(descriptor);
   }
 
-  Answerer start_answerer(const std::vector<std::string> &words)
+  PipedProgram start_piped_program(const std::vector<std::string> &words)
   {
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
@@ -138,7 +138,8 @@ namespace diptych::coupling
       }
     catch (const std::exception &)
       {
-        close(ends[0]), close(ends[1]);
+        close(ends[0]);
+        close(ends[1]);
         throw;
       }
   }
@@ -157,7 +158,7 @@ namespace diptych::coupling
         if (ended == program)
           return code_of_status(status);
         if (stop_requested())
-          kill(program, SIGKILL); // it draws into files that it renames at its end
+          kill(program, SIGKILL); // its files are complete only after its last rename
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
       }
   }
@@ -173,7 +174,7 @@ namespace diptych::coupling
 
   void ask_to_stop(const pid_t program)
   {
-    // The handler of stop_signal.cc gives the signal that came its default action back.
+    // The handler in stop_signal.cc resets the received signal to its default action.
     struct sigaction action = {};
     sigaction(SIGTERM, nullptr, &action);
     kill(program, action.sa_handler == SIG_DFL ? SIGINT : SIGTERM);

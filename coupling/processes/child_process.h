@@ -1,4 +1,4 @@
-// diptych: programs run beside this one
+// diptych: starts other programs and waits for them
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -9,35 +9,35 @@
 
 namespace diptych::coupling
 {
-  // Programs are started with words[0] (a path) and the other words, each in its own process group, so that Ctrl-C reaches this
-  // process alone; without the environment of an MPI job, which would make it one of its ranks; and they get SIGTERM when this
-  // process ends. Of its files they hold open what is named here alone, as long as they live. Throws std::runtime_error where no
-  // process can be made.
-  void hold_in_programs(int descriptor);
-  void no_longer_hold_in_programs(int descriptor);
+  // Programs are started with words[0] (a path) and the other words as arguments. Each has its own process group, so that
+  // Ctrl-C reaches only this process. They do not inherit the environment of an MPI job, which would make them one of its
+  // ranks. They receive SIGTERM when this process ends. They inherit only the file descriptors registered here. Throws
+  // std::runtime_error if no process can be made.
+  void keep_open_in_programs(int descriptor);
+  void close_in_programs(int descriptor);
 
-  // A program that reads lines and answers them: its standard input and output are the other end of `socket`.
-  struct Answerer
+  // A program that reads lines and answers them. Its standard input and output are the other end of `socket`.
+  struct PipedProgram
   {
     pid_t program = 0;
     int   socket  = -1;
   };
-  [[nodiscard]] Answerer start_answerer(const std::vector<std::string> &words);
+  [[nodiscard]] PipedProgram start_piped_program(const std::vector<std::string> &words);
 
-  // With this process's own output and errors, until it has ended. Returns its exit code, 128 + signal where a signal ended it.
-  // Throws StoppedOnRequest once it has been ended because this one was asked to stop.
+  // Runs a program with this process's output and errors and waits for its end. Returns its exit code, or 128 + signal. On a
+  // stop request it kills the program and throws StoppedOnRequest.
   [[nodiscard]] int run_program(const std::vector<std::string> &words);
 
-  // Exit code of a program, as above, when it has ended.
+  // Waits for the end of a program. Returns its exit code as above.
   int wait_for(pid_t program);
 
-  // Asks a program to stop, by the signal of SIGINT and SIGTERM that did not stop this process: a signal that the user sent to
-  // all processes alike must not count twice, because a second SIGINT kills.
+  // Asks a program to stop. Uses the one of SIGINT and SIGTERM that did not stop this process: a signal that the user sent to
+  // all processes must not count twice, because a second SIGINT kills.
   void ask_to_stop(pid_t program);
 
-  // This program's own file.
+  // Path of this program.
   std::string own_path();
 
-  // Processors that this process may use.
+  // Number of processors that this process may use.
   [[nodiscard]] int n_usable_cores();
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: several processes that run the continuum together
+// diptych: helpers for several MPI processes that run the continuum together
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/processes/processes.h"
 
@@ -69,7 +69,7 @@ namespace diptych::coupling
       return text;
     }
 
-    // Whether every process arrives here soon: then they met the same error, or all of them their own.
+    // True if every process arrives here within five seconds. Then all met an error, the same one or each its own.
     bool all_arrive(const MPI_Comm communicator)
     {
       constexpr std::chrono::seconds patience(5);
@@ -87,13 +87,12 @@ namespace diptych::coupling
     }
   } // namespace
 
-  void need_no_daemon()
+  void avoid_mpi_daemon()
   {
     if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr && std::getenv("PMI_SIZE") == nullptr)
       {
         setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-        // Without a daemon all processes of a user would share one folder of session files, and the first one that ends removes
-        // it.
+        // Without a daemon all processes of a user share one folder of session files, and the first one to end removes it.
         setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
       }
   }
@@ -170,11 +169,11 @@ namespace diptych::coupling
     return any == 1;
   }
 
-  int answer_for(const std::function<int()> &work,
-                 int (*code_of)(const std::exception &),
-                 std::string (*text_of)(const std::exception &))
+  int run_and_report(const std::function<int()> &work,
+                     int (*code_of)(const std::exception &),
+                     std::string (*text_of)(const std::exception &))
   {
-    // A communicator of its own: the barrier must not be taken for one of those that `work` waits in.
+    // A separate communicator: the barrier must not match one that `work` waits in.
     MPI_Comm communicator = MPI_COMM_NULL;
     MPI_Comm_dup(MPI_COMM_WORLD, &communicator);
     int code = 0;

@@ -1,4 +1,4 @@
-// diptych: several processes that run the continuum together
+// diptych: helpers for several MPI processes that run the continuum together
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -9,29 +9,28 @@
 
 namespace diptych::coupling
 {
-  // Before MPI is initialised: a process that was not started as one of several needs no daemon of MPI beside it, which asks for
-  // a PATH, for ssh, for files in TMPDIR, and ends the process where one is missing.
-  void need_no_daemon();
+  // Call before MPI is initialised. A process that was not started by mpirun needs no MPI daemon. The daemon requires PATH, ssh
+  // and files in TMPDIR, and ends the process if one is missing.
+  void avoid_mpi_daemon();
 
-  // All need an initialised MPI and are collective, but for the next three.
+  // All functions need an initialised MPI. All except the next three are collective.
   bool         is_first_process();
   unsigned int n_processes();
-  unsigned int own_number(); // of this process, from 0
+  unsigned int own_number(); // rank of this process, from 0
 
-  // Runs `work` on the first process alone: files, grains and messages are its affair. Everyone returns its value, or throws
-  // what it threw, so that none waits for another.
+  // Runs `work`, which reads and writes files, on the first process only. All processes return its value or throw its
+  // exception, so that none waits for another.
   int on_first_process(const std::function<int()> &work);
 
   double              sum_over_processes(double value);
-  double              from_first_process(double value); // everyone gets the first one's
+  double              from_first_process(double value); // all return the value of the first process
   std::vector<double> from_first_process(std::vector<double> values);
 
-  bool any_process(bool value); // whether it is true on one of them
+  bool any_process(bool value); // true if it is true on one of them
 
-  // Runs `work` and returns its exit code. An exception is told on standard error and becomes what `code_of` makes of it: once
-  // where all processes meet the same one. One that some processes do not share ends all of them (MPI_Abort): they would wait for
-  // ever.
-  int answer_for(const std::function<int()> &work,
-                 int (*code_of)(const std::exception &),
-                 std::string (*text_of)(const std::exception &));
+  // Runs `work` and returns its exit code. An exception is printed to standard error, and `code_of` gives its code. If all
+  // processes meet it, it is printed once. Otherwise it ends all processes (MPI_Abort), because the others would wait forever.
+  int run_and_report(const std::function<int()> &work,
+                     int (*code_of)(const std::exception &),
+                     std::string (*text_of)(const std::exception &));
 } // namespace diptych::coupling

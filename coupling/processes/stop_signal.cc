@@ -1,4 +1,4 @@
-// diptych: Ctrl-C, SIGTERM and a terminal that goes (SIGHUP) end the run at the next step
+// diptych: Ctrl-C (SIGINT), SIGTERM and a closed terminal (SIGHUP) end a run at its next step
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/processes/stop_signal.h"
 
@@ -13,23 +13,23 @@ namespace diptych::coupling
     constexpr int stop_signals[] = {SIGINT, SIGTERM, SIGHUP};
 
     volatile std::sig_atomic_t stop     = 0;
-    volatile pid_t             parent   = 0; // 0: this process may outlive it
+    volatile pid_t             parent   = 0; // 0: this process may outlive its parent
     volatile unsigned int      patience = 0;
 
-    // Only calls that are safe in a handler.
+    // A handler may only use calls that are safe there.
     void request_stop(const int signal)
     {
       stop = 1;
-      // A second Ctrl-C kills. SIGTERM may come several times for one reason: from a parent with several threads that is killed,
-      // once for each that ends after the one before, and the checkpoint must be written all the same.
+      // A second Ctrl-C kills. SIGTERM may arrive several times for one reason: if a parent with several threads is killed,
+      // each ending thread sends one. The checkpoint must still be written.
       if (signal == SIGINT)
         std::signal(signal, SIG_DFL);
       if (parent != 0 && getppid() != parent)
         alarm(patience);
     }
 
-    // SA_RESTART: the standard library, HDF5 and MPI read and write without a look at EINTR here and there. What could wait for
-    // ever, a pipe or a device as an input, is refused before it is opened (discrete::require_regular_file).
+    // SA_RESTART, because the standard library, HDF5 and MPI do not always check for EINTR. Inputs that could block forever,
+    // such as a pipe or a device, are refused before they are opened (discrete::require_regular_file).
     void take(const int signal)
     {
       struct sigaction action = {};
@@ -58,12 +58,14 @@ namespace diptych::coupling
   void install_signals()
   {
     static const bool terminal_may_go = is_ignored(SIGHUP);
-    take(SIGINT), take(SIGTERM);
+    take(SIGINT);
+    take(SIGTERM);
     if (terminal_may_go)
       std::signal(SIGHUP, SIG_IGN);
     else
       take(SIGHUP);
-    std::signal(SIGPIPE, SIG_IGN), std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
     unblock_stop_signals();
   }
 
@@ -86,7 +88,8 @@ namespace diptych::coupling
 
   void end_after_parent(const unsigned int seconds)
   {
-    patience = seconds, parent = getppid();
+    patience = seconds;
+    parent   = getppid();
   }
 
   void leave_if_stopped(const std::string &phase)

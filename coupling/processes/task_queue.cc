@@ -1,4 +1,4 @@
-// diptych: many runs of the program, each by whichever worker is free
+// diptych: distributes many runs of the program over workers
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/processes/task_queue.h"
 
@@ -46,10 +46,11 @@ namespace diptych::coupling
       void ended(const Ended &one)
       {
         ++(one.outcome.exit_code == 0 ? n_done : n_failed);
-        known_seconds += one.seconds, ++n_known;
+        known_seconds += one.seconds;
+        ++n_known;
       }
 
-      // running_seconds: how long each task that runs has been running, all together.
+      // running_seconds: sum over the running tasks of their times so far.
       void show(const int n_running, const double running_seconds, const bool changed)
       {
         const int    n_ended = n_done + n_failed, part = 20 * n_ended / std::max(1, n_total);
@@ -61,10 +62,11 @@ namespace diptych::coupling
         const std::string remaining = n_known > 0 ? ", " + duration_text(left) + " remaining" : "";
         std::fprintf(stderr, "%s%d of %d %s done, %d running, %d failed%s%s", terminal ? "\r\033[K" : "", n_done, n_total,
                      noun.c_str(), n_running, n_failed, remaining.c_str(), terminal ? "" : "\n");
-        shown = Clock::now(), last_part = part;
+        shown     = Clock::now();
+        last_part = part;
       }
 
-      // Room for a message.
+      // Clears the line before a message.
       void clear_line() const
       {
         if (!quiet && terminal)
@@ -79,7 +81,7 @@ namespace diptych::coupling
       Clock::time_point shown         = Clock::now() - std::chrono::hours(1);
     };
 
-    // The workers of this process and what they do.
+    // The workers of this process and their tasks.
     class Crew
     {
     public:
@@ -153,7 +155,7 @@ namespace diptych::coupling
       return received;
     }
 
-    void tell(const TaskQueue &queue, const TaskOutcome &outcome, const TaskProgress &progress)
+    void report_failure(const TaskQueue &queue, const TaskOutcome &outcome, const TaskProgress &progress)
     {
       if (outcome.exit_code == 0 || outcome.interrupted)
         return;
@@ -162,12 +164,12 @@ namespace diptych::coupling
       const std::string words = last_words(task.log);
       std::cerr << task.name << " failed with exit code " << outcome.exit_code << ": "
                 << (!words.empty()            ? words
-                    : outcome.exit_code > 128 ? "ended by a signal, without a word"
-                                              : "without a word")
-                << " (its output: " << task.log << ')' << std::endl;
+                    : outcome.exit_code > 128 ? "ended by a signal, without a message"
+                                              : "without a message")
+                << " (log: " << task.log << ')' << std::endl;
     }
 
-    // Hands out the tasks; its own workers are served like those of others.
+    // Hands out the tasks. Serves its own workers like those of other processes.
     class Lead
     {
     public:
@@ -180,11 +182,11 @@ namespace diptych::coupling
 
       std::vector<TaskOutcome> run()
       {
-        const int others = queue.jobs * int(n_processes() - 1); // each worker of the others is told once that there is no more
+        const int others = queue.jobs * int(n_processes() - 1); // each of the others' workers gets one dismissal
         while (outcomes.size() < queue.tasks.size() || n_dismissed < others)
           {
             const bool changed = take_outcomes();
-            give_up_where_asked();
+            drop_tasks_on_stop();
             while (crew.n_free() > 0 && next < queue.tasks.size())
               crew.begin(next++);
             answer_others();
@@ -210,12 +212,12 @@ namespace diptych::coupling
             outcomes.push_back(one.outcome);
             if (!one.outcome.interrupted)
               progress.ended(one);
-            tell(queue, one.outcome, progress);
+            report_failure(queue, one.outcome, progress);
           }
         return !ended.empty();
       }
 
-      // A full disk must not end the others.
+      // A full disk must not end the other tasks.
       void note_end(TaskOutcome &outcome)
       {
         try
@@ -230,7 +232,7 @@ namespace diptych::coupling
           }
       }
 
-      void give_up_where_asked()
+      void drop_tasks_on_stop()
       {
         for (; stop_requested() && next < queue.tasks.size(); ++next)
           outcomes.push_back({next, 0, true});
@@ -287,7 +289,7 @@ namespace diptych::coupling
         }
     }
 
-    // A collective call would keep a core busy while other processes still have tasks to run.
+    // A blocking collective call would keep a core busy while other processes still run tasks.
     void wait_for_all()
     {
       MPI_Request request;

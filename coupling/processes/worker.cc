@@ -1,4 +1,4 @@
-// diptych: a process that does one task after the other
+// diptych: a process that executes one task after another
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/processes/worker.h"
 
@@ -28,7 +28,7 @@ namespace diptych::coupling
       }
     catch (const nlohmann::json::exception &error)
       {
-        throw std::invalid_argument(std::string("a worker got no task: ") + error.what());
+        throw std::invalid_argument(std::string("a worker received an invalid task: ") + error.what());
       }
   }
 
@@ -45,7 +45,7 @@ namespace diptych::coupling
   Worker::~Worker()
   {
     if (process.program != 0)
-      bury();
+      close_and_wait();
   }
 
   double Worker::seconds() const
@@ -65,12 +65,12 @@ namespace diptych::coupling
     return true;
   }
 
-  int Worker::bury()
+  int Worker::close_and_wait()
   {
-    const Answerer buried = std::exchange(process, Answerer{});
-    close(buried.socket);
+    const PipedProgram closed = std::exchange(process, PipedProgram{});
+    close(closed.socket);
     answer.clear();
-    return wait_for(buried.program);
+    return wait_for(closed.program);
   }
 
   void Worker::begin(const WorkerTask &task)
@@ -81,9 +81,9 @@ namespace diptych::coupling
     if (process.program != 0 && send(line))
       return;
     if (process.program != 0)
-      bury(); // killed while it had nothing to do
-    process = start_answerer(command);
-    send(line); // one that dies at once is noticed by ended()
+      close_and_wait(); // killed while it was idle
+    process = start_piped_program(command);
+    send(line); // ended() notices a process that dies at once
   }
 
   std::optional<int> Worker::ended()
@@ -97,8 +97,8 @@ namespace diptych::coupling
     if (n <= 0)
       {
         works          = false;
-        const int code = bury();
-        return code == 0 ? system_ended_task : code; // it ended by itself, without an answer
+        const int code = close_and_wait();
+        return code == 0 ? system_ended_task : code; // it ended without an answer
       }
     answer.append(part, std::size_t(n));
     if (answer.back() != '\n')

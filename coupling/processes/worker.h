@@ -1,4 +1,4 @@
-// diptych: a process that does one task after the other
+// diptych: a process that executes one task after another
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -12,22 +12,22 @@
 
 namespace diptych::coupling
 {
-  // Exit code of a task that the system ended: no room, no memory, a worker that is lost.
+  // Exit code of a task that the system ended: no space, no memory, or a lost worker.
   inline constexpr int system_ended_task = 4;
 
-  // What a worker is asked, one line of JSON, and what it answers: the exit code on a line.
+  // Protocol: a worker receives its task as one line of JSON and answers with the exit code on a line.
   struct WorkerTask
   {
     std::vector<std::string> words; // of the command line, without the program
-    std::string              log;   // output and errors are added to this file
+    std::string              log;   // output and errors are appended to this file
   };
   std::string text_of(const WorkerTask &task);
   WorkerTask  read_worker_task(const std::string &line); // throws std::invalid_argument
 
-  // Last line of a log that says something.
+  // Last line of a log that is not blank.
   std::string last_words(const std::string &log);
 
-  // The process is started with its first task, and again where it had died.
+  // The process starts with its first task, and again if it died.
   class Worker
   {
   public:
@@ -37,7 +37,7 @@ namespace diptych::coupling
     Worker(const Worker &) = delete;
     Worker(Worker &&other) noexcept
         : command(std::move(other.command)),
-          process(std::exchange(other.process, Answerer{})),
+          process(std::exchange(other.process, PipedProgram{})),
           answer(std::move(other.answer)),
           works(other.works),
           since(other.since)
@@ -46,19 +46,19 @@ namespace diptych::coupling
     ~Worker(); // ends the process when its task is done
 
     bool   is_free() const { return !works; }
-    double seconds() const; // since its task began
+    double seconds() const; // since the task began
 
-    void               begin(const WorkerTask &task); // throws std::runtime_error where no process can be made
-    std::optional<int> ended();                       // exit code of the task, once
+    void               begin(const WorkerTask &task); // throws std::runtime_error if no process can be made
+    std::optional<int> ended();                       // exit code of the task, returned once
     void               ask_to_stop() const;
 
   private:
     bool send(const std::string &line) const;
-    int  bury(); // closes the socket, waits for the process; its exit code
+    int  close_and_wait(); // closes the socket, waits for the process and returns its exit code
 
     std::vector<std::string>              command;
-    Answerer                              process;
-    std::string                           answer; // as far as it has come
+    PipedProgram                          process;
+    std::string                           answer; // the part received so far
     bool                                  works = false;
     std::chrono::steady_clock::time_point since;
   };

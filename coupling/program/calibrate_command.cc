@@ -211,7 +211,8 @@ namespace diptych::coupling
 
     void keep(const std::string &directory, const CalibrationRuns &runs, CalibrationRecord &record)
     {
-      record.cpu_s = runs.continuum_cpu_s(), record.grains_cpu_s = runs.grains_cpu_s();
+      record.cpu_s        = runs.continuum_cpu_s();
+      record.grains_cpu_s = runs.grains_cpu_s();
       on_first_process([&] {
         write_calibration(directory, record);
         return 0;

@@ -74,7 +74,9 @@ namespace diptych::coupling
   Study CalibrationRuns::study_of(const CalibrationTarget &target, const StudyCommand command) const
   {
     Study study;
-    study.name = target.name, study.file = calibration.file, study.scene = target.scene;
+    study.name     = target.name;
+    study.file     = calibration.file;
+    study.scene    = target.scene;
     study.command  = command;
     study.settings = target.settings;
     if (command == StudyCommand::discrete)

@@ -80,6 +80,7 @@ namespace diptych::coupling
         to->add_option("--set-file", line.set_files, "file of keys as calibrate writes it (.prm); --set goes before it")
           ->allow_extra_args(false)->type_name("FILE");
       }
+      void add_scene_output_set(CLI::App *to) { add_scene(to); add_output(to); add_set(to); }
       void add_threads(CLI::App *to) { to->add_option("--threads", line.threads, "of the contact solver; the same bits for every number")->check(CLI::Range(1, 1024)); }
       void add_resume(CLI::App *to, const std::string &what) { to->add_flag("--resume", line.resume, "go on from the results in the folder: " + what); }
       void add_overwrite(CLI::App *to) { to->add_flag("--overwrite", line.overwrite, "rename results in the folder to DIR.1 and begin again"); }
@@ -105,8 +106,10 @@ namespace diptych::coupling
       void add_run()
       {
         CLI::App *run = add(Command::run, "both panels, homogenisation, comparison, report");
-        add_scene(run), add_output(run), add_set(run), add_threads(run),
-          add_resume(run, "an interrupted run, or other keys of the continuum or the comparison"), add_overwrite(run);
+        add_scene_output_set(run);
+        add_threads(run);
+        add_resume(run, "an interrupted run, or other keys of the continuum or the comparison");
+        add_overwrite(run);
         auto *seeds = run->add_option(
           "--seeds", line.seeds,
           "the scene on every sample of a list like 1-8 or 1,3,5-7, each in DIR/seed_K, then means, "
@@ -124,7 +127,9 @@ namespace diptych::coupling
                               "many settings of a scene on many samples: errors against a reference, cost, classes");
         study->add_option("STUDY", line.target, "study file, .json")->required();
         add_output(study, "folder of the study (default: results/<study name>_study)");
-        add_set(study), add_threads(study), add_jobs(study, "");
+        add_set(study);
+        add_threads(study);
+        add_jobs(study, "");
         add_resume(study, "finished runs are kept, the others run");
         add_overwrite(study);
         add_quiet(study);
@@ -137,7 +142,8 @@ namespace diptych::coupling
                                   "data do not tell, and predictions of what was not fitted");
         calibrate->add_option("CALIBRATION", line.target, "calibration file, .json")->required();
         add_output(calibrate, "folder of the calibration (default: results/<its name>_calibration)");
-        add_threads(calibrate), add_jobs(calibrate, "");
+        add_threads(calibrate);
+        add_jobs(calibrate, "");
         add_resume(calibrate, "finished runs are kept, the others run");
         add_overwrite(calibrate);
         add_quiet(calibrate);
@@ -147,7 +153,10 @@ namespace diptych::coupling
       {
         CLI::App *plan = add(Command::plan, "what a scene needs for an accuracy, by pilot runs: step, tolerance, elements, load "
                                             "steps, law, samples; with the budget of errors and the cost");
-        add_scene(plan), add_set(plan), add_threads(plan), add_jobs(plan, "");
+        add_scene(plan);
+        add_set(plan);
+        add_threads(plan);
+        add_jobs(plan, "");
         plan
           ->add_option("--accuracy", line.accuracy,
                        "of the means, relative: 2 % or 0.02; errors of the method and 95 % interval together")
@@ -167,8 +176,10 @@ namespace diptych::coupling
       void add_panels()
       {
         CLI::App *grains = add(Command::discrete, "the grains alone");
-        add_scene(grains), add_output(grains), add_set(grains), add_threads(grains), add_resume(grains, "an interrupted run"),
-          add_overwrite(grains);
+        add_scene_output_set(grains);
+        add_threads(grains);
+        add_resume(grains, "an interrupted run");
+        add_overwrite(grains);
         grains
           ->add_option_function<std::string>(
             "--study", [this](const std::string &) { line.study_of_step = true; },
@@ -178,13 +189,16 @@ namespace diptych::coupling
 
         CLI::App *continuum = add(Command::continuum, "the continuum alone (continuum/mesh = outline prepares the grains); also "
                                                       "under mpirun");
-        add_scene(continuum), add_output(continuum), add_set(continuum), add_resume(continuum, "an interrupted run"),
-          add_overwrite(continuum);
+        add_scene_output_set(continuum);
+        add_resume(continuum, "an interrupted run");
+        add_overwrite(continuum);
         add_quiet(continuum);
 
         CLI::App *point = add(Command::material_point,
                               "the continuum's law on one point along the biaxial path: material_point.csv");
-        add_scene(point), add_output(point), add_set(point), add_overwrite(point), add_quiet(point);
+        add_scene_output_set(point);
+        add_overwrite(point);
+        add_quiet(point);
       }
 
       void add_solve()
@@ -207,7 +221,8 @@ namespace diptych::coupling
         CLI::App *compare = add(Command::compare,
                                 "homogenise and compare again from a result folder, or evaluate an ensemble again");
         compare->add_option("DIR", line.target, "result folder")->required();
-        add_set(compare), add_quiet(compare);
+        add_set(compare);
+        add_quiet(compare);
         CLI::App *report = add(Command::report, "draw report.html of a result folder or an ensemble again");
         report->add_option("DIR", line.target, "result folder")->required();
         add_quiet(report);
@@ -279,10 +294,7 @@ namespace diptych::coupling
           joined_words.push_back(word);
       return joined_words;
     }
-  } // namespace
 
-  namespace
-  {
     // Their keys, before those of --set.
     void take_set_files(CommandLine &line)
     {
@@ -381,7 +393,7 @@ namespace diptych::coupling
     if (!line.output.empty())
       scene.output.directory = line.output;
     scene.discrete.threads = line.threads;
-    for (const std::string &warning : line.tells_warnings ? scene.warnings : std::vector<std::string>())
+    for (const std::string &warning : line.prints_warnings ? scene.warnings : std::vector<std::string>())
       warn(warning);
     return scene;
   }

@@ -50,11 +50,11 @@ namespace diptych::coupling
     discrete::ContactSolver              solver = discrete::ContactSolver::psor; // --solver, --tolerance, --max-sweeps: of solve
     double                               tolerance  = 1e-8;
     int                                  max_sweeps = 1000000;
-    std::optional<discrete::ProblemForm> form;                  // --form; none: the better one that the file has
-    ForeignOptions                       foreign;               // of import
-    std::string                          format;                // of export
-    int                                  stage          = 0;    // of export
-    bool                                 tells_warnings = true; // the first of several processes does
+    std::optional<discrete::ProblemForm> form;                   // --form; none: the better one that the file has
+    ForeignOptions                       foreign;                // of import
+    std::string                          format;                 // of export
+    int                                  stage           = 0;    // of export
+    bool                                 prints_warnings = true; // the first of several processes does
   };
 
   // The words after the program's name; or, where they ask for help, the version or a completion script or are wrong, the exit

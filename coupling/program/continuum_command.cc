@@ -54,7 +54,10 @@ namespace diptych::coupling
       f.steps     = report.steps;
       f.processes = int(n_processes());
       if (report.localisation_progress)
-        f.localisation_strain = *report.localisation_progress, f.localisation_angle = report.localisation_angle;
+        {
+          f.localisation_strain = *report.localisation_progress;
+          f.localisation_angle  = report.localisation_angle;
+        }
       f.finished             = report.status == continuum::Status::finished;
       f.reached_progress     = report.progress;
       f.reached_axial_strain = report.axial_strain;

@@ -168,7 +168,10 @@ namespace diptych::coupling
       preparation.name  = "preparation";
       preparation.cpu_s = preparation.wall_s = report.preparation_cpu_s;
       if (!prepared_before)
-        loading.cpu_s -= report.preparation_cpu_s, loading.wall_s -= report.preparation_cpu_s;
+        {
+          loading.cpu_s -= report.preparation_cpu_s;
+          loading.wall_s -= report.preparation_cpu_s;
+        }
       record_phases(scene.output.directory, scene, line.text, {preparation, loading});
       record_facts(scene.output.directory, facts);
     }

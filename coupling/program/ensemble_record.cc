@@ -93,11 +93,15 @@ namespace diptych::coupling
     };
     for (const MemberOutcome &outcome : outcomes)
       if (outcome.interrupted)
-        record.interrupted.push_back(outcome.seed), drop(outcome.seed);
+        {
+          record.interrupted.push_back(outcome.seed);
+          drop(outcome.seed);
+        }
       else if (outcome.exit_code != 0)
         {
           const std::string log = member_log(scene.output.directory, outcome.seed);
-          record.failed.push_back({outcome.seed, outcome.exit_code, last_words(log)}), drop(outcome.seed);
+          record.failed.push_back({outcome.seed, outcome.exit_code, last_words(log)});
+          drop(outcome.seed);
         }
     std::vector<Member> members;
     for (const int seed : finished)

@@ -162,10 +162,7 @@ namespace
         throw diptych::discrete::OutOfMemory(about + ": " + diptych::discrete::text_of(error));
       }
   }
-} // namespace
 
-namespace
-{
   // Relative names of the command line start there.
   void require_working_directory()
   {

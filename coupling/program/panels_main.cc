@@ -68,7 +68,7 @@ extern "C" int MPI_Abort(MPI_Comm communicator, int)
 int main(int argc, char **argv)
 {
   install_signals(); // those that came while the program began, too
-  need_no_daemon();
+  avoid_mpi_daemon();
   if (argc == 2 && std::string(argv[1]) == worker_word)
     {
       constexpr unsigned int most_seconds = 60; // of a worker that nobody waits for any more: a step and its checkpoint
@@ -76,7 +76,7 @@ int main(int argc, char **argv)
       block_stop_signals();
       dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
       install_signals(); // once more: the libraries that begin with MPI give signals their default actions
-      return answer_for([] { return work_for_parent(execute); }, code_of, text_of_end);
+      return run_and_report([] { return work_for_parent(execute); }, code_of, text_of_end);
     }
   // Words of the command line, before there is any other process to answer to.
   ParsedLine parsed = parse_command_line({argv + 1, argv + argc});
@@ -85,8 +85,8 @@ int main(int argc, char **argv)
   block_stop_signals(); // MPI takes signals to itself, and its threads must not get these
   // One thread: deal.II's pool would change nothing but the clock.
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  parsed.line.quiet          = parsed.line.quiet || !is_first_process();
-  parsed.line.tells_warnings = is_first_process();
+  parsed.line.quiet           = parsed.line.quiet || !is_first_process();
+  parsed.line.prints_warnings = is_first_process();
   install_signals();
-  return answer_for([&] { return execute(parsed.line); }, code_of, text_of_end);
+  return run_and_report([&] { return execute(parsed.line); }, code_of, text_of_end);
 }

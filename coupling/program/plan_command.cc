@@ -237,7 +237,10 @@ namespace diptych::coupling
       const PilotPoint point = pilot.run(task).front();
       for (PanelPlan &panel : plan.panels)
         if (point.words.empty())
-          panel.cpu_s = point.cpu_s, panel.peak_memory_mb = point.peak_memory_mb;
+          {
+            panel.cpu_s          = point.cpu_s;
+            panel.peak_memory_mb = point.peak_memory_mb;
+          }
     }
 
     Plan plan_of(const PlanQuestion &question, const Scene &scene, Pilot &pilot)

@@ -41,6 +41,14 @@ namespace diptych::coupling
             owners.push_back("diptych " + command->get_name());
       return owners.empty() ? "" : "; it is one of " + discrete::listed(owners);
     }
+
+    // "; the nearest option is '--output'" for an option, as --outptu=FOLDER, that no command has.
+    std::string nearest_of(CLI::App &asked, const std::string &option)
+    {
+      if (option.rfind("--", 0) != 0)
+        return "";
+      return "; the nearest option is '" + discrete::nearest_name(option.substr(0, option.find('=')), option_names(asked)) + "'";
+    }
   } // namespace
 
   std::string refusal(CLI::App &app, const std::vector<std::string> &words, const CLI::ParseError &error)
@@ -51,7 +59,10 @@ namespace diptych::coupling
     CLI::App   &asked = *found.front();
     std::string text  = error.what();
     if (const std::vector<std::string> extra = asked.remaining(true); !extra.empty())
-      text = "'" + discrete::joined(extra) + "' is not used" + owners_of(app, extra.front());
+      {
+        const std::string owners = owners_of(app, extra.front());
+        text = "'" + discrete::joined(extra) + "' is not used" + (owners.empty() ? nearest_of(asked, extra.front()) : owners);
+      }
     return "diptych " + asked.get_name() + ": " + text + "; it has " + discrete::joined(option_names(asked));
   }
 } // namespace diptych::coupling

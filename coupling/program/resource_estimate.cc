@@ -94,7 +94,10 @@ namespace diptych::coupling
     {
       double before = 0, steps = 0;
       for (const double stage : stages(scene.loading))
-        steps += std::ceil((stage - before) / scene.continuum.max_step - 1e-9), before = stage;
+        {
+          steps += std::ceil((stage - before) / scene.continuum.max_step - 1e-9);
+          before = stage;
+        }
       return parts.continuum ? steps : 0;
     }
 

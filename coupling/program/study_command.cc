@@ -47,7 +47,10 @@ namespace diptych::coupling
       int                       n = 0;
       for (std::size_t k = 0; k < record.points.size(); ++k)
         if (asked.points[k].family >= 0)
-          ++counts[record.points[k].kind], ++n;
+          {
+            ++counts[record.points[k].kind];
+            ++n;
+          }
       std::ostringstream text;
       text << n << " points";
       const char *mark = ": ";

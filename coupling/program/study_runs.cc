@@ -77,10 +77,10 @@ namespace diptych::coupling
       return task;
     }
 
-    std::vector<TaskOutcome> work_off(const CommandLine                   &line,
-                                      const StudyPoints                   &asked,
-                                      const std::vector<const StudyRun *> &runs,
-                                      const std::vector<Pending>          &pending)
+    std::vector<TaskOutcome> run_all(const CommandLine                   &line,
+                                     const StudyPoints                   &asked,
+                                     const std::vector<const StudyRun *> &runs,
+                                     const std::vector<Pending>          &pending)
     {
       TaskQueue queue = workers_for(line, "runs");
       for (const Pending &one : pending)
@@ -105,7 +105,10 @@ namespace diptych::coupling
       on_first_process([&] {
         for (const TaskOutcome &outcome : outcomes)
           if (const Pending &one = pending[outcome.task]; is_refused_checkpoint(one, outcome))
-            numbers.push_back(double(one.run)), prepare_run_anew(asked.directory, *runs[one.run]);
+            {
+              numbers.push_back(double(one.run));
+              prepare_run_anew(asked.directory, *runs[one.run]);
+            }
         if (!numbers.empty())
           std::cerr << numbers.size() << " runs begin anew: what they were to go on from is damaged" << std::endl;
         return 0;
@@ -130,14 +133,14 @@ namespace diptych::coupling
   {
     const std::vector<const StudyRun *> runs     = runs_of(asked.points);
     const std::vector<Pending>          pending  = pending_runs(line, asked, runs);
-    std::vector<TaskOutcome>            outcomes = work_off(line, asked, runs, pending);
+    std::vector<TaskOutcome>            outcomes = run_all(line, asked, runs, pending);
     const std::vector<Pending>          refused  = begun_anew(asked, runs, pending, outcomes);
     if (refused.empty())
       return outcomes;
     outcomes.erase(std::remove_if(outcomes.begin(), outcomes.end(),
                                   [&](const TaskOutcome &one) { return is_refused_checkpoint(pending[one.task], one); }),
                    outcomes.end());
-    const std::vector<TaskOutcome> again = work_off(line, asked, runs, refused);
+    const std::vector<TaskOutcome> again = run_all(line, asked, runs, refused);
     outcomes.insert(outcomes.end(), again.begin(), again.end());
     return outcomes;
   }

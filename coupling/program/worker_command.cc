@@ -31,7 +31,8 @@ namespace diptych::coupling
         const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
         if (file < 0)
           throw std::runtime_error("cannot write " + log + ": " + std::strerror(errno));
-        dup2(file, STDOUT_FILENO), dup2(file, STDERR_FILENO);
+        dup2(file, STDOUT_FILENO);
+        dup2(file, STDERR_FILENO);
         close(file);
       }
       IntoLog(const IntoLog &)            = delete;
@@ -39,8 +40,10 @@ namespace diptych::coupling
       ~IntoLog()
       {
         std::cout.flush();
-        dup2(output, STDOUT_FILENO), dup2(errors, STDERR_FILENO);
-        close(output), close(errors);
+        dup2(output, STDOUT_FILENO);
+        dup2(errors, STDERR_FILENO);
+        close(output);
+        close(errors);
       }
 
     private:
@@ -59,7 +62,7 @@ namespace diptych::coupling
     {
       const IntoLog    log(task.log);
       const ParsedLine parsed = parse_command_line(task.words);
-      return parsed.exit_code ? *parsed.exit_code : answer_for([&] { return execute(parsed.line); }, code_of, text_of_end);
+      return parsed.exit_code ? *parsed.exit_code : run_and_report([&] { return execute(parsed.line); }, code_of, text_of_end);
     }
   } // namespace
 

@@ -1,4 +1,4 @@
-// diptych: NumPy arrays of what the library holds, and back
+// diptych: conversion between C++ arrays and NumPy arrays
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/python/arrays.h"
 

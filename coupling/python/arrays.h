@@ -1,4 +1,4 @@
-// diptych: NumPy arrays of what the library holds, and back
+// diptych: conversion between C++ arrays and NumPy arrays
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -18,7 +18,7 @@ namespace diptych::python
 {
   namespace py = pybind11;
 
-  // How one value stands in memory: the number that NumPy sees, extents and strides of its further axes [bytes].
+  // Memory layout of one value: NumPy's number type, extents and strides [bytes] of the axes beyond the first.
   template <class T> struct Layout
   {
     using Number                      = T;
@@ -30,7 +30,7 @@ namespace diptych::python
   {
     using Number = Number_;
     static std::vector<long> extents() { return columns == 1 ? std::vector<long>{rows} : std::vector<long>{rows, columns}; }
-    static std::vector<long> strides() // Eigen keeps columns together
+    static std::vector<long> strides() // Eigen stores by columns
     {
       return columns == 1 ? std::vector<long>{sizeof(Number)} : std::vector<long>{sizeof(Number), rows * sizeof(Number)};
     }
@@ -42,7 +42,7 @@ namespace diptych::python
     static std::vector<long> strides() { return {sizeof(Number)}; }
   };
 
-  // n values, `stride` bytes apart, seen without a copy and not to be written to; `base` keeps them alive.
+  // A read-only view of n values, `stride` bytes apart, without a copy. `base` keeps them alive.
   template <class T> py::array strided_view(const T *first, const std::size_t n, const std::size_t stride, const py::handle base)
   {
     using Number = typename Layout<T>::Number;
@@ -65,7 +65,7 @@ namespace diptych::python
       return strided_view(values.data(), values.size(), sizeof(T), base);
   }
 
-  // One member of every struct of a list.
+  // A view of one member of every struct in a list.
   template <class Struct, class Member>
   py::array member_view(const std::vector<Struct> &values, Member Struct::*member, const py::handle base)
   {
@@ -73,7 +73,7 @@ namespace diptych::python
     return strided_view(first, values.size(), sizeof(Struct), base);
   }
 
-  // The array takes the values over, without a copy.
+  // An array that takes over the values without a copy.
   template <class T> py::array own(std::vector<T> values)
   {
     auto              kept = std::make_unique<std::vector<T>>(std::move(values));
@@ -100,7 +100,7 @@ namespace diptych::python
   using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
   using Indices = py::array_t<int, py::array::c_style | py::array::forcecast>;
 
-  // Throw std::invalid_argument naming the argument, its shape and the one that is needed.
+  // These throw std::invalid_argument with the argument, its shape and the required shape.
   [[noreturn]] void            refuse_shape(const py::array &array, const std::string &name, const std::string &needed);
   std::vector<Eigen::Vector2d> vectors_of(const Numbers &array, const std::string &name); // (n, 2)
   std::vector<Eigen::Matrix2d> tensors_of(const Numbers &array, const std::string &name); // (n, 2, 2)

@@ -1,4 +1,4 @@
-// diptych: stress maps of anybody's grains for Python
+// diptych: Python binding of the stress maps
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/averaging.h"
 #include "coupling/averaging/cell_cover.h"
@@ -9,7 +9,7 @@ namespace diptych::python
 {
   namespace
   {
-    // Moments over areas; what the sum over the cells misses of the sum over the contacts, relative to it.
+    // Stress is moment / area. The error is the relative difference of the sums over cells and over contacts.
     struct Mapped
     {
       std::vector<Eigen::Matrix2d> stress;
@@ -35,7 +35,7 @@ namespace diptych::python
       return result;
     }
 
-    // options: keys of the section `comparison` that begin with averaging.
+    // keys: those of the section `comparison` that begin with averaging.
     py::dict map_stress(const py::dict &grain_arrays,
                         const py::dict &contacts,
                         const py::dict &mesh_arrays,

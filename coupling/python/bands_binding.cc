@@ -1,4 +1,4 @@
-// diptych: bands and strips in anybody's displacements for Python
+// diptych: Python binding of band detection and strips
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/bands/band_detection.h"
 #include "coupling/bands/strips.h"
@@ -18,7 +18,7 @@ namespace diptych::python
                                         numbers_of(arrays["weight"].cast<Numbers>(), "weight")};
       if (field.increment.size() != field.position.size() || field.weight.size() != field.position.size())
         throw std::invalid_argument(
-          "displacement and weight: one entry a point is needed: " + std::to_string(field.position.size()) + ", not " +
+          "displacement and weight: one entry per point is needed: " + std::to_string(field.position.size()) + ", not " +
           std::to_string(field.increment.size()) + " and " + std::to_string(field.weight.size()));
       return field;
     }
@@ -105,7 +105,7 @@ namespace diptych::python
       return dict;
     }
 
-    // With the frame of the comparison.
+    // With the same frame as the comparison.
     py::dict grain_increment(const discrete::Snapshot &from, const discrete::Snapshot &to)
     {
       py::dict                    dict  = increment_dict(coupling::displacement_field(from, to));

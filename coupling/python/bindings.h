@@ -1,4 +1,4 @@
-// diptych: what the compiled modules of the Python package are made of
+// diptych: parts of the compiled Python modules
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -16,6 +16,6 @@ namespace diptych::python
   void bind_problems(pybind11::module_ &m);
   void bind_results(pybind11::module_ &m);
 
-  // coupling::SceneError becomes diptych.SceneError, in the module that calls this.
+  // Translates coupling::SceneError to diptych.SceneError in the calling module.
   void translate_errors();
 } // namespace diptych::python

@@ -1,4 +1,4 @@
-// diptych: the module diptych._continuum: the continuum panel and its laws
+// diptych: the Python module diptych._continuum with the continuum panel and its laws
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <mutex>
 #include <set>
@@ -23,8 +23,8 @@ namespace diptych::python
   {
     using SharedGrains = std::shared_ptr<discrete::Snapshot>;
 
-    // MPI and gmsh serve one thread at a time: panels of several threads take turns. The callback of a panel may use others.
-    // Waits without the GIL, which the thread ahead may need for its callback.
+    // MPI and gmsh are not thread safe, so panels in several threads take turns. The callback of a panel may use other panels.
+    // A thread waits without the GIL, because the running thread may need it for its callback.
     std::unique_lock<std::recursive_mutex> own_turn()
     {
       static std::recursive_mutex            continuum;
@@ -33,7 +33,7 @@ namespace diptych::python
       return turn;
     }
 
-    // One run on the scene's mesh.
+    // One run on the mesh of the scene.
     class ContinuumPanel
     {
     public:
@@ -45,7 +45,7 @@ namespace diptych::python
       {
         coupling::require_continuum(scene);
         if (needs_grains() && !grains)
-          throw coupling::SceneError("continuum/mesh = outline needs the prepared grains: hand over their first snapshot");
+          throw coupling::SceneError("continuum/mesh = outline needs the prepared grains: give their first snapshot");
         const auto turn = own_turn();
         start_mpi();
         {
@@ -89,7 +89,7 @@ namespace diptych::python
 
       const Driven &driver() const { return *driven; }
 
-      // At the end of the process, before MPI ends.
+      // Called at the end of the process, before MPI ends.
       static void close_all()
       {
         const auto turn = own_turn();
@@ -162,7 +162,7 @@ PYBIND11_MODULE(_continuum, m)
 {
   using namespace diptych::python;
   m.doc() = "The continuum panel of Diptych and its laws; use them through the package diptych.";
-  py::module_::import("diptych._diptych"); // knows scenes and snapshots
+  py::module_::import("diptych._diptych"); // registers the types of scenes and snapshots
   translate_errors();
   bind_panel(m);
   bind_laws(m);

@@ -1,4 +1,4 @@
-// diptych: a panel as Python drives it: signals and a callback between steps, the GIL released in the steps
+// diptych: a panel for Python, with signals and a callback between steps and the GIL released during steps
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -21,10 +21,10 @@ namespace diptych::python
 {
   namespace py = pybind11;
 
-  // Either panel, with the rows of its history. Panel::prepare() and advance_to() run without the GIL. Before every step and
-  // within the long ones the panel asks to_stop(), which takes the GIL when there are rows for the callback, and every 50 ms for
-  // signals: what Python throws there ends the run as a stop does, so that the panel stays whole and may go on, and is thrown
-  // again when the panel has returned.
+  // Either panel with the rows of its history. Panel::prepare() and advance_to() run without the GIL. Before every step, and
+  // within long steps, the panel calls to_stop(). This takes the GIL if there are new rows for the callback, and every 50 ms to
+  // check signals. A Python exception there stops the run like a normal stop, so the panel stays valid and can continue. The
+  // exception is rethrown after the panel has returned.
   template <class Panel, class Hooks, class Row> class DrivenPanel
   {
   public:
@@ -37,7 +37,7 @@ namespace diptych::python
       hooks.on_row         = [this](const Row &row) { rows_.push_back(row); };
       panel_               = std::make_unique<Panel>(make(hooks));
     }
-    DrivenPanel(const DrivenPanel &)            = delete; // the hooks call this one
+    DrivenPanel(const DrivenPanel &)            = delete; // the hooks hold `this`
     DrivenPanel &operator=(const DrivenPanel &) = delete;
     ~DrivenPanel() { release(); }
 
@@ -51,7 +51,7 @@ namespace diptych::python
       return run(on_step, [this, stage] { return panel().advance_to(stage); });
     }
 
-    // Between steps, from the callback, too. Throws std::runtime_error where another thread drives the panel.
+    // May be called between steps and from the callback. Throws std::runtime_error if another thread runs the panel.
     auto snapshot() const
     {
       demand_rest();
@@ -77,7 +77,7 @@ namespace diptych::python
       return rows_;
     }
 
-    void release() { panel_.reset(); } // for good, with its memory
+    void release() { panel_.reset(); } // frees the memory; the panel cannot be used again
 
   private:
     using Clock  = std::chrono::steady_clock;
@@ -104,8 +104,8 @@ namespace diptych::python
           }
       }
       if (!failure && !error_)
-        tell_rows();
-      told_       = rows_.size();
+        pass_rows();
+      passed_     = rows_.size();
       on_step_    = py::object();
       is_working_ = false;
       if (error_)
@@ -121,7 +121,7 @@ namespace diptych::python
     {
       if (stops_ || error_)
         return true;
-      const bool has_rows = on_step_ && told_ < rows_.size();
+      const bool has_rows = on_step_ && passed_ < rows_.size();
       if (!has_rows && Clock::now() - asked_ < std::chrono::milliseconds(50))
         return false;
       const py::gil_scoped_acquire gil;
@@ -129,17 +129,17 @@ namespace diptych::python
       if (PyErr_CheckSignals() != 0)
         error_ = std::make_exception_ptr(py::error_already_set());
       else
-        tell_rows();
+        pass_rows();
       return stops_ || error_;
     }
 
-    // With the GIL. A callback that returns False, that very object, ends the run.
-    void tell_rows()
+    // Needs the GIL. The run stops if the callback returns the object False.
+    void pass_rows()
     {
       try
         {
-          for (; on_step_ && told_ < rows_.size() && !stops_; ++told_)
-            stops_ = on_step_(row_dict(rows_[told_])).is(py::bool_(false));
+          for (; on_step_ && passed_ < rows_.size() && !stops_; ++passed_)
+            stops_ = on_step_(row_dict(rows_[passed_])).is(py::bool_(false));
         }
       catch (...)
         {
@@ -150,11 +150,11 @@ namespace diptych::python
     std::unique_ptr<Panel> panel_;
     std::vector<Row>       rows_;
     py::object             on_step_;
-    std::size_t            told_ = 0; // rows that the callback has seen
+    std::size_t            passed_ = 0; // number of rows passed to the callback
     std::atomic<bool>      is_working_{false};
     bool                   stops_ = false;
     std::thread::id        worker_;
-    std::exception_ptr     error_; // thrown by Python between two steps
+    std::exception_ptr     error_; // exception of Python between two steps
     Clock::time_point      asked_ = Clock::now();
   };
 } // namespace diptych::python

@@ -1,4 +1,4 @@
-// diptych: wrong scenes as Python's exception
+// diptych: translation of scene errors to a Python exception
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/python/bindings.h"
 #include "coupling/scene/scene_error.h"

@@ -1,4 +1,4 @@
-// diptych: the discrete panel for Python
+// diptych: Python binding of the discrete panel
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>

@@ -1,4 +1,4 @@
-// diptych: what operators take from Python
+// diptych: arguments of the operators, from Python
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/python/inputs.h"
 

@@ -1,4 +1,4 @@
-// diptych: what operators take from Python
+// diptych: arguments of the operators, from Python
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -24,8 +24,8 @@ namespace diptych::python
   };
   GrainInput grains_of(const py::dict &grains);
 
-  // {"i": (c), "j": (c), "point": (c, 2), "force": (c, 2), "normal": (c, 2) or None, "shift": (c) or None}; without normals
-  // they point from the contact point to the centre of i.
+  // {"i": (c), "j": (c), "point": (c, 2), "force": (c, 2), "normal": (c, 2) or None, "shift": (c) or None}. Without
+  // "normal", normals point from the contact point to the centre of i.
   std::vector<discrete::ContactForce> contacts_of(const py::dict &contacts, const GrainInput &grains);
 
   // {"nodes": (m, 2), "cells": (k, 4)}, corners anticlockwise.
@@ -34,7 +34,7 @@ namespace diptych::python
   // (value, low, high)
   py::tuple interval(const coupling::Interval &interval);
 
-  // Keys of a scene, by their names there, into options that have a visit_parameters. Throws SceneError naming the key.
+  // Sets keys of a scene in options that have a visit_parameters. Throws SceneError with the key.
   template <class Options> void set_options(const std::string &section, const py::dict &given, Options &options)
   {
     for (const auto &[name, value] : given)

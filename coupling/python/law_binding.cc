@@ -1,4 +1,4 @@
-// diptych: constitutive laws at one point for Python
+// diptych: Python binding of the constitutive laws at one point
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/python/law_binding.h"
 
@@ -48,7 +48,7 @@ namespace diptych::python
       return dict;
     }
 
-    // (columns, how it ended: empty where it is finished)
+    // (columns, message of the failure; empty if finished)
     py::tuple biaxial(const coupling::Scene &scene, const double axial_strain, const double step)
     {
       continuum::MaterialPointReport report;

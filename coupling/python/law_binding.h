@@ -1,4 +1,4 @@
-// diptych: constitutive laws at one point for Python
+// diptych: Python binding of the constitutive laws at one point
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 

@@ -1,4 +1,4 @@
-// diptych: the module diptych._diptych: scenes, grains, operators, results; starts without deal.II
+// diptych: the Python module diptych._diptych with scenes, grains, operators and results; it does not load deal.II
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/python/bindings.h"
 

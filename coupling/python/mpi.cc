@@ -29,11 +29,11 @@ namespace diptych::python
   {
     if (has_started())
       {
-        dealii::MultithreadInfo::set_thread_limit(1); // as MPI_InitFinalize does: a pool would change nothing but the clock
-        sc_set_log_defaults(nullptr, nullptr, SC_LP_SILENT); // likewise: p4est tells of every mesh
+        dealii::MultithreadInfo::set_thread_limit(1);        // as MPI_InitFinalize; more threads would not change results
+        sc_set_log_defaults(nullptr, nullptr, SC_LP_SILENT); // as MPI_InitFinalize; otherwise p4est prints a line per mesh
         return;
       }
-    coupling::need_no_daemon();
+    coupling::avoid_mpi_daemon();
     struct sigaction interrupt, end;
     sigaction(SIGINT, nullptr, &interrupt);
     sigaction(SIGTERM, nullptr, &end);

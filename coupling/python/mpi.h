@@ -4,9 +4,9 @@
 
 namespace diptych::python
 {
-  // Starts MPI, and what deal.II keeps with it, unless somebody else (mpi4py) has; signal handlers stay as they are.
+  // Starts MPI and the parts of deal.II that need it, unless mpi4py has started MPI. Signal handlers do not change.
   void start_mpi();
 
-  // Ends what start_mpi() began. No panel may be left.
+  // Ends what start_mpi() started. All panels must be deleted before.
   void end_mpi();
 } // namespace diptych::python

@@ -1,4 +1,4 @@
-// diptych: what a panel made, on the Python side
+// diptych: results of a panel, for the Python bindings
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace diptych::python
 {
-  // Snapshots are shared with the arrays that look into them.
+  // Arrays that view a snapshot share its ownership.
   using GrainSnapshots     = std::vector<std::shared_ptr<discrete::Snapshot>>;
   using ContinuumSnapshots = std::vector<std::shared_ptr<continuum::Snapshot>>;
 

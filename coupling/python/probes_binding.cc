@@ -1,4 +1,4 @@
-// diptych: probes of anybody's grains and cells for Python
+// diptych: Python binding of the probes
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/carriers.h"
 #include "coupling/probes/circular_probe.h"
@@ -17,11 +17,11 @@ namespace diptych::python
       region.polygon   = vectors_of(corners, "where");
       region.angle_deg = angle_deg;
       if (region.polygon.size() < 3 || !(coupling::polygon_area(region.polygon) > 0))
-        throw std::invalid_argument("where: three corners or more are needed, anticlockwise");
+        throw std::invalid_argument("where: at least three corners are needed, anticlockwise");
       return region;
     }
 
-    // A snapshot as the comparison sees it, or arrays: moments -sum f (x) vector over the halves of the branches of each grain.
+    // From a snapshot as in the comparison, or from arrays: moments -sum f (x) (half branch) of each grain.
     coupling::GrainNetwork network_of(const py::object &sample, const py::object &contact_arrays)
     {
       if (contact_arrays.is_none())
@@ -115,12 +115,12 @@ namespace diptych::python
       const coupling::QuadMesh           cells  = mesh_of(mesh);
       const std::vector<Eigen::Matrix2d> values = tensors_of(stress, "stress");
       if (values.size() != cells.cell.size())
-        throw std::invalid_argument("stress: one tensor a cell is needed: " + std::to_string(cells.cell.size()) + ", not " +
+        throw std::invalid_argument("stress: one tensor per cell is needed: " + std::to_string(cells.cell.size()) + ", not " +
                                     std::to_string(values.size()));
       return stress_dict(coupling::cell_probe_stress(region_of(corners, 0), cells, values));
     }
 
-    // circle: x and y of the centre, radius.
+    // circle: centre x, centre y, radius.
     py::dict probe_circle(const py::object &grains, const py::object &contacts, const py::tuple &circle, const py::dict &blocks)
     {
       const coupling::GrainNetwork     network = network_of(grains, contacts);

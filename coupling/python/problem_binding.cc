@@ -1,4 +1,4 @@
-// diptych: contact problems for Python
+// diptych: Python binding of the solver of contact problems
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <optional>
 
@@ -33,14 +33,14 @@ namespace diptych::python
         return r;
       const auto given = vectors_of(guess.cast<Numbers>(), "guess");
       if (given.size() != n)
-        throw std::invalid_argument("guess: one impulse a contact is needed: " + std::to_string(n) + ", not " +
+        throw std::invalid_argument("guess: one impulse per contact is needed: " + std::to_string(n) + ", not " +
                                     std::to_string(given.size()));
       for (std::size_t k = 0; k < n; ++k)
         r[k] = {given[k].x(), given[k].y()};
       return r;
     }
 
-    // Normal part first.
+    // Columns: normal part, tangential part.
     template <class Pair> py::array columns_of(const std::vector<Pair> &pairs)
     {
       std::vector<Eigen::Vector2d> rows;
@@ -71,7 +71,7 @@ namespace diptych::python
       const discrete::StoredProblem problem = discrete::read_fclib(path);
       const auto                    wanted  = form ? discrete::value_of<discrete::ProblemForm>(*form) : problem.form;
       if (!wanted)
-        throw std::invalid_argument("form = '" + *form + "' is not allowed: one of body, local is");
+        throw std::invalid_argument("form = '" + *form + "' is not allowed; use body or local");
       if (wanted == discrete::ProblemForm::body && !problem.bodies)
         throw std::invalid_argument("form = 'body': " + path + " has no such form: " + problem.reason);
       Impulses              r = first_guess(guess, problem.local.n_contacts());
@@ -84,7 +84,7 @@ namespace diptych::python
       return solution(report, problem.local, r);
     }
 
-    // w: begin of each row, column and value of each entry, as SciPy's csr_matrix has them.
+    // w: indptr, indices and data of SciPy's csr_matrix.
     py::dict solve_arrays(const py::tuple  &w,
                           const Numbers    &q,
                           const Numbers    &friction,

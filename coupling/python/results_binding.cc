@@ -1,4 +1,4 @@
-// diptych: result folders and the comparison for Python
+// diptych: Python binding of result folders and the comparison
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <pybind11/stl.h>
 
@@ -50,7 +50,7 @@ namespace diptych::python
               shared(discrete::read_snapshots(coupling::discrete_h5(folder)))};
     }
 
-    // discrete.h5, .xdmf and .csv, as the program writes them.
+    // Writes discrete.h5, .xdmf and .csv like the program.
     void write_grains(const GrainResults &results, const std::string &folder)
     {
       discrete::write_snapshots(folder + "/discrete", values_of(results.snapshots));
@@ -72,7 +72,7 @@ namespace diptych::python
       write_rows(coupling::continuum_csv(folder), results.rows);
     }
 
-    // With what a folder's provenance says of the runs; `folder` empty: nothing.
+    // Adds the facts of the runs from the provenance of `folder`, unless it is empty.
     coupling::Results joined(const GrainResults     &grains,
                              const ContinuumResults &nodes,
                              const ContinuumResults *coarse,
@@ -102,7 +102,7 @@ namespace diptych::python
       return dict;
     }
 
-    // (numbers as the text of comparison.json, arrays on the mesh's cells and on the grid's of every stage)
+    // (text of comparison.json, arrays of every stage on the mesh, arrays of every stage on the grid)
     py::tuple compare(coupling::Scene         scene,
                       const GrainResults     &grains,
                       const ContinuumResults &nodes,
@@ -142,7 +142,7 @@ namespace diptych::python
   {
     bind_one<GrainResults>(m, "GrainResults");
     bind_one<ContinuumResults>(m, "ContinuumResults");
-    // With the GIL: HDF5 is used by one thread at a time.
+    // These keep the GIL, because HDF5 is not thread safe.
     m.def("read_grains", &read_grains);
     m.def("read_nodes", &read_nodes);
     m.def("write_grains", &write_grains);

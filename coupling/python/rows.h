@@ -1,4 +1,4 @@
-// diptych: rows of a history as columns
+// diptych: rows of a history as NumPy columns
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -14,7 +14,7 @@ namespace diptych::python
 {
   namespace py = pybind11;
 
-  // The Row of a history has a visit_columns beside it: visit(name, value, unit, meaning).
+  // Each Row type has a function visit_columns that calls visit(name, value, unit, meaning).
   template <class Row> py::dict row_dict(const Row &row)
   {
     py::dict dict;
@@ -27,7 +27,7 @@ namespace diptych::python
     return dict;
   }
 
-  // name -> (n) of doubles or whole numbers; choices as a list of texts.
+  // name -> (n) array of doubles or integers; for choices a list of texts.
   template <class Row> py::dict columns_dict(const std::vector<Row> &rows)
   {
     py::dict dict;

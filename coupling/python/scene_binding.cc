@@ -1,4 +1,4 @@
-// diptych: scenes for Python
+// diptych: Python binding of scenes
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <filesystem>
 #include <optional>
@@ -19,9 +19,9 @@ namespace diptych::python
 
   namespace
   {
-    using Change = std::tuple<std::string, std::string, std::string>; // section, key, value as a file would hold it
+    using Change = std::tuple<std::string, std::string, std::string>; // section, key, value as in a file
 
-    // A value as Python has it; what a scene would have to say in words (auto, names of choices and files) stays a text.
+    // A value as a Python object; words such as auto, choices and file names stay texts.
     struct ValueOfKey
     {
       py::dict &keys;
@@ -41,7 +41,7 @@ namespace diptych::python
       void operator()(const char *name, const bool value, const char *, const char *) const { keys[name] = value; }
       template <class Value> void operator()(const char *name, const Value &value, const char *, const char *) const
       {
-        using coupling::text_of; // or that of the value's own library
+        using coupling::text_of; // or the overload in the namespace of the value
         keys[name] = text_of(value);
       }
     };
@@ -50,7 +50,8 @@ namespace diptych::python
     {
       std::vector<coupling::Entry> entries;
       for (const auto &[section, key, value] : changes)
-        entries.push_back({section, key, value, "scene", std::filesystem::current_path().string(), true}); // may hold every key
+        entries.push_back({section, key, value, "scene", std::filesystem::current_path().string(),
+                           true}); // true: keys without effect give no warning
       return file ? coupling::read_changed_scene(*file, entries, compares)
                   : coupling::scene_of_entries("scene", entries, compares);
     }
@@ -67,7 +68,7 @@ namespace diptych::python
       return sections;
     }
 
-    // Every key with its unit, what is allowed and its meaning.
+    // Every key with unit, allowed values and meaning.
     py::dict described()
     {
       py::dict        keys;

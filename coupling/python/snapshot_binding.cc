@@ -1,4 +1,4 @@
-// diptych: snapshots of both panels as NumPy arrays that share their memory
+// diptych: Python binding of snapshots, as NumPy arrays that share their memory
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <memory>
 #include <string>
@@ -12,7 +12,7 @@ namespace diptych::python
 {
   namespace
   {
-    // The contacts of the last step, or the mean forces over the stage.
+    // Contacts of the last step, or mean forces over the stage.
     struct ContactList
     {
       std::shared_ptr<const discrete::Snapshot> owner;
@@ -34,7 +34,7 @@ namespace diptych::python
       return text + ")";
     }
 
-    // A property for every list that `fields(snapshot, visit)` lists, by the last part of its name.
+    // Binds a property for every list of `fields(snapshot, visit)`, named by the last part of the path.
     template <class Class, class Fields> void bind_lists(Class &type, const Fields &fields)
     {
       using Snapshot = typename Class::type;
@@ -69,7 +69,7 @@ namespace diptych::python
       return copy(value);
     }
 
-    // Likewise for what is there once.
+    // Binds a property for every single value of the snapshot.
     template <class Class> void bind_attributes(Class &type)
     {
       using Snapshot = typename Class::type;
@@ -104,8 +104,8 @@ namespace diptych::python
     void bind_contacts(py::module_ &m)
     {
       py::class_<ContactList> type(m, "Contacts",
-                                   "Pairs of bodies with the force between them. Grains are numbered from 0, walls on from the "
-                                   "number of grains. Arrays are read only and share the memory of their snapshot.");
+                                   "Pairs of bodies with the force between them. Grains are numbered from 0, walls after the "
+                                   "grains. Arrays are read only and share the memory of their snapshot.");
       bind_contact_member(type, "i", &discrete::ContactForce::i, "(n): first body, a grain");
       bind_contact_member(type, "j", &discrete::ContactForce::j, "(n): second body, a grain or a wall");
       bind_contact_member(type, "point", &discrete::ContactForce::point, "(n, 2) [length]: contact point");
@@ -114,14 +114,16 @@ namespace diptych::python
       bind_contact_member(type, "shift", &discrete::ContactForce::shift,
                           "(n) [length]: x of the image of j that touches i minus x of j");
       type.def("__len__", [](const ContactList &list) { return list.entries().size(); });
+      type.def("__repr__", [](const ContactList &list) {
+        return "Contacts(" + std::to_string(list.entries().size()) + (list.is_window ? ", mean over the stage)" : ", last step)");
+      });
       const auto beside = [&](const char *name, const bool of_window, const char *text, const auto &values) {
         type.def_property_readonly(
           name,
           [name, of_window, values](const py::object &self) {
             const auto &list = self.cast<const ContactList &>();
             if (list.is_window != of_window)
-              throw py::attribute_error(std::string(name) + " is known of snapshot." + (of_window ? "window" : "contacts") +
-                                        " only");
+              throw py::attribute_error(std::string(name) + " is only known for snapshot." + (of_window ? "window" : "contacts"));
             return view((*list.owner).*values, self);
           },
           text);
@@ -139,41 +141,48 @@ namespace diptych::python
       using discrete::Snapshot;
       py::class_<Snapshot, std::shared_ptr<Snapshot>> type(
         m, "DiscreteSnapshot",
-        "One instant of the grains. Stress positive in compression; arrays are read only and share its memory.");
+        "One instant of the grains. Stress is positive in compression. Arrays are read only and share its memory.");
       bind_lists(type, [](auto &s, auto &&visit) { discrete::visit_grain_fields(s, visit); });
       bind_attributes(type);
       type.def("__len__", [](const Snapshot &s) { return s.radius.size(); });
+      type.def("__repr__", [](const Snapshot &s) {
+        return "DiscreteSnapshot(" + std::to_string(s.radius.size()) + " grains, progress=" + std::to_string(s.progress) + ")";
+      });
       type.def_property_readonly(
         "contacts",
         [](const std::shared_ptr<Snapshot> &s) {
           return ContactList{s, false};
         },
-        "Candidate contacts of the last step; open ones carry no force.");
+        "Candidate contacts of the last step; open contacts carry no force.");
       type.def_property_readonly(
         "window",
         [](const std::shared_ptr<Snapshot> &s) {
           return ContactList{s, true};
         },
-        "Every pair that touched since the stage before: mean force (sum of impulses / time).");
+        "Every pair that touched since the previous stage, with its mean force (sum of impulses / time).");
       const auto side = [&](const char *name, std::vector<Eigen::Vector2d> discrete::Outline::*member) {
         type.def_property_readonly(
           name, [member](const py::object &self) { return view(self.cast<const Snapshot &>().outline.*member, self); },
-          "(m, 2) [length]: side of the sample's outline, upward");
+          "(m, 2) [length]: side of the outline of the sample, upward");
       };
       side("outline_left", &discrete::Outline::left);
       side("outline_right", &discrete::Outline::right);
     }
 
-    // The struct that holds a cell's entry has a member of every kind of value.
+    // Cell values are members of a struct, so each property is a strided view.
     void bind_continuum_snapshot(py::module_ &m)
     {
       using continuum::CellState;
       using continuum::Snapshot;
-      py::class_<Snapshot, std::shared_ptr<Snapshot>> type(
-        m, "ContinuumSnapshot",
-        "One instant of the continuum. Stress and strain positive in compression; arrays are read only and share its memory.");
+      py::class_<Snapshot, std::shared_ptr<Snapshot>> type(m, "ContinuumSnapshot",
+                                                           "One instant of the continuum. Stress and strain are positive in "
+                                                           "compression. Arrays are read only and share its memory.");
       bind_lists(type, [](auto &s, auto &&visit) { continuum::visit_node_fields(s, visit); });
       bind_attributes(type);
+      type.def("__repr__", [](const Snapshot &s) {
+        return "ContinuumSnapshot(" + std::to_string(s.cell_state.size()) + " cells, progress=" + std::to_string(s.progress) +
+               ")";
+      });
       type.def_property_readonly(
         "cells", [](const py::object &self) { return view(self.cast<const Snapshot &>().cells, self); },
         continuum::cells_meaning);
@@ -184,7 +193,7 @@ namespace diptych::python
         const std::string text = shape_text<Value>() + " [" + unit + "]: of the cells, " + meaning;
         const std::string name = last_part(path);
         type.def_property_readonly(
-          name == "area" ? "cell_area" : name.c_str(), // `area` is the sample's
+          name == "area" ? "cell_area" : name.c_str(), // `area` is the area of the sample
           [at](const py::object &self) {
             const std::vector<CellState> &cells = self.cast<const Snapshot &>().cell_state;
             const auto *first = reinterpret_cast<const Value *>(reinterpret_cast<const char *>(cells.data()) + at);

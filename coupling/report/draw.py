@@ -1,26 +1,26 @@
 #!/usr/bin/env python3
 # diptych: pages and pictures of results; usage: draw.py page|ensemble|study|calibration|step-study DIR
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Exit codes: 0 done, 2 wrong input (usage, missing or broken file, another format), 4 a module is missing. What is drawn replaces an older one when
-it is whole."""
+"""Exit codes: 0 done, 2 wrong input (usage, missing or broken file, another format), 4 a module is missing or a file cannot be written.
+A new page replaces the old one only when it is complete."""
 
 import gc
 import os
 import sys
 import traceback
 
-sys.dont_write_bytecode = True  # the source tree may be read-only, and stays clean
+sys.dont_write_bytecode = True  # the source tree stays clean and may be read-only
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 from diptych_report.data.input_error import InputError  # noqa: E402
 
-WORDS = {"page": "comparison.json, comparison.h5, discrete.csv, continuum.csv, provenance.json", "ensemble": "ensemble.json, ensemble.h5",
+INPUTS = {"page": "comparison.json, comparison.h5, discrete.csv, continuum.csv, provenance.json", "ensemble": "ensemble.json, ensemble.h5",
          "study": "study.json, study_cost.json, study.h5", "calibration": "calibration.json, calibration_cost.json",
-         "step-study": "study_step.json, study_step.csv"}  # what each is drawn of
+         "step-study": "study_step.json, study_step.csv"}  # what to draw -> its input files
 
 
 def draw(what, folder):
-    """Each branch loads only what it draws with."""
+    """Each branch imports only the modules that it needs."""
     if what == "page":
         from diptych_report.page import result_page
         result_page.draw(folder)
@@ -40,10 +40,10 @@ def draw(what, folder):
 
 
 def main(arguments):
-    if len(arguments) != 2 or arguments[0] not in WORDS:
-        print(f"report: usage: draw.py {'|'.join(WORDS)} DIR", file=sys.stderr)
+    if len(arguments) != 2 or arguments[0] not in INPUTS:
+        print(f"report: usage: draw.py {'|'.join(INPUTS)} DIR", file=sys.stderr)
         return 2
-    gc.disable()  # a figure is thousands of small objects: a tenth of the time goes into looking for dead ones, and the program soon ends
+    gc.disable()  # saves a tenth of the time: figures are thousands of small objects, and the program ends soon
     try:
         draw(*arguments)
     except InputError as error:
@@ -54,11 +54,11 @@ def main(arguments):
         return 4
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         place = traceback.extract_tb(error.__traceback__)[-1]
-        print(f"report: {arguments[1]}: one of {WORDS[arguments[0]]} holds what this version does not write: {type(error).__name__}: {error} "
+        print(f"report: {arguments[1]}: one of {INPUTS[arguments[0]]} has contents that this version does not write: {type(error).__name__}: {error} "
               f"({os.path.basename(place.filename)}, line {place.lineno})", file=sys.stderr)
         return 2
     except ImportError as error:
-        print(f"report: {sys.executable} lacks what it draws with: {error} (Debian: python3-h5py, python3-matplotlib, python3-jinja2)",
+        print(f"report: {sys.executable} lacks a module: {error}. Install python3-h5py, python3-matplotlib and python3-jinja2 (Debian)",
               file=sys.stderr)
         return 4
     return 0

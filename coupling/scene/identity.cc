@@ -84,10 +84,7 @@ namespace diptych::coupling
       });
       return identity;
     }
-  } // namespace
 
-  namespace
-  {
     struct NamedFiles
     {
       std::string                                       section;

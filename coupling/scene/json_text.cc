@@ -70,10 +70,7 @@ namespace diptych::coupling
             }
       }
     };
-  } // namespace
 
-  namespace
-  {
     long line_reached(const std::string &text, std::istringstream &in)
     {
       const auto at = std::streamoff(in.rdbuf()->pubseekoff(0, std::ios::cur, std::ios::in));

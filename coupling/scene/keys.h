@@ -132,24 +132,39 @@ namespace diptych::coupling
       else if constexpr (std::is_same_v<Number, std::vector<double>>)
         take(read_list(text, range), value);
       else if (std::is_same_v<Number, std::optional<double>> && text == "auto")
-        value = Number(), good = true;
+        {
+          value = Number();
+          good  = true;
+        }
       else if (const std::optional<double> number = read_number(text, range))
-        value = *number, good = true;
+        {
+          value = *number;
+          good  = true;
+        }
     }
     void operator()(const char *key, const discrete::FileName &file, const char *, const char *)
     {
       if (is_mine(key))
-        file.path = resolved(text, folder), good = true;
+        {
+          file.path = resolved(text, folder);
+          good      = true;
+        }
     }
     void operator()(const char *key, bool &value, const char *, const char *)
     {
       if (is_mine(key) && (text == "true" || text == "false"))
-        value = text == "true", good = true;
+        {
+          value = text == "true";
+          good  = true;
+        }
     }
     void operator()(const char *key, std::string &value, const char *, const char *)
     {
       if (is_mine(key))
-        value = text, good = true;
+        {
+          value = text;
+          good  = true;
+        }
     }
     void operator()(const char *key, discrete::DriveOption &value, const char *, const char *);
     void operator()(const char *key, continuum::MeshOption &value, const char *, const char *);
@@ -169,7 +184,10 @@ namespace diptych::coupling
     template <class Value> void take(const std::optional<Value> &read, Value &value)
     {
       if (read)
-        value = *read, good = true;
+        {
+          value = *read;
+          good  = true;
+        }
     }
   };
 } // namespace diptych::coupling

@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace diptych::coupling
 {
@@ -11,6 +12,9 @@ namespace diptych::coupling
   struct Place
   {
     Place() = default;
+    Place(const char *file)
+        : file(file)
+    {}
     Place(std::string file, const int line = 0)
         : file(std::move(file)),
           line(line)

@@ -91,42 +91,7 @@ namespace diptych::coupling
       const bool json = std::filesystem::path(file).extension() == ".json";
       return json ? entries_of_json(file, in) : entries_of_prm(file, in);
     }
-  } // namespace
 
-  void demand_section(const Place &place, const std::string &section)
-  {
-    const std::vector<std::string> known = section_names();
-    if (std::find(known.begin(), known.end(), section) == known.end())
-      refuse_section(place, section);
-  }
-
-  std::vector<std::string> section_names()
-  {
-    std::vector<std::string> names;
-    Scene                    scene;
-    for_each_section(scene, [&](const char *section, auto &) { names.push_back(section); });
-    return names;
-  }
-
-  void check_entry(const Entry &entry)
-  {
-    demand_one_line(entry);
-    Scene scratch;
-    set(scratch, entry);
-  }
-
-  std::vector<std::string> sections_set_in(const std::string &file)
-  {
-    std::istringstream       in = scene_input(file);
-    std::vector<std::string> sections;
-    for (const Entry &entry : entries_of(file, in))
-      if (std::find(sections.begin(), sections.end(), entry.section) == sections.end())
-        sections.push_back(entry.section);
-    return sections;
-  }
-
-  namespace
-  {
     // A resolved scene sets every key.
     bool sets_every_key(const std::vector<Entry> &entries)
     {
@@ -176,6 +141,38 @@ namespace diptych::coupling
       return scene;
     }
   } // namespace
+
+  void demand_section(const Place &place, const std::string &section)
+  {
+    const std::vector<std::string> known = section_names();
+    if (std::find(known.begin(), known.end(), section) == known.end())
+      refuse_section(place, section);
+  }
+
+  std::vector<std::string> section_names()
+  {
+    std::vector<std::string> names;
+    Scene                    scene;
+    for_each_section(scene, [&](const char *section, auto &) { names.push_back(section); });
+    return names;
+  }
+
+  void check_entry(const Entry &entry)
+  {
+    demand_one_line(entry);
+    Scene scratch;
+    set(scratch, entry);
+  }
+
+  std::vector<std::string> sections_set_in(const std::string &file)
+  {
+    std::istringstream       in = scene_input(file);
+    std::vector<std::string> sections;
+    for (const Entry &entry : entries_of(file, in))
+      if (std::find(sections.begin(), sections.end(), entry.section) == sections.end())
+        sections.push_back(entry.section);
+    return sections;
+  }
 
   Scene read_scene(const std::string &file, const std::vector<std::string> &overrides, const bool compares)
   {

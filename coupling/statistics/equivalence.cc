@@ -42,7 +42,8 @@ namespace diptych::coupling
     SampleStatistics with_interval(SampleStatistics s)
     {
       const Interval interval = student_interval(s, 0.95);
-      s.low = interval.low, s.high = interval.high;
+      s.low                   = interval.low;
+      s.high                  = interval.high;
       return s;
     }
 
@@ -96,7 +97,10 @@ namespace diptych::coupling
     s.n      = int(degrees.size());
     double x = 0, y = 0;
     for (const double angle : degrees)
-      x += std::cos(doubled * angle), y += std::sin(doubled * angle);
+      {
+        x += std::cos(doubled * angle);
+        y += std::sin(doubled * angle);
+      }
     if (!(std::hypot(x, y) > no_direction * s.n))
       return s;
     s.mean     = line_turn(std::atan2(y, x) / doubled, 0);

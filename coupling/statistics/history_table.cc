@@ -43,7 +43,8 @@ namespace diptych::coupling
       {
         const double next_x = k < xs.size() ? std::min(xs[k], to) : to, next_y = interpolate(xs, ys, next_x);
         integral += 0.5 * (y + next_y) * (next_x - x);
-        x = next_x, y = next_y;
+        x = next_x;
+        y = next_y;
       }
     return to > from ? integral / (to - from) : y;
   }

@@ -121,7 +121,7 @@ namespace diptych::coupling
         leave_if_stopped("waiting for " + directory);
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
       }
-    hold_in_programs(descriptor);
+    keep_open_in_programs(descriptor);
     const std::string name = own_name() + "\n";
     if (ftruncate(descriptor, 0) != 0 || write(descriptor, name.data(), name.size()) < 0)
       {} // the name only informs people: on a full disk the lock holds without it
@@ -151,7 +151,7 @@ namespace diptych::coupling
 
   void FolderLock::give_back(const std::string &folder)
   {
-    no_longer_hold_in_programs(descriptor);
+    close_in_programs(descriptor);
     unlink(lock_file(folder).c_str());
     close(descriptor);
     descriptor = -1;

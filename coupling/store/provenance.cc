@@ -49,34 +49,7 @@ namespace diptych::coupling
       std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
       return text;
     }
-  } // namespace
 
-  double cpu_seconds(const bool children)
-  {
-    const rusage self = usage(RUSAGE_SELF);
-    double       sum  = seconds(self.ru_utime) + seconds(self.ru_stime);
-    if (children)
-      {
-        const rusage others = usage(RUSAGE_CHILDREN);
-        sum += seconds(others.ru_utime) + seconds(others.ru_stime);
-      }
-    return sum;
-  }
-
-  PhaseTimer::PhaseTimer(std::string name)
-      : name(std::move(name)),
-        wall(std::chrono::steady_clock::now()),
-        cpu(cpu_seconds(true))
-  {}
-
-  PhaseCost PhaseTimer::stop() const
-  {
-    return {name, std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count(), cpu_seconds(true) - cpu,
-            double(usage(RUSAGE_SELF).ru_maxrss) / 1024};
-  }
-
-  namespace
-  {
     using nlohmann::json;
 
     std::string path_of(const std::string &directory)
@@ -136,23 +109,7 @@ namespace diptych::coupling
     {
       return std::filesystem::path(table_of(directory, part)).replace_extension(".h5").string();
     }
-  } // namespace
 
-  std::string sum_over(const std::string &file)
-  {
-    std::error_code none;
-    if (!std::filesystem::is_regular_file(file, none))
-      return {};
-    std::ifstream     in(file, std::ios::binary);
-    std::vector<char> piece(1 << 20);
-    std::uint64_t     sum = empty_digest;
-    while (in.read(piece.data(), std::streamsize(piece.size())), in.gcount() > 0)
-      sum = digest_on(sum, {piece.data(), std::size_t(in.gcount())});
-    return hexadecimal(sum);
-  }
-
-  namespace
-  {
     void put_sums(const std::string &directory, const std::string &part, json &record)
     {
       NumbersToJson  sums{record[part + "_files"] = json::object(), 1};
@@ -218,6 +175,43 @@ namespace diptych::coupling
       return facts;
     }
   } // namespace
+
+  double cpu_seconds(const bool children)
+  {
+    const rusage self = usage(RUSAGE_SELF);
+    double       sum  = seconds(self.ru_utime) + seconds(self.ru_stime);
+    if (children)
+      {
+        const rusage others = usage(RUSAGE_CHILDREN);
+        sum += seconds(others.ru_utime) + seconds(others.ru_stime);
+      }
+    return sum;
+  }
+
+  PhaseTimer::PhaseTimer(std::string name)
+      : name(std::move(name)),
+        wall(std::chrono::steady_clock::now()),
+        cpu(cpu_seconds(true))
+  {}
+
+  PhaseCost PhaseTimer::stop() const
+  {
+    return {name, std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count(), cpu_seconds(true) - cpu,
+            double(usage(RUSAGE_SELF).ru_maxrss) / 1024};
+  }
+
+  std::string sum_over(const std::string &file)
+  {
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(file, none))
+      return {};
+    std::ifstream     in(file, std::ios::binary);
+    std::vector<char> piece(1 << 20);
+    std::uint64_t     sum = empty_digest;
+    while (in.read(piece.data(), std::streamsize(piece.size())), in.gcount() > 0)
+      sum = digest_on(sum, {piece.data(), std::size_t(in.gcount())});
+    return hexadecimal(sum);
+  }
 
   void forget_fact(const std::string &directory, const std::string &part)
   {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iostream>
 #include <stdexcept>
 
 #include "coupling/processes/stop_signal.h"
@@ -101,8 +102,10 @@ namespace diptych::coupling
       throw SceneError("--overwrite: '" + lock.folder() + "' is the working directory. Start from another one.");
     if (fs::exists(aside) && !is_result_folder(aside.string()))
       throw SceneError("--overwrite: '" + aside.string() + "' exists and holds no results. Move it elsewhere.");
-    fs::remove_all(aside);
+    const bool replaces = fs::remove_all(aside) > 0;
     lock.set_aside(aside.string());
+    std::cerr << "renamed " << path.string() << " to " << aside.string() << (replaces ? ", in the place of an older one" : "")
+              << std::endl;
   }
 
   void write_scene(const std::string &directory, const Scene &scene, const std::string &command)

@@ -1,4 +1,4 @@
-// diptych: the order at which a result converges, and to what
+// diptych: fits order of convergence and limit to results at several sizes
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/studies/convergence_order.h"
 
@@ -16,10 +16,10 @@ namespace diptych::coupling
     struct Line
     {
       ConvergenceFit fit;
-      double         squares = std::numeric_limits<double>::infinity(); // of what is left
+      double         squares = std::numeric_limits<double>::infinity(); // sum of squared residuals
     };
 
-    // limit and coefficient at a given order: a straight line over h^order.
+    // Limit and coefficient for a given order: a straight line over h^order.
     Line line_at(const double order, const std::vector<double> &h, const std::vector<double> &values)
     {
       const double n = double(h.size());
@@ -46,7 +46,7 @@ namespace diptych::coupling
     const auto [least, largest] = std::minmax_element(values.begin(), values.end());
     if (std::set<double>(h.begin(), h.end()).size() < 3 || !(*largest > *least))
       return std::nullopt;
-    // In units of the largest h: powers of small numbers lose no digits.
+    // Scaled by the largest h, so that powers of small numbers lose no digits.
     const double        unit = *std::max_element(h.begin(), h.end());
     std::vector<double> scaled;
     for (const double one : h)

@@ -1,4 +1,4 @@
-// diptych: what the folder of a run is called
+// diptych: the name of a run's folder
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/studies/run_name.h"
 

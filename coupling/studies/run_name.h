@@ -1,4 +1,4 @@
-// diptych: what the folder of a run is called
+// diptych: the name of a run's folder
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace diptych::coupling
 {
-  // A digest of what is run: the same for the same scene and command, for what changes no result of it (output, time between
-  // checkpoints, the continuum's keys for grains alone), and wherever the files that the scene names lie.
+  // A hash of scene and command. It omits keys that change no result: output, time between checkpoints, and the continuum's
+  // keys for a run of the grains only. It does not depend on the folders of the scene's files.
   std::string run_name(const Scene &scene, StudyCommand command);
 } // namespace diptych::coupling

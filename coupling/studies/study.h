@@ -1,4 +1,4 @@
-// diptych: what a study asks: which settings of a scene, on which samples, held against what
+// diptych: the contents of a study file: points, samples, quantities and the reference
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace diptych::coupling
 {
-  // What of the program every point of a study runs.
+  // The command that every point of a study runs.
   enum class StudyCommand
   {
     discrete,
@@ -27,21 +27,21 @@ namespace diptych::coupling
                       std::pair{StudyCommand::run, "run"}, std::pair{StudyCommand::material_point, "material-point"}};
   }
 
-  using Settings = std::vector<Entry>; // of a scene; where they were made and where their files are
+  using Settings = std::vector<Entry>; // of a scene, with their place in the study and the folder of their files
 
   // One or several keys that are set together.
   struct AxisPoint
   {
     std::string label;
     Settings    settings;
-    double      value = NAN; // of an axis over one key that is a number
+    double      value = NAN; // if the axis varies one key that is a number
   };
 
   struct Axis
   {
     std::string            name;
-    bool                   converges     = false; // results have a limit as its values go to 0: a step, the size of elements
-    bool                   own_reference = false; // each of its points is held against the reference at that point
+    bool                   converges     = false; // results have a limit as the values go to 0: a step, an element size
+    bool                   own_reference = false; // each point is compared with the reference at that point
     std::vector<AxisPoint> points;
   };
 
@@ -50,11 +50,11 @@ namespace diptych::coupling
   {
     std::string       name;
     Settings          settings;
-    bool              is_grid = true; // every point of an axis with every point of the others; else the k-th of all together
+    bool              is_grid = true; // all combinations; else the k-th points of all axes together
     std::vector<Axis> axes;
   };
 
-  // These points alone, numbered.
+  // Only these points, numbered.
   inline Family family_of(const std::vector<Settings> &points)
   {
     Axis axis;
@@ -64,13 +64,13 @@ namespace diptych::coupling
     return {"", {}, true, {axis}};
   }
 
-  // From what a quantity is read.
+  // The file that a quantity is read from.
   enum class Source
   {
     discrete,       // columns of discrete.csv
-    continuum,      // of continuum.csv
-    material_point, // of material_point.csv
-    comparison      // numbers of comparison.json, named as ensembles name them
+    continuum,      // columns of continuum.csv
+    material_point, // columns of material_point.csv
+    comparison      // numbers of comparison.json, with the names of ensemble.csv
   };
   constexpr auto choices(Source)
   {
@@ -80,13 +80,13 @@ namespace diptych::coupling
 
   enum class Reduction
   {
-    strength, // T/S over a window of the progress: mean of t over mean of s
-    mean,     // of a column over a window of the progress
-    at,       // a value of a column at a progress
+    strength, // T/S over a range of the progress: mean of t / mean of s
+    mean,     // mean of a column over a range of the progress
+    at,       // value of a column at a progress
     peak,     // largest running mean of a column over a width of the progress
-    largest,  // of a column
-    last,     // of a column
-    number    // of a comparison
+    largest,  // largest value of a column
+    last,     // last value of a column
+    number    // a number of a comparison
   };
   constexpr auto choices(Reduction)
   {
@@ -101,15 +101,15 @@ namespace diptych::coupling
     std::string           name;
     Source                source    = Source::discrete;
     Reduction             reduction = Reduction::last;
-    std::string           column;               // or the number's name
-    double                from = NAN, to = NAN; // window; `at`: from; `peak`: the width is `to`
-    bool                  is_relative = true;   // errors are shares of the reference's mean
-    std::optional<double> limit;                // the error that still counts as right
+    std::string           column;               // column, or name of the number
+    double                from = NAN, to = NAN; // range; `at`: from; `peak`: the width is `to`
+    bool                  is_relative = true;   // errors are relative to the reference's mean
+    std::optional<double> limit;                // largest error that counts as right
     std::string           unit    = "-";
     bool                  is_line = false; // an angle that repeats after 180 degrees
   };
 
-  // Where theory says that a method begins to fail: y = coefficient x^exponent between two axes of a family.
+  // The border beyond which a method fails by theory: y = coefficient x^exponent between two axes of a family.
   struct Border
   {
     std::string label, family, x, y;
@@ -125,7 +125,7 @@ namespace diptych::coupling
     Settings                   reference;
     std::vector<Family>        families;
     std::vector<StudyQuantity> quantities;
-    std::vector<std::string>   cost; // phases that count; empty: all but the report
+    std::vector<std::string>   cost; // phases that count; empty: all except the report
     std::vector<Border>        borders;
 
     int n_samples() const { return seeds.empty() ? 1 : int(seeds.size()); }

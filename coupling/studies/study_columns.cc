@@ -1,4 +1,4 @@
-// diptych: what a quantity of a study may be read from, and what it is
+// diptych: columns and numbers that a quantity of a study can be read from
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/studies/study_columns.h"
 
@@ -48,6 +48,16 @@ namespace diptych::coupling
         }
     }
 
+    // The shortest key that begins with the word, else the key with the fewest letters changed.
+    std::string nearest_key(const std::string &word, const std::vector<std::string> &keys)
+    {
+      std::string nearest;
+      for (const std::string &key : keys)
+        if (key.compare(0, word.size(), word) == 0 && (nearest.empty() || key.size() < nearest.size()))
+          nearest = key;
+      return nearest.empty() || word.empty() ? discrete::nearest_name(word, keys) : nearest;
+    }
+
     void describe_number(StudyQuantity &quantity)
     {
       const std::string        key = quantity.column.substr(quantity.column.rfind(' ') + 1);
@@ -55,15 +65,18 @@ namespace diptych::coupling
       for (const NumberDescription &number : comparison_schema())
         {
           const std::string own = number.place.substr(number.place.rfind('/') + 1);
-          keys.push_back(own);
+          if (number.kind == Kind::number || number.kind == Kind::line) // those that ensembles average
+            keys.push_back(own);
           if (own != key)
             continue;
           quantity.unit    = number.unit;
           quantity.is_line = number.kind == Kind::line;
           return;
         }
-      throw std::invalid_argument("'" + quantity.column + "': no number of a comparison is called '" + key +
-                                  "'; the nearest is '" + discrete::nearest_name(key, keys) + "'");
+      throw std::invalid_argument("'" + quantity.column + "': no number of a comparison ends with '" + key +
+                                  "'; the nearest is '" + nearest_key(key, keys) +
+                                  "'. Use a name from the first column of ensemble.csv, such as "
+                                  "'window 0.01-0.03 discrete band angle_deg'");
     }
   } // namespace
 

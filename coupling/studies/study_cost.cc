@@ -1,4 +1,4 @@
-// diptych: what the points of a study cost, and which are worth it
+// diptych: cost of the points of a study, and the cheapest right ones
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/studies/study_cost.h"
 
@@ -44,10 +44,10 @@ namespace diptych::coupling
       return point.kind != PointClass::not_run && point.kind != PointClass::refused && point.kind != PointClass::stopped;
     }
 
-    // A finished point among those that are held against the same reference.
+    // The finished points that share a reference.
     using Rivals = std::vector<PointCost *>;
 
-    // The same runs: a point that is its own reference is right at no merit.
+    // Equal runs: a point that is its own reference has no error and must not compete.
     bool is_same(const ScenePoint &a, const ScenePoint &b)
     {
       return !a.runs.empty() && std::equal(a.runs.begin(), a.runs.end(), b.runs.begin(), b.runs.end(),
@@ -82,7 +82,7 @@ namespace diptych::coupling
         }
     }
 
-    // How far a quantity's error at a point may lie from 0: as found, and with its interval; a single sample has none.
+    // Largest distance of a quantity's error from 0: of its mean, and of its interval. A single sample has no interval.
     struct Reach
     {
       double found, possible;
@@ -95,7 +95,7 @@ namespace diptych::coupling
       return {found, study.seeds.empty() ? found : std::max(std::abs(e.low), std::abs(e.high))};
     }
 
-    // The cheapest point at which no reach is beyond its accuracy; reaches(point): pairs of both.
+    // The cheapest point at which no reach exceeds its accuracy; reaches(point) returns pairs of both.
     template <class Reaches> CheapestPoint cheapest(const Rivals &rivals, CheapestPoint wanted, Reaches &&reaches)
     {
       for (const PointCost *one : rivals)
@@ -126,6 +126,8 @@ namespace diptych::coupling
                 return Pairs{{reach_of(study, record.points[point], q), accuracy}};
               }));
             }
+      if (result.empty()) // no quantity has a limit, so no point is right
+        return result;
       for (const double multiple : multiples)
         result.push_back(cheapest(rivals, {"", multiple, reference}, [&](const std::size_t point) {
           Pairs pairs;

@@ -1,4 +1,4 @@
-// diptych: what the points of a study cost, and which are worth it
+// diptych: cost of the points of a study, and the cheapest right ones
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -13,7 +13,7 @@ namespace diptych::coupling
   struct PhaseMean
   {
     std::string name;
-    double      cpu_s = 0; // over the samples
+    double      cpu_s = 0; // mean over the samples
   };
 
   struct PointCost
@@ -25,15 +25,15 @@ namespace diptych::coupling
     std::vector<PhaseMean>   phases;
   };
 
-  // The cheapest finished point whose mean error keeps to an accuracy.
+  // The cheapest finished point whose mean error is within an accuracy.
   struct CheapestPoint
   {
     std::string quantity; // empty: all that have a limit
     double      accuracy   = 0;
-    int         reference  = 0; // of those that are held against it
+    int         reference  = 0; // of the points that compete
     int         point      = -1;
     double      cpu_s      = NAN;
-    bool        is_certain = false; // the errors' intervals, too, keep to it: it is no stroke of luck
+    bool        is_certain = false; // the intervals of the errors are within the accuracy, too
   };
 
   struct StudyCost
@@ -45,13 +45,13 @@ namespace diptych::coupling
     std::vector<CheapestPoint> cheapest;
   };
 
-  // Accuracies of the cheapest points: 5, 2 and 1 % for relative errors; 2.5, 1 and 0.5 times the limit for others, and for all
-  // quantities together. References do not compete.
+  // Accuracies of the cheapest points: 5, 2 and 1 % for relative errors; 2.5, 1 and 0.5 times the limit for absolute errors and
+  // for all quantities together. Without any limit there is no cheapest point. References do not compete.
   StudyCost cost_of(const Study                   &study,
                     const std::vector<ScenePoint> &points,
                     const StudyResults            &results,
                     const StudyRecord             &record);
 
-  // A run is disturbed where the machine had half a process more to do than this study had at work.
+  // True if the machine was busy with half a process more than the runs of this study.
   bool is_disturbed(const RunResult &run);
 } // namespace diptych::coupling

@@ -49,8 +49,8 @@ namespace diptych::coupling
       return quantity.is_line ? compare_turns(turn, margin) : compare_differences(difference, margin);
     }
 
-    // A value that the reference has and the point has not is beyond any limit. One sample alone has no interval: it is what it
-    // is; of several, an interval that is not known leaves a doubt.
+    // If only the reference has a value, the point is beyond any limit. One sample has no interval, so its error decides. With
+    // several samples an unknown interval leaves a doubt.
     std::string verdict_of(const StudyQuantity &quantity,
                            const PointQuantity &point,
                            const bool           reference_has_it,
@@ -141,7 +141,7 @@ namespace diptych::coupling
         }
     }
 
-    // The points along one axis that have all else in common, by the labels of the others.
+    // Points along one axis that share all other settings, by the labels of the other axes.
     using Lines = std::map<std::vector<std::string>, std::vector<std::size_t>>;
 
     Lines lines_along(const std::vector<ScenePoint> &points, const int family, const std::size_t axis)
@@ -157,7 +157,7 @@ namespace diptych::coupling
       return lines;
     }
 
-    // Means over the samples that every point has, without one of them where `left_out` says so.
+    // Means over the samples that every point has, except the sample `left_out`.
     struct AxisLine
     {
       std::vector<double>              h;
@@ -209,7 +209,7 @@ namespace diptych::coupling
       return record;
     }
 
-    // The line's points that have all their values.
+    // The points of the line that have all their values.
     AxisLine line_of(const std::vector<std::size_t> &on_line,
                      const std::vector<double>      &h,
                      const std::vector<PointRecord> &points,

@@ -17,14 +17,14 @@ namespace diptych::coupling
 {
   enum class PointClass
   {
-    right,          // every quantity with a limit is within it
-    wrong_warned,   // beyond a limit, and the program had warned
-    silently_wrong, // beyond a limit without a word
-    struggled,      // within its limits, after steps were halved
-    stopped,        // a run did not come to its end
+    right,          // every quantity is within its limit
+    wrong_warned,   // a limit is exceeded, and a panel warned
+    silently_wrong, // a limit is exceeded without a warning
+    struggled,      // within the limits, but steps were halved
+    stopped,        // a run did not finish
     refused,        // the settings contradict each other
     unjudged,       // no quantity has a limit
-    not_run         // interrupted, or never begun
+    not_run         // interrupted or never started
   };
   constexpr auto choices(PointClass)
   {
@@ -41,31 +41,31 @@ namespace diptych::coupling
   // A quantity at a point: point minus reference, sample by sample.
   struct PointQuantity
   {
-    std::vector<double> values; // one a sample; NaN where it has none
+    std::vector<double> values; // one per sample; NaN if it has none
     SampleStatistics    statistics;
-    Interval            error; // 95 %; relative to the reference's mean where the quantity's errors are
+    Interval            error; // 95 %; relative to the reference's mean if is_relative
     int                 pairs   = 0;
-    double              scatter = NAN; // of one sample about the reference's mean, in the error's unit; NaN below two samples
-    std::string         verdict;       // against the limit: within, beyond, cannot tell; empty without a limit
+    double              scatter = NAN; // of one sample, in the unit of the error; NaN below two samples
+    std::string         verdict;       // within, beyond or cannot tell; empty without a limit
   };
 
   struct PointRecord
   {
     PointClass                 kind       = PointClass::not_run;
-    bool                       is_certain = false;           // the intervals leave no doubt of the class
-    std::string                words;                        // of the first run that did not finish
-    int                        warned = 0, halved_steps = 0; // runs that warned; steps, of the worst run
+    bool                       is_certain = false;           // the intervals confirm the class
+    std::string                words;                        // message of the first run that did not finish
+    int                        warned = 0, halved_steps = 0; // runs that warned; halved steps of the worst run
     double                     cut_backs = 0;
     std::vector<PointQuantity> quantities;
   };
 
-  // v = limit + coefficient h^order along an axis, all else fixed, fitted to the means over the samples.
+  // v = limit + coefficient h^order along one axis, with all other settings fixed. Fitted to the means over the samples.
   struct OrderRecord
   {
     std::size_t              family = 0, axis = 0, quantity = 0;
-    std::vector<std::string> labels; // of the other axes' points; that of this axis is empty
+    std::vector<std::string> labels; // of the points on the other axes; the entry of this axis is empty
     int                      points = 0;
-    Interval                 order, limit; // intervals by leaving out one sample at a time, from three samples on
+    Interval                 order, limit; // intervals from leaving out one sample at a time; at least three samples
     double                   coefficient = 0;
   };
 

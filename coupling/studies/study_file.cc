@@ -1,4 +1,4 @@
-// diptych: studies read and checked
+// diptych: reads and checks study files
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/studies/study_file.h"
 
@@ -30,7 +30,7 @@ namespace diptych::coupling
       axis.converges     = part.flag("converges");
       axis.own_reference = part.flag("own_reference");
       if (part.has("key") == part.has("points"))
-        part.refuse("an axis has either key and values or points, each with a label and a set");
+        part.refuse("an axis needs either key and values, or points with label and set");
       if (part.has("key"))
         for (const Part &value : part.list("values"))
           axis.points.push_back(point_of(part, part.word("key"), value));
@@ -41,7 +41,7 @@ namespace diptych::coupling
           axis.points.push_back({one.word("label"), one.settings("set")});
         }
       if (axis.points.empty())
-        part.refuse("an axis without points");
+        part.refuse("this axis has no points; give values or points");
       axis.name = part.word("name", part.word("key", "points").substr(part.word("key", "points").find('/') + 1));
       std::vector<std::string> labels;
       for (const AxisPoint &point : axis.points)
@@ -50,7 +50,7 @@ namespace diptych::coupling
             part.refuse("axis '" + axis.name + "' has '" + point.label + "' twice");
           labels.push_back(point.label);
           if (axis.converges && !(point.value > 0))
-            part.refuse("converges", " needs values above 0; '" + point.label + "' is none");
+            part.refuse("converges", " needs values above 0, which '" + point.label + "' is not");
         }
       return axis;
     }
@@ -59,16 +59,16 @@ namespace diptych::coupling
     {
       Family family{part.word("name"), part.settings("set"), part.word("combine", "grid") == "grid", {}};
       if (const std::string word = part.word("combine", "grid"); word != "grid" && word != "list")
-        part.refuse("combine", " = '" + word + "' is not allowed: grid or list is");
+        part.refuse("combine", " = '" + word + "' is not allowed; use grid or list");
       for (const Part &axis : part.list("axes"))
         {
           family.axes.push_back(axis_of(axis));
           const Axis &last = family.axes.back();
           if (std::count_if(family.axes.begin(), family.axes.end(), [&](const Axis &other) { return other.name == last.name; }) >
               1)
-            axis.refuse("two axes are called '" + last.name + "'");
+            axis.refuse("two axes have the name '" + last.name + "'");
           if (!family.is_grid && last.points.size() != family.axes.front().points.size())
-            axis.refuse("the axes of a list have as many points each; '" + family.axes.front().name + "' has " +
+            axis.refuse("axes combined as a list need equally many points; '" + family.axes.front().name + "' has " +
                         std::to_string(family.axes.front().points.size()) + ", '" + last.name + "' " +
                         std::to_string(last.points.size()));
         }
@@ -79,7 +79,7 @@ namespace diptych::coupling
     {
       std::vector<Family> families;
       if (root.has("families") && root.has("axes"))
-        root.refuse("axes", " of the study and families: axes belong into each of the families");
+        root.refuse("axes", " cannot be used together with families; put axes into each family");
       if (!root.has("families"))
         families.push_back(family_of(root)), families.back().settings.clear();
       for (const Part &part : root.list("families"))
@@ -97,7 +97,7 @@ namespace diptych::coupling
       const auto       pair = [&](const std::string &key) {
         const std::vector<Part> ends = part.list(key);
         if (ends.size() != 2 || !ends[0].json().is_number() || !ends[1].json().is_number() || !(ends[0].json() < ends[1].json()))
-          part.refuse(key, " = " + part.json()[key].dump() + " is not allowed: two ascending values of the progress are");
+          part.refuse(key, " = " + part.json()[key].dump() + " is not allowed; give two ascending values of the progress");
         quantity.from = ends[0].json(), quantity.to = ends[1].json();
       };
       std::vector<Reduction> given;
@@ -105,7 +105,7 @@ namespace diptych::coupling
         if (part.has(name))
           given.push_back(reduction);
       if (given.size() != 1)
-        part.refuse("a quantity has exactly one of " + discrete::listed(names_of(Reduction())));
+        part.refuse("a quantity needs exactly one of " + discrete::listed(names_of(Reduction())));
       quantity.reduction = given.front();
       switch (given.front())
         {
@@ -124,7 +124,7 @@ namespace diptych::coupling
           return;
         default:
           if (!part.flag(discrete::name_of(given.front())))
-            part.refuse(discrete::name_of(given.front()), " is true or left out");
+            part.refuse(discrete::name_of(given.front()), " must be true or left out");
         }
     }
 
@@ -135,12 +135,12 @@ namespace diptych::coupling
       const Part limit = part.at("limit");
       limit.allow({"relative", "absolute"});
       if (limit.json().size() != 1)
-        limit.refuse("a limit is relative or absolute");
+        limit.refuse("a limit needs one of relative and absolute");
       quantity.is_relative = limit.has("relative");
       quantity.limit       = limit.number(quantity.is_relative ? "relative" : "absolute", 1e-12, 1e12);
     }
 
-    // Whether such a command writes what the quantity is read from.
+    // True if the command writes the file that the quantity is read from.
     bool makes(const StudyCommand command, const Source source)
     {
       switch (command)
@@ -166,14 +166,14 @@ namespace diptych::coupling
                                                                                                          : Source::discrete);
       if (!makes(command, quantity.source))
         part.refuse("command " + discrete::name_of(command) + " does not write what '" + discrete::name_of(quantity.source) +
-                    "' is read from");
+                    "' is read from; change command or of");
       quantity.column = part.word("column");
       read_reduction(part, quantity);
       read_limit(part, quantity);
       if (quantity.reduction == Reduction::strength || quantity.reduction == Reduction::number)
         {
           if (part.has("column"))
-            part.refuse("column", " is of no use here");
+            part.refuse("column", " has no effect here; remove it");
         }
       else if (const auto names = column_names(quantity.source);
                std::find(names.begin(), names.end(), quantity.column) == names.end())
@@ -204,18 +204,18 @@ namespace diptych::coupling
         part.refuse("family", " = '" + border.family + "': there is no such family");
       for (const std::string &name : {border.x, border.y})
         if (std::none_of(family->axes.begin(), family->axes.end(), [&](const Axis &axis) { return axis.name == name; }))
-          part.refuse("'" + name + "' is no axis of this family");
+          part.refuse("'" + name + "' is not an axis of this family");
       return border;
     }
 
-    // Another name would cost nothing.
+    // A wrong name would count as a cost of zero.
     std::string phase_of(const Part &part)
     {
       const std::vector<std::string> phases = {"preparation", "discrete", "continuum",     "continuum_coarse",
                                                "comparison",  "report",   "material_point"};
       const std::string              name   = value_text(part.json());
       if (std::find(phases.begin(), phases.end(), name) == phases.end())
-        part.refuse("cost: '" + name + "' is no phase; the nearest is '" + discrete::nearest_name(name, phases) + "'");
+        part.refuse("cost: '" + name + "' is not a phase; the nearest is '" + discrete::nearest_name(name, phases) + "'");
       return name;
     }
 
@@ -226,22 +226,23 @@ namespace diptych::coupling
         names.push_back(quantity.name);
       std::sort(names.begin(), names.end());
       if (const auto twice = std::adjacent_find(names.begin(), names.end()); twice != names.end())
-        root.refuse("quantities", ": two are called '" + *twice + "'; give them names");
+        root.refuse("quantities", ": two have the name '" + *twice + "'; give them different names");
       names.clear();
       for (const Family &family : study.families)
         names.push_back(family.name);
       std::sort(names.begin(), names.end());
       if (const auto twice = std::adjacent_find(names.begin(), names.end()); twice != names.end())
-        root.refuse("families", ": two are called '" + *twice + "'");
+        root.refuse("families", ": two have the name '" + *twice + "'");
     }
 
-    // Every point is run with every seed: one that is set would be replaced.
+    // A fixed seed would be replaced, because every point is run with every seed.
     void demand_one_source_of_seeds(const Part &root, const Study &study)
     {
       const auto demand = [&](const Settings &settings) {
         for (const Entry &entry : settings)
           if (entry.section == "sample" && entry.key == "seed" && !study.seeds.empty())
-            root.refuse("seeds", " are given, and sample/seed = " + entry.value + " is set beside them: " + entry.place);
+            root.refuse("seeds",
+                        " cannot be used together with sample/seed = " + entry.value + ", set at " + text_of(entry.place));
       };
       demand(study.settings), demand(study.reference);
       for (const Family &family : study.families)
@@ -289,7 +290,7 @@ namespace diptych::coupling
     for (const Part &part : root.list("quantities"))
       study.quantities.push_back(quantity_of(part, study.command));
     if (study.quantities.empty())
-      root.refuse("quantities", " is missing or empty: what is to be measured?");
+      root.refuse("quantities", " is missing or empty; name at least one quantity");
     for (const Part &phase : root.list("cost"))
       study.cost.push_back(phase_of(phase));
     for (const Part &part : root.list("borders"))

@@ -1,4 +1,4 @@
-// diptych: studies read and checked
+// diptych: reads and checks study files
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -10,9 +10,8 @@
 
 namespace diptych::coupling
 {
-  // Reads a .json file; `overrides` (section/key=value) are settings of all points. The scene and files that settings name are
-  // found from the study's own folder, those of overrides from the working directory. Every key and every value by itself is
-  // checked; what values mean together is asked of each point. Throws SceneError naming file, line, key, value and what is
-  // allowed.
+  // Reads a .json file. `overrides` (section/key=value) are settings of all points. Paths are relative to the study's folder;
+  // those of overrides to the working directory. Every key and value is checked by itself; points_of() checks their
+  // combinations. Throws SceneError naming file, line, key, value and the allowed values.
   Study read_study(const std::string &file, const std::vector<std::string> &overrides);
 } // namespace diptych::coupling

@@ -24,7 +24,7 @@ namespace diptych::coupling
     namespace fs = std::filesystem;
 
     constexpr int exit_code_of_a_refusal     = 2;
-    constexpr int last_exit_code_of_a_result = 3; // beyond it the system failed, or a signal came
+    constexpr int last_exit_code_of_a_result = 3; // higher codes: the system failed, or a signal came
 
     std::string path_of(const std::string &directory, const StudyRun &run, const std::string &ending)
     {
@@ -91,8 +91,8 @@ namespace diptych::coupling
 
   namespace
   {
-    // Somebody may have run another scene in its folder, or put another run's there. Both echoes name the same files, which may
-    // lie elsewhere by now.
+    // A user may have run another scene in this folder, or copied another run's here. Both resolved scenes name the same files,
+    // which may have moved since.
     bool is_of_its_scene(const std::string &directory, const StudyRun &run, const json &end)
     {
       const std::string file = scene_prm(run_folder(directory, run));
@@ -116,7 +116,7 @@ namespace diptych::coupling
         result = {end.at("exit_code"), end.at("revision"), end.at("load").is_number() ? double(end["load"]) : NAN,
                   end.value("at_once", 1)};
       }
-    catch (const std::exception &) // damaged, or of another version: it is run again
+    catch (const std::exception &) // damaged or of another version: run it again
       {
         return std::nullopt;
       }
@@ -141,7 +141,7 @@ namespace diptych::coupling
 
   void prepare_run_anew(const std::string &directory, const StudyRun &run)
   {
-    remove_results(directory + "/runs", {run.name + ".json"}); // as if it had never begun
+    remove_results(directory + "/runs", {run.name + ".json"}); // as if it had never started
     (void)prepare_run(directory, run);
   }
 } // namespace diptych::coupling

@@ -14,12 +14,12 @@
 
 namespace diptych::coupling
 {
-  // DIR/runs/NAME: the result folder of a run; beside it its scene NAME.prm, its output NAME.log and how it ended, NAME.json.
+  // DIR/runs/NAME is the result folder of a run. Beside it are its scene NAME.prm, its log NAME.log and its end NAME.json.
   std::string run_folder(const std::string &directory, const StudyRun &run);
   std::string run_scene(const std::string &directory, const StudyRun &run);
   std::string run_log(const std::string &directory, const StudyRun &run);
 
-  // Folders that hold runs: what they are of, the copy of the file that asked for it, tables that are made of the runs.
+  // Kinds of folders that hold runs: name, copy of the input file, and tables made from the runs.
   struct RunsFolder
   {
     std::string              noun, input;
@@ -45,24 +45,24 @@ namespace diptych::coupling
                         const Opening     &opening,
                         const InputFiles  &inputs);
 
-  // How a run ended.
+  // The end of a run.
   struct RunEnd
   {
     int         exit_code = 0;
     std::string revision;      // of the program
-    double      load    = NAN; // processes ready to run on the machine, mean over the last minute before the end
-    int         at_once = 1;   // runs that this study had at work
+    double      load    = NAN; // processes ready to run on the machine, mean over the last minute
+    int         at_once = 1;   // runs of this study at work
   };
   void write_end(const std::string &directory, const StudyRun &run, int exit_code, int at_once);
 
-  // Nothing where the run has not ended, was ended by a signal or by the system (no room, no memory), or belongs to another
-  // revision of the program or another scene, or where its files are not known to be as it left them: then it is to be run.
+  // Empty if the run must be done (again): it has not ended; a signal or the system ended it (no space, no memory); program or
+  // scene differ; or its files may have changed since.
   [[nodiscard]] std::optional<RunEnd> found_end(const std::string &directory, const StudyRun &run);
 
-  // Makes a run ready: its scene is written, an old log is taken away. Its folder stays only where this revision of the program
-  // was interrupted in it; returns whether there is one to go on from.
+  // Prepares a run: writes its scene and removes an old log. The folder stays only if this revision of the program was
+  // interrupted in it. Returns true if the run can be resumed.
   [[nodiscard]] bool prepare_run(const std::string &directory, const StudyRun &run);
 
-  // The same from the beginning, whatever stands there.
+  // Prepares the run to start from the beginning.
   void prepare_run_anew(const std::string &directory, const StudyRun &run);
 } // namespace diptych::coupling

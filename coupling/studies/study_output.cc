@@ -1,4 +1,4 @@
-// diptych: a study as files
+// diptych: result files of a study
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/studies/study_output.h"
 
@@ -19,7 +19,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    // A cell of a table; quoted where its text could be taken for several.
+    // A cell of a table, quoted if it contains a separator.
     std::string cell(std::string text)
     {
       if (text.find_first_of(",\"\n") == std::string::npos)

@@ -1,4 +1,4 @@
-// diptych: a part of a study's text, asked for what must stand in it
+// diptych: one part of a JSON input file, with checked access to its members
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/studies/study_part.h"
 
@@ -47,11 +47,11 @@ namespace diptych::coupling
   void Part::allow(const std::vector<std::string> &keys) const
   {
     if (!value.is_object())
-      refuse("an object is needed, with " + discrete::listed(keys));
+      refuse("an object is needed; its keys are " + discrete::listed(keys));
     for (const auto &[key, member] : value.items())
       if (std::find(keys.begin(), keys.end(), key) == keys.end())
-        refuse(key,
-               ": unknown key; the nearest is '" + discrete::nearest_name(key, keys) + "', all are " + discrete::listed(keys));
+        refuse(key, ": unknown key; the nearest is '" + discrete::nearest_name(key, keys) + "'; allowed are " +
+                      discrete::listed(keys));
   }
 
   Part Part::at(const std::string &key) const
@@ -85,7 +85,7 @@ namespace diptych::coupling
   int Part::whole(const std::string &key, const int low, const int high) const
   {
     if (at(key).value.is_number() && at(key).value.get<double>() != std::floor(at(key).value.get<double>()))
-      refuse(key, " = " + at(key).value.dump() + " is not allowed: a whole number is");
+      refuse(key, " = " + at(key).value.dump() + " is not allowed; use a whole number");
     return int(number(key, low, high));
   }
 
@@ -93,14 +93,14 @@ namespace diptych::coupling
   {
     const ordered_json &member = at(key).value;
     if (!member.is_number() || !(member >= low) || !(member <= high))
-      refuse(key, " = " + member.dump() + " is not allowed: " + allowed_number({low, high}) + " is");
+      refuse(key, " = " + member.dump() + " is not allowed; use " + allowed_number({low, high}));
     return member;
   }
 
   bool Part::flag(const std::string &key) const
   {
     if (has(key) && !value[key].is_boolean())
-      refuse(key, " = " + value[key].dump() + " is not allowed: true or false is");
+      refuse(key, " = " + value[key].dump() + " is not allowed; use true or false");
     return has(key) && value[key];
   }
 
@@ -119,7 +119,7 @@ namespace diptych::coupling
   void refuse_folder(const Entry &entry)
   {
     if (entry.section == "output" && entry.key == "directory")
-      throw SceneError(text_of(entry.place) + ": output/directory cannot be set: runs have folders of their own below --output");
+      throw SceneError({entry.place, entry.name(), "", "", "runs use their own folders below --output"}, "cannot be set");
   }
 
   Settings Part::settings(const std::string &key) const
@@ -140,7 +140,7 @@ namespace diptych::coupling
     const Place       place = text.place(pointer + "/" + escaped(key));
     const std::size_t slash = name.find('/');
     if (slash == std::string::npos)
-      throw SceneError({place, name, "", "", "a key is section/name, such as discrete/friction"}, "is not a key of a scene");
+      throw SceneError({place, name, "", "", "write section/key"}, "is not a key of a scene");
     const Entry entry{name.substr(0, slash), name.substr(slash + 1), value_text(to), place,
                       std::filesystem::path(text.file).parent_path().string()};
     check_entry(with_seed(entry, "1"));

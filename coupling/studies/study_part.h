@@ -1,4 +1,4 @@
-// diptych: a part of a study's text, asked for what must stand in it
+// diptych: one part of a JSON input file, with checked access to its members
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -21,11 +21,11 @@ namespace diptych::coupling
     return names;
   }
 
-  // Runs have folders of their own. Throws SceneError naming the place of an entry that sets output/directory.
+  // Runs have their own folders. Throws SceneError naming the place of an entry that sets output/directory.
   void refuse_folder(const Entry &entry);
 
-  // A member of the text: its value and where it stands. What is asked for and not there, or no such value, throws SceneError
-  // naming file, line, key, value and what is allowed.
+  // A value of the input file and its place. Access to a missing member or one of another type throws SceneError naming file,
+  // line, key, value and the allowed values.
   class Part
   {
   public:
@@ -37,14 +37,14 @@ namespace diptych::coupling
     const nlohmann::ordered_json &json() const { return value; }
 
     bool has(const std::string &key) const { return value.is_object() && value.contains(key); }
-    void allow(const std::vector<std::string> &keys) const; // only these may stand here
+    void allow(const std::vector<std::string> &keys) const; // refuses other keys
 
-    Part              at(const std::string &key) const;   // which must be there
-    std::vector<Part> list(const std::string &key) const; // empty where it is not there
+    Part              at(const std::string &key) const;   // throws if it is missing
+    std::vector<Part> list(const std::string &key) const; // empty if it is missing
     std::string       word(const std::string &key, const std::string &otherwise = "") const;
-    double            number(const std::string &key, double low, double high) const; // which must be there
-    int               whole(const std::string &key, int low, int high) const;        // likewise
-    bool              flag(const std::string &key) const;                            // false where it is not there
+    double            number(const std::string &key, double low, double high) const; // throws if it is missing
+    int               whole(const std::string &key, int low, int high) const;        // throws if it is missing
+    bool              flag(const std::string &key) const;                            // false if it is missing
 
     template <class E> E choice(const std::string &key, const E otherwise) const
     {
@@ -52,16 +52,16 @@ namespace diptych::coupling
         return otherwise;
       if (const auto chosen = discrete::value_of<E>(word(key)))
         return *chosen;
-      refuse(key, " = '" + word(key) + "' is not allowed: one of " + discrete::listed(names_of(E())) + " is");
+      refuse(key, " = '" + word(key) + "' is not allowed; use one of " + discrete::listed(names_of(E())));
     }
 
-    // As on the command line, "1-8" or "1,3,5-7" or a number; empty where it is not there.
+    // As on the command line: "1-8", "1,3,5-7" or a number. Empty if it is missing.
     std::vector<int> seeds(const std::string &key) const;
 
-    // {"section/key": value, ...}, each checked as a key and a value of a scene. Empty where it is not there.
+    // {"section/key": value, ...}, each checked as key and value of a scene. Empty if it is missing.
     Settings settings(const std::string &key) const;
 
-    // One setting; `key`: the member of this part at which it was made.
+    // One setting. `key`: the member of this part that contains it.
     Entry setting(const std::string &key, const std::string &name, const nlohmann::ordered_json &to) const;
 
   private:

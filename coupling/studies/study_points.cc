@@ -23,7 +23,7 @@ namespace diptych::coupling
       return false;
     }
 
-    // The settings on one sample: its seed in the place of the word that stands for it, or else as the seed of its preparation.
+    // The settings for one sample. The seed replaces {seed} in the values, or becomes sample/seed.
     Settings on_sample(Settings settings, const std::string &seed, const Study &study)
     {
       if (seed.empty())
@@ -80,7 +80,7 @@ namespace diptych::coupling
       return n;
     }
 
-    // The settings and labels that a point shares with its reference.
+    // Settings and labels that a point shares with its reference.
     struct Shared
     {
       Settings                 settings;
@@ -118,7 +118,7 @@ namespace diptych::coupling
       return point;
     }
 
-    // The place of the reference with these labels; made where there is none yet.
+    // Index of the reference with these labels. Adds it if it is missing.
     std::size_t reference_with(const Study &study, const Shared &shared, std::vector<ScenePoint> &references)
     {
       for (std::size_t k = 0; k < references.size(); ++k)

@@ -1,4 +1,4 @@
-// diptych: what a run of a study says, read from its folder
+// diptych: results of one run of a study, read from its folder
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/studies/study_results.h"
 
@@ -31,7 +31,7 @@ namespace diptych::coupling
       return std::filesystem::exists(file) ? history_table(discrete::read_rows<Row>(file)) : HistoryTable();
     }
 
-    // The tables and numbers of one result folder, each read once.
+    // Tables and numbers of one result folder, each read once.
     class Folder
     {
     public:
@@ -100,7 +100,7 @@ namespace diptych::coupling
         }
     }
 
-    // Without the folder's own name: the same words wherever the study stands.
+    // Removes the study's folder, so that messages do not depend on where the study is.
     std::string without(const std::string &directory, std::string words)
     {
       const std::string name = directory + "/";
@@ -135,7 +135,7 @@ namespace diptych::coupling
         return table_of<continuum::HistoryRow>(continuum_csv(folder));
         case Source::material_point: {
           HistoryTable table = table_of<continuum::MaterialPointRow>(material_point_csv(folder));
-          if (!table.empty()) // a point walks along its axial strain
+          if (!table.empty()) // the loading variable of a point is its axial strain
             table["progress"] = table["axial_strain"];
           return table;
         }

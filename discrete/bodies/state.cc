@@ -33,8 +33,10 @@ namespace diptych::discrete
       return;
     for (PairImpulse &r : state.impulses)
       {
-        r.normal *= factor, r.tangential *= factor;
-        r.normal_change *= factor * factor, r.tangential_change *= factor * factor;
+        r.normal *= factor;
+        r.tangential *= factor;
+        r.normal_change *= factor * factor;
+        r.tangential_change *= factor * factor;
       }
   }
 } // namespace diptych::discrete

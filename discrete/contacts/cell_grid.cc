@@ -14,7 +14,10 @@ namespace diptych::discrete
     const double    n   = double(members_.size());
     Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity()), high = -low;
     for (const int i : members_)
-      low = low.cwiseMin(state.grains.position[i]), high = high.cwiseMax(state.grains.position[i]);
+      {
+        low  = low.cwiseMin(state.grains.position[i]);
+        high = high.cwiseMax(state.grains.position[i]);
+      }
     origin_ = low;
     if (state.cell)
       {

@@ -26,9 +26,15 @@ namespace diptych::discrete
     {
       std::int64_t from = raw_column(x.x() - reach), to = raw_column(x.x() + reach);
       if (period_ > 0 && to - from >= columns_)
-        from = 0, to = columns_ - 1;
+        {
+          from = 0;
+          to   = columns_ - 1;
+        }
       if (!(period_ > 0))
-        from = std::clamp<std::int64_t>(from, 0, columns_ - 1), to = std::clamp<std::int64_t>(to, 0, columns_ - 1);
+        {
+          from = std::clamp<std::int64_t>(from, 0, columns_ - 1);
+          to   = std::clamp<std::int64_t>(to, 0, columns_ - 1);
+        }
       const std::int64_t bottom = row(x.y() - reach), top = row(x.y() + reach);
       if (is_shared_ && double(to - from + 1) * double(top - bottom + 1) > double(members_.size()))
         {

@@ -105,7 +105,8 @@ namespace diptych::discrete
       {
         if (go_on && (i + 1) % grains_between_questions == 0 && !go_on())
           {
-            pairs_.clear(), position_.clear(); // an empty list covers no state
+            pairs_.clear();
+            position_.clear(); // an empty list covers no state
             return;
           }
         // A pair is found from the member with the larger reach, so a search circle needs only the reach of its own grain.

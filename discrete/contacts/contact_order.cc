@@ -15,7 +15,10 @@ namespace diptych::discrete
       std::vector<int> layers(contacts.size());
       double           low = std::numeric_limits<double>::infinity(), high = -low;
       for (const Contact &c : contacts)
-        low = std::min(low, c.point.y()), high = std::max(high, c.point.y());
+        {
+          low  = std::min(low, c.point.y());
+          high = std::max(high, c.point.y());
+        }
       // Distant grains must not require more layers than there are contacts to sort.
       const double layer = std::max(0.1 * length, (high - low) / (4. * contacts.size() + 1.));
       for (std::size_t k = 0; k < contacts.size(); ++k)

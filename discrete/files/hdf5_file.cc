@@ -107,25 +107,39 @@ namespace diptych::discrete
           value |= std::uint32_t(bytes[k + b]) << (8 * b);
         return value;
       };
+      const auto mix = [&](std::uint32_t &x, std::uint32_t &y, const std::uint32_t z, const int k) {
+        x -= y;
+        x ^= turned(y, k);
+        y += z;
+      };
+      const auto close = [&](std::uint32_t &x, const std::uint32_t y, const int k) {
+        x ^= y;
+        x -= turned(y, k);
+      };
       std::uint32_t a = 0xdeadbeef + std::uint32_t(length), b = a, c = a;
+      const auto    add = [&] {
+        a += word(0);
+        b += word(4);
+        c += word(8);
+      };
       for (; length > 12; bytes += 12, length -= 12)
         {
-          a += word(0), b += word(4), c += word(8);
-          a -= c, a ^= turned(c, 4), c += b;
-          b -= a, b ^= turned(a, 6), a += c;
-          c -= b, c ^= turned(b, 8), b += a;
-          a -= c, a ^= turned(c, 16), c += b;
-          b -= a, b ^= turned(a, 19), a += c;
-          c -= b, c ^= turned(b, 4), b += a;
+          add();
+          mix(a, c, b, 4);
+          mix(b, a, c, 6);
+          mix(c, b, a, 8);
+          mix(a, c, b, 16);
+          mix(b, a, c, 19);
+          mix(c, b, a, 4);
         }
-      a += word(0), b += word(4), c += word(8);
-      c ^= b, c -= turned(b, 14);
-      a ^= c, a -= turned(c, 11);
-      b ^= a, b -= turned(a, 25);
-      c ^= b, c -= turned(b, 16);
-      a ^= c, a -= turned(c, 4);
-      b ^= a, b -= turned(a, 14);
-      c ^= b, c -= turned(b, 24);
+      add();
+      close(c, b, 14);
+      close(a, c, 11);
+      close(b, a, 25);
+      close(c, b, 16);
+      close(a, c, 4);
+      close(b, a, 14);
+      close(c, b, 24);
       return c;
     }
 

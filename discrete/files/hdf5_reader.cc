@@ -15,15 +15,6 @@ namespace diptych::discrete
 {
   using namespace hdf5_library;
 
-  namespace
-  {
-    // Up to the first closing zero, which null-padded strings lack.
-    std::string text_of(const std::vector<char> &characters)
-    {
-      return {characters.begin(), std::find(characters.begin(), characters.end(), '\0')};
-    }
-  } // namespace
-
   // Where a name leads out of its file, the library asks here.
   struct Hdf5Reader::Links
   {
@@ -92,6 +83,23 @@ namespace diptych::discrete
       std::size_t  n     = 0;
       unsigned int config;
       return H5Pget_filter_by_id2(properties, H5Z_FILTER_FLETCHER32, &flags, &n, nullptr, 0, nullptr, &config) >= 0;
+    }
+
+    // Up to the first closing zero, which null-padded strings lack.
+    std::string text_of(const std::vector<char> &characters)
+    {
+      return {characters.begin(), std::find(characters.begin(), characters.end(), '\0')};
+    }
+
+    // Whole bytes in a usual order: the library turns others bit by bit, by what the file says of their places, over the ends of
+    // its own memory.
+    bool is_number(const hid_t type)
+    {
+      const hid_t usual[] = {H5T_IEEE_F64LE, H5T_IEEE_F64BE, H5T_IEEE_F32LE, H5T_IEEE_F32BE, H5T_STD_I64LE,
+                             H5T_STD_I64BE,  H5T_STD_U64LE,  H5T_STD_U64BE,  H5T_STD_I32LE,  H5T_STD_I32BE,
+                             H5T_STD_U32LE,  H5T_STD_U32BE,  H5T_STD_I16LE,  H5T_STD_I16BE,  H5T_STD_U16LE,
+                             H5T_STD_U16BE,  H5T_STD_I8LE,   H5T_STD_I8BE,   H5T_STD_U8LE,   H5T_STD_U8BE};
+      return std::any_of(std::begin(usual), std::end(usual), [&](const hid_t one) { return H5Tequal(type, one) > 0; });
     }
   } // namespace
 
@@ -174,20 +182,6 @@ namespace diptych::discrete
     if (looked < 0)
       refuse(path_, name, "cannot be read: damaged, or its numbers are in other files");
   }
-
-  namespace
-  {
-    // Whole bytes in a usual order: the library turns others bit by bit, by what the file says of their places, over the ends of
-    // its own memory.
-    bool is_number(const hid_t type)
-    {
-      const hid_t usual[] = {H5T_IEEE_F64LE, H5T_IEEE_F64BE, H5T_IEEE_F32LE, H5T_IEEE_F32BE, H5T_STD_I64LE,
-                             H5T_STD_I64BE,  H5T_STD_U64LE,  H5T_STD_U64BE,  H5T_STD_I32LE,  H5T_STD_I32BE,
-                             H5T_STD_U32LE,  H5T_STD_U32BE,  H5T_STD_I16LE,  H5T_STD_I16BE,  H5T_STD_U16LE,
-                             H5T_STD_U16BE,  H5T_STD_I8LE,   H5T_STD_I8BE,   H5T_STD_U8LE,   H5T_STD_U8BE};
-      return std::any_of(std::begin(usual), std::end(usual), [&](const hid_t one) { return H5Tequal(type, one) > 0; });
-    }
-  } // namespace
 
   std::vector<std::size_t> Hdf5Reader::extents(const std::string &name) const
   {

@@ -35,6 +35,30 @@ namespace diptych::discrete
     {
       throw std::runtime_error("cannot write " + path + ": " + std::strerror(error));
     }
+
+    // Closed on every way out.
+    struct OpenFile
+    {
+      const int id;
+      ~OpenFile() { ::close(id); }
+    };
+
+    std::string whole_text(const std::string &path, const std::size_t most_bytes, const CheckStop &check_stop)
+    {
+      const OpenFile file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+      if (file.id < 0)
+        throw std::invalid_argument(path + ": cannot be read: " + std::strerror(errno));
+      std::string text, piece(1 << 16, '\0');
+      for (ssize_t n = 1; n != 0 && text.size() <= most_bytes;)
+        {
+          call(check_stop);
+          n = ::read(file.id, piece.data(), piece.size());
+          if (n < 0 && errno != EINTR)
+            throw std::invalid_argument(path + ": cannot be read: " + std::strerror(errno));
+          text.append(piece, 0, n > 0 ? std::size_t(n) : 0);
+        }
+      return text;
+    }
   } // namespace
 
   std::string read_text(const std::string &path)
@@ -75,33 +99,6 @@ namespace diptych::discrete
     if (std::filesystem::exists(std::filesystem::file_status(kind)) && kind != std::filesystem::file_type::regular)
       throw std::invalid_argument(path + ": is no regular file but a pipe, a socket or a device, which may have no end");
   }
-
-  namespace
-  {
-    // Closed on every way out.
-    struct OpenFile
-    {
-      const int id;
-      ~OpenFile() { ::close(id); }
-    };
-
-    std::string whole_text(const std::string &path, const std::size_t most_bytes, const CheckStop &check_stop)
-    {
-      const OpenFile file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
-      if (file.id < 0)
-        throw std::invalid_argument(path + ": cannot be read: " + std::strerror(errno));
-      std::string text, piece(1 << 16, '\0');
-      for (ssize_t n = 1; n != 0 && text.size() <= most_bytes;)
-        {
-          call(check_stop);
-          n = ::read(file.id, piece.data(), piece.size());
-          if (n < 0 && errno != EINTR)
-            throw std::invalid_argument(path + ": cannot be read: " + std::strerror(errno));
-          text.append(piece, 0, n > 0 ? std::size_t(n) : 0);
-        }
-      return text;
-    }
-  } // namespace
 
   std::string read_input(const std::string &path, const std::size_t most_bytes, const CheckStop &check_stop)
   {
@@ -171,7 +168,10 @@ namespace diptych::discrete
       {
         ++read;
         if (c == '\n')
-          ++lines, kept = read;
+          {
+            ++lines;
+            kept = read;
+          }
       }
     if (::truncate(path.c_str(), off_t(kept)) != 0)
       fail(path, errno);

@@ -17,26 +17,49 @@ namespace diptych::discrete
     template <class Visit> void visit_scalars(Checkpoint &p, Visit &&visit)
     {
       Report &r = p.report;
-      visit("time", p.state.time), visit("stage", p.stage), visit("steps_left", p.steps_left), visit("step", p.step);
-      visit("interval", p.interval), visit("window_time", p.window.time);
-      visit("reference_height", p.reference.height), visit("reference_area", p.reference.area);
-      visit("reference_grain_area", p.reference.grain_area), visit("reference_kinetic_energy", p.reference.kinetic_energy);
+      visit("time", p.state.time);
+      visit("stage", p.stage);
+      visit("steps_left", p.steps_left);
+      visit("step", p.step);
+      visit("interval", p.interval);
+      visit("window_time", p.window.time);
+      visit("reference_height", p.reference.height);
+      visit("reference_area", p.reference.area);
+      visit("reference_grain_area", p.reference.grain_area);
+      visit("reference_kinetic_energy", p.reference.kinetic_energy);
       visit("reference_platen_kinetic_energy", p.reference.platen_kinetic_energy);
-      visit("reference_strain_rate", p.reference.strain_rate), visit("reference_mean_density", p.reference.mean_density);
-      visit("reference_platen_x", p.reference.platen.x()), visit("reference_platen_y", p.reference.platen.y());
-      visit("progress", r.progress), visit("axial_strain", r.axial_strain), visit("shear_strain", r.shear_strain);
-      visit("report_step", r.step), visit("steps", r.steps), visit("sweeps", r.sweeps), visit("updates", r.updates);
-      visit("preparation_cpu_s", r.preparation_cpu_s), visit("loading_cpu_s", r.loading_cpu_s);
-      visit("solver_cpu_s", r.solver_cpu_s), visit("initial_height", r.initial_height), visit("platen_speed", r.platen_speed);
-      visit("error_over_residual", r.error_over_residual), visit("reference_residual", r.reference_residual);
-      visit("reference_error", r.reference_error), visit("estimated_error", r.estimated_error);
-      visit("halved_steps", r.halved_steps), visit("snapshots_sampled", r.snapshots_sampled),
-        visit("snapshots_accurate", r.snapshots_accurate);
-      visit("preparation_quiet", r.preparation.quiet), visit("preparation_steps", r.preparation.steps);
-      visit("preparation_residual", r.preparation.residual), visit("preparation_unbalanced", r.preparation.unbalanced_force);
-      visit("preparation_solid_fraction", r.preparation.solid_fraction), visit("preparation_overlap", r.preparation.soft_overlap);
-      visit("report_tolerance", r.tolerance), visit("expected_strength_error", r.expected.strength),
-        visit("expected_dilation_error", r.expected.dilation);
+      visit("reference_strain_rate", p.reference.strain_rate);
+      visit("reference_mean_density", p.reference.mean_density);
+      visit("reference_platen_x", p.reference.platen.x());
+      visit("reference_platen_y", p.reference.platen.y());
+      visit("progress", r.progress);
+      visit("axial_strain", r.axial_strain);
+      visit("shear_strain", r.shear_strain);
+      visit("report_step", r.step);
+      visit("steps", r.steps);
+      visit("sweeps", r.sweeps);
+      visit("updates", r.updates);
+      visit("preparation_cpu_s", r.preparation_cpu_s);
+      visit("loading_cpu_s", r.loading_cpu_s);
+      visit("solver_cpu_s", r.solver_cpu_s);
+      visit("initial_height", r.initial_height);
+      visit("platen_speed", r.platen_speed);
+      visit("error_over_residual", r.error_over_residual);
+      visit("reference_residual", r.reference_residual);
+      visit("reference_error", r.reference_error);
+      visit("estimated_error", r.estimated_error);
+      visit("halved_steps", r.halved_steps);
+      visit("snapshots_sampled", r.snapshots_sampled);
+      visit("snapshots_accurate", r.snapshots_accurate);
+      visit("preparation_quiet", r.preparation.quiet);
+      visit("preparation_steps", r.preparation.steps);
+      visit("preparation_residual", r.preparation.residual);
+      visit("preparation_unbalanced", r.preparation.unbalanced_force);
+      visit("preparation_solid_fraction", r.preparation.solid_fraction);
+      visit("preparation_overlap", r.preparation.soft_overlap);
+      visit("report_tolerance", r.tolerance);
+      visit("expected_strength_error", r.expected.strength);
+      visit("expected_dilation_error", r.expected.dilation);
       visit("preparation_settling_steps", r.preparation.settling_steps);
       visit("preparation_largest_overlap", r.preparation.largest_overlap);
       visit("preparation_friction", r.preparation.friction);
@@ -116,11 +139,18 @@ namespace diptych::discrete
       std::vector<int>    body, window_body;
       std::vector<double> impulse, change, window_impulse, window_dissipation, window_impact;
       for (const PairImpulse &r : p.state.impulses)
-        body.insert(body.end(), {r.i, r.j}), impulse.insert(impulse.end(), {r.normal, r.tangential}),
+        {
+          body.insert(body.end(), {r.i, r.j});
+          impulse.insert(impulse.end(), {r.normal, r.tangential});
           change.insert(change.end(), {r.normal_change, r.tangential_change});
+        }
       for (const WindowForces::PairSum &s : p.window.sums)
-        window_body.insert(window_body.end(), {s.i, s.j}), window_dissipation.push_back(s.dissipation),
-          window_impact.push_back(s.impact), window_impulse.insert(window_impulse.end(), {s.impulse.x(), s.impulse.y()});
+        {
+          window_body.insert(window_body.end(), {s.i, s.j});
+          window_dissipation.push_back(s.dissipation);
+          window_impact.push_back(s.impact);
+          window_impulse.insert(window_impulse.end(), {s.impulse.x(), s.impulse.y()});
+        }
       file.write("impulses/body", body);
       file.write("impulses/impulse", impulse);
       file.write("impulses/change", change);

@@ -71,7 +71,8 @@ namespace diptych::discrete
           const int wall = result.contacts[k].j - n;
           if (wall < 0 || state.walls[wall].kind != WallKind::platen || result.impulses[k].normal <= 0)
             continue;
-          ++closed, sliding += is_slipping(setting.law.platen_friction, result.impulses[k]);
+          ++closed;
+          sliding += is_slipping(setting.law.platen_friction, result.impulses[k]);
         }
       return closed > 0 ? double(sliding) / closed : 0;
     }
@@ -152,7 +153,10 @@ namespace diptych::discrete
     row.lower_force       = result.wall_force[0];
     row.upper_force       = result.wall_force[1];
     if (result.wall_force.size() >= 4)
-      row.left_force = result.wall_force[2], row.right_force = result.wall_force[3];
+      {
+        row.left_force  = result.wall_force[2];
+        row.right_force = result.wall_force[3];
+      }
     row.contacts = int(
       std::count_if(result.impulses.begin(), result.impulses.end(), [](const Impulse &r) { return r.normal > 0; }));
     row.kinetic_energy       = result.energies.kinetic;

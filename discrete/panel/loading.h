@@ -76,10 +76,14 @@ namespace diptych::discrete
   // The only list of the eight drives: visit(wall as in State::walls, axis, key, option).
   template <class Options, class Visit> void for_each_drive(Options &o, Visit &&visit)
   {
-    visit(0, 0, "drive_lower_x", o.lower_x), visit(0, 1, "drive_lower_y", o.lower_y);
-    visit(1, 0, "drive_upper_x", o.upper_x), visit(1, 1, "drive_upper_y", o.upper_y);
-    visit(2, 0, "drive_left_x", o.left_x), visit(2, 1, "drive_left_y", o.left_y);
-    visit(3, 0, "drive_right_x", o.right_x), visit(3, 1, "drive_right_y", o.right_y);
+    visit(0, 0, "drive_lower_x", o.lower_x);
+    visit(0, 1, "drive_lower_y", o.lower_y);
+    visit(1, 0, "drive_upper_x", o.upper_x);
+    visit(1, 1, "drive_upper_y", o.upper_y);
+    visit(2, 0, "drive_left_x", o.left_x);
+    visit(2, 1, "drive_left_y", o.left_y);
+    visit(3, 0, "drive_right_x", o.right_x);
+    visit(3, 1, "drive_right_y", o.right_y);
   }
 
   template <class Visitor> void visit_parameters(WallDriveOptions &o, Visitor &&visitor)

@@ -39,7 +39,10 @@ namespace diptych::discrete
       s.lower_platen_force        = result.wall_force[0];
       s.upper_platen_force        = result.wall_force[1];
       if (state.walls.size() >= 4)
-        s.left_x = state.walls[2].point.x(), s.right_x = state.walls[3].point.x();
+        {
+          s.left_x  = state.walls[2].point.x();
+          s.right_x = state.walls[3].point.x();
+        }
       s.cell_width = state.cell ? state.cell->width : 0;
       s.outline    = make_outline(state, s.mean_diameter);
       s.area       = outline_area(s.outline);
@@ -80,7 +83,10 @@ namespace diptych::discrete
     s.rattler                   = rattlers(result, g);
     s.applied_force             = result.applied_force;
     if (result.accuracy)
-      s.stress_error = result.accuracy->stress_error, s.stress_change = result.accuracy->stress_change;
+      {
+        s.stress_error  = result.accuracy->stress_error;
+        s.stress_change = result.accuracy->stress_change;
+      }
     add_boundary(state, result, reference, s);
     return s;
   }

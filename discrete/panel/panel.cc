@@ -80,7 +80,8 @@ namespace diptych::discrete
       setting.mean_diameter = setting_.mean_diameter;
       prepared_       = make_snapshot(now.state, prepared.last_step, {}, make_reference(now.state, setting_.mean_diameter, 0.),
                                       setting);
-      prepared_->walk = walk_of(loading_.mode), prepared_->time = 0; // the time of the preparation does not count
+      prepared_->walk = walk_of(loading_.mode);
+      prepared_->time = 0; // the time of the preparation does not count
       start_loading(now.state, {loading_, options_.lateral, options_.drives, rate_});
       now.reference = make_reference(now.state, setting_.mean_diameter, loading_.mode == LoadingMode::time ? 0. : rate_);
       return true;
@@ -147,7 +148,8 @@ namespace diptych::discrete
       });
       if (!pressed || pressed->last_step.solve.status != SolveStatus::converged)
         return fail(pressed ? press_text(options_) : "");
-      prepared.last_step = std::move(pressed->last_step), prepared.step = pressed->step;
+      prepared.last_step = std::move(pressed->last_step);
+      prepared.step      = pressed->step;
       return true;
     }
 
@@ -243,12 +245,13 @@ namespace diptych::discrete
         throw std::logic_error(momentum_text(now.row.step + 1, residual));
     }
 
-    void note_failure(const SolveReport &solve)
+    bool note_failure(const SolveReport &solve)
     {
       now.report.status  = Status::not_converged;
       now.report.message = failure_text(
         {now.row.step + 1, text_of(walk_of(loading_.mode), now.report.progress), solve, setting_.solver.tolerance, setting_.step},
         options_);
+      return false;
     }
 
     // Between prescribed walls that cannot give way, rigid grains are forced into each other.
@@ -279,15 +282,12 @@ namespace diptych::discrete
           now.window.add(result, spin_terms(now.state.grains), h);
           if (result.accuracy)
             note(now.report, *result.accuracy);
-          const double penetration = result.largest_penetration / setting_.mean_diameter;
-          last_ = std::move(result), last_step_ = h;
-          return !interpenetrate(penetration);
+          last_      = std::move(result);
+          last_step_ = h;
+          return !interpenetrate(last_.largest_penetration / setting_.mean_diameter);
         }
       if (halvings == 0)
-        {
-          note_failure(result.solve);
-          return false;
-        }
+        return note_failure(result.solve);
       ++now.report.halved_steps;
       scale_impulses(now.state, 0.5);
       const bool done = advance_by(0.5 * h, halvings - 1) && advance_by(0.5 * h, halvings - 1);
@@ -317,7 +317,7 @@ namespace diptych::discrete
           now.row.walk     = walk_of(loading_.mode);
           if (hooks_.on_row)
             hooks_.on_row(now.row);
-          now.row.max_penetration = now.row.momentum_residual = 0, now.row.sweeps = 0;
+          now.row.max_penetration = now.row.momentum_residual = now.row.sweeps = 0;
         }
       show_progress("loading the grains", now.report.progress / loading_.stages.back());
     }

@@ -129,7 +129,8 @@ namespace diptych::discrete
       std::vector<ContactForce> contacts(body.size() / 2);
       for (std::size_t k = 0; k < contacts.size(); ++k)
         {
-          contacts[k].i = body[2 * k], contacts[k].j = body[2 * k + 1];
+          contacts[k].i = body[2 * k];
+          contacts[k].j = body[2 * k + 1];
           if (contacts[k].i < 0 || contacts[k].i >= int(n_grains) || contacts[k].j < 0 ||
               contacts[k].j >= int(n_grains) + most_walls || contacts[k].i == contacts[k].j)
             check.refuse(list + "body", "contains a body that does not exist, or the same body twice, in row " +
@@ -203,7 +204,10 @@ namespace diptych::discrete
         }
       for (const double wall : {s.left_x, s.right_x})
         if (std::isfinite(wall))
-          low.x() = std::min(low.x(), wall), high.x() = std::max(high.x(), wall);
+          {
+            low.x()  = std::min(low.x(), wall);
+            high.x() = std::max(high.x(), wall);
+          }
       const double margin = (high - low).maxCoeff() + s.cell_width;
       visit_outline(s, [&](const std::string &name, const std::vector<Eigen::Vector2d> &points, const char *, const char *) {
         for (const Eigen::Vector2d &x : points)

@@ -30,8 +30,12 @@ namespace diptych::discrete
           entries.emplace_back(row, 2 * k, normal);
           entries.emplace_back(row, 2 * k + 1, tangential);
         };
-        add(3 * c.i, c.nx, -c.ny), add(3 * c.i + 1, c.ny, c.nx), add(3 * c.i + 2, 0, -1);
-        add(3 * c.j, -c.nx, c.ny), add(3 * c.j + 1, -c.ny, -c.nx), add(3 * c.j + 2, 0, -1);
+        add(3 * c.i, c.nx, -c.ny);
+        add(3 * c.i + 1, c.ny, c.nx);
+        add(3 * c.i + 2, 0, -1);
+        add(3 * c.j, -c.nx, c.ny);
+        add(3 * c.j + 1, -c.ny, -c.nx);
+        add(3 * c.j + 2, 0, -1);
         const double mi = problem.free_velocity[c.i].inverse_mass;
         result.inverse_mass.segment<3>(3 * c.i) << mi, mi, c.ki;
         result.inverse_mass.segment<3>(3 * c.j) << c.jx, c.jy, c.kj;
@@ -109,27 +113,13 @@ namespace diptych::discrete
         row[b.column[e]].second = b.blocks[e];
       for (const auto &[column, pair] : row)
         {
-          w.add(pair.first.nn, pair.second.nn), w.add(pair.first.tn, pair.second.tn);
-          w.add(pair.first.nt, pair.second.nt), w.add(pair.first.tt, pair.second.tt);
+          w.add(pair.first.nn, pair.second.nn);
+          w.add(pair.first.tn, pair.second.tn);
+          w.add(pair.first.nt, pair.second.nt);
+          w.add(pair.first.tt, pair.second.tt);
         }
     }
-  } // namespace
 
-  double relative_difference(const DelassusProblem &a, const DelassusProblem &b)
-  {
-    if (a.n_contacts() != b.n_contacts())
-      return std::numeric_limits<double>::infinity();
-    Extent w, q;
-    for (std::size_t k = 0; k < a.n_contacts(); ++k)
-      {
-        add_row(w, a, b, k);
-        q.add(a.q[k].normal, b.q[k].normal), q.add(a.q[k].tangential, b.q[k].tangential);
-      }
-    return std::max(w.ratio(), q.ratio());
-  }
-
-  namespace
-  {
     double square(const Impulse &r)
     {
       return r.normal * r.normal + r.tangential * r.tangential;
@@ -270,6 +260,20 @@ namespace diptych::discrete
       return {normal, std::copysign(mu * normal, r.tangential)};
     }
   } // namespace
+
+  double relative_difference(const DelassusProblem &a, const DelassusProblem &b)
+  {
+    if (a.n_contacts() != b.n_contacts())
+      return std::numeric_limits<double>::infinity();
+    Extent w, q;
+    for (std::size_t k = 0; k < a.n_contacts(); ++k)
+      {
+        add_row(w, a, b, k);
+        q.add(a.q[k].normal, b.q[k].normal);
+        q.add(a.q[k].tangential, b.q[k].tangential);
+      }
+    return std::max(w.ratio(), q.ratio());
+  }
 
   std::vector<RelativeVelocity> relative_velocities(const DelassusProblem &problem, const std::vector<Impulse> &impulses)
   {

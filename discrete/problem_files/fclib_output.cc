@@ -57,8 +57,10 @@ namespace diptych::discrete
           {
             const int            l = problem.column[e];
             const DelassusBlock &w = problem.blocks[e];
-            entries.emplace_back(2 * k, 2 * l, w.nn), entries.emplace_back(2 * k, 2 * l + 1, w.nt);
-            entries.emplace_back(2 * k + 1, 2 * l, w.tn), entries.emplace_back(2 * k + 1, 2 * l + 1, w.tt);
+            entries.emplace_back(2 * k, 2 * l, w.nn);
+            entries.emplace_back(2 * k, 2 * l + 1, w.nt);
+            entries.emplace_back(2 * k + 1, 2 * l, w.tn);
+            entries.emplace_back(2 * k + 1, 2 * l + 1, w.tt);
           }
       RowMatrix matrix(2 * problem.n_contacts(), 2 * problem.n_contacts());
       matrix.setFromTriplets(entries.begin(), entries.end());
@@ -112,15 +114,19 @@ namespace diptych::discrete
       std::vector<Eigen::Vector2d> normal, tangent;
       for (const ContactRow &c : problem.contacts)
         {
-          body_i.push_back(c.i), body_j.push_back(c.j);
-          normal.emplace_back(c.nx, c.ny), tangent.emplace_back(-c.ny, c.nx);
+          body_i.push_back(c.i);
+          body_j.push_back(c.j);
+          normal.emplace_back(c.nx, c.ny);
+          tangent.emplace_back(-c.ny, c.nx);
         }
       write_matrix(writer, "/nscd/H", b.h);
       write_vector(writer, "/nscd/Minv_diag", b.inverse_mass);
       write_vector(writer, "/nscd/v_free", b.free_velocity);
       write_vector(writer, "/nscd/w", b.velocity_offset);
-      writer.write("/nscd/body_i", body_i), writer.write("/nscd/body_j", body_j);
-      writer.write("/nscd/normal", normal), writer.write("/nscd/tangent", tangent);
+      writer.write("/nscd/body_i", body_i);
+      writer.write("/nscd/body_j", body_j);
+      writer.write("/nscd/normal", normal);
+      writer.write("/nscd/tangent", tangent);
       writer.write("/nscd/gap", geometry.gap);
       writer.write("/nscd/dt", std::vector<double>{geometry.step});
       writer.write("/nscd/x", geometry.position);

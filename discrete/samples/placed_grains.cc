@@ -22,7 +22,8 @@ namespace diptych::discrete
       for (std::size_t i = 0; i < g.size(); ++i)
         {
           const Eigen::Vector2d r(g.radius[i], g.fixed[i] ? 0. : g.radius[i]);
-          low = low.cwiseMin(g.position[i] - r), high = high.cwiseMax(g.position[i] + r);
+          low  = low.cwiseMin(g.position[i] - r);
+          high = high.cwiseMax(g.position[i] + r);
         }
       const auto stored = [&](const std::optional<double> &value) {
         return value && std::isfinite(*value) ? value : std::nullopt;
@@ -32,12 +33,29 @@ namespace diptych::discrete
       };
       std::optional<double> lower, upper, left, right;
       if (file.stage)
-        lower = file.stage->lower_y, upper = file.stage->upper_y, left = file.stage->left_x, right = file.stage->right_x;
+        {
+          lower = file.stage->lower_y;
+          upper = file.stage->upper_y;
+          left  = file.stage->left_x;
+          right = file.stage->right_x;
+        }
       return {place(o.lower_platen, lower, low.y()),
               place(o.upper_platen, upper, high.y()),
               place(o.left_wall, left, low.x()),
               place(o.right_wall, right, high.x()),
               {}};
+    }
+
+    FileSample read_and_placed(const SampleOptions &o, const PreparationSetting &preparation, const CheckStop &check_stop)
+    {
+      return read_for("file", o.file, [&](const std::string &path) {
+        const bool snapshots = path.size() > 3 && path.compare(path.size() - 3, 3, ".h5") == 0;
+        GrainFile  read      = snapshots ? read_grains_hdf5(path) : read_grains_csv(path, o.density, check_stop);
+        call(check_stop);
+        FileSample sample = place_grains(o, preparation, std::move(read));
+        call(check_stop);
+        return sample;
+      });
     }
   } // namespace
 
@@ -86,7 +104,10 @@ namespace diptych::discrete
     state.walls[0].point = state.walls[2].point = {*box.left_x, *box.lower_y};
     state.walls[1].point = state.walls[3].point = {*box.right_x, *box.upper_y};
     if (!std::holds_alternative<RigidSides>(preparation.lateral))
-      box.left_x.reset(), box.right_x.reset();
+      {
+        box.left_x.reset();
+        box.right_x.reset();
+      }
     if (std::holds_alternative<PeriodicSides>(preparation.lateral))
       {
         if (o.width <= 0)
@@ -103,21 +124,6 @@ namespace diptych::discrete
     validate_walls(state);
     return sample;
   }
-
-  namespace
-  {
-    FileSample read_and_placed(const SampleOptions &o, const PreparationSetting &preparation, const CheckStop &check_stop)
-    {
-      return read_for("file", o.file, [&](const std::string &path) {
-        const bool snapshots = path.size() > 3 && path.compare(path.size() - 3, 3, ".h5") == 0;
-        GrainFile  read      = snapshots ? read_grains_hdf5(path) : read_grains_csv(path, o.density, check_stop);
-        call(check_stop);
-        FileSample sample = place_grains(o, preparation, std::move(read));
-        call(check_stop);
-        return sample;
-      });
-    }
-  } // namespace
 
   std::optional<FileSample> file_sample(const SampleOptions         &o,
                                         const PreparationSetting    &preparation,

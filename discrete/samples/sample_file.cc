@@ -255,7 +255,10 @@ namespace diptych::discrete
           CellGrid::Crowds crowds = sized.grid.crowds();
           sum += crowds.squares;
           if (crowds.fullest.size() > crowd.size())
-            crowd = std::move(crowds.fullest), side = 2 * sized.largest_radius;
+            {
+              crowd = std::move(crowds.fullest);
+              side  = 2 * sized.largest_radius;
+            }
         }
       if (crowd.size() <= most && sum <= std::max(few_pairs, double(side_by_side) * double(file.grains.size())))
         return;

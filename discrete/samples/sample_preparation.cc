@@ -196,12 +196,13 @@ namespace diptych::discrete
         {
           const SettlingOptions wanted{largest_prepared_overlap * options.mean_diameter, options.quiet_unbalanced_force,
                                        options.preparation_steps, 10 * options.preparation_steps};
-          Settled settled        = settle(sample.state, setting, wanted, [&] { return progress(report.steps, report.steps); });
-          report.quiet           = settled.quiet;
-          report.settling_steps  = settled.steps;
-          report.largest_overlap = settled.largest_overlap / options.mean_diameter;
-          report.residual = settled.last_step.solve.residual, report.unbalanced_force = settled.last_step.unbalanced_force;
-          sample.last_step = std::move(settled.last_step);
+          Settled settled         = settle(sample.state, setting, wanted, [&] { return progress(report.steps, report.steps); });
+          report.quiet            = settled.quiet;
+          report.settling_steps   = settled.steps;
+          report.largest_overlap  = settled.largest_overlap / options.mean_diameter;
+          report.residual         = settled.last_step.solve.residual;
+          report.unbalanced_force = settled.last_step.unbalanced_force;
+          sample.last_step        = std::move(settled.last_step);
         }
       report.solid_fraction = solid_fraction(sample.state, options.mean_diameter);
       return sample;
@@ -255,7 +256,8 @@ namespace diptych::discrete
               PreparedSample end = relaxed_and_compacted(options, preparation, friction, progress);
               if (std::abs(end.report.solid_fraction - target) <= tolerance || !end.report.quiet)
                 return end;
-              densest = std::max(densest, end.report.solid_fraction), loosest = std::min(loosest, end.report.solid_fraction);
+              densest = std::max(densest, end.report.solid_fraction);
+              loosest = std::min(loosest, end.report.solid_fraction);
             }
           bracketed = loosest < target && target < densest;
           if (bracketed || target > densest)
@@ -305,24 +307,7 @@ namespace diptych::discrete
       sample.state                   = std::move(state);
       return sample;
     }
-  } // namespace
 
-  double expected_grains(const SampleOptions &o)
-  {
-    if (o.width <= 0 || o.height <= 0)
-      return o.grains;
-    const std::vector<double> radius = typical_radii(o);
-    return o.width * o.height * o.solid_fraction / (disc_area(radius) / double(radius.size()));
-  }
-
-  Eigen::Vector2d expected_size(const SampleOptions &o)
-  {
-    const std::vector<double> radius = typical_radii(o);
-    return sample_size(o, disc_area(radius) / double(radius.size()) * expected_grains(o));
-  }
-
-  namespace
-  {
     // A generated sample must have enough grains and room for them.
     void check_size(const SampleOptions &o)
     {
@@ -338,6 +323,20 @@ namespace diptych::discrete
                                     "; both must be at least the diameter of the largest grain, " + exact_text(least));
     }
   } // namespace
+
+  double expected_grains(const SampleOptions &o)
+  {
+    if (o.width <= 0 || o.height <= 0)
+      return o.grains;
+    const std::vector<double> radius = typical_radii(o);
+    return o.width * o.height * o.solid_fraction / (disc_area(radius) / double(radius.size()));
+  }
+
+  Eigen::Vector2d expected_size(const SampleOptions &o)
+  {
+    const std::vector<double> radius = typical_radii(o);
+    return sample_size(o, disc_area(radius) / double(radius.size()) * expected_grains(o));
+  }
 
   void validate(const SampleOptions &o)
   {

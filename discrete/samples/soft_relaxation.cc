@@ -75,12 +75,17 @@ namespace diptych::discrete
             for (std::size_t i = 0; i < g.size(); ++i)
               velocity[i] = (1 - mixing) * velocity[i] + mixing * ratio * force[i];
             if (++downhill > patience)
-              step = std::min(largest_step, grow * step), mixing *= mixing_decay;
+              {
+                step = std::min(largest_step, grow * step);
+                mixing *= mixing_decay;
+              }
           }
         else
           {
             std::fill(velocity.begin(), velocity.end(), Eigen::Vector2d::Zero());
-            step *= shrink, mixing = mixing_start, downhill = 0;
+            step *= shrink;
+            mixing   = mixing_start;
+            downhill = 0;
           }
         for (std::size_t i = 0; i < g.size(); ++i)
           {

@@ -25,7 +25,10 @@ namespace diptych::discrete
     DIPTYCH_INLINE void scatter(Bodies b, BodyVelocity *v, const int *index)
     {
       transpose(b.x, b.y, b.surface, b.inverse_mass);
-      write(v + index[0], b.x), write(v + index[1], b.y), write(v + index[2], b.surface), write(v + index[3], b.inverse_mass);
+      write(v + index[0], b.x);
+      write(v + index[1], b.y);
+      write(v + index[2], b.surface);
+      write(v + index[3], b.inverse_mass);
     }
 
     DIPTYCH_INLINE Parts<Four> impulses_of(const ContactBatch &c)
@@ -53,8 +56,12 @@ namespace diptych::discrete
     DIPTYCH_INLINE void apply(const ContactBatch &c, const Parts<Four> &dr, Bodies &bi, Bodies &bj)
     {
       const auto [px, py] = as_vector(read(c.nx), read(c.ny), dr);
-      bi.x += bi.inverse_mass * px, bi.y += bi.inverse_mass * py, bi.surface -= 2 * bi.inverse_mass * dr.tangential;
-      bj.x -= bj.inverse_mass * px, bj.y -= bj.inverse_mass * py, bj.surface -= 2 * bj.inverse_mass * dr.tangential;
+      bi.x += bi.inverse_mass * px;
+      bi.y += bi.inverse_mass * py;
+      bi.surface -= 2 * bi.inverse_mass * dr.tangential;
+      bj.x -= bj.inverse_mass * px;
+      bj.y -= bj.inverse_mass * py;
+      bj.surface -= 2 * bj.inverse_mass * dr.tangential;
     }
 
     DIPTYCH_INLINE void update(ContactBatch &c, const double *term, const double sticking, const double slipping, BodyVelocity *v)
@@ -64,7 +71,8 @@ namespace diptych::discrete
       apply(c, {r.normal - read(c.normal), r.tangential - read(c.tangential)}, bi, bj);
       scatter(bi, v, c.i);
       scatter(bj, v, c.j);
-      write(c.normal, r.normal), write(c.tangential, r.tangential);
+      write(c.normal, r.normal);
+      write(c.tangential, r.tangential);
     }
   } // namespace
 
@@ -114,6 +122,9 @@ namespace diptych::discrete
         s += rn * rn + rt * rt;
       }
     for (int lane = 0; lane < lanes; ++lane)
-      *difference += d[lane], *norm += s[lane];
+      {
+        *difference += d[lane];
+        *norm += s[lane];
+      }
   }
 } // namespace diptych::discrete

@@ -17,7 +17,8 @@ namespace diptych::discrete
     ContactBatch empty_batch(const int idle_body)
     {
       ContactBatch batch{};
-      std::fill_n(batch.i, lanes, idle_body), std::fill_n(batch.j, lanes, idle_body);
+      std::fill_n(batch.i, lanes, idle_body);
+      std::fill_n(batch.j, lanes, idle_body);
       return batch;
     }
 
@@ -98,8 +99,10 @@ namespace diptych::discrete
     for (std::size_t k = 0; k < rows.size(); ++k)
       for (const int body : {problem_.contacts[rows[k]].i, problem_.contacts[rows[k]].j})
         if (moves(problem_, body))
-          first[body] = std::min(first[body], block_of(k)), last[body] = std::max(last[body], block_of(k));
-
+          {
+            first[body] = std::min(first[body], block_of(k));
+            last[body]  = std::max(last[body], block_of(k));
+          }
     std::vector<std::vector<int>> inside(n_blocks), gaps(n_blocks - 1);
     for (std::size_t k = 0; k < rows.size(); ++k)
       {
@@ -107,7 +110,10 @@ namespace diptych::discrete
         int               from = n_blocks, to = -1;
         for (const int body : {c.i, c.j})
           if (moves(problem_, body))
-            from = std::min(from, first[body]), to = std::max(to, last[body]);
+            {
+              from = std::min(from, first[body]);
+              to   = std::max(to, last[body]);
+            }
         if (from == to)
           inside[from].push_back(rows[k]);
         else if (to == from + 1)
@@ -138,7 +144,8 @@ namespace diptych::discrete
     Part             part;
     part.idle_body = int(v_.size());
     v_.push_back({0, 0, 0, 0});
-    part.batches.reserve(rows.size() / 3 + 2), part.rows.reserve(rows.size() / 3 + 2);
+    part.batches.reserve(rows.size() / 3 + 2);
+    part.rows.reserve(rows.size() / 3 + 2);
     part.tangential_term.reserve(rows.size() / 3 + 2);
     std::vector<int> awake, idle;
     for (const int row : rows)
@@ -192,9 +199,12 @@ namespace diptych::discrete
                 }
               batch_of_[c.i] = batch_of_[c.j] = batch;
               fill_lane(part, filled, rows[k]);
-              part.batches.back().i[filled] = place(c.i), part.batches.back().j[filled] = place(c.j);
-              after[before] = after[k + 1];
-              ++filled, ++taken_rows, --waiting;
+              part.batches.back().i[filled] = place(c.i);
+              part.batches.back().j[filled] = place(c.j);
+              after[before]                 = after[k + 1];
+              ++filled;
+              ++taken_rows;
+              --waiting;
             }
       }
     for (const int row : rows)
@@ -203,10 +213,13 @@ namespace diptych::discrete
 
   void BatchedContacts::fill_lane(Part &part, const int lane, const int row) const
   {
-    const ContactRow &c    = problem_.contacts[row];
-    ContactBatch     &data = part.batches.back();
-    data.nx[lane] = c.nx, data.ny[lane] = c.ny, data.normal_term[lane] = c.normal_term;
-    data.friction[lane] = c.friction, data.inverse_wnn[lane] = c.inverse_wnn;
+    const ContactRow &c               = problem_.contacts[row];
+    ContactBatch     &data            = part.batches.back();
+    data.nx[lane]                     = c.nx;
+    data.ny[lane]                     = c.ny;
+    data.normal_term[lane]            = c.normal_term;
+    data.friction[lane]               = c.friction;
+    data.inverse_wnn[lane]            = c.inverse_wnn;
     part.tangential_term.back()[lane] = c.tangential_term;
     part.rows.back()[lane]            = row;
   }
@@ -225,7 +238,10 @@ namespace diptych::discrete
       for (std::size_t b = 0; b < part.batches.size(); ++b)
         for (int lane = 0; lane < lanes; ++lane)
           if (const int row = part.rows[b][lane]; row >= 0)
-            part.batches[b].normal[lane] = impulses[row].normal, part.batches[b].tangential[lane] = impulses[row].tangential;
+            {
+              part.batches[b].normal[lane]     = impulses[row].normal;
+              part.batches[b].tangential[lane] = impulses[row].tangential;
+            }
     });
     for (std::size_t k = 0; k < rest_.size(); ++k)
       rest_impulses_[k] = impulses[rest_[k]];
@@ -313,7 +329,8 @@ namespace diptych::discrete
             }
           for (int b = ends.begin; b < ends.end; ++b)
             {
-              blocks[b].wait_for(k + 1), blocks[b + 1].wait_for(k + 1);
+              blocks[b].wait_for(k + 1);
+              blocks[b + 1].wait_for(k + 1);
               sweep_part(between_[b], omega_sticking, omega_slipping, with_idle);
               between[b].advance_to(k + 1);
             }
@@ -350,7 +367,10 @@ namespace diptych::discrete
     });
     NaturalMapSquares sum; // in the order of the parts, so that the sum does not depend on the threads
     for (const NaturalMapSquares &s : squares)
-      sum.difference += s.difference, sum.norm += s.norm;
+      {
+        sum.difference += s.difference;
+        sum.norm += s.norm;
+      }
     for (std::size_t k = 0; k < rest_.size(); ++k)
       sum.add(problem_.contacts[rest_[k]], v_, rest_impulses_[k]);
     return relative_norm(sum.difference, sum.norm);

@@ -31,19 +31,28 @@ namespace diptych::discrete
       bool stagnates(const long sweeps, const double residual)
       {
         if (residual < 0.5 * reference_)
-          reference_ = residual, since_ = sweeps;
+          {
+            reference_ = residual;
+            since_     = sweeps;
+          }
         return sweeps - since_ >= patience_;
       }
 
       void change_omega(const long sweeps, const double residual)
       {
-        ++turn_, reference_ = residual, since_ = sweeps, patience_ = long_patience;
+        ++turn_;
+        reference_ = residual;
+        since_     = sweeps;
+        patience_  = long_patience;
       }
 
       // If some contacts are swept by themselves, fewer sweeps show whether the others converge.
       void start_again(const long sweeps, const double residual)
       {
-        turn_ = 0, reference_ = 2 * residual, since_ = sweeps, patience_ = short_patience;
+        turn_      = 0;
+        reference_ = 2 * residual;
+        since_     = sweeps;
+        patience_  = short_patience;
       }
 
     private:
@@ -66,7 +75,10 @@ namespace diptych::discrete
     long               refreshed = 0;
     const auto         measure   = [&](const bool fresh) {
       if (fresh)
-        iteration.refresh(), refreshed = report.sweeps;
+        {
+          iteration.refresh();
+          refreshed = report.sweeps;
+        }
       report.residual = iteration.residual();
     };
     const auto good = [&] {

@@ -39,7 +39,10 @@ namespace diptych::discrete
   {
     double difference = 0, norm = 0;
     for (std::size_t k = 0; k < a.size(); ++k)
-      difference += (a[k] - b[k]) * (a[k] - b[k]), norm += b[k] * b[k];
+      {
+        difference += (a[k] - b[k]) * (a[k] - b[k]);
+        norm += b[k] * b[k];
+      }
     return relative_norm(difference, norm);
   }
 

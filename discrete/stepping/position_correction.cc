@@ -33,9 +33,12 @@ namespace diptych::discrete
       for (std::size_t b = 0; b < s.v_new.size(); ++b)
         {
           BodyVelocity &w = d.problem.free_velocity[b];
-          w.x -= s.v_new[b].x, w.y -= s.v_new[b].y, w.surface -= s.v_new[b].surface;
+          w.x -= s.v_new[b].x;
+          w.y -= s.v_new[b].y;
+          w.surface -= s.v_new[b].surface;
         }
-      d.problem.contacts.reserve(gap.size()), d.impulses.reserve(gap.size());
+      d.problem.contacts.reserve(gap.size());
+      d.impulses.reserve(gap.size());
       for (const int k : s.problem.order)
         if (s.impulses[k].normal > 0 || gap[k] < 2 * penetration)
           {

@@ -37,7 +37,9 @@ namespace diptych::discrete
           if (!g.fixed[i])
             work += s.step * s.applied_force[i].dot(mean_velocity(s, i));
         }
-      e.kinetic = energy, e.kinetic_change = change, e.external_work = work;
+      e.kinetic        = energy;
+      e.kinetic_change = change;
+      e.external_work  = work;
     }
 
     Eigen::Vector2d vector_of(const ContactRow &c, const Impulse &r)

@@ -44,10 +44,14 @@ namespace diptych::discrete
       const int       n      = int(state.grains.size());
       const RowBodies body   = row_bodies(state, c);
       const double    normal = body.turned ? -1 : 1;
-      row.nx = normal * c.normal.x(), row.ny = normal * c.normal.y(), row.i = body.i, row.j = body.j, row.image = 0,
-      row.cell        = -1;
-      const double wi = v[row.i].inverse_mass;
-      row.ki          = 2 * wi; // r^2/I of a disc
+      row.nx                 = normal * c.normal.x();
+      row.ny                 = normal * c.normal.y();
+      row.i                  = body.i;
+      row.j                  = body.j;
+      row.image              = 0;
+      row.cell               = -1;
+      const double wi        = v[row.i].inverse_mass;
+      row.ki                 = 2 * wi; // r^2/I of a disc
       if (row.j < n)
         {
           const double wj = v[row.j].inverse_mass;
@@ -57,15 +61,19 @@ namespace diptych::discrete
       else
         {
           const Eigen::Vector2d wj = state.walls[row.j - n].inverse_mass();
-          row.jx = wj.x(), row.jy = wj.y(), row.kj = 0;
+          row.jx                   = wj.x();
+          row.jy                   = wj.y();
+          row.kj                   = 0;
         }
       double wnn = wi + row.jx * row.nx * row.nx + row.jy * row.ny * row.ny;
       double wtt = wi + row.jx * row.ny * row.ny + row.jy * row.nx * row.nx + row.ki + row.kj;
       if (c.image != 0 && state.cell && state.cell->moves())
         {
-          row.image = int(normal) * c.image, row.cell = n + int(state.walls.size());
+          row.image      = int(normal) * c.image;
+          row.cell       = n + int(state.walls.size());
           const double w = state.cell->inverse_mass() * c.image * c.image;
-          wnn += w * row.nx * row.nx, wtt += w * row.ny * row.ny;
+          wnn += w * row.nx * row.nx;
+          wtt += w * row.ny * row.ny;
         }
       row.inverse_wnn = 1 / wnn;
       row.inverse_wtt = row.cell < 0 && row.jx == row.jy && row.kj == 2 * row.jx ? row.inverse_wnn * disc_wnn_over_wtt : 1 / wtt;
@@ -95,7 +103,10 @@ namespace diptych::discrete
     const std::size_t         n    = state.grains.size();
     std::vector<BodyVelocity> free = v;
     for (std::size_t i = 0; i < n; ++i)
-      free[i].x += h * force[i].x() * v[i].inverse_mass, free[i].y += h * force[i].y() * v[i].inverse_mass;
+      {
+        free[i].x += h * force[i].x() * v[i].inverse_mass;
+        free[i].y += h * force[i].y() * v[i].inverse_mass;
+      }
     for (std::size_t w = 0; w < state.walls.size(); ++w)
       {
         const Eigen::Vector2d velocity = prescribed_wall_velocity(state.walls[w], state.time + h);

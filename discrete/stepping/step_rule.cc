@@ -14,7 +14,10 @@ namespace diptych::discrete
     {
       double mass = 0, area = 0;
       for (std::size_t i = 0; i < g.size(); ++i)
-        mass += g.mass[i], area += M_PI * g.radius[i] * g.radius[i];
+        {
+          mass += g.mass[i];
+          area += M_PI * g.radius[i] * g.radius[i];
+        }
       return mass / area;
     }
 

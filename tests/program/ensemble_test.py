@@ -141,8 +141,8 @@ class Statistics(Folder):
             record = json.load(file)
         record["discrete_summary"]["peak_stress_ratio"] = 5.0
         for put, told in ((lambda: shutil.copytree(self.path("seed_1"), self.path("seed_2"), dirs_exist_ok=True), "scene.prm: is not of this ensemble: sample/seed = 1"),
-                          (lambda: shutil.copy(self.path("seed_1", "comparison.json"), self.path("seed_2")), "comparison.json: is not what the run left"),
-                          (lambda: write(self.path("seed_2", "comparison.json"), json.dumps(record)), "comparison.json: is not what the run left")):
+                          (lambda: shutil.copy(self.path("seed_1", "comparison.json"), self.path("seed_2")), "comparison.json"),
+                          (lambda: write(self.path("seed_2", "comparison.json"), json.dumps(record)), "comparison.json")):
             with self.subTest(told=told):
                 shutil.rmtree(self.folder, ignore_errors=True)
                 shutil.copytree(self.three, self.folder)

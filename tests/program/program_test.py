@@ -282,7 +282,10 @@ class WrongInput(unittest.TestCase):
     def test_words_of_the_command_line(self):
         self.expect_wrong(["run"], "SCENE is required")
         self.expect_wrong(["rnu", QUICK], "'rnu' is no command", "'run'")
-        self.expect_wrong(["run", QUICK, "--ouput", "x"], "--ouput")
+        self.expect_wrong(["run", QUICK, "--outptu", "x"], "'--outptu x' is not used", "nearest option is '--output'")
+        self.expect_wrong(["run", QUICK, "--outptu=x"], "'--outptu=x' is not used", "nearest option is '--output'")
+        self.expect_wrong(["run", QUICK, "--seed", "3"], "nearest option is '--seeds'")
+        self.expect_wrong(["run", QUICK, "--solver", "psor"], "it is one of diptych solve")
         self.expect_wrong(["run", "no_such_scene.prm"], "no_such_scene.prm")
         self.expect_wrong(["run", QUICK, "--set", "sample/grains=-4"], "sample/grains", "-4")
         self.expect_wrong(["run", QUICK, "--threads", "none"], "--threads")

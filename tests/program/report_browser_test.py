@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-# diptych: the report of a tiny result folder, opened in headless Chromium
+# diptych: tests of the report of a tiny result folder in headless Chromium
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""test.sh installs Chromium; without one these tests are skipped and say so."""
+"""test.sh installs Chromium. Without it these tests are skipped."""
 
 import os
 import tempfile
@@ -10,7 +10,7 @@ import unittest
 import browser
 from report_folder import STAGES, WINDOWS, number_of_figures, run, write_folder
 
-DESK, PHONE, A4 = (1400, 900), (390, 844), (688, 1016)  # CSS pixels; A4 less margins of 14 mm at 96 dpi
+DESK, PHONE, A4 = (1400, 900), (390, 844), (688, 1016)  # CSS pixels; A4 without margins of 14 mm, at 96 dpi
 PAIR = '.pair[data-draw="quantity"] canvas.map'
 
 
@@ -37,11 +37,11 @@ class Browser(unittest.TestCase):
         self.page.open(os.path.join(self.folder.name, "report.html"))
 
     def pixels(self):
-        """What both canvases of the first pair show, as text."""
+        """The pictures of both canvases of the first pair, as data URLs."""
         return self.page.run(f"[...document.querySelectorAll('{PAIR}')].map((c) => c.toDataURL())")
 
     def keys(self):
-        """Increment that every canvas of a map shows, by the name of its drawing."""
+        """Increment of each canvas, by the name of its drawing."""
         return self.page.run("Object.fromEntries([...document.querySelectorAll('.pair[data-draw]')].map((p) => "
                              "[p.dataset.draw, [...p.querySelectorAll('canvas.map')].map((c) => c.dataset.key)]))")
 
@@ -54,14 +54,14 @@ class Browser(unittest.TestCase):
                       "s.dispatchEvent(new Event('change', {bubbles: true})); })()")
 
     def colour_at(self, panel, x, y):
-        """Colour [red, green, blue] of the first pair's map of a panel at a place in d."""
+        """Colour [red, green, blue] at a place in d, in the first map of a panel."""
         return self.page.run(f"""(() => {{
           const c = document.querySelector('.pair[data-draw="quantity"] canvas[data-panel="{panel}"]'), b = data.box;
           const scale = (c.width / pixels - 44) / (b[1] - b[0]);
           const px = pixels * (38 + scale * ({x} - b[0])), py = pixels * (6 + scale * (b[3] - {y}));
           return [...c.getContext('2d').getImageData(Math.round(px), Math.round(py), 1, 1).data].slice(0, 3); }})()""")
 
-    def test_opens_without_a_message_and_shows_every_figure(self):
+    def test_the_page_opens_without_errors_and_shows_every_figure(self):
         self.assertEqual(self.page.run("document.documentElement.dataset.ready"), "yes")
         self.assertEqual(self.page.messages, [])
         self.assertEqual((self.page.run("document.querySelectorAll('figure.panel img').length"),
@@ -72,23 +72,23 @@ class Browser(unittest.TestCase):
         bad = "[...document.querySelectorAll('canvas.map')].filter((c) => c.dataset.drawn !== 'yes' || c.width < 100).length"
         self.assertEqual(self.page.run(bad), 0)
 
-    def test_a_map_has_the_colour_of_its_value_at_its_place(self):
-        # Window: limits 0 to 3.9 %. Continuum, third cell: 0.08 * 2/5 = 3.2 %, so colour floor(256 * 3.2/3.9) = 210 of the map.
+    def test_a_map_has_the_right_colour_at_a_place(self):
+        # The limits of the window are 0 and 3.9 %. Continuum, third cell: 0.08 * 2/5 = 3.2 %, so colour floor(256 * 3.2/3.9) = 210.
         # Grains: grain 20 (fifth row, first column) at (0.5, 4.5): 2 * 20/39 = 1.0256 %, so floor(256 * 1.0256/3.9) = 67.
         table = self.page.run("data.maps.viridis")
         for panel, at, number in (("continuum", (1.25, 3.6), 210), ("discrete", (0.5, 4.65), 67)):
             expected = [int(table[number][k:k + 2], 16) for k in (1, 3, 5)]
             self.assertEqual(self.colour_at(panel, *at), expected, panel)
 
-    def test_the_bands_centre_line_runs_through_the_samples_centre(self):
-        # offset 0, so through (2.5, 4) of the 5 x 8 d sample, at -45 degrees also through (3.5, 3); white on the colours
+    def test_the_centre_line_of_a_band_passes_through_the_centre(self):
+        # with offset 0 and -45 degrees the line passes through (2.5, 4), the centre, and (3.5, 3); it is white
         for at in ((2.5, 4.0), (3.5, 3.0)):
             self.assertGreater(min(self.colour_at("discrete", *at)), 200)
 
-    def test_a_step_of_the_slider_by_the_keyboard_changes_both_panels(self):
+    def test_the_slider_changes_both_panels_by_the_keyboard(self):
         before = self.pixels()
         self.page.run("document.querySelector('input[type=range]').focus()")
-        # the window ends with the last of two stages: one step to the left is the first stage
+        # the window ends with the second stage, so one step to the left is the first stage
         self.page.press("ArrowLeft")
         after = self.pixels()
         self.assertEqual(self.keys()["quantity"], ["stage-0", "stage-0"])
@@ -97,12 +97,12 @@ class Browser(unittest.TestCase):
         self.assertEqual(self.limits(), ["0 2", "0 2"])
         self.assertEqual(self.page.messages, [])
 
-    def test_the_strip_steps_by_the_keyboard_too(self):
+    def test_the_buttons_work_by_the_keyboard(self):
         self.page.run("document.querySelector('#maps-section .stepper input:checked').focus()")
         self.page.press("ArrowRight")
         self.assertEqual(self.keys()["quantity"], ["stage-0", "stage-0"])
 
-    def test_all_parts_step_together_unless_told_otherwise(self):
+    def test_all_parts_step_together_unless_switched_off(self):
         self.page.run("document.getElementById('maps-stage-0').click()")
         self.assertEqual({key for shown in self.keys().values() for key in shown}, {"stage-0"})
         self.assertEqual(self.page.run("document.querySelector('#strips-section .pane.open').dataset.key"), "stage-0")
@@ -124,7 +124,7 @@ class Browser(unittest.TestCase):
         self.assertEqual(self.page.messages, [])
 
     def test_the_pointer_reads_the_value_of_both_panels(self):
-        # the places of the colours above: grain 20 has 1.03 %, the third cell 3.2 %
+        # grain 20 has 1.03 %, the third cell 3.2 %
         self.page.run("""(() => {
           const c = document.querySelector('.pair[data-draw="quantity"] canvas'), r = c.getBoundingClientRect();
           const scale = (r.width - 44) / (data.box[1] - data.box[0]);
@@ -133,7 +133,7 @@ class Browser(unittest.TestCase):
         self.assertEqual(self.page.run("document.querySelector('output.readout').textContent"),
                          "x 0.5 d, y 4.5 d: grains 1.03, continuum 3.20")
 
-    def test_a_phone_scrolls_down_only(self):
+    def test_a_phone_does_not_scroll_sideways(self):
         for size in (PHONE, DESK):
             self.page.size(*size)
             self.page.run("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")

@@ -1,6 +1,6 @@
-# diptych: a tiny result folder, written by hand, for the tests of the report
+# diptych: a tiny synthetic result folder for the tests of the report
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""5 x 8 d: a lattice of 40 grains, 2 x 3 cells; two stages and one window. Every number that a test asks for is set here."""
+"""A sample of 5 x 8 d: a lattice of 40 grains, 2 x 3 cells, two stages and one window. The tests compare with the numbers here."""
 
 import json
 import os
@@ -12,7 +12,7 @@ import numpy as np
 
 REPORT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "coupling", "report")
 STAGES, WINDOWS, PROBES = 2, 1, 3
-PLATEN = 0.5  # d per unit of progress: what displacements count in
+PLATEN = 0.5  # d per unit of progress, the reference of displacements
 BAND = {"angle_deg": -45.0, "half_width_d": 1.0, "width_10_90_d": 2.197, "offset_d": 0.0, "jump": 0.9, "dilation_deg": 3.0,
         "r_squared": 0.98, "to_minor_stress_deg": 45.0}
 STRIPS = {"angle_deg": -45.0, "edges_d": list(np.linspace(-4, 4, 17)), "mean": [None] + list(np.linspace(0, 1, 15)),
@@ -35,7 +35,7 @@ def within(value, low, high):
 
 
 def numbers():
-    """What the program says of its numbers: enough of it for these tests."""
+    """The list of numbers, as far as these tests need it."""
     entries = {f"{kind}/{panel}/{key}": {"unit": unit, "meaning": key.split("/")[-1], "kind": "number"}
                for kind in ("stages", "windows") for panel in ("discrete", "continuum") for key, unit in PANEL_UNITS.items()}
     for place, unit, meaning in (("discrete_summary/grains", "-", "grains"), ("discrete_summary/solver_noise", "-", "noise"),
@@ -118,7 +118,7 @@ def write_group(file, name, start, end, stress):
 
 
 def write_state(group):
-    """What stages alone hold: stress, velocities, single-grain stresses, contact forces; the same cells again as the grid."""
+    """Data of stages only: stress, velocities, stresses of single grains, contact forces. The grid has the same cells as the mesh."""
     tensor = np.tile(np.diag([1.0, 2.0]), (6, 1, 1))
     grains_to_continuum = np.array([0.5, np.nan, 1.0, 2.0, 1.0, 0.8])
     for place in ("cells", "grid"):
@@ -190,7 +190,7 @@ def write_arrays(folder):
 
 
 def write_folder(folder, complete=True):
-    """Two stages (the first one diffuse in both panels) and one window; without optional keys if not complete."""
+    """Two stages (the first without bands) and one window; without optional keys if not complete."""
     if complete:
         write_arrays(folder)
     else:
@@ -224,10 +224,10 @@ def read(folder):
 
 
 def number_of_figures():
-    """(pictures, canvases) of the complete folder's page for a reader with scripts.
+    """(pictures, canvases) of the page of the complete folder, with JavaScript.
 
-    Pictures: 4 histories, work and kinetic energy, solver: 7; inclination, width, dissipation, stress difference: 4; strips of
-    every increment, chains + traction and both circles of every stage: pairs; roses: one a probe and stage; resolution: 4.
+    Pictures: 7 of histories, work, kinetic energy and solver; inclination, width, dissipation, stress difference: 4; pairs for
+    the strips of every increment, and for chains + traction and the circles of every stage; one rose per probe and stage; resolution: 4.
     Canvases: 5 pairs of maps and the pair of the difference; 3 colour bars.
     """
     return 7 + 4 + 2 * (STAGES + WINDOWS) + 4 * STAGES + PROBES * STAGES + 4, 2 * 6 + 3

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-# diptych: the report of a tiny result folder
+# diptych: tests of the report of a tiny result folder
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Run with the python3 that the program uses for its reports: python3 tests/program/report_test.py"""
 
@@ -9,6 +9,7 @@ import os
 import re
 import sys
 import tempfile
+import types
 import unittest
 from html.parser import HTMLParser
 
@@ -23,7 +24,7 @@ sys.path.insert(0, REPORT)
 
 
 class Page(HTMLParser):
-    """Images (those for readers without scripts apart), canvases, links to anything, and the data of the maps."""
+    """Images (those for readers without JavaScript separately), canvases, links, and the data of the maps."""
 
     def __init__(self, text):
         super().__init__()
@@ -50,7 +51,7 @@ class Page(HTMLParser):
             self.maps += text
 
 
-HALF_A_CODE = 0.5 / 4094 * 1.001  # of the range of an array
+HALF_A_CODE = 0.5 / 4094 * 1.001  # in units of the range of an array
 
 
 def stored(maps, index):
@@ -79,20 +80,20 @@ class CompleteFolder(unittest.TestCase):
     def increment(self, key):
         return next(i for i in self.maps["increments"] if i["key"] == key)
 
-    def test_succeeds_and_leaves_no_temporary_file(self):
+    def test_drawing_succeeds_without_temporary_files(self):
         self.assertEqual(self.outcome.returncode, 0, self.outcome.stderr)
         self.assertEqual(self.outcome.stderr, "")
         self.assertFalse([name for name in os.listdir(self.folder.name) if name.endswith(".part")])
 
-    def test_every_figure_is_there_with_words_for_those_who_cannot_see_it(self):
+    def test_every_figure_has_an_alternative_text(self):
         self.assertEqual((len(self.page.images), len(self.page.canvases)), report_folder.number_of_figures())
         self.assertEqual(len(self.page.still), 2)
         self.assertTrue(all(len(image.get("alt", "")) > 20 for image in self.page.images + self.page.still))
         self.assertTrue(all(canvas.get("aria-label") for canvas in self.page.canvases))
 
     def test_both_panels_share_their_colour_limits(self):
-        # 98th percentiles: grains 0.98 * 2 %, continuum 0.98 * 8 %, the lower counts: 1.96 %. Per axial strain 1.96/0.5 in both
-        # stages, 1.96/1 in the window; their median, 3.92, gives 1.96 % over 0.5 % and 3.92 % over 1 %, two digits each.
+        # The 98th percentiles are 0.98 * 2 % (grains) and 0.98 * 8 % (continuum); the lower counts. Over axial strain this is 1.96/0.5
+        # in both stages and 1.96/1 in the window. The median 3.92 gives 1.96 % over 0.5 % and 3.92 % over 1 %, rounded to two digits.
         self.assertEqual(self.increment("stage-1")["values"]["shear"]["discs"]["limits"], [0.0, 2.0])
         self.assertEqual(self.increment("window-0")["values"]["shear"]["discs"]["limits"], [0.0, 3.9])
         for increment in self.maps["increments"]:
@@ -101,7 +102,7 @@ class CompleteFolder(unittest.TestCase):
                     self.assertLess(*values["limits"], f"{quantity} {place}")
 
     def test_the_page_holds_the_numbers_of_the_files(self):
-        # 12 bits over the range: at most half a code off
+        # 12 bits over the range: the error is at most half a code
         values = stored(self.maps, self.increment("stage-1")["values"]["shear"]["discs"]["discrete"])
         np.testing.assert_allclose(values, np.linspace(0, 2, 40), atol=2 * HALF_A_CODE)
         cells = stored(self.maps, self.increment("stage-1")["values"]["shear"]["cells"]["discrete"])
@@ -109,7 +110,7 @@ class CompleteFolder(unittest.TestCase):
 
     def test_a_window_shows_the_stress_of_the_stage_that_ends_with_it(self):
         window, stage = (self.increment(key)["values"]["s"]["cells"] for key in ("window-0", "stage-1"))
-        self.assertEqual(window["continuum"], stage["continuum"])  # one array, stored once
+        self.assertEqual(window["continuum"], stage["continuum"])  # the same array, stored once
         np.testing.assert_allclose(stored(self.maps, stage["continuum"]), 1.5)
 
     def test_crosses_are_the_stored_principal_stresses(self):
@@ -119,17 +120,17 @@ class CompleteFolder(unittest.TestCase):
             np.testing.assert_allclose(stored(self.maps, crosses[key]), value, rtol=1e-12)
         np.testing.assert_allclose(np.abs(stored(self.maps, crosses["a"])), np.pi / 2, rtol=1e-12)
 
-    def test_arrows_count_in_the_platens_motion(self):
-        # a grain at y moves by (y, -y) per unit of progress, the platen by 0.5: it counts 2 y; the velocity 0.001 over
-        # 0.5 * 0.005 / 10: 4
+    def test_arrows_are_relative_to_the_motion_of_the_platen(self):
+        # A grain at y moves by (y, -y) per unit of progress and the platen by 0.5, so the ratio is 2 y. The velocities give
+        # 0.001 / (0.5 * 0.005 / 10) = 4.
         arrows = self.increment("stage-1")["arrows"]["discrete"]
         y, u, v = (stored(self.maps, arrows["increment"][key]) for key in "yuv")
         np.testing.assert_allclose(u, 2 * y, rtol=1e-4)
         np.testing.assert_allclose(v, -2 * y, rtol=1e-4)
         np.testing.assert_allclose(stored(self.maps, arrows["velocity"]["u"]), 4, rtol=1e-9)
 
-    def test_speeds_and_displacements_over_the_platens_are_the_stored_ones(self):
-        # the continuum is quasi-static: over the platen's its velocity is its displacement
+    def test_relative_speeds_and_displacements_are_those_stored(self):
+        # the continuum is quasi-static: its relative velocity is its relative displacement
         values = self.increment("stage-1")["values"]
         for quantity, panel, expected in (("velocity", "discrete", np.full(40, 0.4)),
                                           ("velocity", "continuum", np.linspace(0.1, 0.6, 6)),
@@ -137,11 +138,11 @@ class CompleteFolder(unittest.TestCase):
             np.testing.assert_allclose(stored(self.maps, values[quantity]["discs"][panel]), expected, atol=0.6 * HALF_A_CODE)
 
     def test_cells_are_their_four_nodes_anticlockwise(self):
-        # the mesh's second cell: right of the first, 2.5 x 8/3 d
+        # the second cell, to the right of the first: 2.5 x 8/3 d
         corners = stored(self.maps, self.increment("window-0")["cells"]).reshape(-1, 4, 2)[1]
         np.testing.assert_allclose(corners, [[2.5, 0], [5, 0], [5, 8 / 3], [2.5, 8 / 3]], atol=8 * HALF_A_CODE)
 
-    def test_bars_carry_the_datasets_titles_and_units(self):
+    def test_colour_bars_have_the_titles_and_units_of_the_datasets(self):
         quantities = {quantity["key"]: quantity for quantity in self.maps["quantities"]}
         self.assertEqual(quantities["s"]["label"], "mean stress s (P)")
         self.assertEqual(quantities["rotation"]["label"], "rotation increment (degrees)")
@@ -153,43 +154,46 @@ class CompleteFolder(unittest.TestCase):
         forces = self.increment("stage-1")["forces"]
         np.testing.assert_allclose(stored(self.maps, forces["f"]), [3.0])
 
-    def test_every_quantity_asked_for_can_be_chosen(self):
+    def test_every_quantity_can_be_chosen(self):
         offered = {quantity["key"]: quantity["places"] for quantity in self.maps["quantities"]}
         for key in ("shear", "displacement", "velocity", "rotation", "s", "t_over_s", "xx", "yy", "xy", "yx"):
             self.assertIn("discs", offered[key])
         for key in ("spin", "turn", "couple", "dissipation"):
             self.assertEqual(offered[key], ["cells", "grid"])
 
-    def test_what_is_fitted_and_what_the_mesh_sets_is_said(self):
-        self.assertIn("the scene does not say whether its parameters are fitted or predicted", self.text)
-        self.assertIn("Thickness of the continuum&#39;s band: set by the mesh (local law); elements of 2 d. "
-                      "On the coarse mesh, elements of 4 d: 2.2 d at −45.0°.", self.words)
+    def test_the_page_states_the_origin_of_parameters_and_of_the_band_width(self):
+        self.assertIn("origin not stated in the scene", self.text)
+        self.assertIn("Width of the band in the continuum: set by the mesh (local law); elements of 2 d. "
+                      "On the coarse mesh with elements of 4 d: 2.2 d at −45.0°.", self.words)
 
-    def test_no_band_is_called_diffuse(self):
+    def test_a_stage_without_band_is_diffuse(self):
         self.assertIn("diffuse: no band", self.text)
 
-    def test_an_interval_stands_beside_its_number(self):
+    def test_lost_bands_reduce_the_basis_of_the_interval(self):
+        self.assertIn("In 2 % of the bootstrap samples no band was found; the interval is based on the other 98 %.", self.words)
+
+    def test_an_interval_follows_its_number(self):
         self.assertIn("0.900 [0.800, 1.000]", self.words)
         self.assertIn("−45.0° [−46.5, −43.5]", self.words)
 
-    def test_the_angle_to_the_minor_stress_stands_beside_the_theory_lines(self):
-        # as stored: major stress at 90 degrees, so the minor one lies along the horizontal, 45 degrees from a band at -45
-        self.assertIn("To the minor principal stress of the zone: grains 45.0°", self.text)
+    def test_the_angle_to_the_minor_stress_is_shown_with_theory_lines(self):
+        # the major stress is vertical, so the minor stress is horizontal, at 45 degrees to a band at -45 degrees
+        self.assertIn("Angle to the minor principal stress in the band: grains 45.0°", self.text)
         self.assertIn("Coulomb 45° + φ/2 = 55.0°", self.text)
 
-    def test_shares_of_dissipation_are_told_in_per_cent_and_its_density_as_a_ratio(self):
-        # three quarters of it on half of the area: (0.75/0.5)/(0.25/0.5) = 3, which the comparison stores
+    def test_dissipation_is_shown_in_per_cent_and_its_density_as_a_ratio(self):
+        # 75 % of it on half of the area: (0.75/0.5)/(0.25/0.5) = 3
         row = re.search(r"<th scope=\"row\">Grains</th><td>75.0 %</td><td>50.0 %</td><td>(.*?)</td>", self.words)
         self.assertEqual(row.group(1), "3.00")
 
-    def test_a_value_that_is_null_is_not_computed_and_an_unknown_one_is_shown(self):
+    def test_null_is_not_computed_and_unknown_keys_are_shown(self):
         self.assertIn("not computed", self.text)
         self.assertIn("a later key", self.text)
 
-    def test_words_and_units_of_a_summary_are_the_programs(self):
-        # initial height: a length of 8, shown in d; noise and unbalance as stored, held against what is known to hold
+    def test_a_summary_has_the_meanings_and_units_of_the_program(self):
+        # the initial height of 8 is shown in d; noise and unbalance have an expected value
         self.assertRegex(self.words, r'initial height</th><td>8 d</td>')
-        self.assertRegex(self.words, r'grains: noise</th><td>0\.012</td><td>right below 0\.03</td>')
+        self.assertRegex(self.words, r'grains: noise</th><td>0\.012</td><td>reliable below 0\.03</td>')
         self.assertRegex(self.words, r'platen unbalance</th><td>3\.0 × 10⁻⁴</td><td>equilibrium: 0</td>')
         self.assertNotIn("prototype", self.text)
 
@@ -197,7 +201,7 @@ class CompleteFolder(unittest.TestCase):
         self.assertIn("<td>12</td>", self.text)
         self.assertNotIn("12.000", self.text)
 
-    def test_nothing_outside_the_file_is_needed(self):
+    def test_the_page_needs_no_other_file(self):
         outside = [link for link in self.page.links if not link.startswith("data:")]
         self.assertEqual(outside, [])
         self.assertIsNone(re.search(r"url\(|@import", self.text))
@@ -208,7 +212,7 @@ class OtherFolders(unittest.TestCase):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
 
-    def test_optional_keys_may_be_absent_and_the_page_is_the_same_each_time(self):
+    def test_optional_keys_may_be_missing_and_the_page_is_reproducible(self):
         write_folder(self.folder.name, complete=False)
         outcome = run(self.folder.name)
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
@@ -228,15 +232,15 @@ class OtherFolders(unittest.TestCase):
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
         return read(self.folder.name).replace("\u00a0", " ")
 
-    def test_a_law_with_an_internal_length_is_not_said_to_be_set_by_the_mesh(self):
+    def test_an_internal_length_sets_the_band_width(self):
         text = self.write_with_law(1.5)
-        self.assertIn("band: internal length 1.5 d", text)
+        self.assertIn("band in the continuum: internal length 1.5 d", text)
         self.assertNotIn("set by the mesh (local law)", text)
-        self.assertIn("never", text)  # it did not localise
+        self.assertIn("never", text)  # no localisation
 
-    def test_a_law_without_one_is(self):
+    def test_the_mesh_sets_the_band_width_of_a_local_law(self):
         text = self.write_with_law(None)
-        self.assertIn("band: set by the mesh (local law)", text)
+        self.assertIn("band in the continuum: set by the mesh (local law)", text)
         self.assertNotIn("internal length 1.5 d", text)
 
     def test_a_scene_named_like_markup_is_shown_as_it_is(self):
@@ -248,7 +252,7 @@ class OtherFolders(unittest.TestCase):
         self.assertNotIn("</script><b>", read(self.folder.name))
 
     def axes_of(self, walk):
-        """Labels that figures of the histories carry."""
+        """Labels of the axes in the charts of histories."""
         write_folder(self.folder.name)
         record = dict(report_folder.comparison_of_two_stages(), walk=walk)
         write_json(self.folder.name, "comparison.json", record)
@@ -258,7 +262,7 @@ class OtherFolders(unittest.TestCase):
         pictures = [base64.b64decode(data).decode() for data in re.findall(r"data:image/svg\+xml;base64,([^\"]+)", text)]
         return text, [word for word in ("axial strain (%)", "shear strain (%)", ">time<") if any(word in p for p in pictures)]
 
-    def test_axes_say_what_is_walked(self):
+    def test_axes_name_the_loading_variable(self):
         text, labels = self.axes_of("shear_strain")
         self.assertEqual(labels, ["shear strain (%)"])
         self.assertIn("mean over the last 0.5 % of shear strain", text)
@@ -267,7 +271,7 @@ class OtherFolders(unittest.TestCase):
         self.assertIn("mean over the last 0.005 of time", text)
 
     def test_lengths_and_stresses_are_shown_in_d_and_P(self):
-        """The same files with d = 2 and P = 10: a probe's corner at 1 is at 0.5 d, a major stress of 2 is 0.2 P."""
+        """With d = 2 and P = 10, the corner of a probe at 1 is at 0.5 d, and a major stress of 2 is 0.2 P."""
         write_folder(self.folder.name)
         write_json(self.folder.name, "comparison.json",
                    dict(report_folder.comparison_of_two_stages(), mean_diameter=2.0, pressure=10.0))
@@ -280,19 +284,19 @@ class OtherFolders(unittest.TestCase):
         np.testing.assert_allclose(stored(maps, stage["discs"]["r"]), 0.25)
         np.testing.assert_allclose(stored(maps, stage["forces"]["f"]), 3 / 20)
 
-    def test_another_format_is_named_and_ends_with_code_2(self):
+    def test_another_format_is_an_input_error(self):
         write_folder(self.folder.name, complete=False)
         write_json(self.folder.name, "comparison.json", {"format": 1, "stages": []})
         outcome = run(self.folder.name)
         self.assertEqual(outcome.returncode, 2)
         self.assertRegex(outcome.stderr, r"^report: .*comparison\.json: format 1, .*format 2")
 
-    def test_wrong_words_end_with_code_2(self):
+    def test_wrong_arguments_are_an_input_error(self):
         outcome = run(self.folder.name, "figure")
         self.assertEqual(outcome.returncode, 2)
         self.assertIn("page|ensemble|study|calibration|step-study", outcome.stderr)
 
-    def test_a_missing_file_is_named_and_ends_with_code_2(self):
+    def test_a_missing_file_is_an_input_error(self):
         write_folder(self.folder.name, complete=False)
         os.remove(os.path.join(self.folder.name, "continuum.csv"))
         outcome = run(self.folder.name)
@@ -300,7 +304,7 @@ class OtherFolders(unittest.TestCase):
         self.assertIn("continuum.csv", outcome.stderr)
         self.assertFalse(os.path.exists(os.path.join(self.folder.name, "report.html")))
 
-    def test_a_foreign_comparison_is_named_and_ends_with_code_2(self):
+    def test_arrays_of_another_comparison_are_an_input_error(self):
         write_folder(self.folder.name)
         path = os.path.join(self.folder.name, "comparison.h5")
         with h5py.File(path, "w") as file:
@@ -315,7 +319,7 @@ class OtherFolders(unittest.TestCase):
         self.assertEqual(outcome.returncode, 2)
         self.assertRegex(outcome.stderr, r"^report: .*comparison\.h5: stage_0001 does not end")
 
-    def test_what_no_version_writes_names_the_files(self):
+    def test_unknown_contents_are_an_input_error_that_names_the_files(self):
         write_folder(self.folder.name)
         with h5py.File(os.path.join(self.folder.name, "comparison.h5"), "r+") as file:
             file["stage_0001"].attrs["centre"] = "mine"
@@ -323,7 +327,7 @@ class OtherFolders(unittest.TestCase):
         self.assertEqual(outcome.returncode, 2)
         self.assertIn("comparison.h5", outcome.stderr)
 
-    def test_broken_and_foreign_provenance_is_named_and_ends_with_code_2(self):
+    def test_a_wrong_provenance_is_an_input_error(self):
         write_folder(self.folder.name, complete=False)
         for text in ('{"program": ', '{"a": [1, 2]}'):
             with open(os.path.join(self.folder.name, "provenance.json"), "w", encoding="utf-8") as stream:
@@ -333,8 +337,19 @@ class OtherFolders(unittest.TestCase):
             self.assertIn("provenance.json", outcome.stderr)
 
 
+class Opening(unittest.TestCase):
+    def test_the_page_opens_on_the_last_window_or_stage(self):
+        from diptych_report.page import opening
+        windows, stages = ([types.SimpleNamespace(kind=kind, end=end) for end in ends]
+                           for kind, ends in (("window", (0.01, 0.02)), ("stage", (0.005, 0.01, 0.02, 0.03))))
+        self.assertEqual((opening.end_of(windows + stages), opening.end_of(stages), opening.end_of([])), (0.02, 0.03, 0.0))
+        self.assertIs(opening.opens_at(windows + stages, 0.02), windows[1])
+        self.assertIs(opening.opens_at(stages, 0.02), stages[2])  # the same instant in a part without windows
+        self.assertIs(opening.opens_at([], 0.0), None)
+
+
 class StepStudy(unittest.TestCase):
-    def test_a_study_becomes_a_picture_and_says_where_its_files_are_missing(self):
+    def test_a_step_study_is_drawn_and_a_missing_file_is_an_input_error(self):
         with tempfile.TemporaryDirectory() as folder:
             outcome = run(folder, "step-study")
             self.assertEqual(outcome.returncode, 2)
@@ -350,7 +365,7 @@ class StepStudy(unittest.TestCase):
 
 
 class Ensemble(unittest.TestCase):
-    def test_curves_are_the_stored_ones_and_a_folder_without_them_says_so(self):
+    def test_curves_are_those_stored_or_not_computed(self):
         interval = {"value": 0.1, "low": 0.0, "high": 0.2}
         verdict = {"quantity": "peak_stress_ratio", "unit": "-", "margin": 0.1, "relative": False, "difference": interval,
                    "difference_90": interval, "n": 2, "verdict": "cannot tell", "discrete": [0.3, 0.4], "continuum": [0.4, 0.5]}

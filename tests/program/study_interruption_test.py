@@ -3,7 +3,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: study_interruption_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
 
-import fcntl
 import json
 import os
 import shutil
@@ -78,19 +77,6 @@ class Interruption(study_test.Folder):
             time.sleep(0.01)
         self.expect_the_rest()
 
-
-    def test_a_run_that_somebody_writes_to_is_not_taken_away(self):
-        shutil.copytree(self.alone, self.folder)
-        run = os.path.dirname(next(name for name in listing(self.folder) if name.endswith("discrete.csv")))
-        with open(self.path(run, ".diptych.lock"), "w") as lock:
-            fcntl.flock(lock, fcntl.LOCK_EX)
-            lock.write("process 1 on another"), lock.flush()
-            before = listing(self.folder)
-            for words in ([], ["--resume"]):
-                told = self.run_study(LONG, *words, code=4).stderr
-                for text in (self.path(run), "process 1 on another", "nothing was written"):
-                    self.assertIn(text, told)
-                self.assertEqual(listing(self.folder), before)
 
     def test_a_run_whose_checkpoint_is_damaged_begins_anew(self):
         self.stop(signal.SIGINT)

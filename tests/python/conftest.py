@@ -1,6 +1,6 @@
-# diptych: what the tests of the Python package share
+# diptych: fixtures for the tests of the Python package
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The program and one small scene of it, run by both."""
+"""The program, and a small scene that both the program and the package run."""
 
 import os
 import subprocess
@@ -12,13 +12,13 @@ import diptych
 PROGRAM, SOURCE = os.environ["DIPTYCH_PROGRAM"], os.environ["DIPTYCH_SOURCE"]
 QUICK = os.path.join(SOURCE, "benchmarks", "moreau_quick", "scene.prm")
 
-# The physics of the quick scene on 300 grains, two stages.
+# The scene moreau_quick with 300 grains and two stages.
 SMALL = {"sample": {"grains": 300}, "loading": {"axial_strain": 0.01, "inertial_number": 1e-3},
          "comparison": {"window_edges": [0, 0.01]}, "output": {"report": False}}
 
 
-def words(overrides):
-    """As the program takes them."""
+def options(overrides):
+    """Keys as options of the program."""
     for section, keys in overrides.items():
         for key, value in keys.items():
             text = ", ".join(map(str, value)) if isinstance(value, list) else str(value).replace("False", "false")
@@ -38,15 +38,15 @@ def small():
 
 @pytest.fixture(scope="session")
 def folder(tmp_path_factory):
-    """What `diptych run` makes of the small scene."""
+    """The result folder of the small scene."""
     path = tmp_path_factory.mktemp("program") / "out"
-    program("run", QUICK, *words(SMALL), "--output", path, "--quiet")
+    program("run", QUICK, *options(SMALL), "--output", path, "--quiet")
     return path
 
 
 @pytest.fixture(scope="session")
 def panels(small):
-    """Both panels of the small scene, run in this process; the continuum on both meshes."""
+    """Both panels of the small scene, run in this process; the continuum on the fine and the coarse mesh."""
     grains = diptych.DiscretePanel(small)
     assert grains.run() == "finished"
     nodes = diptych.ContinuumPanel(small, grains.snapshots[0])

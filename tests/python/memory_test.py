@@ -17,7 +17,7 @@ def resident_kb():
 
 
 def growth_kb(call, n):
-    """Resident memory that n calls add, after as many again as it takes to fill pools."""
+    """Growth of the resident memory over n calls, after n/5 calls that fill the pools of the allocator."""
     for _ in range(max(n // 5, 1)):
         call()
     gc.collect()
@@ -33,7 +33,7 @@ MESH = diptych.grid((-1, 0), (1, 400), 1.0)
 POINTS, MOVED, PLATEN = band_of(50, 12, n=300)
 PATH = np.zeros((50, 3))
 CALLS = {
-    "map_stress": lambda: diptych.map_stress(GRAINS, PAIRS, MESH),  # 20 kB of results each: 20 MB if they stayed
+    "map_stress": lambda: diptych.map_stress(GRAINS, PAIRS, MESH),  # 20 kB of results each: a leak would add 20 MB
     "probe": lambda: diptych.probe(GRAINS, [(-1, 0), (1, 0), (1, 400), (-1, 400)], PAIRS, resamples=0),
     "shear_strain": lambda: diptych.shear_strain(POINTS, MOVED, radius=5),
     "strips": lambda: diptych.strips(POINTS, MOVED, 1.0, platen_increment=PLATEN),
@@ -45,11 +45,11 @@ CALLS = {
 
 
 @pytest.mark.parametrize("name", CALLS)
-def test_a_thousand_calls_leave_no_memory_behind(name):
-    assert growth_kb(CALLS[name], 1000) < 3000  # kB: 3 bytes a byte of the smallest leak of a result would be more
+def test_a_thousand_calls_do_not_leak(name):
+    assert growth_kb(CALLS[name], 1000) < 3000  # kB; a leak of the smallest result would add more
 
 
-def test_a_thousand_errors_leave_no_memory_behind():
+def test_a_thousand_errors_do_not_leak():
     def wrong():
         with pytest.raises(diptych.SceneError):
             diptych.scene({"sample": {"grains": -1}})
@@ -57,7 +57,7 @@ def test_a_thousand_errors_leave_no_memory_behind():
     assert growth_kb(wrong, 1000) < 3000
 
 
-def test_arguments_are_given_back():
+def test_references_to_arguments_are_released():
     arguments = [GRAINS["position"], GRAINS["radius"], PAIRS["force"], PAIRS["point"], MESH.nodes, MESH.cells]
     before = [sys.getrefcount(one) for one in arguments]
     for _ in range(1000):
@@ -65,7 +65,7 @@ def test_arguments_are_given_back():
     assert [sys.getrefcount(one) for one in arguments] == before
 
 
-def test_views_hold_their_snapshot_and_nothing_holds_it_longer(panels):
+def test_views_keep_their_snapshot_alive_and_nothing_else_does(panels):
     snapshot = panels[0].snapshot()
     before = sys.getrefcount(snapshot)
     views = [snapshot.position for _ in range(1000)]
@@ -76,7 +76,7 @@ def test_views_hold_their_snapshot_and_nothing_holds_it_longer(panels):
     assert growth_kb(lambda: panels[0].history, 200) < 3000
 
 
-def test_panels_and_callbacks_go_when_nobody_holds_them():
+def test_unused_panels_and_callbacks_are_deleted():
     class Callback:
         calls = 0
 
@@ -87,7 +87,7 @@ def test_panels_and_callbacks_go_when_nobody_holds_them():
     callback = Callback()
     panel = diptych.DiscretePanel({"sample": {"grains": 30}, "loading": {"axial_strain": 0.02}}, on_step=callback)
     panel.run()
-    callback.panel = panel  # a circle
+    callback.panel = panel  # a reference cycle
     watched, references = weakref.ref(panel), sys.getrefcount(callback)
     for _ in range(50):
         panel.run()
@@ -97,6 +97,6 @@ def test_panels_and_callbacks_go_when_nobody_holds_them():
     assert watched() is None
 
 
-def test_continuum_panels_give_their_memory_back():
+def test_continuum_panels_release_their_memory():
     scene = diptych.scene({"continuum": {"mesh": "rectangle", "rectangle_width": 20, "rectangle_height": 20}})
     assert growth_kb(lambda: diptych.ContinuumPanel(scene).prepare(), 20) < 6000  # one panel takes more than 1 MB

@@ -1,4 +1,4 @@
-# diptych: panels as objects: the program's bits, callbacks, interruption, threads
+# diptych: tests of the panels: same bits as the program, callbacks, interruption, threads
 # SPDX-License-Identifier: LGPL-2.1-or-later
 import os
 import signal
@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import diptych
-from conftest import QUICK, SMALL, program, words
+from conftest import QUICK, SMALL, options, program
 
 GRAIN_FIELDS = ("position", "displacement", "velocity", "rotation", "spin", "internal_moment", "mean_internal_moment", "rattler")
 
@@ -32,7 +32,7 @@ def same_snapshots(a, b, fields):
 
 def test_the_quick_scene_has_the_bits_of_the_program(tmp_path):
     short = {"loading": {"axial_strain": 0.005}, "comparison": {"window_edges": [0, 0.005]}}
-    program("discrete", QUICK, *words(short), "--output", tmp_path / "out", "--quiet")
+    program("discrete", QUICK, *options(short), "--output", tmp_path / "out", "--quiet")
     panel = diptych.DiscretePanel(diptych.scene(QUICK, **short))
     assert panel.run() == "finished" and panel.stage == 1
     mine = tmp_path / "mine"
@@ -55,7 +55,7 @@ def test_both_panels_have_the_bits_of_the_program(panels, folder):
         same_snapshots(panel.snapshots, results.snapshots, fields)
 
 
-def test_a_callback_sees_every_step_and_may_look_at_the_panel(small, panels):
+def test_a_callback_gets_every_step_and_may_take_snapshots(small, panels):
     seen = []
     panel = diptych.DiscretePanel(small)
     panel.on_step = lambda row: seen.append((row["step"], row["axial_strain"], panel.snapshot().axial_strain))
@@ -67,7 +67,7 @@ def test_a_callback_sees_every_step_and_may_look_at_the_panel(small, panels):
     same_history(history, panels[0].history)
 
 
-def test_a_run_that_a_callback_stops_goes_on_with_the_same_bits(small, panels):
+def test_a_run_stopped_by_a_callback_continues_with_the_same_bits(small, panels):
     for make, whole in ((lambda: diptych.DiscretePanel(small), panels[0]),
                         (lambda: diptych.ContinuumPanel(small, panels[0].snapshots[0]), panels[1])):
         panel = make()
@@ -79,7 +79,7 @@ def test_a_run_that_a_callback_stops_goes_on_with_the_same_bits(small, panels):
         np.testing.assert_array_equal(panel.snapshot().position, whole.snapshot().position)
 
 
-def test_an_exception_in_a_callback_comes_out_and_leaves_the_panel_whole(small, panels):
+def test_a_panel_survives_an_exception_in_a_callback(small, panels):
     def fail(row):
         if row["step"] == 3:
             raise KeyError("mine")
@@ -93,8 +93,8 @@ def test_an_exception_in_a_callback_comes_out_and_leaves_the_panel_whole(small, 
     same_history(panel.history, panels[0].history)
 
 
-@pytest.mark.parametrize("delay", [0.05, 0.9])  # while the sample of 2000 is prepared (0.9 s alone) or a little later
-def test_ctrl_c_ends_a_run_and_the_panel_goes_on(delay):
+@pytest.mark.parametrize("delay", [0.05, 0.9])  # during the preparation of 2000 grains (0.9 s), or shortly after it
+def test_ctrl_c_stops_a_run_and_the_panel_continues(delay):
     panel = diptych.DiscretePanel(QUICK)
     timer = threading.Timer(delay, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()
@@ -106,7 +106,7 @@ def test_ctrl_c_ends_a_run_and_the_panel_goes_on(delay):
     assert panel.run() == "stopped" and len(panel.history["step"]) > 0
 
 
-def test_ctrl_c_ends_a_continuum_and_it_goes_on_with_the_same_bits():
+def test_ctrl_c_stops_a_continuum_which_continues_with_the_same_bits():
     scene = {"continuum": {"mesh": "rectangle", "rectangle_width": 30, "rectangle_height": 30, "law": "linear_elastic",
                            "initial_step": 5e-4, "max_step": 5e-4}, "loading": {"axial_strain": 0.03}}
     panel, whole = diptych.ContinuumPanel(scene), diptych.ContinuumPanel(scene)
@@ -133,10 +133,10 @@ def test_other_threads_run_while_a_panel_works(small):
     while worker.is_alive():
         time.sleep(0.001)
         ticks += 1
-    assert panel.status == "finished" and ticks > 20  # the run takes 0.2 s and more
+    assert panel.status == "finished" and ticks > 20  # the run takes at least 0.2 s
 
 
-def test_two_panels_in_two_threads_have_the_bits_of_one(small, panels):
+def test_panels_in_two_threads_have_the_same_bits_as_one(small, panels):
     two = [diptych.DiscretePanel(small) for _ in range(2)]
     workers = [threading.Thread(target=panel.run) for panel in two]
     for worker in workers:
@@ -148,7 +148,7 @@ def test_two_panels_in_two_threads_have_the_bits_of_one(small, panels):
 
 
 def test_continuum_panels_of_several_threads_take_turns(small, panels):
-    """Each with a callback, for which it needs Python's lock while the other waits for its turn."""
+    """Each has a callback, which needs the GIL while another panel waits for its turn."""
     rows, results = [], []
 
     def run(_):
@@ -167,7 +167,7 @@ def test_continuum_panels_of_several_threads_take_turns(small, panels):
         np.testing.assert_array_equal(stress, panels[1].snapshot().stress)
 
 
-def test_a_panel_at_work_refuses_a_second_driver(small):
+def test_a_running_panel_refuses_a_second_call(small):
     panel, refused = diptych.DiscretePanel(small), []
 
     def again(_):
@@ -193,15 +193,15 @@ def test_arrays_share_the_memory_of_their_snapshot_and_outlive_it(panels):
     assert np.shares_memory(snapshot.position, snapshot.position) and np.shares_memory(snapshot.window.force, snapshot.window.force)
     assert not snapshot.position.flags.writeable and not snapshot.contacts.force.flags.writeable
     force, kept = panels[0].snapshot().contacts.force, snapshot.contacts.force.copy()
-    np.testing.assert_array_equal(force, kept)  # its snapshot and its list are gone
+    np.testing.assert_array_equal(force, kept)  # although its snapshot was deleted
     assert len(snapshot) == 300 and snapshot.position.shape == (300, 2) and snapshot.internal_moment.shape == (300, 2, 2)
     with pytest.raises(AttributeError, match="snapshot.window"):
         _ = snapshot.contacts.dissipation
 
 
 def test_contacts_hold_the_moments_of_the_grains(panels):
-    """M = -sum f (x) (point - centre) of each grain, its symmetric part, less the spin term. The contact point is that of the
-    stage's end, the branch moved meanwhile: thousandths of the largest moment."""
+    """For each grain, M = symmetric part of -sum f (x) (point - centre), minus the spin term. The contact points are those at the
+    end of the stage, so M differs by thousandths of the largest moment."""
     s = panels[0].snapshots[-1]
     c, moment = s.window, np.zeros((len(s), 2, 2))
     np.subtract.at(moment, c.i, c.force[:, :, None] * (c.point - s.position[c.i])[:, None, :])
@@ -211,8 +211,8 @@ def test_contacts_hold_the_moments_of_the_grains(panels):
     np.testing.assert_allclose(moment, s.mean_internal_moment, atol=2e-3 * np.abs(s.mean_internal_moment).max())
 
 
-def test_own_grains_are_taken_as_they_are():
-    """Rows of equal discs between smooth walls: they settle where they stand."""
+def test_given_grains_keep_their_places():
+    """Rows of equal discs between smooth walls are in equilibrium."""
     x, y = np.meshgrid(np.arange(6.0), np.arange(6.0))
     position = np.column_stack([x.ravel(), y.ravel()])
     panel = diptych.DiscretePanel({"discrete": {"lateral": "rigid_walls"}, "loading": {"horizontal_over_vertical": 0}},
@@ -224,14 +224,14 @@ def test_own_grains_are_taken_as_they_are():
         diptych.DiscretePanel({}, grains={"position": position, "radius": np.ones(3)})
 
 
-def test_what_does_not_converge_says_so(small):
+def test_a_panel_that_does_not_converge_raises_not_converged(small):
     panel = diptych.DiscretePanel(diptych.scene(small, discrete={"max_sweeps": 1, "tolerance": 1e-9}))
     with pytest.raises(diptych.NotConverged):
         panel.run()
     assert panel.status == "not_converged" and panel.report.message
 
 
-def test_the_continuum_asks_for_what_it_needs(small, tmp_path):
+def test_missing_or_impossible_input_of_panels_is_refused(small, tmp_path):
     with pytest.raises(diptych.SceneError, match="snapshot") as thrown:
         diptych.ContinuumPanel(small)
     assert thrown.value.key == "continuum/mesh"
@@ -249,7 +249,7 @@ def test_the_continuum_asks_for_what_it_needs(small, tmp_path):
 
 
 def test_a_rectangle_needs_no_grains():
-    """Elastic, smooth walls pressed at 1: at rest the stress is the pressure everywhere."""
+    """Elastic, between smooth walls under the pressure 1: the stress at rest is the pressure everywhere."""
     panel = diptych.ContinuumPanel({"continuum": {"law": "linear_elastic", "mesh": "rectangle", "rectangle_width": 8,
                                                   "rectangle_height": 12, "element_size": 2},
                                     "discrete": {"lateral": "rigid_walls", "platen_friction": 0},
@@ -258,7 +258,7 @@ def test_a_rectangle_needs_no_grains():
     np.testing.assert_allclose(panel.snapshot().stress[:, :2, :2], np.broadcast_to(np.eye(2), (24, 2, 2)), atol=1e-8)
 
 
-@pytest.mark.parametrize("before", ["import h5py", "from mpi4py import MPI"])  # which start HDF5 and MPI themselves
+@pytest.mark.parametrize("before", ["import h5py", "from mpi4py import MPI"])  # these start HDF5 and MPI themselves
 def test_a_process_ends_cleanly_with_panels_alive(before):
     script = (before + "\nimport diptych\n"
               "p = diptych.ContinuumPanel({'continuum': {'mesh': 'rectangle', 'rectangle_width': 8, 'rectangle_height': 8}})\n"

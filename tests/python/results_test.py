@@ -1,4 +1,4 @@
-# diptych: result folders and comparisons as arrays
+# diptych: tests of result folders and comparisons as arrays, and of one-line reprs
 # SPDX-License-Identifier: LGPL-2.1-or-later
 import json
 import shutil
@@ -15,13 +15,13 @@ def written(folder):
     return json.loads((folder / "comparison.json").read_text())
 
 
-def test_a_folder_compared_again_has_the_numbers_of_its_json(folder, written):
+def test_comparing_a_folder_again_gives_the_numbers_of_its_json(folder, written):
     numbers = diptych.compare(folder).numbers
     for part in set(written) - {"numbers", "cost"}:
         assert numbers[part] == written[part], part
 
 
-def test_panels_of_this_process_compare_alike(panels, small, written):
+def test_panels_of_this_process_give_the_same_comparison(panels, small, written):
     grains, nodes, coarse = panels
     comparison = diptych.compare(scene=small, discrete=grains, continuum=nodes, coarse=coarse)
     for part in ("stages", "windows", "continuum_coarse", "resolution_study", "theory", "walk"):
@@ -53,7 +53,7 @@ def test_a_history_is_a_frame_with_units(folder):
     np.testing.assert_array_equal(frame["stress_ratio"], pandas.read_csv(folder / "discrete.csv", float_precision="round_trip")["stress_ratio"])
 
 
-def test_a_folder_without_results_is_named(tmp_path, folder):
+def test_the_message_names_a_folder_without_results(tmp_path, folder):
     with pytest.raises(FileNotFoundError, match=str(tmp_path)):
         diptych.load(tmp_path)
     with pytest.raises(ValueError, match="scene, discrete and continuum"):
@@ -66,20 +66,42 @@ def test_a_folder_without_results_is_named(tmp_path, folder):
         diptych.load(damaged)
 
 
-def test_what_the_run_did_not_leave_is_named(tmp_path, folder):
+def test_the_message_names_a_changed_file(tmp_path, folder):
     mine = tmp_path / "mine"
     shutil.copytree(folder, mine)
     table = mine / "discrete.csv"
     table.write_text(table.read_text().replace("0.", "1.", 1))
-    with pytest.raises(ValueError, match="discrete.csv: is not what the run left"):
+    with pytest.raises(ValueError, match="discrete.csv was changed"):
         diptych.load(mine)
     (mine / "provenance.json").unlink()
     with pytest.warns(UserWarning, match="holds no sums over the bytes of discrete.csv"):
         diptych.load(mine)
 
 
-def test_results_of_the_program_are_not_written_over(small, folder):
+def test_results_of_the_program_are_not_overwritten(small, folder):
     before = (folder / "discrete.h5").read_bytes()
     with pytest.raises(FileExistsError, match="scene.prm"):
         diptych.DiscretePanel(small).write(folder)
     assert (folder / "discrete.h5").read_bytes() == before
+
+
+def test_a_repr_is_one_line_with_class_and_sizes(folder):
+    results, comparison = diptych.load(folder), diptych.compare(folder)
+    start, end = results.discrete.snapshots[0], results.discrete.snapshots[-1]
+    stress, field = diptych.map_stress(end), diptych.increment(start, end)
+    report = diptych.find_bands(**field)
+    strips = diptych.strips(field["points"], field["displacement"], field["mean_diameter"])
+    for value, name, fact in ((results, "Results", "discrete, continuum"), (results.discrete, "PanelResults", "3 snapshots"),
+                              (results.discrete.history, "History", "columns"), (comparison, "Comparison", "2 stages"),
+                              (comparison.mesh(), "Mesh", f"{len(comparison.fields[-1]['cells'])} cells"),
+                              (stress, "StressMap", f"stress ({len(stress.area)},2,2)"), (field, "Record", "points=(300,2)"),
+                              (report, "BandReport", "bands="), (strips, "Record", "edges=(17,)")):
+        text = repr(value)
+        assert text.startswith(name + "(") and fact in text and "\n" not in text and len(text) < 250, text
+
+
+def test_a_band_has_a_short_repr():
+    band = diptych.Band(50.0, 12.0, 5.46, 0.1, 0.98, 3.0, 0.99, 0.98, "", {}, np.zeros(2))
+    assert repr(band) == "Band(angle_deg=50, width_10_90=12, offset=0.1, jump=0.98, r_squared=0.99)"
+    report = diptych.BandReport([band], "one band", True, np.zeros(3), np.zeros(3), 8.0, {})
+    assert repr(report) == "BandReport(bands=1: 50 deg; 'one band', converged=True)"

@@ -1,4 +1,4 @@
-# diptych: scenes as dicts are checked like files
+# diptych: tests that scenes given as dicts are checked like files
 # SPDX-License-Identifier: LGPL-2.1-or-later
 import os
 import warnings
@@ -17,12 +17,12 @@ def test_a_scene_has_every_key_that_explain_knows():
     assert allowed.startswith("a number") and unit and meaning
 
 
-def test_a_file_and_the_dict_that_it_says_are_the_same_scene():
+def test_a_file_and_its_dict_are_the_same_scene():
     scene = diptych.scene(QUICK)
     assert scene["sample"]["grains"] == 2000 and scene["continuum"]["law"] == "cosserat_mohr_coulomb"
     assert scene["comparison"]["window_edges"] == [0, 0.01, 0.02, 0.03]
     with warnings.catch_warnings():
-        warnings.simplefilter("error")  # that it holds every key is no reason for a warning
+        warnings.simplefilter("error")  # a scene with every key gives no warning
         assert diptych.scene(scene) == scene
 
 
@@ -40,7 +40,7 @@ def test_overrides_win_over_the_scene():
     assert diptych.scene({"sample": {"seed": 2}}, **{"sample/seed": 3})["sample"]["seed"] == 3
 
 
-@pytest.mark.parametrize("scene, key, words", [
+@pytest.mark.parametrize("scene, key, message", [
     ({"sample": {"grians": 3}}, "sample/grians", "nearest is 'sample/grains'"),
     ({"sample": {"grains": -3}}, "sample/grains", "a whole number from 10"),
     ({"sample": {"grains": 20.5}}, "sample/grains", "20.5"),
@@ -52,15 +52,15 @@ def test_overrides_win_over_the_scene():
     ({"smaple": {"grains": 3}}, "smaple", "sample"),
     ({"sample": 3}, None, "must be a section"),
 ])
-def test_a_wrong_scene_names_its_key(scene, key, words):
+def test_the_error_of_a_wrong_scene_has_its_key(scene, key, message):
     with pytest.raises(diptych.SceneError) as thrown:
         diptych.scene(scene)
     assert isinstance(thrown.value, ValueError)
-    assert thrown.value.key == key and words in str(thrown.value)
+    assert thrown.value.key == key and message in str(thrown.value)
 
 
-def test_a_wrong_file_names_file_line_and_key(tmp_path):
-    path = tmp_path / "sample" / "scene.prm"  # a folder that is called like a section is no key
+def test_the_error_of_a_wrong_file_has_file_line_and_key(tmp_path):
+    path = tmp_path / "sample" / "scene.prm"  # the folder "sample" in the path is not a key
     path.parent.mkdir()
     path.write_text("subsection sample\n  set grains = many\nend\n")
     with pytest.raises(diptych.SceneError, match="line 2") as thrown:
@@ -70,13 +70,13 @@ def test_a_wrong_file_names_file_line_and_key(tmp_path):
         diptych.scene(os.path.join(tmp_path, "none.prm"))
 
 
-def test_a_comparison_asks_for_windows_that_are_stages():
+def test_a_comparison_needs_windows_between_stages():
     assert diptych.scene({"loading": {"axial_strain": 0.01}})
     with pytest.raises(diptych.SceneError) as thrown:
         diptych.scene({"loading": {"axial_strain": 0.01}}, compares=True)
     assert thrown.value.key == "comparison/window_edges"
 
 
-def test_keys_that_nothing_reads_are_pointed_out():
+def test_a_key_without_effect_gives_a_warning():
     with pytest.warns(diptych.SceneWarning, match="penalty_stiffness"):
         diptych.scene({"discrete": {"penalty_stiffness": 500}})

@@ -1,8 +1,5 @@
-// diptych: formulas, and the page that finds
+// diptych: the page that searches
 // SPDX-License-Identifier: LGPL-2.1-or-later
-for (const box of document.querySelectorAll('.formula'))
-  katex.render(box.dataset.latex, box, { displayMode: true, throwOnError: false });
-
 const field = document.getElementById('words');
 if (field) {
   const entries = JSON.parse(document.getElementById('find-data').textContent);
@@ -19,9 +16,8 @@ if (field) {
   };
   const show = () => {
     const words = field.value.toLowerCase().split(/\s+/).filter(Boolean);
-    const found = words.length ? entries.filter((_, k) => words.every((word) => texts[k].includes(word))) : [];
-    document.getElementById('found-count').textContent =
-      words.length ? found.length + ' found' + (found.length > most ? ', the first ' + most + ' of them:' : '') : entries.length + ' entries';
+    const found = entries.filter((_, k) => words.every((word) => texts[k].includes(word)));
+    document.getElementById('found-count').textContent = found.length + ' found' + (found.length > most ? '; the first ' + most + ':' : '');
     document.getElementById('found').replaceChildren(...found.slice(0, most).map(row));
   };
   field.addEventListener('input', show);

@@ -1,15 +1,16 @@
-# diptych: one granular sample shown twice, for Python
+# diptych: the Python package
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Diptych: discs in contact dynamics beside an elasto-plastic continuum, and the operators that compare them.
+"""Diptych: a granular sample as discs (contact dynamics) and as an elasto-plastic continuum, and the operators that compare both.
 
-Scenes are nested dicts or paths and checked like files (scene, keys). Panels are objects (DiscretePanel, ContinuumPanel). Result
-folders of the program load as arrays (load, compare). Operators work on anybody's arrays: map_stress, find_bands, strips,
+Scenes are nested dicts or paths, checked like scene files (scene, keys). Panels are objects (DiscretePanel, ContinuumPanel). Result
+folders of the program load as arrays (load, compare). Operators take arrays from any source: map_stress, find_bands, strips,
 shear_strain, probe, integrate, biaxial, solve.
 
-Two dimensions, unit thickness, any consistent units. Stress and strain are positive in compression, dilation is a negative
-volumetric strain, angles are degrees from the horizontal, forces act on the first body.
+Two dimensions, unit thickness, any consistent units. Stress and strain are positive in compression, dilation is a negative volumetric
+strain, angles are degrees from the horizontal, forces act on the first body.
 """
 
+from . import requirements  # noqa: F401  first: it explains a failed import
 from ._diptych import Contacts, ContinuumSnapshot, DiscreteSnapshot, __version__
 from .arrays import Band, BandReport, History, Interval, Mesh, Record, StressMap
 from .errors import NotConverged, SceneError, SceneWarning
@@ -19,10 +20,11 @@ from .panels import ContinuumPanel, DiscretePanel
 from .problems import solve
 from .results import Comparison, PanelResults, Results, compare, load
 from .scenes import keys, scene
+from .shipped import benchmarks_dir, notebooks_dir
 
 __all__ = [
     "Band", "BandReport", "Comparison", "Contacts", "ContinuumPanel", "ContinuumSnapshot", "DiscretePanel", "DiscreteSnapshot",
     "History", "Interval", "Mesh", "NotConverged", "PanelResults", "Record", "Results", "SceneError", "SceneWarning", "StressMap",
-    "__version__", "biaxial", "compare", "contacts", "find_bands", "grid", "increment", "integrate", "keys", "load", "map_stress", "principal",
-    "probe", "scene", "shear_strain", "solve", "strips", "theory_lines",
+    "__version__", "benchmarks_dir", "biaxial", "compare", "contacts", "find_bands", "grid", "increment", "integrate", "keys", "load",
+    "map_stress", "notebooks_dir", "principal", "probe", "scene", "shear_strain", "solve", "strips", "theory_lines",
 ]

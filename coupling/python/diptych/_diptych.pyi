@@ -1,4 +1,4 @@
-"""Scenes, grains, operators and results; use them through the package diptych. Arrays are read only where they share memory."""
+"""Compiled part of the package diptych; use the package. Arrays that share memory are read only."""
 
 from collections.abc import Callable, Mapping
 from typing import Any, overload
@@ -64,15 +64,15 @@ class DiscreteSnapshot:
     @property
     def mean_spin_term(self) -> Array: ...
     @property
-    def rattler(self) -> Array: ...  # (n) [-]: 1 where the grain carries no contact force
+    def rattler(self) -> Array: ...  # (n) [-]: 1 for grains without contact force
     @property
     def fixed(self) -> Array: ...
     @property
     def applied_force(self) -> Array: ...  # (n, 2) [pressure length]: lateral action and gravity in the last step
     @property
-    def walk(self) -> str: ...  # [-]: which attribute progress equals: axial_strain, shear_strain or time
+    def walk(self) -> str: ...  # [-]: the loading variable: axial_strain, shear_strain or time
     @property
-    def progress(self) -> float: ...  # [as walk says]: what the loading has walked along its path
+    def progress(self) -> float: ...  # [as walk says]: loading variable
     @property
     def axial_strain(self) -> float: ...  # [-]: descent of the upper platen / initial height
     @property
@@ -88,9 +88,9 @@ class DiscreteSnapshot:
     @property
     def stress_error(self) -> float: ...
     @property
-    def stress_change(self) -> float: ...  # [-]: change of the same in the last doubling of the sweeps
+    def stress_change(self) -> float: ...  # [-]: change of the stress in the last doubling of the sweeps
     @property
-    def error_over_residual(self) -> float: ...  # [-]: error of grain stress over residual, measured once in the run; nan: not
+    def error_over_residual(self) -> float: ...  # [-]: error of grain stress over residual, measured once in a run; nan: unknown
     @property
     def window_time(self) -> float: ...  # [time]: length of the stage over which means are taken; 0: no stage yet
     @property
@@ -98,11 +98,11 @@ class DiscreteSnapshot:
     @property
     def upper_y(self) -> float: ...  # [length]: height of the upper platen
     @property
-    def left_x(self) -> float: ...  # [length]: place of the left wall; nan where there is none
+    def left_x(self) -> float: ...  # [length]: place of the left wall; nan: none
     @property
-    def right_x(self) -> float: ...  # [length]: place of the right wall; nan where there is none
+    def right_x(self) -> float: ...  # [length]: place of the right wall; nan: none
     @property
-    def cell_width(self) -> float: ...  # [length]: width of the periodic cell; 0 where there is none
+    def cell_width(self) -> float: ...  # [length]: width of the periodic cell; 0: none
     @property
     def area(self) -> float: ...  # [length^2]: of the outline
     @property
@@ -118,13 +118,13 @@ class DiscreteSnapshot:
     @property
     def upper_platen_force_y(self) -> float: ...  # [pressure length]: of the upper platen on the sample, last step
     @property
-    def contacts(self) -> Contacts: ...  # Candidate contacts of the last step; open ones carry no force.
+    def contacts(self) -> Contacts: ...  # Candidate contacts of the last step; open contacts carry no force.
     @property
-    def window(self) -> Contacts: ...  # Every pair that touched since the stage before: mean force (sum of impulses / time).
+    def window(self) -> Contacts: ...  # Every pair that touched since the previous stage, with its mean force.
     @property
-    def outline_left(self) -> Array: ...  # (m, 2) [length]: side of the sample's outline, upward
+    def outline_left(self) -> Array: ...  # (m, 2) [length]: side of the outline, upward
     @property
-    def outline_right(self) -> Array: ...  # (m, 2) [length]: side of the sample's outline, upward
+    def outline_right(self) -> Array: ...  # (m, 2) [length]: side of the outline, upward
 
 class ContinuumSnapshot:
     @property
@@ -150,11 +150,11 @@ class ContinuumSnapshot:
     @property
     def shear_strain(self) -> float: ...  # [-]: travel of the upper platen to the right / initial height
     @property
-    def progress(self) -> float: ...  # [as walk says]: what the loading has walked along its path
+    def progress(self) -> float: ...  # [as walk says]: loading variable
     @property
-    def walk(self) -> str: ...  # [-]: which attribute progress equals: axial_strain, shear_strain or time
+    def walk(self) -> str: ...  # [-]: the loading variable: axial_strain, shear_strain or time
     @property
-    def cells(self) -> Array: ...  # nodes of an element: corners anticlockwise, middles of the edges from the first, centre
+    def cells(self) -> Array: ...  # nodes of each element: corners anticlockwise, edge midpoints, centre
     @property
     def stress(self) -> Array: ...  # (n, 3, 3) [pressure]: of the cells, Cauchy stress
     @property
@@ -170,17 +170,17 @@ class ContinuumSnapshot:
     @property
     def dissipation(self) -> Array: ...  # (n) [pressure]: of the cells, plastic work per area since the start
     @property
-    def overstress(self) -> Array: ...  # (n) [pressure]: of the cells, part of the yield function that viscosity carries
+    def overstress(self) -> Array: ...  # (n) [pressure]: of the cells, part of the yield function carried by viscosity
     @property
     def share_zz_not_intermediate(self) -> Array: ...
     @property
     def acoustic_determinant(self) -> Array: ...  # (n) [-]: of the cells, least det(n C n) relative to the elastic one
     @property
-    def localisation_angle(self) -> Array: ...  # (n) [degrees]: of the cells, of the line that could form, from the horizontal
+    def localisation_angle(self) -> Array: ...  # (n) [degrees]: of the cells, possible band, from the horizontal
     @property
-    def friction_angle(self) -> Array: ...  # (n) [degrees]: of the cells, of the law at its state; elastic: 0
+    def friction_angle(self) -> Array: ...  # (n) [degrees]: of the cells, current value of the law; elastic: 0
     @property
-    def solid_fraction(self) -> Array: ...  # (n) [-]: of the cells, of a critical-state law; any other: 0
+    def solid_fraction(self) -> Array: ...  # (n) [-]: of the cells, of a critical-state law; other laws: 0
 
 class GrainResults:
     @property

@@ -1,6 +1,6 @@
-# diptych: what results are handed over in
+# diptych: the types of results
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Columns of a history, bands, meshes and maps."""
+"""Histories, bands, meshes and stress maps. Each repr() is one line."""
 
 from __future__ import annotations
 
@@ -17,13 +17,35 @@ if TYPE_CHECKING:
 Array = NDArray[Any]
 
 
-class History(dict[str, Array]):
-    """name of the column -> (n) array. `unit` and `meaning` say what a column is; frame() makes a pandas.DataFrame of it."""
+def brief(value: Any) -> str:
+    """A value in a few words: the shape of an array, a number to four digits, the length of a list or dict."""
+    if isinstance(value, np.ndarray):
+        return str(value.shape).replace(" ", "")
+    if isinstance(value, Interval):
+        return f"{value.value:.4g} [{value.low:.4g}, {value.high:.4g}]"
+    if isinstance(value, (float, np.floating)):
+        return f"{value:.4g}"
+    if isinstance(value, (dict, list, tuple)):
+        return f"{type(value).__name__} of {len(value)}"
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "..."
 
-    def __init__(self, columns: Mapping[str, Any], told: Mapping[str, tuple[str, str]]) -> None:
+
+def listed(name: str, values: Mapping[str, Any], most: int = 6) -> str:
+    """"Name(a=..., b=..., and 3 more)" on one line."""
+    parts = [f"{key}={brief(value)}" for key, value in list(values.items())[:most]]
+    if len(values) > most:
+        parts.append(f"and {len(values) - most} more")
+    return f"{name}({', '.join(parts)})"
+
+
+class History(dict[str, Array]):
+    """Columns over steps: name -> (n) array. `unit` and `meaning` describe the columns; frame() makes a pandas.DataFrame."""
+
+    def __init__(self, columns: Mapping[str, Any], described: Mapping[str, tuple[str, str]]) -> None:
         super().__init__((name, np.asarray(values)) for name, values in columns.items())
-        self.unit = {name: told[name][0] for name in self if name in told}
-        self.meaning = {name: told[name][1] for name in self if name in told}
+        self.unit = {name: described[name][0] for name in self if name in described}
+        self.meaning = {name: described[name][1] for name in self if name in described}
 
     def frame(self) -> "pandas.DataFrame":
         """All columns as a pandas.DataFrame; frame.attrs["unit"] has the units."""
@@ -33,9 +55,14 @@ class History(dict[str, Array]):
         frame.attrs["unit"] = self.unit
         return frame
 
+    def __repr__(self) -> str:
+        rows = len(next(iter(self.values()), ()))
+        names = ", ".join(list(self)[:6]) + (", ..." if len(self) > 6 else "")
+        return f"History({rows} rows, {len(self)} columns: {names})"
+
 
 class Interval(NamedTuple):
-    """A value with the ends of its 95 % interval; NaN where they are not known."""
+    """A value with the ends of its 95 % interval; NaN if unknown."""
 
     value: float
     low: float
@@ -43,13 +70,16 @@ class Interval(NamedTuple):
 
 
 class Record(dict[str, Any]):
-    """A dict whose entries can be read as attributes: probe.t_over_s."""
+    """A dict whose entries are also attributes: probe.t_over_s."""
 
     def __getattr__(self, name: str) -> Any:
         try:
             return self[name]
         except KeyError:
             raise AttributeError(f"there is no '{name}'; there are {', '.join(self)}") from None
+
+    def __repr__(self) -> str:
+        return listed("Record", self)
 
 
 class Mesh(NamedTuple):
@@ -68,8 +98,11 @@ class Mesh(NamedTuple):
         """(k, 2): means of the corners."""
         return np.asarray(self.polygons.mean(axis=1))
 
+    def __repr__(self) -> str:
+        return f"Mesh({len(self.nodes)} nodes, {len(self.cells)} cells)"
 
-@dataclass
+
+@dataclass(repr=False)
 class StressMap:
     """Stress of grains on the cells of a mesh, positive in compression; row index = component of the force."""
 
@@ -77,9 +110,9 @@ class StressMap:
     stress: Array  # (k, 2, 2) [pressure], raw: not made symmetric
     area: Array  # (k) [length^2]
     solid_fraction: Array  # (k) exact: area of the discs in a cell over its area
-    covered: Array  # (k) bool: grains cover at least half of what is typical
-    outside_share: float  # of |force| x branch, what lay outside the mesh and went to a boundary cell
-    total_relative_error: float  # of the sum over the cells from the sum over the contacts; round-off
+    covered: Array  # (k) bool: grains cover at least half of the typical share
+    outside_share: float  # share of |force| x branch outside the mesh, which went to boundary cells
+    total_relative_error: float  # difference of the sums over cells and over contacts; round-off
 
     @property
     def symmetric(self) -> Array:
@@ -99,7 +132,7 @@ class StressMap:
 
     @property
     def t_over_s(self) -> Array:
-        """(k): sine of the mobilised friction angle; NaN where a cell is not in compression."""
+        """(k): sine of the mobilised friction angle; NaN in cells that are not in compression."""
         return np.divide(self.t, self.s, out=np.full(len(self.area), np.nan), where=self.s > 0)
 
     @property
@@ -107,20 +140,25 @@ class StressMap:
         """(2, 2): mean stress over all cells [pressure]."""
         return np.asarray(np.einsum("k,kab->ab", self.area, self.stress) / self.area.sum())
 
+    def __repr__(self) -> str:
+        (xx, xy), (yx, yy) = self.total
+        return (f"StressMap({len(self.area)} cells, stress {brief(self.stress)}, mean [[{xx:.4g}, {xy:.4g}], [{yx:.4g}, {yy:.4g}]], "
+                f"outside_share={self.outside_share:.2g})")
 
-@dataclass
+
+@dataclass(repr=False)
 class Band:
     """A shear band: u = c + G x + (J/2) tanh((n.(x - centre) - offset) / half_width), n its normal with n_y >= 0."""
 
-    angle_deg: float  # of the band from the horizontal, in (-90, 90]
+    angle_deg: float  # from the horizontal, in (-90, 90]
     width_10_90: float  # [length]
     half_width: float  # [length]
     offset: float  # from the centre of the sample along the normal [length]
-    jump: float  # |J| / |platen increment|, positive when the side of the normal moves along (cos, sin)(angle)
-    dilation_deg: float  # positive when the band opens
+    jump: float  # |J| / |platen increment|; positive if the side of the normal moves along (cos, sin)(angle)
+    dilation_deg: float  # positive if the band opens
     r_squared: float
     r_squared_strips: float
-    no_packs_because: str  # what speaks against a zone between two packs; empty: nothing does
+    no_packs_because: str  # why this is no band between two packs; empty: it is one
     interval: dict[str, Interval]  # of angle_deg, width_10_90, half_width, offset, jump, dilation_deg
     centre: Array  # (2) of the sample [length]
 
@@ -131,22 +169,30 @@ class Band:
         return np.array([-np.sin(angle), np.cos(angle)])
 
     def line(self, length: float, at: float = 0.0) -> Array:
-        """(2, 2): ends of a line of this length along the band's middle; `at` moves it by so many half widths (1.0986: the edge
-        of the 10-90 % zone)."""
+        """(2, 2): ends of a line of this length along the middle of the band. `at` shifts the line across the band, in half widths
+        (1.0986: the edge of the 10-90 % width)."""
         angle = np.radians(self.angle_deg)
         along = 0.5 * length * np.array([np.cos(angle), np.sin(angle)])
         middle = self.centre + (self.offset + at * self.half_width) * self.normal
         return np.array([middle - along, middle + along])
 
+    def __repr__(self) -> str:
+        return (f"Band(angle_deg={self.angle_deg:.4g}, width_10_90={self.width_10_90:.4g}, offset={self.offset:.4g}, "
+                f"jump={self.jump:.4g}, r_squared={self.r_squared:.4g})")
 
-@dataclass
+
+@dataclass(repr=False)
 class BandReport:
-    """Bands of a displacement field, the strongest first; none: diffuse."""
+    """Bands of a displacement field, the strongest first. No band: the field is diffuse."""
 
     bands: list[Band]
     verdict: str
     converged: bool
-    bic: Array  # (3): of no, one and two bands
+    bic: Array  # (3): for no, one and two bands
     residual: Array  # (3): misfit / |platen increment|
     n_effective: float  # independent samples assumed
-    frame: dict[str, Any] = field(repr=False)  # what lengths were measured against: centre, width, height, ...
+    frame: dict[str, Any] = field(repr=False)  # reference lengths: centre, width, height, ...
+
+    def __repr__(self) -> str:
+        angles = ", ".join(f"{band.angle_deg:.4g} deg" for band in self.bands)
+        return f"BandReport(bands={len(self.bands)}{': ' + angles if angles else ''}; {self.verdict!r}, converged={self.converged})"

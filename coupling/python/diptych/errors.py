@@ -4,25 +4,22 @@
 
 from __future__ import annotations
 
-import re
-
-# A key as messages write it, not a part of a path; or a section that is none.
-_KEY = re.compile(r"(?<![\w/.-])(?:sample|loading|discrete|continuum|comparison|output)/\w+|(?<=unknown section ')[^']*")
-
 
 class SceneError(ValueError):
-    """A scene is wrong. The text names place, key, value and what is allowed; `key` is the first key that it names
-    ("sample/grains"; an unknown section by itself), None where it names none."""
+    """A scene is wrong. Attributes, as far as they are known: `file` and `line` (0: none), `key` ("sample/grains", or a section;
+    None: unknown), `value`, `allowed` and `hint`."""
 
-    def __init__(self, text: str) -> None:
-        super().__init__(text)
-        found = _KEY.search(text)
-        self.key: str | None = found.group() if found else None
+    file: str = ""
+    line: int = 0
+    key: str | None = None
+    value: str = ""
+    allowed: str = ""
+    hint: str = ""
 
 
 class NotConverged(RuntimeError):
-    """A panel or a law did not get further. What was reached stays in the panel."""
+    """A panel or a law did not converge. The panel keeps the results so far."""
 
 
 class SceneWarning(UserWarning):
-    """A key that nothing reads, or a value that is doubtful."""
+    """A key has no effect, or a value is doubtful."""

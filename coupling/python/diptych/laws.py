@@ -1,6 +1,6 @@
 # diptych: constitutive laws at one point
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Constitutive laws of the continuum on one homogeneous point."""
+"""Constitutive laws of the continuum at one homogeneous point."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ def _law_scene(law: Any, pressure: float) -> _diptych.Scene:
 
 
 def integrate(law: Any, strain_path: Any, stress: Any = None, pressure: float = 1.0, time: Any = None) -> Record:
-    """A law driven along prescribed strains, plane strain.
+    """Drives a law along prescribed strains, in plane strain.
 
     law          keys of the section continuum: {"law": "mohr_coulomb", "friction_angle_peak": 30, ...}, or a scene (dict or path)
-    strain_path  (n, 2, 2) or (n, 3) with xx, yy, xy: total strain, positive in compression (xy the tensor's component), the first
-                 one that of the start. Increments go to the law as they are: logarithmic strain for finite deformation.
+    strain_path  (n, 2, 2), or (n, 3) with xx, yy, xy: total strain, positive in compression; xy is the tensor's component. The first
+                 row is the start. The law takes the increments as given: use logarithmic strain for finite deformation.
     stress       (2, 2) at the start, positive in compression; default: the isotropic `pressure`, also out of the plane
-    pressure     what moduli and cohesion of the law count in [pressure]
-    time         (n), for laws with viscosity alone; default: rate independent
+    pressure     unit of the law's moduli and cohesion [pressure]
+    time         (n), only for laws with viscosity; default: rate independent
 
     Returns stress (n, 2, 2) [pressure], stress_zz (n), equivalent_plastic_strain (n), dissipation (n) [pressure], reliable (n).
-    Raises NotConverged naming the step where the law found no stress, SceneError on a wrong law, ValueError on a wrong path.
+    Raises NotConverged with the step at which the law found no stress, SceneError for a wrong law, ValueError for a wrong path.
     """
     strain = np.asarray(strain_path, dtype=float)
     if strain.ndim == 2 and strain.shape[1] == 3:
@@ -49,11 +49,13 @@ def integrate(law: Any, strain_path: Any, stress: Any = None, pressure: float = 
 
 
 def biaxial(law: Any, axial_strain: float = 0.1, pressure: float = 1.0, step: float = 1e-3) -> History:
-    """A law along the biaxial path: the lateral stress stays at `pressure`, the axial strain grows in equal steps to
-    `axial_strain` from an isotropic stress; plane strain, lateral strain by Newton's iteration to 1e-10 of the pressure.
+    """Drives a law along the biaxial path, in plane strain. The lateral stress stays at `pressure`; the axial strain grows in equal
+    steps to `axial_strain`, from an isotropic stress. Newton's iteration finds the lateral strain to 1e-10 of the pressure.
 
-    law as in integrate(). Returns the columns of material_point.csv (axial_strain, volumetric_strain, stress_ratio, ...).
-    Raises NotConverged where the law or the lateral strain was not found, SceneError, ValueError.
+    law  as in integrate()
+
+    Returns the columns of material_point.csv (axial_strain, volumetric_strain, stress_ratio, ...). Raises NotConverged if the law or
+    the lateral strain does not converge, SceneError, ValueError.
     """
     compiled = importlib.import_module("diptych._continuum")
     columns, failure = compiled.biaxial(_law_scene(law, pressure), axial_strain, step)
@@ -63,7 +65,7 @@ def biaxial(law: Any, axial_strain: float = 0.1, pressure: float = 1.0, step: fl
 
 
 def principal(stress: Any) -> tuple[Array, Array, Array]:
-    """(..., 2, 2) -> s1 >= s2 and the direction of s1 from the horizontal [degrees], of the symmetric part."""
+    """Principal stresses s1 >= s2 of the symmetric part of (..., 2, 2), and the direction of s1 from the horizontal [degrees]."""
     stress = np.asarray(stress, dtype=float)
     half = 0.5 * (stress[..., 0, 0] - stress[..., 1, 1])
     shear = 0.5 * (stress[..., 0, 1] + stress[..., 1, 0])

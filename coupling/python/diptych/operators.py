@@ -1,6 +1,6 @@
-# diptych: operators on anybody's arrays
+# diptych: operators on snapshots and on arrays
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Stress maps, bands, strips and probes, of snapshots of the panels and of anybody's arrays."""
+"""Stress maps, bands, strips and probes, from snapshots of the panels or from arrays."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _CONTACT = ("i", "j", "point", "force", "normal", "shift")
 
 
 def _column(table: Any, name: str) -> Any:
-    """An entry of a dict or a DataFrame, or an attribute; None where there is none."""
+    """An entry of a dict or a DataFrame, or an attribute; None if missing."""
     if isinstance(table, Mapping) or hasattr(table, "columns"):
         return table[name] if name in table else None
     return getattr(table, name, None)
@@ -34,7 +34,7 @@ def _grains(grains: Any) -> dict[str, Array]:
     if position.ndim != 2 or position.shape[1] != 2 or len(position) == 0:
         raise ValueError(f"position: an array of shape (n, 2) is needed, this one has {position.shape}")
     if radius.shape != (len(position),) or not np.all(radius > 0):
-        raise ValueError(f"radius: {len(position)} positive numbers are needed, one a grain")
+        raise ValueError(f"radius: {len(position)} positive numbers are needed, one per grain")
     return {"position": position, "radius": radius}
 
 
@@ -48,7 +48,7 @@ def _contacts(contacts: Any, grains: Any) -> dict[str, Any]:
     given = {name: _column(contacts, name) for name in _CONTACT}
     for name in _CONTACT[:4]:
         if given[name] is None:
-            raise ValueError(f"contacts: '{name}' is missing; diptych.contacts() makes points of what a code without them has")
+            raise ValueError(f"contacts: '{name}' is missing; diptych.contacts() computes points from grains, walls and forces")
     return given
 
 
@@ -62,22 +62,23 @@ def _mesh(mesh: Any) -> Mesh:
 
 
 def grid(lower: Any, upper: Any, size: float) -> Mesh:
-    """Equal rectangles over a box, lower and upper its corners (2) [length], their sides about `size` [length]."""
+    """A mesh of equal rectangles over the box from `lower` (2) to `upper` (2) [length], with sides of about `size` [length]."""
     return Mesh(**_diptych.grid(lower, upper, size))
 
 
 def contacts(grains: Any, i: Any, j: Any, force: Any, ids: Any = None,
-             walls: Mapping[int, tuple[Any, Any]] | None = None) -> dict[str, Array]:
-    """Contacts of discs with the points that many codes do not write: on the line of centres, and the foot on a wall.
+             walls: Mapping[int, tuple[Any, Any]] | None = None) -> Record:
+    """Completes contacts of discs with the contact points, which many codes do not write: on the line of centres, or the foot on a
+    wall.
 
     grains  position (n, 2), or x and y, and radius (or r) [length]: a dict, a DataFrame or a snapshot
-    i, j    (c): bodies, by the numbers in `ids` where that is given, else counted from 0
+    i, j    (c): numbers of the bodies, as in `ids` if given, else counted from 0
     force   (c, 2): force ON i from j
-    ids     (n): the grains' own numbers, in any order, gaps allowed
-    walls   number -> (a point on it (2), its inward normal (2)); they are renumbered on from the number of grains, in this order
+    ids     (n): numbers of the grains, in any order, gaps allowed
+    walls   number -> (a point on it (2), its inward normal (2)); the result numbers them after the grains, in this order
 
-    Returns i, j, point, normal, force for map_stress() and probe(). A wrong sign of `force` shows as a negative mean stress.
-    Raises ValueError naming the body that is not there.
+    Returns i, j, point, normal, force for map_stress() and probe(). If `force` has the wrong sign, the mean stress is negative.
+    Raises ValueError with the number of a missing body.
     """
     given, walls = _grains(grains), walls or {}
     position, radius = given["position"], given["radius"]
@@ -105,25 +106,25 @@ def contacts(grains: Any, i: Any, j: Any, force: Any, ids: Any = None,
         inward = np.asarray(inward, dtype=float) / np.linalg.norm(inward)
         normal[at] = inward
         point[at] = position[i[at]] - ((position[i[at]] - np.asarray(place)) @ inward)[:, None] * inward
-    return {"i": i, "j": j, "point": point, "normal": normal, "force": force}
+    return Record(i=i, j=j, point=point, normal=normal, force=force)
 
 
 def map_stress(grains: Any, contacts: Any = None, mesh: Any = None, method: str = "segments", *,
                period: float | None = None, **options: Any) -> StressMap:
-    """Contact forces of grains on the cells of a mesh: conservative, the sum over the cells is the sum over the contacts.
+    """Maps contact forces to stress on the cells of a mesh. Conservative: the sum over the cells equals the sum over the contacts.
 
     grains    snapshot of a DiscretePanel, or position (n, 2), or x and y, and radius (or r) [length] in a dict or a DataFrame
-    contacts  i, j (c), point (c, 2) [length], force (c, 2) ON i from j [pressure length]; i a grain, j a grain or, from n on, a
-              wall; shift (c) where j touches as its image. Default: of a snapshot the mean forces over the stage, or those of the
-              instant where there is no stage yet.
+    contacts  i, j (c), point (c, 2) [length], force (c, 2) ON i from j [pressure length]; i is a grain, j a grain or (from n on) a
+              wall; shift (c) of a periodic image of j. Default for a snapshot: the mean forces over the stage, or before the first
+              stage those of the instant.
     mesh      (nodes (m, 2), cells (k, 4) anticlockwise), grid(...), a continuum snapshot; default: grid over the grains' box, 3 d
     method    segments (branches cut by the cells), centroid, laguerre, kernel, projection
     period    width of a periodic cell [length], 0: none; default: that of the snapshot
-    options   averaging_kernel, averaging_width [mean diameters]: as in a scene's section comparison
+    options   averaging_kernel, averaging_width [mean diameters]: as in the section comparison of a scene
 
-    Returns a StressMap, stress (k, 2, 2) positive in compression, row index = component of the force. The spin term, small in
-    slow flow, is not added. Source: coupling/averaging (branches: Drescher & de Josselin de Jong 1972; Bagi 1996). Raises
-    SceneError on options, ValueError on arrays.
+    Returns a StressMap: stress (k, 2, 2) positive in compression, row index = component of the force. The spin term, small in slow
+    flow, is not added. Source: coupling/averaging (branches: Drescher & de Josselin de Jong 1972; Bagi 1996). Raises SceneError for a
+    wrong option, ValueError for a wrong array.
     """
     given = _grains(grains)
     pairs = _contacts(contacts, grains)
@@ -138,20 +139,20 @@ def map_stress(grains: Any, contacts: Any = None, mesh: Any = None, method: str 
     return StressMap(cells, **result)
 
 
-def increment(start: Any, end: Any) -> dict[str, Any]:
-    """Displacements between two snapshots of one panel, as find_bands() takes them: find_bands(**increment(a, b)).
+def increment(start: Any, end: Any) -> Record:
+    """Displacements between two snapshots of one panel, for find_bands(**increment(a, b)).
 
-    Returns points (n, 2) at the later instant, displacement (n, 2), weight (n): area of a grain, 0 where it rattles, or of a node;
-    of grains also mean_diameter, platen_increment and centre, width, height of the outline, as in the comparison. Raises
-    ValueError for snapshots of different grains."""
-    return _diptych.increment(start, end)
+    Returns points (n, 2) at the later instant, displacement (n, 2), and weight (n): the area of a node or a grain, 0 for rattlers.
+    For grains it also returns mean_diameter, platen_increment, and centre, width, height of the outline. Raises ValueError for
+    snapshots of different grains."""
+    return Record(_diptych.increment(start, end))
 
 
 def _frame(points: Array, displacement: Array, mean_diameter: float, given: Mapping[str, Any]) -> dict[str, Any]:
     low, high = points.min(0), points.max(0)
     frame = {"centre": 0.5 * (low + high), "width": high[0] - low[0], "height": high[1] - low[1],
              "mean_diameter": mean_diameter, **{name: value for name, value in given.items() if value is not None}}
-    if "platen_increment" not in frame:  # of points near the ends: there is always one at either
+    if "platen_increment" not in frame:  # from the points near both ends: each end has at least one
         top, bottom = points[:, 1] > high[1] - 2 * mean_diameter, points[:, 1] < low[1] + 2 * mean_diameter
         frame["platen_increment"] = displacement[top].mean(0) - displacement[bottom].mean(0)
     return frame
@@ -160,7 +161,7 @@ def _frame(points: Array, displacement: Array, mean_diameter: float, given: Mapp
 def _field(points: Any, displacement: Any, weight: Any) -> dict[str, Array]:
     points, displacement = np.asarray(points, dtype=float), np.asarray(displacement, dtype=float)
     if not (np.all(np.isfinite(points)) and np.all(np.isfinite(displacement))):
-        raise ValueError("points and displacement: all must be finite; leave out what is not")
+        raise ValueError("points and displacement: all must be finite; leave out the others")
     if points.ndim != 2 or points.shape[1:] != (2,) or points.shape != displacement.shape or len(points) == 0:
         raise ValueError(f"points and displacement: (n, 2) each are needed, they have {points.shape} and {displacement.shape}")
     return {"position": points, "increment": displacement, "weight": np.ones(len(points)) if weight is None else weight}
@@ -169,22 +170,22 @@ def _field(points: Any, displacement: Any, weight: Any) -> dict[str, Array]:
 def find_bands(points: Any, displacement: Any, mean_diameter: float, *, weight: Any = None, platen_increment: Any = None,
                centre: Any = None, width: float | None = None, height: float | None = None, seed: int = 1,
                **options: Any) -> BandReport:
-    """Shear bands in a displacement field, the same operator for grains, nodes and image correlation.
+    """Finds shear bands in a displacement field of grains, nodes or image correlation.
 
-    points            (n, 2) [length], where they are at the end of the increment
+    points            (n, 2) [length] at the end of the increment
     displacement      (n, 2) [length]
-    mean_diameter     of the grains [length]: what widths and correlation are measured in
-    weight            (n): area a point stands for; 0: left out; default: alike
-    platen_increment  (2) [length]: what jumps count in; default: mean displacement within 2 d of the uppermost point less that
-                      within 2 d of the lowest
-    centre, width, height  of the sample [length]; default: of the points' box
-    seed              draws the blocks of the intervals, nothing else
-    options           max_bands, huber_threshold, correlation_length, minimum_jump, residual_floor, band_resamples: as in a
-                      scene's section comparison
+    mean_diameter     of the grains [length]: unit of widths and correlation lengths
+    weight            (n): area of each point, 0 leaves it out; default: equal
+    platen_increment  (2) [length]: unit of the jumps; default: mean displacement within 2 d of the uppermost point minus that within
+                      2 d of the lowest
+    centre, width, height  of the sample [length]; default: of the box of the points
+    seed              for the random blocks of the intervals
+    options           max_bands, huber_threshold, correlation_length, minimum_jump, residual_floor, band_resamples: as in the section
+                      comparison of a scene
 
-    Returns a BandReport; angles in degrees from the horizontal, lengths in the unit of the points, 95 % intervals by block
-    bootstrap. Fits no, one and two tanh profiles with Huber loss and takes their number by BIC (coupling/bands). Raises SceneError
-    on options, ValueError for fewer than 30 points of weight or a platen increment of zero.
+    Fits no, one and two tanh profiles with Huber loss and chooses their number by BIC (coupling/bands). Returns a BandReport: angles
+    in degrees from the horizontal, lengths in the unit of the points, 95 % intervals by block bootstrap. Raises SceneError for a wrong
+    option, ValueError for fewer than 30 points with weight or a platen increment of zero.
     """
     field = _field(points, displacement, weight)
     frame = _frame(field["position"], field["increment"], mean_diameter,
@@ -202,10 +203,10 @@ def strips(points: Any, displacement: Any, mean_diameter: float, band: Any = 45.
     """Mean displacement along a band in strips parallel to it (Moreau 1997).
 
     points, displacement, mean_diameter, weight, platen_increment  as in find_bands()
-    band    a Band, or an angle from the horizontal [degrees] with `offset` of the middle from the points' centre [length]
-    n       number of strips, over 30 mean diameters to either side as far as the sample reaches
+    band    a Band, or an angle from the horizontal [degrees] with the `offset` of its middle from the centre of the points [length]
+    n       number of strips; they reach 30 mean diameters to both sides, or to the edge of the sample
 
-    Returns edges (n + 1) along the normal from the centre [length]; mean, deviation (n) over |platen increment|, NaN in an empty
+    Returns edges (n + 1) along the normal from the centre [length]; mean and deviation (n) over |platen increment|, NaN in an empty
     strip; count (n); angle_deg.
     """
     field = _field(points, displacement, weight)
@@ -217,27 +218,27 @@ def strips(points: Any, displacement: Any, mean_diameter: float, band: Any = 45.
 
 
 def shear_strain(points: Any, displacement: Any, at: Any = None, *, radius: float, weight: Any = None) -> Array:
-    """(m): eps_1 - eps_2 >= 0 of the displacement gradient fitted to the points within `radius` [length] (2.5 mean diameters in
-    the comparison) of each of `at` (m, 2), default: at the points. NaN where fewer than 4 points are there."""
+    """(m): eps_1 - eps_2 >= 0 at the places `at` (m, 2); default: at the points. The displacement gradient is fitted to the points
+    within `radius` [length]; the comparison uses 2.5 mean diameters. NaN for fewer than 4 points."""
     field = _field(points, displacement, weight)
     return _diptych.shear_strain(field, field["position"] if at is None else at, radius)
 
 
 def probe(sample: Any, where: Any, contacts: Any = None, *, angle_deg: float = 0.0, block: float | None = None,
           resamples: int = 400, seed: int = 1) -> Record:
-    """Mean stress and fabric of a part of the sample, with 95 % intervals (Moreau 1997).
+    """Mean stress and fabric in a polygon or circle, with 95 % intervals (Moreau 1997).
 
-    sample     a snapshot (means over the stage, spin term included, as in the comparison), or grains with `contacts` as in
-               map_stress(), without spin term; or a StressMap, whose cells are then averaged
-    where      (m, 2): corners of a polygon, anticlockwise; or (x, y, radius) of a circle (grains alone)
-    angle_deg  direction of the blocks that are drawn for the intervals [degrees]
-    block      their smallest side [length]; default: 5 mean diameters
-    resamples  fewer than 40: no intervals
+    sample     a snapshot (means over the stage with the spin term, as in the comparison); or grains with `contacts` as in
+               map_stress(), without the spin term; or a StressMap, whose cells are averaged
+    where      (m, 2): corners of a polygon, anticlockwise; or (x, y, radius) of a circle, only for grains
+    angle_deg  direction of the bootstrap blocks [degrees]
+    block      smallest side of the blocks [length]; default: 5 mean diameters
+    resamples  number of bootstrap samples; fewer than 40: no intervals
 
-    Returns stress (2, 2), s1 >= s2, t_over_s, direction_deg of s1; of a polygon of grains fabric (2, 2), anisotropy,
-    fabric_direction_deg, contacts, solid_fraction, count and interval: name -> (value, low, high); of a circle the tractions on
-    its diameters (angles_deg, normal, tangential) and what the mean stress predicts of them. Stress positive in compression. Raises
-    ValueError naming the argument.
+    Returns stress (2, 2) positive in compression, s1 >= s2, t_over_s and direction_deg of s1. For a polygon of grains also fabric
+    (2, 2), anisotropy, fabric_direction_deg, contacts, solid_fraction, count, and interval: name -> (value, low, high). For a circle
+    also the tractions on its diameters (angles_deg, normal, tangential) and those predicted by the mean stress. Raises ValueError
+    with the name of the argument.
     """
     if isinstance(sample, StressMap):
         return Record(_diptych.probe_cells(sample.mesh._asdict(), sample.stress, np.asarray(where, dtype=float)))

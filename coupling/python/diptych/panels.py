@@ -1,6 +1,6 @@
 # diptych: both panels as objects
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The discrete and the continuum panel: prepare, advance from stage to stage, look at snapshots."""
+"""The discrete and the continuum panel: prepare, advance from stage to stage, read snapshots."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ OnStep = Optional[Callable[[dict[str, Any]], Any]]
 
 
 class _Panel:
-    """What both panels have in common."""
+    """The common part of both panels."""
 
     _columns: Callable[[], dict[str, tuple[str, str]]]
-    _table: str  # of its files
+    _table: str  # name of its files
 
     def __init__(self, scene: _diptych.Scene, make: Callable[[], Any], on_step: OnStep) -> None:
         self._scene, self._make, self._panel, self._prepared = scene, make, make(), False
@@ -32,51 +32,53 @@ class _Panel:
 
     @property
     def scene(self) -> dict[str, dict[str, Any]]:
-        """The checked scene, every key."""
+        """The checked scene with every key."""
         return self._scene.dict()
 
     @property
     def stages(self) -> Array:
-        """(m): progress at stages 1 ... m (axial strain, shear strain or time, as the loading walks)."""
+        """(m): progress at the stages 1 ... m: axial strain, shear strain or time, depending on the loading."""
         return np.array(self._scene.stages())
 
     @property
     def stage(self) -> int:
-        """How many stages are reached."""
+        """Number of stages reached."""
         return int(self._panel.stage())
 
     @property
     def history(self) -> History:
-        """Columns of discrete.csv or continuum.csv, one row a step; .frame() makes a pandas.DataFrame."""
+        """Columns of discrete.csv or continuum.csv, one row per step; .frame() makes a pandas.DataFrame."""
         return History(self._panel.history(), type(self)._columns())
 
     @property
     def report(self) -> Record:
-        """What became of the sample so far: steps, cost, message."""
+        """State of the panel: steps, cost, message."""
         return Record(self._panel.report())
 
     def snapshot(self) -> Any:
-        """The present instant; also from on_step. Its arrays are read only and share its memory."""
+        """The present instant; may be called from on_step. Its arrays are read only and share its memory."""
         return self._panel.snapshot()
 
     def prepare(self) -> str:
-        """Makes the sample ready and keeps its snapshot. Returns "finished". Raises NotConverged. A preparation that was
-        interrupted begins anew with the next call."""
+        """Prepares the sample and keeps its snapshot. Returns "finished". Raises NotConverged. After an interruption the next call
+        starts the preparation again."""
         if self._prepared:
             raise RuntimeError("the sample is prepared already")
         if self.status != "new":
             self._panel = self._make()
         self.status = "stopped"
-        status = self._told(self._panel.prepare(self.on_step))
+        status = self._checked(self._panel.prepare(self.on_step))
         self._prepared = True
         self.snapshots.append(self.snapshot())
         return status
 
     def advance(self, stage: int | None = None) -> str:
-        """Loads up to a stage (1, 2, ...; default: the next one) and keeps the snapshot of each that it reaches; prepares before
-        where that was not done. Returns "finished", or "stopped" where on_step returned False: another advance() goes on, with
-        the bits of a run that was never stopped. Raises NotConverged; what on_step raises, and KeyboardInterrupt, come out after
-        the step that is under way, and the panel may go on."""
+        """Loads the sample up to a stage (1, 2, ...; default: the next one) and keeps a snapshot of each stage on the way. Prepares
+        the sample first if necessary.
+
+        Returns "finished", or "stopped" if on_step returned False. Another advance() then continues, with the same bits as a run
+        without the stop. Raises NotConverged. Exceptions of on_step and KeyboardInterrupt are raised after the present step; the
+        panel can continue."""
         last = self.stage + 1 if stage is None else stage
         if not 1 <= last <= len(self.stages):
             raise ValueError(f"stage = {last}: the loading has stages 1 ... {len(self.stages)}")
@@ -89,18 +91,18 @@ class _Panel:
             finally:
                 if self.stage > before:
                     self.snapshots.append(self.snapshot())
-            if self._told(status) != "finished":
+            if self._checked(status) != "finished":
                 break
         return self.status
 
     def run(self) -> str:
-        """Prepares and loads through all stages. Returns as advance() does."""
+        """Prepares the sample and loads it through all stages. Returns as advance() does."""
         return self.advance(len(self.stages))
 
     def write(self, folder: str | os.PathLike[str]) -> None:
-        """Snapshots and history as the program writes them (.h5, .xdmf, .csv). Raises FileNotFoundError where there is no such
-        folder, FileExistsError where it is one of the program's: what stands there is known by its scene and its sums; and where
-        a table of that name stands there alone, which is somebody's."""
+        """Writes snapshots and history like the program (.h5, .xdmf, .csv). Raises FileNotFoundError if the folder does not exist.
+        Raises FileExistsError for a result folder of the program, whose files have checksums, and for a folder that holds a table
+        of this name without snapshots."""
         if not os.path.isdir(folder):
             raise FileNotFoundError(f"{os.fspath(folder)}: no such folder")
         for name in ("scene.prm", "ensemble.prm", "study_input.json", "calibration_input.json"):
@@ -117,7 +119,7 @@ class _Panel:
     def _write(self, results: Any, folder: str) -> None:
         raise NotImplementedError
 
-    def _told(self, status: str) -> str:
+    def _checked(self, status: str) -> str:
         self.status = status
         if status == "not_converged":
             raise NotConverged(self._panel.report()["message"])
@@ -131,13 +133,13 @@ class DiscretePanel(_Panel):
     """A sample of grains loaded through the stages of a scene (Non-Smooth Contact Dynamics, Moreau 1988; Jean 1999).
 
     scene    dict or path, see scene()
-    on_step  called with every row of the history (a step; springs: as discrete/history_interval says), a dict with the columns of
-             discrete.csv; returns False to stop. The GIL is released while steps are computed and taken for the callback, which
-             may look at snapshot() but not advance.
-    grains   {"position": (n, 2) [length], "radius": (n) [length]}: own grains in the place of a prepared sample, put between
-             platens and sides as those of a file are
+    on_step  called with every row of the history, a dict with the columns of discrete.csv: one row per step, for springs one per
+             discrete/history_interval. Return False to stop. The GIL is released during the steps. The callback may call
+             snapshot() but not advance().
+    grains   {"position": (n, 2) [length], "radius": (n) [length]}: replaces the prepared sample; platens and sides are placed as for
+             a sample from a file
 
-    Raises SceneError, and ValueError on options that contradict each other. The numbers are the program's, bit by bit.
+    Raises SceneError, and ValueError for options that contradict each other. The numbers are bit by bit those of the program.
 
     >>> panel = DiscretePanel({"sample": {"grains": 200}, "loading": {"axial_strain": 0.01, "stage_strain": 0.005}})
     >>> panel.run()
@@ -160,12 +162,11 @@ class ContinuumPanel(_Panel):
     """The same sample as an elasto-plastic continuum on a mesh (deal.II), loaded through the same stages.
 
     scene    dict or path, see scene()
-    grains   snapshot of the prepared grains (DiscretePanel.snapshots[0]), needed for continuum/mesh = outline, the default: its
-             outline is meshed, its stress and solid fraction are mapped where the scene wants that
-    on_step  called with every row of the history, a dict with the columns of continuum.csv; returns False to stop
+    grains   snapshot of the prepared grains (DiscretePanel.snapshots[0]). continuum/mesh = outline, the default, needs it: its outline
+             is meshed, and its stress and solid fraction are mapped if the scene asks for that.
+    on_step  called with every row of the history, a dict with the columns of continuum.csv; return False to stop
 
-    MPI is started with the first panel and ended with the process; one that runs already (mpi4py) is used. Raises SceneError and
-    ValueError.
+    The first panel starts MPI, unless mpi4py did; the end of the process ends it. Raises SceneError and ValueError.
     """
 
     _columns = staticmethod(_diptych.continuum_columns)
@@ -173,7 +174,7 @@ class ContinuumPanel(_Panel):
 
     def __init__(self, scene: scenes.SceneLike, grains: Any = None, on_step: OnStep = None) -> None:
         read = scenes.read(scene)
-        compiled = importlib.import_module("diptych._continuum")  # deal.II, only when it is needed
+        compiled = importlib.import_module("diptych._continuum")  # loads deal.II only now
         super().__init__(read, lambda: compiled.ContinuumPanel(read, grains), on_step)
 
     def _write(self, results: Any, folder: str) -> None:

@@ -1,6 +1,6 @@
 # diptych: contact problems
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The contact solvers on stored problems and on anybody's arrays."""
+"""The contact solvers, for stored problems and for arrays."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .arrays import Record
 
 
 def _rows_of(w: Any) -> tuple[Any, Any, Any]:
-    """Compressed rows of a dense or a SciPy matrix."""
+    """Row pointers, columns and values of a dense or a SciPy matrix."""
     if hasattr(w, "tocsr"):
         w = w.tocsr()
     if hasattr(w, "indptr"):
@@ -33,12 +33,13 @@ def solve(problem: Any, tolerance: float = 2e-5, guess: Any = None, form: str | 
                SciPy matrix, normal component of each contact first; q (2c) [length/time]; mu (c)
     tolerance  of the natural map residual, relative to |r|
     guess      (c, 2): first guess of the impulses; default: zeros
-    form       of a file: "body" or "local"; default: bodies where it has them
+    form       form of the problem in a file: "body" or "local"; default: "body" if the file holds it
     options    keys of the section discrete: solver ("psor" or "nsgs"), max_sweeps, omega_sticking, omega_slipping,
                sweeps_per_check
 
     Returns r (c, 2) impulses and u (c, 2) relative velocities, normal part first; status ("converged" or "max_sweeps_reached"),
-    sweeps, residual, siconos_residual, cpu_s. Raises SceneError on options, ValueError naming file and dataset, or array.
+    sweeps, residual, siconos_residual, cpu_s. Raises SceneError for a wrong option, and ValueError with the file and dataset, or the
+    array.
     """
     keys: dict[str, Any] = {"tolerance": tolerance, **{name: scenes.text_of(value) for name, value in options.items()}}
     if isinstance(problem, (str, os.PathLike)):

@@ -1,4 +1,4 @@
-# diptych: result folders and comparisons
+# diptych: result folders and comparisons as arrays
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Result folders of the program as arrays, and the comparison of both panels."""
 
@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import json
 import os
-import warnings
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,24 +15,27 @@ from .panels import ContinuumPanel, DiscretePanel
 
 
 class PanelResults:
-    """What one panel left in a folder: `snapshots` (the prepared sample first, then one a stage) and `history`."""
+    """Results of one panel in a folder: `snapshots` (the prepared sample, then one per stage) and `history`."""
 
-    def __init__(self, results: Any, told: dict[str, tuple[str, str]]) -> None:
-        self._kept, self._told = results, told
+    def __init__(self, results: Any, described: dict[str, tuple[str, str]]) -> None:
+        self._kept, self._described = results, described
         self.snapshots: list[Any] = results.snapshots
 
     @property
     def history(self) -> History:
         """Columns of discrete.csv or continuum.csv; .frame() makes a pandas.DataFrame."""
-        return History(self._kept.history(), self._told)
+        return History(self._kept.history(), self._described)
 
     def _results(self) -> Any:
         return self._kept
 
+    def __repr__(self) -> str:
+        return f"PanelResults({len(self.snapshots)} snapshots, {len(self.history['time'])} steps)"
 
-@dataclass
+
+@dataclass(repr=False)
 class Results:
-    """A result folder; None where it has no such panel."""
+    """A result folder. A panel without results is None."""
 
     folder: str
     scene: dict[str, dict[str, Any]] | None
@@ -41,18 +43,26 @@ class Results:
     continuum: PanelResults | None
     coarse: PanelResults | None
 
+    def __repr__(self) -> str:
+        panels = [name for name in ("discrete", "continuum", "coarse") if getattr(self, name) is not None]
+        return f"Results({self.folder!r}: {', '.join(panels)})"
 
-@dataclass
+
+@dataclass(repr=False)
 class Comparison:
-    """Numbers as in comparison.json; of every stage the fields of both panels, under their names in comparison.h5."""
+    """The comparison of both panels: numbers as in comparison.json, fields of every stage with the names of comparison.h5."""
 
     numbers: dict[str, Any]
-    fields: list[dict[str, Any]]  # on the continuum's mesh: name -> (k), (k, 2) or (k, 2, 2); nodes (m, 2), cells (k, 4)
+    fields: list[dict[str, Any]]  # on the mesh of the continuum: name -> (k), (k, 2) or (k, 2, 2); nodes (m, 2), cells (k, 4)
     grid: list[dict[str, Any]]  # the same on the regular grid
 
     def mesh(self, stage: int = -1) -> Mesh:
-        """The continuum's mesh at a stage, in its shape there."""
+        """The deformed mesh of the continuum at a stage."""
         return Mesh(self.fields[stage]["nodes"], self.fields[stage]["cells"])
+
+    def __repr__(self) -> str:
+        cells = len(self.fields[-1]["cells"]) if self.fields else 0
+        return f"Comparison({len(self.fields)} stages, {len(self.numbers.get('windows') or [])} windows, mesh of {cells} cells)"
 
 
 def _panel(folder: str, name: str) -> PanelResults | None:
@@ -64,10 +74,10 @@ def _panel(folder: str, name: str) -> PanelResults | None:
 
 
 def load(folder: str | os.PathLike[str]) -> Results:
-    """A result folder of `diptych run`, `discrete` or `continuum`: scene, snapshots and histories of what is there.
+    """Reads a result folder of `diptych run`, `discrete` or `continuum`: scene, snapshots and histories.
 
-    Raises FileNotFoundError where no panel left anything, ValueError naming file and array where one is damaged or the file is not
-    what the run left, by the sums of provenance.json. Warns where that holds none.
+    Raises FileNotFoundError if there are no results. Raises ValueError, with file and array, if an array is damaged or a file does not
+    have the checksum of provenance.json. Warns if provenance.json has no checksum for a file.
     """
     folder = os.fspath(folder)
     prm = os.path.join(folder, "scene.prm")
@@ -82,13 +92,14 @@ def load(folder: str | os.PathLike[str]) -> Results:
 def compare(folder: str | os.PathLike[str] | Results | None = None, *, scene: Any = None,
             discrete: DiscretePanel | PanelResults | None = None, continuum: ContinuumPanel | PanelResults | None = None,
             coarse: ContinuumPanel | PanelResults | None = None) -> Comparison:
-    """Both panels at the same instants through the same operators: mapping, bands, strips, probes, intervals.
+    """Compares both panels at the same instants with the same operators: mapping, bands, strips, probes, intervals.
 
-    folder  result folder, or what load() made of it; or else, of runs in this process,
-    scene, discrete, continuum, coarse  dict or path, and the panels (`coarse`: on the coarse mesh, may be left out)
+    Give either
+    folder  a result folder, or the Results that load() returned; or, for panels of this process,
+    scene, discrete, continuum, coarse  a dict or path, and the panels (`coarse`: on the coarse mesh, optional)
 
-    Raises ValueError where the panels share no stage beyond the start. Numbers that only the program knows of a run (CPU time)
-    are missing or zero for panels of this process.
+    Raises ValueError if the panels have no common stage after the start. For panels of this process, numbers that only the program
+    measures (CPU time) are missing or zero.
     """
     place = ""
     if folder is not None:

@@ -20,7 +20,7 @@ Change = tuple[str, str, str]
 
 
 def text_of(value: Any) -> str:
-    """A value as a scene file holds it; None is "auto"."""
+    """A value as text of a scene file; None is "auto"."""
     if value is None:
         return "auto"
     if isinstance(value, str):
@@ -51,7 +51,7 @@ def _changes(sections: Mapping[str, Any]) -> Iterator[Change]:
 
 
 def read(scene: SceneLike, overrides: Mapping[str, Any] = {}, compares: bool = False) -> _diptych.Scene:
-    """The checked scene as the compiled module holds it; points out what is doubtful as SceneWarning."""
+    """The checked scene of the compiled module. Doubtful values give a SceneWarning."""
     if isinstance(scene, _diptych.Scene):
         if not overrides:
             return scene
@@ -66,16 +66,16 @@ def read(scene: SceneLike, overrides: Mapping[str, Any] = {}, compares: bool = F
 
 
 def scene(scene: SceneLike, compares: bool = False, **overrides: Any) -> dict[str, dict[str, Any]]:
-    """A scene with every key, checked like a file.
+    """Checks a scene like a file and returns it with every key.
 
-    scene      nested dict {"sample": {"grains": 500}}, or the path of a .prm or .json file; keys that are missing take their
-               defaults. Values as in a file: numbers, True and False, texts, lists of numbers; None is "auto". Files that a dict
-               names are found from the working directory.
-    compares   whether both panels will be compared, so that the windows of the comparison must be stages
-    overrides  sections with keys to change: scene(path, sample={"seed": 2}); "section/key" works too: **{"sample/seed": 2}
+    scene      nested dict {"sample": {"grains": 500}}, or the path of a .prm or .json file. Missing keys take their defaults. Values
+               are numbers, True, False, texts or lists of numbers; None is "auto". Paths in a dict are relative to the working
+               directory.
+    compares   True if both panels will be compared: the edges of the windows must then be stages
+    overrides  sections with keys to change: scene(path, sample={"seed": 2}), or **{"sample/seed": 2}
 
-    Returns a dict of all sections and keys. Raises SceneError naming the key, its value and what is allowed. What is doubtful is
-    pointed out as SceneWarning.
+    Returns a dict of all sections and keys. Raises SceneError with the key, its value and what is allowed. Doubtful values give a
+    SceneWarning.
 
     >>> scene({"sample": {"grains": 500}})["sample"]["grains"]
     500
@@ -84,5 +84,5 @@ def scene(scene: SceneLike, compares: bool = False, **overrides: Any) -> dict[st
 
 
 def keys(section: str = "") -> dict[str, tuple[str, str, str]]:
-    """"section/key" -> (unit, what is allowed, meaning), of all keys or of one section."""
-    return {name: told for name, told in _diptych.described_keys().items() if name.startswith(section and section + "/")}
+    """"section/key" -> (unit, allowed values, meaning), for all keys or for one section."""
+    return {name: described for name, described in _diptych.described_keys().items() if name.startswith(section and section + "/")}

@@ -1,4 +1,4 @@
-// diptych: parameters found again, with intervals that hold
+// diptych: a calibration finds known parameters again, and its intervals hold
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 #include <random>
@@ -52,12 +52,12 @@ namespace
     EXPECT_EQ(start_of("medium"), "");
     EXPECT_EQ(start_of(""), "");
     EXPECT_NEAR(coordinates.values(coordinates.start())[2], 6, 1e-9);
-    // What differs between targets gives a common parameter no value.
+    // A key that differs between targets gives a common parameter no value.
     const CalibrationParameter share = {"dilatancy_angle_peak", Coordinate::share_of, "friction_angle_start", 0.5, 0, 1};
     EXPECT_THROW(Coordinates({common, dense, loose, share}, {{"friction_angle_start", 20}}), std::invalid_argument);
   }
 
-  // r = 100 (data - a exp(-b t)) in scaled coordinates; beyond a wall there is no run.
+  // r = 100 (data - a exp(-b t)) in scaled coordinates. Beyond the wall the run fails.
   std::vector<Eigen::VectorXd> decays(const std::vector<Eigen::VectorXd> &points, const double wall, int &runs)
   {
     std::vector<Eigen::VectorXd> residuals;
@@ -86,12 +86,12 @@ namespace
       }
   }
 
-  TEST(LeastSquares, KeepsToBoundsAndOutOfWhatHasNoRun)
+  TEST(LeastSquares, KeepsToBoundsAndAvoidsFailedRuns)
   {
     int        runs   = 0;
     const auto walled = least_squares([&](const auto &points) { return decays(points, 0.45, runs); }, Eigen::Vector2d(0.1, 0.6));
     EXPECT_LE(walled.point[0], 0.45);
-    EXPECT_GT(walled.point[0], 0.35) << "it should come near the wall that hides the minimum";
+    EXPECT_GT(walled.point[0], 0.35) << "it should come close to the wall in front of the minimum";
     const auto beyond = least_squares(
       [&](const std::vector<Eigen::VectorXd> &points) {
         std::vector<Eigen::VectorXd> shifted = points;
@@ -106,7 +106,7 @@ namespace
     EXPECT_FALSE(nothing.words.empty());
   }
 
-  // Samples with a known level, shape, growth and width.
+  // Samples with known level, shape, growth and width.
   TargetData drawn(const NoiseModel              &noise,
                    const std::vector<Observable> &observables,
                    const Eigen::VectorXd         &truth,
@@ -171,13 +171,13 @@ namespace
     const auto data    = drawn(usual_noise(), usual_observables(), Eigen::VectorXd::Constant(29, 0.3), 4, 3);
     const auto weights = working_weights(usual_noise(), {}, data);
     const auto one     = 1 / std::sqrt(weights[12]);
-    EXPECT_NEAR(one, std::hypot(0.008, 0.0045 / 2), 1e-4) << "0.008 granted, 0.0045 of shape on four samples";
+    EXPECT_NEAR(one, std::hypot(0.008, 0.0045 / 2), 1e-4) << "model tolerance 0.008, shape 0.0045 on four samples";
   }
 
-  TEST(Identification, SaysWhatTheDataDoNotTell)
+  TEST(Identification, ReportsParametersThatTheDataDoNotDetermine)
   {
     Eigen::MatrixXd jacobian(3, 3);
-    jacobian << 1, 0, 0, 0, 1, 1, 0, 0, 0; // the second and the third only together
+    jacobian << 1, 0, 0, 0, 1, 1, 0, 0, 0; // only the sum of the second and third is determined
     const auto known = identify(jacobian, Eigen::Vector3d::Constant(1e4), 1e-4 * Eigen::Matrix3d::Identity());
     EXPECT_TRUE(known.is_identified[0]);
     EXPECT_FALSE(known.is_identified[1]);
@@ -218,7 +218,7 @@ namespace
     return record;
   }
 
-  // Without a discrepancy, which synthetic data have none of.
+  // Synthetic data need no model tolerance.
   Calibration exact()
   {
     Calibration c              = six_parameters();
@@ -255,9 +255,9 @@ namespace
     EXPECT_LE(record.fine_runs, 10);
   }
 
-  // Two preparations of one material: what each had mobilised is its own, everything else in common. A third path takes no part
-  // in what belongs to the others.
-  TEST(Calibrate, FindsWhatBelongsToOneTarget)
+  // Two preparations of one material. Each has its own initial mobilisation; all other parameters are common. A third path has
+  // none of the two own values.
+  TEST(Calibrate, FindsValuesOfSingleTargets)
   {
     Calibration c        = exact();
     c.noise.stress_level = c.noise.stress_shape = 1e-5, c.noise.volume_start = c.noise.volume_growth = 1e-6;
@@ -291,7 +291,7 @@ namespace
     ASSERT_EQ(record.own.size(), 2u);
     EXPECT_EQ(record.own[0].target, "dense");
     EXPECT_NEAR(record.own[1].value, 5, 5e-3);
-    EXPECT_EQ(record.settings.size(), c.fixed.size() + 2) << "what is one target's own is no setting of all";
+    EXPECT_EQ(record.settings.size(), c.fixed.size() + 2) << "a value of one target must not be a setting of all";
   }
 
   struct Coverage
@@ -303,7 +303,8 @@ namespace
     double share() const { return double(held) / n; }
   };
 
-  // Twenty data sets of four samples: errors over half widths of the intervals, told in deviations of a normal law.
+  // Twenty data sets of four samples. Errors are relative to half the interval, expressed in deviations of a normal
+  // distribution.
   Coverage coverage_of(const Calibration &c)
   {
     const NoiseModel      noise       = usual_noise();
@@ -343,12 +344,12 @@ namespace
     EXPECT_GE(found.share(), 0.88);
   }
 
-  // The same where four samples must tell the noise, too: Student's quantile keeps what the normal one would lose.
-  TEST(Calibrate, IntervalsHoldWithNoiseThatFourSamplesTell)
+  // The same with noise estimated from four samples. Student's quantile keeps the coverage that the normal one would lose.
+  TEST(Calibrate, IntervalsHoldWithNoiseFromFourSamples)
   {
     const Coverage found = coverage_of(exact());
     ASSERT_GE(found.n, 60);
     EXPECT_GE(found.share(), 0.88);
-    EXPECT_GT(found.rms(), 0.4) << "intervals are no wider than they need be";
+    EXPECT_GT(found.rms(), 0.4) << "the intervals must not be too wide";
   }
 } // namespace

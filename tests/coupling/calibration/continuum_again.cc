@@ -1,4 +1,4 @@
-// diptych: seven parameters of the continuum's boundary problem, from its own data and a poor start
+// diptych: finds seven parameters of a boundary problem from its own data and a poor start
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 
@@ -74,7 +74,7 @@ namespace
     ASSERT_EQ(observables.size(), 28u);
     const ModelRun truth = run_of(coordinates.settings(point_of(c, truths), ""), observables);
     ASSERT_TRUE(truth.words.empty()) << truth.words;
-    ASSERT_TRUE(std::isfinite(truth.observation.angle_deg)) << "there is no band to take a width of";
+    ASSERT_TRUE(std::isfinite(truth.observation.angle_deg)) << "there is no band to measure";
     TargetData data;
     data.observables = observables;
     data.samples     = {truth.observation.values, truth.observation.values};

@@ -1,4 +1,4 @@
-// diptych: a material point in the place of the continuum's boundary problem, for tests of calibrations
+// diptych: a material point instead of the continuum's boundary problem, for tests of calibrations
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 

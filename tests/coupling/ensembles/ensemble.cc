@@ -1,4 +1,4 @@
-// diptych: statistics over realisations: means, intervals, lines, equivalence, what is read from comparisons
+// diptych: statistics over members: means, intervals, lines, equivalence, numbers of comparisons
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 #include <numeric>
@@ -20,8 +20,8 @@ namespace
   // Quantiles of Student's distribution with 3 degrees of freedom, from printed tables: 0.975 and 0.95.
   constexpr double t_975 = 3.18245, t_95 = 2.35336, table_accuracy = 5e-6;
 
-  // 1, 2, 3, 4: mean 2.5, squares of the deviations 2.25 + 0.25 + 0.25 + 2.25 = 5, deviation sqrt(5/3), its share in the mean
-  // half of that.
+  // 1, 2, 3, 4: mean 2.5, sum of squared deviations 2.25 + 0.25 + 0.25 + 2.25 = 5, deviation sqrt(5/3). The standard error of
+  // the mean is half of that.
   const std::vector<double> four           = {1, 2, 3, 4};
   const double              four_deviation = std::sqrt(5. / 3);
 
@@ -90,7 +90,7 @@ namespace
     EXPECT_EQ(compare_differences({-1, -2, -3, -4}, edge - 1e-4).verdict, Verdict::different);
   }
 
-  TEST(Equivalence, OnePairTellsNothing)
+  TEST(Equivalence, OnePairIsNotEnough)
   {
     EXPECT_EQ(compare_differences({0}, 3).verdict, Verdict::cannot_tell);
     EXPECT_EQ(compare_relative({10}, {10}, 3).verdict, Verdict::cannot_tell);
@@ -115,9 +115,9 @@ namespace
     EXPECT_NEAR(e.difference_90.high, 0.25 + t_95 * four_deviation / 20, table_accuracy);
   }
 
-  // Where the continuum follows the grains sample by sample, the grains' scatter does not blur the difference. Near a double root
-  // the interval's ends carry the square root of the rounding error.
-  TEST(Equivalence, AScatterThatBothPanelsShareDropsOut)
+  // If the continuum follows the grains sample by sample, the grains' scatter does not widen the interval. Near a double root
+  // its ends have an error of the square root of the rounding error.
+  TEST(Equivalence, ScatterSharedByBothPanelsCancels)
   {
     const Equivalence e = compare_relative({5, 10, 20, 8}, {5.5, 11, 22, 8.8}, 0.2);
     EXPECT_NEAR(e.difference.low, 0.1, 1e-6);
@@ -126,8 +126,9 @@ namespace
     EXPECT_EQ(compare_relative({5, 10, 20, 8}, {5.5, 11, 22, 8.8}, 0.09).verdict, Verdict::different);
   }
 
-  // At the end q of the 90 % interval Student's t of continuum - (1 + q) grains is its 95 % quantile: the one-sided test at 5 %.
-  TEST(Equivalence, EndsOfTheRelativeIntervalAreWhereTheOneSidedTestsTurn)
+  // At the end q of the 90 % interval, Student's t of continuum - (1 + q) grains is its 95 % quantile: the one-sided test at 5
+  // %.
+  TEST(Equivalence, EndsOfTheRelativeIntervalAreThoseOfTheOneSidedTests)
   {
     const std::vector<double> grains = {18, 15, 22, 11}, continuum = {18, 18, 18.5, 18};
     const Equivalence         e = compare_relative(grains, continuum, 0.2);
@@ -144,7 +145,7 @@ namespace
     EXPECT_EQ(e.verdict, Verdict::cannot_tell);
   }
 
-  // Mean 0.25, deviation 1.71: |t| = 0.29, no matter of 3.18.
+  // Mean 0.25, deviation 1.71: |t| = 0.29, far below 3.18.
   TEST(Equivalence, NothingIsRelativeToAMeanThatMayBeZero)
   {
     const Equivalence e = compare_relative({-2, 2, 0, 1}, {1, 1, 1, 1}, 100);
@@ -161,7 +162,7 @@ namespace
     EXPECT_EQ(read_seeds("0-9999").size(), 10000u);
   }
 
-  TEST(SeedList, WhatIsNoListIsNamed)
+  TEST(SeedList, InvalidListsAreRefused)
   {
     for (const char *text : {"", ",", "1,", "1-", "-3", "one", "1.5", "1 2", "8-1", "1,1", "1-3,2", "0-10000", "2147483648",
                              "99999999999999999999", "1--2", "1-2-3"})
@@ -271,7 +272,7 @@ namespace
     EXPECT_NEAR(quantity(e, "discrete_summary peak_stress_ratio").statistics.mean, 0.3615, 1e-12);
   }
 
-  TEST(Ensemble, WhatAClockMeasuredAndListsAreLeftOut)
+  TEST(Ensemble, MeasuredTimesAndListsAreLeftOut)
   {
     const Ensemble e = ensemble_of({comparison(1, {}, {})});
     for (const Quantity &q : e.quantities)
@@ -295,7 +296,8 @@ namespace
     EXPECT_EQ(counts(e, "window 0-0.04 continuum"), (std::vector<int>{0, 3, 0}));
   }
 
-  // Left and right are chosen by chance: bands at 55 and -55 degrees are one kind of band, its jump of one sign.
+  // Chance decides between left and right. Bands at 55 and -55 degrees are the same kind of band, and their jumps get the same
+  // sign.
   TEST(Ensemble, MirrorImagesOfABandAreFoldedTogether)
   {
     const std::vector<json> comparisons = {comparison(1, {band(55, 10)}, {band(-54, 10)}),
@@ -326,7 +328,7 @@ namespace
     EXPECT_FALSE(is_mirror_symmetric(scene));
   }
 
-  TEST(Ensemble, AFileThatIsNoComparisonIsNamed)
+  TEST(Ensemble, AFileThatIsNotAComparisonIsRefused)
   {
     EXPECT_THROW((void)member_of(json::object()), std::invalid_argument);
     EXPECT_THROW((void)member_of({{"seed", 1}, {"windows", json::array({{{"from", 0}}})}}), std::invalid_argument);

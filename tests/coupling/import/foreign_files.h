@@ -1,4 +1,4 @@
-// diptych: real files of other codes, and changed copies of them
+// diptych: files written by other codes, and changed copies of them
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -44,7 +44,8 @@ namespace diptych::coupling::foreign_files
     return files;
   }
 
-  // Stresses agree to the digits of the files: nine or more, seven in LMGC90's text; truth.json was made of the same files.
+  // Stresses agree to the digits of the files: nine or more, seven in LMGC90's text. truth.json was computed from the same
+  // files.
   inline std::vector<Case> cases()
   {
     const std::vector<std::string> steps = {"50000", "100000", "150000", "200000"}, four = {"0", "1", "2", "3"};
@@ -116,7 +117,7 @@ namespace diptych::coupling::foreign_files
     return out.str();
   }
 
-  // A folder of its own, gone at the end.
+  // A temporary folder.
   class Scratch
   {
   public:
@@ -167,7 +168,7 @@ namespace diptych::coupling::foreign_files
     text.replace(at, from.size(), to);
   }
 
-  // The words of the refusal; empty where there is none.
+  // The message of the refusal; empty if there is none.
   inline std::string refusal_of(const Case &c, const ForeignOptions &options)
   {
     try

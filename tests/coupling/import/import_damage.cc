@@ -1,4 +1,4 @@
-// diptych: files of other codes cut off or with a flipped bit: told, never a crash, never nonsense in silence
+// diptych: truncated files and flipped bits are refused or cause a warning, or the result is nearly right
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 #include <cstdlib>
@@ -17,7 +17,7 @@ namespace
     bool refused = false, doubtful = false, near = false;
   };
 
-  // `near`: what was taken is what stood there, to 3 % of the stress, 0.1 % of the radii's area and a diameter in every place.
+  // `near`: the result agrees to 3 % of the stress, 0.1 % of the grains' area and one diameter in every position.
   Outcome outcome_of(const Case &c, const ForeignOptions &options, const Arrival &whole)
   {
     Outcome outcome;
@@ -48,7 +48,7 @@ namespace
     return outcome;
   }
 
-  // One of the case's files, chosen by chance.
+  // Damages one of the case's files, chosen at random.
   ForeignOptions damaged(const Case                               &c,
                          const Scratch                            &scratch,
                          std::mt19937                             &random,
@@ -57,7 +57,7 @@ namespace
     return with_changed(c, scratch, c.files[random() % c.files.size()], damage);
   }
 
-  // A hundred, or as many as the environment variable DIPTYCH_DRAWS says.
+  // 100, or the environment variable DIPTYCH_DRAWS.
   int n_draws()
   {
     const char *text = std::getenv("DIPTYCH_DRAWS");
@@ -67,8 +67,8 @@ namespace
   class ImportDamage : public testing::TestWithParam<std::string>
   {};
 
-  // Whole lines may be missing at the end only where nothing counts them; then stresses or grains tell.
-  TEST_P(ImportDamage, CutOffFilesAreRefusedOrDoubted)
+  // Complete lines may be missing at the end only if no count contradicts it. Then stresses or grains reveal the loss.
+  TEST_P(ImportDamage, TruncatedFilesAreRefusedOrDoubtful)
   {
     const Case    c     = case_of(GetParam());
     const Arrival whole = arrival_of(c, options_of(c));
@@ -86,7 +86,7 @@ namespace
     EXPECT_GE(refused, 0.85 * n_draws());
   }
 
-  TEST_P(ImportDamage, AFlippedBitIsRefusedDoubtedOrSmall)
+  TEST_P(ImportDamage, AFlippedBitIsRefusedDoubtfulOrSmall)
   {
     const Case    c     = case_of(GetParam());
     const Arrival whole = arrival_of(c, options_of(c));
@@ -113,7 +113,8 @@ namespace
                            testing::Values("lammps", "liggghts", "yade", "lmgc90", "lmgc90_hdf5", "mercurydpm", "csv"),
                            [](const auto &info) { return info.param; });
 
-  // Nothing of one frame contradicts them: forces and places are right, and the area of a stress is between the walls.
+  // Nothing within one frame contradicts these changes: forces and positions are right, and the area of a stress is that
+  // between the walls.
   TEST(ImportDoubts, AFrameThatIsUnlikeTheOneBeforeIsDoubtful)
   {
     const Case    c = case_of("csv");
@@ -126,23 +127,24 @@ namespace
     const Arrival small = arrival_of(c, with_changed(c, scratch, "plain_csv/particles_1.csv", [](std::string &text) {
                                        replace_once(text, "0.00077969925", "0.00077069925");
                                      }));
-    EXPECT_TRUE(holds(small.doubtful, "frame 1: the radius of grain 1 is 0.000770699, in the frame before 0.000779699"));
+    EXPECT_TRUE(holds(small.doubtful, "frame 1: the radius of grain 1 is 0.000770699 instead of 0.000779699"));
   }
 
-  TEST(ImportDoubts, ContactsOfOtherGrainsAndContactsLostAreSeen)
+  TEST(ImportDoubts, WrongAndLostContactsAreDetected)
   {
     const Case c        = case_of("csv");
     const auto doubtful = [&](const std::function<void(std::string &)> &change) {
       const Scratch scratch;
       return arrival_of(c, with_changed(c, scratch, "plain_csv/contacts_1.csv", change)).doubtful;
     };
-    EXPECT_TRUE(holds(doubtful([](std::string &text) { replace_once(text, "69,49,", "69,50,"); }), "stand apart"));
+    EXPECT_TRUE(holds(doubtful([](std::string &text) { replace_once(text, "69,49,", "69,50,"); }), "do not touch"));
     EXPECT_TRUE(holds(doubtful([](std::string &text) { replace_once(text, "161,154,-14.748704,-21.2551418", "161,154,0,0"); }),
                       "is far from balance"));
-    EXPECT_TRUE(holds(doubtful([](std::string &text) { text.resize(text.find("434,15,")); }), "too few to hold the grains"));
+    EXPECT_TRUE(
+      holds(doubtful([](std::string &text) { text.resize(text.find("434,15,")); }), "too few contacts to hold the grains"));
   }
 
-  TEST(ImportDoubts, AContactPointOffTheSurfaceIsSeen)
+  TEST(ImportDoubts, AContactPointOffTheSurfaceIsDetected)
   {
     const Case    c = case_of("liggghts");
     const Scratch scratch;
@@ -150,15 +152,15 @@ namespace
       holds(arrival_of(c, with_changed(c, scratch, "liggghts/wallcontacts_100000.dump",
                                        [](std::string &text) { replace_once(text, "\n0 0.0257691629 0", "\n0 0.0457691629 0"); }))
               .doubtful,
-            "off the place where the two meet"));
+            "off the place where the surfaces meet"));
   }
 
-  TEST(ImportDoubts, NormalsThatAreNoneAreRefused)
+  TEST(ImportDoubts, VectorsOtherThanUnitNormalsAreRefused)
   {
     const auto refused = [](const char *name, const char *file, const std::function<void(std::string &)> &change) {
       const Case    c = case_of(name);
       const Scratch scratch;
-      EXPECT_NE(refusal_of(c, with_changed(c, scratch, file, change)).find("no normal"), std::string::npos) << name;
+      EXPECT_NE(refusal_of(c, with_changed(c, scratch, file, change)).find("not a unit normal"), std::string::npos) << name;
     };
     refused("lmgc90", "lmgc90/OUTBOX/Vloc_Rloc.OUT.1", [](std::string &text) { replace_once(text, "n(1)=-0.5", "n(1)=-0.9"); });
     refused("lmgc90_hdf5", "lmgc90_hdf5/lmgc90.h5", [](std::string &text) { text[338503] = char(text[338503] ^ 1); });
@@ -166,8 +168,8 @@ namespace
             [](std::string &text) { replace_once(text, " 0.7865765336 -0.617492799 ", " 0.1865765336 -0.617492799 "); });
   }
 
-  // Whatever of a row or a head is words: no row is passed over, no head believed where columns have changed places.
-  TEST(ImportDoubts, TablesAtOddsWithThemselvesAreRefused)
+  // No row with text is skipped, and a head with exchanged columns is not accepted.
+  TEST(ImportDoubts, ContradictoryTablesAreRefused)
   {
     const auto expect = [](const char *file, const std::string &what, const std::function<void(std::string &)> &change) {
       const Case        c = case_of("csv");
@@ -180,9 +182,8 @@ namespace
       return [line](std::string &text) { text.insert(text.find("\n434,15") + 1, line + "\n"); };
     };
     for (const char *row : {"NaN,NaN,NaN,NaN", "NA,NA,NA,NA", "j,i,fx,fy"})
-      expect("contacts_1.csv", "words among rows of numbers", after_line(row));
-    expect("walls.csv", "line 5: frame 1 stands in line 3 with another width",
-           [](std::string &text) { text += "1,0.03,0.05\n"; });
+      expect("contacts_1.csv", "text among rows of numbers", after_line(row));
+    expect("walls.csv", "line 5: frame 1 has another width in line 3", [](std::string &text) { text += "1,0.03,0.05\n"; });
     expect("particles_1.csv", "contradict each other",
            [](std::string &text) { replace_once(text, "id,x,y,r,vx", "id,x,y,r,d"); });
     const Case    c = case_of("csv");
@@ -192,12 +193,12 @@ namespace
     const auto time = with_changed(c, scratch, "plain_csv/walls.csv", [](std::string &text) {
       text = "frame,width,height,time\n0,0.03145263837,0.05022203151,5\n1,0.0317409221,0.04971981119,4\n2,0.032,0.0492,6\n";
     });
-    EXPECT_NE(refusal_of(c, time).find("frame 1 is of the time 4, frame 0 before it of 5"), std::string::npos)
+    EXPECT_NE(refusal_of(c, time).find("frame 1 has the time 4, but frame 0 before it has 5"), std::string::npos)
       << refusal_of(c, time);
   }
 
-  // Where walls stand is told by a table, by the line of the frame: in one file or in several.
-  TEST(ImportDoubts, WallsThatCannotBeAreThoseOfALineOfTheirTable)
+  // A table places the walls, in one file or several. Messages name the line of the frame.
+  TEST(ImportDoubts, ImpossibleWallsAreReportedWithTheLineOfTheirTable)
   {
     const Case    c = case_of("csv");
     const Scratch scratch;
@@ -213,9 +214,9 @@ namespace
           EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
         }
     };
-    expect("walls.csv, line 3: frame 1: the lower and the upper wall stand",
+    expect("walls.csv, line 3: frame 1: the lower and the upper wall are",
            [](std::string &text) { replace_once(text, "0.04971981119", "1e300"); });
-    expect("walls.csv, line 4: frame 2: the lower wall stands beyond the upper one", [](std::string &text) {
+    expect("walls.csv, line 4: frame 2: the lower wall lies beyond the upper one", [](std::string &text) {
       text = "frame,left_x,right_x,lower_y,upper_y\n0,0,0.03145,0,0.0502\n1,0,0.0317,0,0.0497\n2,0,0.0329,0.1,0.0487\n";
     });
 
@@ -228,7 +229,7 @@ namespace
     several.files.back() = scratch.write("last.csv", "frame,width,height\n2,-1,0.04871537056\n");
     EXPECT_NE(refusal_of(c, several).find("last.csv, line 2"), std::string::npos) << refusal_of(c, several);
     several.files.back() = scratch.write("last.csv", "frame,width,height\n2,0.03,0.0487\n1,0.03,0.0487\n");
-    EXPECT_NE(refusal_of(c, several).find("last.csv, line 3: frame 1 stands in line 3 of "), std::string::npos)
+    EXPECT_NE(refusal_of(c, several).find("last.csv, line 3: frame 1 has another width in line 3 of "), std::string::npos)
       << refusal_of(c, several);
   }
 
@@ -255,14 +256,14 @@ namespace
     return sample;
   }
 
-  // The overlap of a large grain with the farthest small one that it reaches is found by the large one.
+  // The large grain finds its overlap with the farthest small one that it reaches.
   TEST(ImportDoubts, OverlapsOfAnySizesAreFoundAndCrowdsRefused)
   {
     ForeignOptions options;
     options.mean_diameter = 1;
     EXPECT_NEAR(arrive(row_of_grains(1000, 1, 0.5), options).checks[0].largest_overlap, 0, 1e-12);
     EXPECT_NEAR(arrive(row_of_grains(1000, 1, 300), options).checks[0].largest_overlap, 299.5, 1e-9); // with its neighbour
-    ForeignSample touching = row_of_grains(3, 100.4, 100); // the small one lies within the large one's reach alone
+    ForeignSample touching = row_of_grains(3, 100.4, 100); // only the large one's reach includes the small one
     EXPECT_NEAR(arrive(touching, options).checks[0].largest_overlap, 0.1, 1e-9);
     EXPECT_THROW((void)arrive(row_of_grains(1000, 1e-3, 0.5), options), SceneError);
   }

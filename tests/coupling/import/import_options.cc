@@ -1,4 +1,4 @@
-// diptych: what the command line says beside other codes' files
+// diptych: options of the import command
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "tests/coupling/import/foreign_files.h"
 
@@ -23,7 +23,7 @@ namespace
       refused(
         name, [](auto &o) { o.columns = {"contacts=i,j,fx,fy"}; }, "--columns contacts=i,j,fx,fy would have no effect");
     refused(
-      "lammps", [](auto &o) { o.columns = {"walls=step,width"}; }, "no file of walls leaves them without names");
+      "lammps", [](auto &o) { o.columns = {"walls=step,width"}; }, "every file of walls names its columns");
     for (const char *text : {"contacts", "contacts=", "grains=id,x,y", "=a"})
       refused(
         "lammps", [&](auto &o) { o.columns = {text}; }, "is not KIND=NAME");
@@ -36,6 +36,18 @@ namespace
         o.files    = {path_of("plain_csv/particles_0.csv"), path_of("plain_csv/walls.csv")};
       },
       "--pressure would have no effect");
+  }
+
+  // The last number in a file name is the frame; particles_0.csv has frame 0.
+  TEST(ImportOptions, ContactsWithoutAFrameNumberAreReported)
+  {
+    const Case     c = case_of("csv");
+    const Scratch  scratch;
+    ForeignOptions options;
+    options.files = {path_of("plain_csv/particles_0.csv"), path_of("plain_csv/walls.csv"),
+                     scratch.write("contacts_c.csv", text_of_file(path_of("plain_csv/contacts_0.csv")))};
+    EXPECT_NE(refusal_of(c, options).find("contacts_c.csv: its name contains no frame number"), std::string::npos)
+      << refusal_of(c, options);
   }
 
   TEST(ImportOptions, WallsTouchOnlyWhereAWallHasNoPlace)

@@ -1,4 +1,4 @@
-// diptych: what a reader of other codes' files must not fall into
+// diptych: peculiarities of other codes' files that a reader must handle
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,7 @@ namespace
       }
   }
 
-  // Lines of a text changed one by one.
+  // Changes a text line by line.
   void change_lines(std::string &text, const std::function<std::string(const std::string &, int)> &change)
   {
     std::istringstream in(text);
@@ -43,9 +43,8 @@ namespace
     return number[0] == '-' ? number.substr(1) : "-" + number;
   }
 
-  // fx, fy of compute pair/local are the normal force alone: without p1, p2 the stress at 1 % is that of truth.json's normal
-  // forces.
-  TEST(ImportTraps, LammpsForceWithoutTangentialPartIsNamed)
+  // fx, fy of compute pair/local are the normal force only. Without p1, p2 the stress at 1 % differs.
+  TEST(ImportTraps, LammpsForceWithoutTangentialPartIsReported)
   {
     const Case     c       = case_of("lammps");
     ForeignOptions options = options_of(c);
@@ -83,7 +82,7 @@ namespace
     const Scratch scratch;
     EXPECT_NE(refusal_of(c, with_changed(c, scratch, "lammps/contacts.dump",
                                          [](std::string &text) { replace_once(text, "ENTRIES\n731", "ENTRIES\n732"); }))
-                .find("has 731 rows; its head says 732"),
+                .find("has 731 rows instead of 732"),
               std::string::npos);
   }
 
@@ -97,7 +96,7 @@ namespace
               std::string::npos);
   }
 
-  // Walls without a table stand where their contact points lie.
+  // Without a table, the contact points give the places of the walls.
   TEST(ImportTraps, LammpsWallsAreFoundWithoutATable)
   {
     const Case     c       = case_of("lammps");
@@ -106,7 +105,7 @@ namespace
     expect_same_stress(c, options, 1e-5);
   }
 
-  // Densities of a data file are of spheres in any dimension.
+  // Densities of a data file are those of spheres in any dimension.
   TEST(ImportTraps, LammpsDataFileHasNoMassesOfDiscs)
   {
     const Scratch  scratch;
@@ -121,7 +120,7 @@ namespace
     EXPECT_DOUBLE_EQ(arrival.mean_diameter, 0.2);
   }
 
-  TEST(ImportTraps, IdsWithGapsAreTold)
+  TEST(ImportTraps, GapsInIdsAreReported)
   {
     const Case    c       = case_of("lammps");
     const Arrival arrival = arrival_of(c, options_of(c));
@@ -142,8 +141,8 @@ namespace
       }
   }
 
-  // The keyword contactPoint is 0 for plates; without STL and table they stand where `pos` says.
-  TEST(ImportTraps, LiggghtsPlatesStandWhereTheirContactsAre)
+  // The keyword contactPoint is 0 for plates. Without STL and table, `pos` gives their places.
+  TEST(ImportTraps, LiggghtsPlatesAreFoundFromTheirContacts)
   {
     const Case     c       = case_of("liggghts");
     ForeignOptions options = options_of(c);
@@ -152,14 +151,14 @@ namespace
     expect_same_stress(c, options, 1e-5);
   }
 
-  // walls.txt of this run holds forces on the plates, the wall contacts forces on the grains.
-  TEST(ImportTraps, LiggghtsForcesOnPlatesAreTurnedRound)
+  // walls.txt of this run contains forces on the plates; the wall contacts contain forces on the grains.
+  TEST(ImportTraps, LiggghtsForcesOnPlatesAreReversed)
   {
     const Case     c       = case_of("liggghts");
     ForeignOptions options = options_of(c);
     options.files.push_back(path_of("liggghts/walls.txt"));
     const Arrival arrival = arrival_of(c, options);
-    EXPECT_TRUE(holds(arrival.remarks, "wall forces told beside the contacts are those on the walls"));
+    EXPECT_TRUE(holds(arrival.remarks, "wall forces in the files act on the walls"));
     for (const ArrivalCheck &check : arrival.checks)
       EXPECT_LT(check.wall_force_difference, 0.01);
   }
@@ -174,7 +173,7 @@ namespace
     EXPECT_NE(refusal_of(c, options).find("--columns contacts="), std::string::npos);
   }
 
-  // Bodies that are no spheres are walls, wherever their ids lie; which side each is, its grains say.
+  // Bodies other than spheres are walls, whatever their ids. The grains that touch them show their sides.
   TEST(ImportTraps, YadeWallsAreFoundWithoutTheirFile)
   {
     const Case     c       = case_of("yade");
@@ -184,7 +183,7 @@ namespace
     expect_same_stress(c, options, 1e-5);
   }
 
-  TEST(ImportTraps, YadeExportWithoutIdsCannotMeetContacts)
+  TEST(ImportTraps, YadeExportWithoutIdsIsRefusedWithContacts)
   {
     ForeignOptions options;
     options.files     = {path_of("yade/xyzr_0.txt"), path_of("yade/contacts_0.txt")};
@@ -192,7 +191,7 @@ namespace
     EXPECT_THROW((void)read_yade(options), SceneError);
   }
 
-  // VTKRecorder leaves out wall contacts and the direction of tangential forces: 600 of 651 contacts, normal parts alone.
+  // VTKRecorder omits wall contacts and the direction of tangential forces: 600 of 651 contacts, normal parts only.
   TEST(ImportTraps, YadeRecorderLosesTangentialForcesAndWalls)
   {
     ForeignOptions options;
@@ -213,7 +212,7 @@ namespace
       EXPECT_LT((same.frames[0].contacts[k].force - arrival.frames.back().contacts[k].force).norm(), 1e-6);
   }
 
-  // X(3) = pi/2 says how a side wall lies; nothing of it is a motion.
+  // X(3) = pi/2 is the orientation of a side wall and not a motion.
   TEST(ImportTraps, Lmgc90SideWallsDoNotTravel)
   {
     const Case    c       = case_of("lmgc90");
@@ -241,7 +240,7 @@ namespace
     EXPECT_NE(refusal_of(c, options).find("BODIES.DAT is missing"), std::string::npos);
   }
 
-  TEST(ImportTraps, MercuryContactsThatStandOnceAreACutOffFile)
+  TEST(ImportTraps, MercuryContactsThatOccurOnceShowATruncatedFile)
   {
     const Case    c = case_of("mercurydpm");
     const Scratch scratch;
@@ -249,8 +248,8 @@ namespace
     EXPECT_NE(refusal_of(c, with_changed(c, scratch, "mercurydpm/Biaxial2D.fstat", without_last)), "");
   }
 
-  // A grain of infinite mass has its contacts once, from the free one.
-  TEST(ImportTraps, MercuryContactsWithFixedGrainsStandOnce)
+  // A contact with a grain of infinite mass occurs once, written for the free grain.
+  TEST(ImportTraps, MercuryContactsWithFixedGrainsOccurOnce)
   {
     const Case     c = case_of("mercurydpm");
     const Scratch  scratch;
@@ -259,11 +258,11 @@ namespace
         std::istringstream words(line);
         std::string        time, i, j;
         words >> time >> i >> j;
-        return i == "200" && time != "#" && j[0] != '-' ? "" : line + "\n"; // what the fixed grain 200 would tell
+        return i == "200" && time != "#" && j[0] != '-' ? "" : line + "\n"; // rows of the fixed grain 200
       });
     });
     options.files.erase(std::find(options.files.begin(), options.files.end(), path_of("mercurydpm/Biaxial2D.ene")));
-    EXPECT_NE(refusal_of(c, options).find("stands 1 times"), std::string::npos) << refusal_of(c, options);
+    EXPECT_NE(refusal_of(c, options).find("occurs 1 times"), std::string::npos) << refusal_of(c, options);
     for (std::string &file : options.files)
       if (file == path_of("mercurydpm/Biaxial2D.restart.4"))
         {
@@ -305,9 +304,9 @@ namespace
     return field[0] + "," + field[1] + "," + field[2] + "," + field[3] + "\n";
   }
 
-  // Forces on j, or of walls on the wall: balance fails with one kind of contact of the wrong sign, and holds for the mirror
-  // image of all; that all push tells both.
-  TEST(ImportTraps, TablesWithForcesOnTheOtherBodyAreTurnedRound)
+  // The forces act on j, or on the wall. With one kind of contact reversed, balance fails; with all reversed it holds. The
+  // condition that contacts push detects both.
+  TEST(ImportTraps, TablesWithForcesOnTheOtherBodyAreReversed)
   {
     const Case    c = case_of("csv");
     const Scratch scratch;
@@ -319,7 +318,7 @@ namespace
         });
         expect_same_stress(c, options);
         EXPECT_TRUE(holds(arrival_of(c, options).remarks,
-                          walls ? "forces of walls on grains were turned" : "forces between grains were turned"));
+                          walls ? "forces of walls on grains were reversed" : "forces between grains were reversed"));
       }
   }
 
@@ -341,7 +340,7 @@ namespace
     EXPECT_TRUE(holds(arrival_of(c, options).remarks, "two rows"));
   }
 
-  TEST(ImportTraps, TablesWithOnePairInTwoWaysAreRefused)
+  TEST(ImportTraps, TablesWithTwoForcesForOnePairAreRefused)
   {
     const Case    c = case_of("csv");
     const Scratch scratch;
@@ -351,17 +350,17 @@ namespace
       std::string::npos);
   }
 
-  TEST(ImportTraps, ContactsToNobodyAndGrainsTwiceAreRefused)
+  TEST(ImportTraps, ContactsOfUnknownBodiesAndRepeatedGrainsAreRefused)
   {
     const Case        c = case_of("csv");
     const Scratch     scratch;
     const std::string nobody = refusal_of(
       c, with_changed(c, scratch, "plain_csv/contacts_1.csv", [](std::string &text) { replace_once(text, "69,49,", "69,4,"); }));
     EXPECT_NE(nobody.find("contacts_1.csv, line 3"), std::string::npos) << nobody;
-    EXPECT_NE(nobody.find("body 4, which is no grain"), std::string::npos) << nobody;
+    EXPECT_NE(nobody.find("body 4, which is not a grain"), std::string::npos) << nobody;
     EXPECT_NE(refusal_of(c, with_changed(c, scratch, "plain_csv/particles_1.csv",
                                          [](std::string &text) { replace_once(text, "\n2,", "\n1,"); }))
-                .find("grain 1 stands twice"),
+                .find("grain 1 occurs twice"),
               std::string::npos);
     EXPECT_NE(refusal_of(c, with_changed(c, scratch, "plain_csv/particles_1.csv",
                                          [](std::string &text) {
@@ -373,8 +372,9 @@ namespace
               std::string::npos);
   }
 
-  // Tables without places of walls: asked for; or as far as the grains reach, which is within an overlap.
-  TEST(ImportTraps, TablesDoNotSayWhereWallsStand)
+  // Without wall places in the tables, the import asks for them, or uses the outermost grains, which is right to within an
+  // overlap.
+  TEST(ImportTraps, TablesWithoutWallsNeedAnOption)
   {
     const Case     c       = case_of("csv");
     ForeignOptions options = options_of(c);

@@ -1,4 +1,4 @@
-// diptych: samples of six codes against numbers made of the same files without this program
+// diptych: samples of six codes against numbers computed from the same files without this program
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 
@@ -13,7 +13,7 @@ namespace
   using namespace diptych::coupling::foreign_files;
   using nlohmann::json;
 
-  // Told as numbers, or as [rows, rows with force].
+  // Numbers, or pairs [rows, rows with force].
   int wall_contacts(const json &frame)
   {
     for (const char *key :
@@ -47,14 +47,14 @@ namespace
     EXPECT_EQ(check.contacts, contacts.get<int>());
     EXPECT_EQ(check.lower_contacts + check.upper_contacts + check.left_contacts + check.right_contacts, wall_contacts(frame));
     EXPECT_EQ(check.grains, frame.value("grains", 400));
-    const double mass = frame.at("mass").get<double>(); // the tables hold none
+    const double mass = frame.at("mass").get<double>(); // the tables contain no masses
     EXPECT_TRUE(c.name == "csv" ? std::isnan(check.mass) : std::abs(check.mass - mass) < 1e-6 * mass) << check.mass;
     const Eigen::Matrix2d stress = in_compression(frame.at("mean_stress_from_contacts")),
                           walls  = in_compression(frame.at("mean_stress_from_wall_forces"));
     const double size            = stress.cwiseAbs().maxCoeff();
     EXPECT_LT((check.contact_stress - stress).cwiseAbs().maxCoeff(), c.stress_tolerance * size) << check.contact_stress << "\n"
                                                                                                 << stress;
-    // Walls' sums are printed with fewer digits, or evaluated at another moment of the step (0.02 % in LMGC90, README there).
+    // The files have fewer digits of the wall sums, or another moment of the step (0.02 % in LMGC90, see its README).
     EXPECT_LT((check.wall_stress - walls).cwiseAbs().maxCoeff(), 4e-4 * size) << check.wall_stress << "\n" << walls;
     EXPECT_NEAR(100 * check.stress_difference, frame.value("difference_contacts_walls_percent", 100 * check.stress_difference),
                 0.05);
@@ -79,9 +79,9 @@ namespace
       }
   }
 
-  // The largest difference from the resultants that a code wrote beside: nine digits, but LIGGGHTS evaluates the law anew after
-  // the velocities moved on (2 % on moving plates).
-  TEST(ImportTruth, ForcesOnEveryGrainAreThoseThatTheCodeAddedUp)
+  // Compares with the resultants that each code wrote, to nine digits. LIGGGHTS evaluates the law again after the velocities
+  // have changed (2 % on moving plates).
+  TEST(ImportTruth, ForcesOnEveryGrainAddUpToTheResultants)
   {
     for (const auto &[name, tolerance] : {std::pair("lammps", 1e-4), std::pair("liggghts", 0.03), std::pair("yade", 1e-6)})
       {
@@ -94,7 +94,7 @@ namespace
       }
   }
 
-  // Spreadsheets and pandas: semicolons, carriage returns, a byte order mark, capitals, an index without a name.
+  // Spreadsheets and pandas write semicolons, carriage returns, a byte order mark, capitals, and an index without a name.
   TEST(ImportTruth, TablesOfSpreadsheetsAreTheSameTables)
   {
     const Case     c     = case_of("csv");
@@ -130,7 +130,7 @@ namespace
       EXPECT_LT((a.position[i] - b.position[i]).norm(), 1e-9);
   }
 
-  // A snapshot's internal moments sum up to the mean stress of the check, symmetrised; the rest of the chain stands on them.
+  // The symmetrised internal moments of a snapshot add up to the mean stress of the check. All later results rest on them.
   TEST(ImportTruth, InternalMomentsSumUpToTheMeanStress)
   {
     for (const Case &c : cases())

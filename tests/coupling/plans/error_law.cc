@@ -1,4 +1,4 @@
-// diptych: what a plan makes of a few runs
+// diptych: error estimates of a plan from a few runs
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/plans/error_law.h"
 
@@ -15,8 +15,8 @@ namespace
   {
     const Estimate rule = {1, 0.5};
     EXPECT_DOUBLE_EQ(improved(rule, {}).mean, 1);
-    EXPECT_DOUBLE_EQ(improved(rule, {{0.02, 0.08, 0}, {0, 0.01, 0.01}}).mean, 1) << "evidence that says nothing counts";
-    // Equal weights: half way between what was thought and what was measured, and surer than either.
+    EXPECT_DOUBLE_EQ(improved(rule, {{0.02, 0.08, 0}, {0, 0.01, 0.01}}).mean, 1) << "evidence without information must not count";
+    // Equal weights: half way between prior and measurement, with a smaller deviation than either.
     const Estimate equal = improved(rule, {{0.02, 0.04, 0.01}});
     EXPECT_NEAR(equal.mean, 1.5, 1e-12);
     EXPECT_NEAR(equal.deviation, 0.5 / std::sqrt(2.), 1e-12);
@@ -41,12 +41,12 @@ namespace
     EXPECT_TRUE(std::isnan(refinement({2}, {5}).error));
   }
 
-  TEST(ErrorLaw, ChangesThatGrowOrVanishByChanceAreNoConvergence)
+  TEST(ErrorLaw, ChangesThatGrowOrVanishByChanceAreNotConvergence)
   {
     const Refinement grows = refinement({4, 2, 1}, {1, 1.1, 1.25});
     EXPECT_FALSE(grows.converges);
     EXPECT_GT(grows.error, 0.15) << "the limit is at least the last change away";
-    // 1, 1.1, 1.1: the last change is no measure of the error.
+    // 1, 1.1, 1.1: the last change is not a measure of the error.
     EXPECT_GT(refinement({4, 2, 1}, {1, 1.1, 1.1 + 1e-9}).error, 0.25 * 0.1 / 3 - 1e-9);
     EXPECT_EQ(refinement({4, 2, 1}, {1, 1, 1}).error, 0);
     EXPECT_EQ(refinement({4, 2, 1}, {1, 1, 1}).sign, 0);
@@ -69,6 +69,6 @@ namespace
     EXPECT_EQ(samples_for(1, 1e-6), 0);
     EXPECT_EQ(samples_for(1, 0), 0);
     EXPECT_EQ(samples_for(1, -1), 0);
-    EXPECT_EQ(samples_for(NAN, 1), 0) << "a scatter that is not known";
+    EXPECT_EQ(samples_for(NAN, 1), 0) << "the scatter is unknown";
   }
 } // namespace

@@ -1,4 +1,4 @@
-// diptych: plans of panels whose errors are known
+// diptych: plans of panels with known errors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 #include <random>
@@ -15,7 +15,7 @@ namespace
   namespace continuum = diptych::continuum;
   using namespace diptych::coupling;
 
-  // The last value that a key is given, or what it has otherwise.
+  // The last value of a key, or `otherwise`.
   double value_of(const PilotTask &task, const std::string &key, const double otherwise)
   {
     double value = otherwise;
@@ -56,7 +56,8 @@ namespace
     return q;
   }
 
-  // Grains whose strength errs by `factor` times what the rule expects, with samples that scatter; cost goes with 1/accuracy.
+  // Grains whose strength errs by `factor` times the rule's expectation. Samples scatter; the cost is proportional to
+  // 1/accuracy.
   struct Grains
   {
     double factor = 1, scatter = 0.04, noise = 0.01;
@@ -70,7 +71,7 @@ namespace
       for (const int seed : task.seeds.empty() ? std::vector<int>{1} : task.seeds)
         {
           std::mt19937 of_sample(static_cast<unsigned>(seed)), of_run(static_cast<unsigned>(seed + 1e6 * accuracy));
-          std::normal_distribution<double> normal, normal_of_run; // each keeps a second value back
+          std::normal_distribution<double> normal, normal_of_run; // each stores a second value
           const double                     sample = scatter * normal(of_sample), chaos = noise * normal_of_run(of_run);
           point.values[0].push_back(0.3 * (1 + sample) * (1 + chaos + factor * accuracy));
           ++runs;
@@ -95,7 +96,7 @@ namespace
         ASSERT_TRUE(plan.reaches);
         const QuantityBudget &budget = plan.quantities.front();
         EXPECT_LE(budget.total(), accuracy * (1 + 1e-12));
-        EXPECT_GT(budget.total(), 0.5 * accuracy) << "more than half of the accuracy is given away";
+        EXPECT_GT(budget.total(), 0.5 * accuracy) << "the plan must use more than half of the accuracy";
         // Within a factor of two of the truth.
         const double truth = planned_value(plan, "discrete/accuracy");
         EXPECT_GT(budget.parts.front().error, truth / 2);
@@ -105,7 +106,7 @@ namespace
       }
   }
 
-  TEST(GrainsPlan, ARuleThatFailsIsFoundOutAndPaidFor)
+  TEST(GrainsPlan, AWrongRuleIsDetectedAndCostsMore)
   {
     Grains          usual, worse{6, 0.04, 0.002};
     const PanelPlan a = plan_with(usual, 0.03), b = plan_with(worse, 0.03);
@@ -116,7 +117,7 @@ namespace
     EXPECT_LT(said, truth * 2);
   }
 
-  TEST(GrainsPlan, OneSampleFromAFileHasNoScatterButTheChanceOfOneRun)
+  TEST(GrainsPlan, OneSampleFromAFileHasTheVariationOfOneRunInsteadOfScatter)
   {
     Scene scene;
     scene.sample.file = "sample.h5";
@@ -127,10 +128,10 @@ namespace
     EXPECT_TRUE(std::isnan(plan.quantities.front().scatter));
     EXPECT_LE(planned_value(plan, "discrete/accuracy"), 0.03);
     EXPECT_EQ(plan.quantities.front().parts.back().cause, "one run");
-    EXPECT_FALSE(plan_with(noisy, 0.03, scene).reaches) << "one run lies 5 % beside the mean of runs";
+    EXPECT_FALSE(plan_with(noisy, 0.03, scene).reaches) << "one run lies 5 % from the mean of runs";
   }
 
-  TEST(GrainsPlan, WhatCannotBeReachedIsSaid)
+  TEST(GrainsPlan, UnreachableAccuraciesAreReported)
   {
     Grains wild{1, 300};
     EXPECT_FALSE(plan_with(wild, 0.001).reaches);
@@ -159,11 +160,11 @@ namespace
       return n * cost_at(cost, accuracy);
     };
     for (double accuracy = 0.05; accuracy > 0.001; accuracy *= 0.9)
-      EXPECT_GT(total(accuracy), 0.85 * total(choice.accuracy)) << accuracy; // the grid has four points an octave
+      EXPECT_GT(total(accuracy), 0.85 * total(choice.accuracy)) << accuracy; // the grid has four points per octave
     EXPECT_EQ(cheapest_choice(errors, cost, 0.0001, 0).samples, 0);
   }
 
-  // A continuum whose strength errs with the squares of its elements and with its load steps.
+  // A continuum whose strength errs with the square of its element size and linearly with its load step.
   struct Elements
   {
     double of_elements = 0.002, of_steps = 2, of_law = 0;
@@ -225,11 +226,11 @@ namespace
           return true;
       return false;
     };
-    EXPECT_TRUE(is_set(plan_with({0.002, 2, 0.001}, 0.02, scene))) << "a law without one is as good, and costs half";
+    EXPECT_TRUE(is_set(plan_with({0.002, 2, 0.001}, 0.02, scene))) << "a law without one is as good and costs half";
     EXPECT_FALSE(is_set(plan_with({0.002, 2, 0.03}, 0.02, scene)));
   }
 
-  TEST(ContinuumPlan, ALawThatTheMeshSetsIsReplacedAndThatIsSaid)
+  TEST(ContinuumPlan, AMeshDependentLawIsReplacedAndReported)
   {
     Elements local;
     local.is_local       = true;
@@ -238,12 +239,12 @@ namespace
     std::string all;
     for (const std::string &decision : plan.decisions)
       all += decision + "\n";
-    EXPECT_NE(all.find("taken: cosserat_mohr_coulomb"), std::string::npos) << all;
+    EXPECT_NE(all.find("used instead: cosserat_mohr_coulomb"), std::string::npos) << all;
   }
 
-  TEST(ContinuumPlan, ASizeThatBoundsNothingIsNoConvergence)
+  TEST(ContinuumPlan, ASizeWithoutEffectIsNotConvergence)
   {
-    // Load steps above 0.002 are never taken: the first three values are the same, and say nothing.
+    // Load steps above 0.002 have no effect, so the first three values are equal and contain no information.
     const auto run = [](PilotTask task) {
       const double step = std::min(0.002, value_of(task, "continuum/max_step", 0.01));
       task.points.front().push_back(planned("continuum", "max_step", step));

@@ -1,4 +1,4 @@
-// diptych: no signal is lost or kills while a program begins, and none outlives its parent for ever
+// diptych: no signal is lost or kills during start-up, and no worker outlives its parent for long
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <csignal>
 
@@ -14,7 +14,7 @@ namespace
 {
   using namespace diptych::coupling;
 
-  // What waitpid() says of a copy of this process that runs `work` and ends with the code it returns.
+  // Status from waitpid() of a copy of this process that runs `work` and exits with its result.
   template <class Work> int status_of_copy(const Work &work)
   {
     const pid_t copy = fork();
@@ -25,8 +25,9 @@ namespace
     return status;
   }
 
-  // What comes between block and install kills nobody and is a request; without handlers it would end the copy (SIGTERM is 15).
-  TEST(StopSignal, OneThatComesBeforeTheHandlersIsKept)
+  // A signal between block and install does not kill and counts as a stop request. Without blocking it would kill the copy
+  // (SIGTERM is 15).
+  TEST(StopSignal, ASignalBeforeTheHandlersIsKept)
   {
     for (const int signal : {SIGTERM, SIGINT, SIGHUP})
       {
@@ -54,8 +55,8 @@ namespace
     EXPECT_EQ(WEXITSTATUS(status), 7);
   }
 
-  // The libraries that begin with MPI give signals back with their default actions, of which the program would die.
-  TEST(StopSignal, WhatIsIgnoredIsIgnoredAgainBehindMpi)
+  // MPI_Init resets some signals to their default actions, which would kill the program.
+  TEST(StopSignal, IgnoredSignalsStayIgnoredAfterMpi)
   {
     const int status = status_of_copy([] {
       std::signal(SIGHUP, SIG_IGN);
@@ -71,8 +72,8 @@ namespace
     EXPECT_EQ(WEXITSTATUS(status), 7);
   }
 
-  // A worker that never asks whether it should stop: the parent ends once the worker is ready, and the pipe, which only the
-  // worker holds then, is closed when that ends. Without an end the test would wait for ever.
+  // A worker that never checks for a stop request. The parent ends once the worker is ready. Only the worker then holds the
+  // pipe, which closes when it ends. If it did not end, the test would hang.
   TEST(StopSignal, AWorkerEndsAfterItsParent)
   {
     int ends[2];

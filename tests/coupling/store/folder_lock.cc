@@ -108,7 +108,7 @@ namespace
       {
         const FolderLock  lock(out);
         const std::string program = "trap '' TERM; echo; sleep 1; touch '" + end.string() + "'; exec sleep 0.2";
-        const int         socket  = diptych::coupling::start_answerer({"/bin/sh", "-c", program}).socket;
+        const int         socket  = diptych::coupling::start_piped_program({"/bin/sh", "-c", program}).socket;
         char              line    = 0;
         _exit(read(socket, &line, 1) == 1 ? kill(getpid(), SIGKILL) : 1);
       }

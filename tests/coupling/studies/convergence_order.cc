@@ -1,4 +1,4 @@
-// diptych: orders of convergence are found where there are some, and nowhere else
+// diptych: orders of convergence are found if they exist, and only then
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/studies/convergence_order.h"
 
@@ -35,7 +35,7 @@ namespace
     EXPECT_NEAR(fit->limit, 1, 1e-9);
   }
 
-  TEST(ConvergenceOrder, WhereNoPowerLawIsSeenNothingIsClaimed)
+  TEST(ConvergenceOrder, WithoutAPowerLawThereIsNoOrder)
   {
     EXPECT_FALSE(fit_convergence({1, 2}, {1, 2})) << "two points fit any order";
     EXPECT_FALSE(fit_convergence({1, 2, 2}, {1, 2, 2.1})) << "two different steps";

@@ -1,4 +1,4 @@
-// diptych: errors, classes and costs of points whose numbers are known
+// diptych: errors, classes and costs of points with known numbers
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/studies/study_cost.h"
 
@@ -58,7 +58,7 @@ namespace
 
   TEST(StudyEvaluation, ErrorsArePairedBySample)
   {
-    // The samples scatter by 5 %; the change of 1 % is seen all the same, because it is the same in each.
+    // The samples scatter by 5 %. The change of 1 % is visible because it is the same in each sample.
     const PointRecord point = point_of(runs(0.01));
     EXPECT_NEAR(point.quantities[0].error.value, 0.01, 1e-12);
     EXPECT_NEAR(point.quantities[0].error.low, 0.01, 1e-9);
@@ -77,7 +77,7 @@ namespace
     EXPECT_FALSE(point.is_certain);
   }
 
-  TEST(StudyEvaluation, WhatIsWrongWithoutAWordIsToldFromWhatWarned)
+  TEST(StudyEvaluation, SilentErrorsAreDistinguishedFromWarnedOnes)
   {
     EXPECT_EQ(point_of(runs(0.03)).kind, PointClass::silently_wrong);
     std::vector<RunResult> warned = runs(0.03);
@@ -110,7 +110,7 @@ namespace
     EXPECT_EQ(point_of(none).kind, PointClass::silently_wrong);
   }
 
-  TEST(StudyEvaluation, WhatTheReferenceHasNotIsNotJudged)
+  TEST(StudyEvaluation, WithoutAReferenceValueNothingIsJudged)
   {
     std::vector<RunResult> none = runs(0);
     for (RunResult &run : none)
@@ -118,7 +118,7 @@ namespace
     EXPECT_EQ(evaluate(study_of(1), points_on(1), {none, none}).points[1].kind, PointClass::unjudged);
   }
 
-  TEST(StudyEvaluation, AnIntervalThatIsNotKnownLeavesADoubtUnlessThereIsOneSample)
+  TEST(StudyEvaluation, AnUnknownIntervalLeavesADoubtUnlessThereIsOneSample)
   {
     Study      study = study_of(1);
     const auto one   = [](const double share) { return std::vector<RunResult>(1, runs(share).front()); };
@@ -138,7 +138,7 @@ namespace
     EXPECT_NEAR(record.points[1].quantities[0].error.value, 0.5, 1e-12);
   }
 
-  TEST(StudyEvaluation, LinesAreHeldAgainstEachOtherAsTurns)
+  TEST(StudyEvaluation, LinesAreComparedByTheirTurn)
   {
     Study study                      = study_of(1);
     study.quantities[0].is_line      = true;
@@ -156,7 +156,7 @@ namespace
     const StudyRecord record = evaluate(study, points_on(4), {runs(0), runs(0.01), runs(0.02), runs(0.04), runs(0.08)});
     ASSERT_EQ(record.orders.size(), 1u);
     EXPECT_NEAR(record.orders[0].order.value, 1, 0.02);
-    EXPECT_NEAR(record.orders[0].limit.value, 0.405, 1e-3) << "the mean of the samples";
+    EXPECT_NEAR(record.orders[0].limit.value, 0.405, 1e-3) << "the mean over the samples";
     EXPECT_LT(record.orders[0].limit.low, 0.405);
     EXPECT_GT(record.orders[0].limit.high, 0.405);
   }
@@ -187,7 +187,17 @@ namespace
     EXPECT_EQ(cost.points[1].front_of.size(), 1u);
   }
 
-  TEST(StudyCost, APointThatIsDearerAndWorseIsNotOnTheFront)
+  TEST(StudyCost, WithoutALimitNoPointIsTheCheapestRightOne)
+  {
+    Study study = study_of(2);
+    study.quantities[0].limit.reset();
+    const StudyResults results = {runs(0), runs(0.01, 1), runs(0.02, 2)};
+    const StudyCost    cost    = cost_of(study, points_on(2), results, evaluate(study, points_on(2), results));
+    EXPECT_EQ(cost.points.size(), 3u);
+    EXPECT_TRUE(cost.cheapest.empty());
+  }
+
+  TEST(StudyCost, APointThatCostsMoreAndIsWorseIsNotOnTheFront)
   {
     const Study        study   = study_of(2);
     const StudyResults results = {runs(0), runs(0.01, 1), runs(0.02, 2)};
@@ -204,10 +214,10 @@ namespace
     points[1].reference = points[3].reference = 1;
     const StudyResults results                = {runs(0), runs(1), runs(0.01, 1), runs(1.01, 2)};
     const StudyRecord  record                 = evaluate(study, points, results);
-    EXPECT_NEAR(record.points[3].quantities[0].error.value, 0.005, 1e-9) << "1.01 samples against 1 more of the same";
+    EXPECT_NEAR(record.points[3].quantities[0].error.value, 0.005, 1e-9) << "twice the samples, plus 0.5 %";
     const StudyCost cost = cost_of(study, points, results, record);
     EXPECT_EQ(cost.points[2].front_of.size(), 1u);
-    EXPECT_EQ(cost.points[3].front_of.size(), 1u) << "dearer, but there is no cheaper one against its reference";
+    EXPECT_EQ(cost.points[3].front_of.size(), 1u) << "it costs more, but no cheaper point shares its reference";
     EXPECT_EQ(cost.cheapest.size(), 12u);
     EXPECT_EQ(cost.cheapest.back().point, 3);
   }

@@ -1,4 +1,4 @@
-// diptych: studies read from their files, and what is refused of them
+// diptych: studies are read from their files, and wrong ones are refused
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/studies/study_file.h"
 
@@ -73,7 +73,7 @@ namespace
     EXPECT_EQ(points[2].labels, (std::vector<std::string>{"0.1", "0.4"}));
     EXPECT_EQ(points[6].labels, (std::vector<std::string>{"0.2", "0.5"}));
     EXPECT_DOUBLE_EQ(points[6].runs[0].scene->discrete.law.friction, 0.5);
-    EXPECT_FALSE(points[6].runs[0].scene->output.report) << "nobody asked for pages of single runs";
+    EXPECT_FALSE(points[6].runs[0].scene->output.report) << "single runs need no report";
   }
 
   TEST(StudyFile, AListMovesItsAxesTogether)
@@ -113,7 +113,7 @@ namespace
     EXPECT_EQ(points[5].reference, 1u);
   }
 
-  TEST(StudyFile, SeedsAreSamplesAndStandInFileNames)
+  TEST(StudyFile, SeedsAreSamplesAndReplaceTheWordInFileNames)
   {
     const Folder folder;
     const auto   seeds = points_of(read_study(folder.study(head + "\"seeds\": \"3-5\",\n" + axes + tail), {}));
@@ -125,7 +125,7 @@ namespace
     EXPECT_EQ(files[1].runs[0].scene->sample.file, (folder.path / "grains_7.csv").string());
   }
 
-  TEST(StudyFile, SettingsThatContradictEachOtherRefuseThePointAlone)
+  TEST(StudyFile, ContradictorySettingsRefuseOnlyTheirPoint)
   {
     const Folder folder;
     // No whole number of stages fits into 0.013.
@@ -169,6 +169,9 @@ namespace
     expect_refused("{\n\"scene\": \"scene.prm\",\n" + axes +
                      "\"reference\": {},\n\"quantities\": [{\"number\": \"window 0-0.01 discrete band width\"}]}",
                    {"line 6", "'width'", "nearest"});
+    expect_refused("{\n\"scene\": \"scene.prm\",\n" + axes +
+                     "\"reference\": {},\n\"quantities\": [{\"number\": \"band angle\"}]}",
+                   {"line 6", "'band angle'", "'angle_deg'", "ensemble.csv"});
     expect_refused(head + "\"cost\": [\"discret\"],\n" + axes + tail, {"line 4", "'discret'", "'discrete'"});
     expect_refused("{\n\"scene\": 3\n", {"no JSON"});
   }

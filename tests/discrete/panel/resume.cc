@@ -5,7 +5,7 @@
 namespace
 {
   // A loading, with a checkpoint before each of its steps.
-  struct Course
+  struct CheckpointedRun
   {
     Report                  report;
     std::vector<Snapshot>   snapshots;
@@ -13,11 +13,14 @@ namespace
     std::vector<Checkpoint> before;
   };
 
-  Course loaded(const SampleOptions &sample, const Loading &loading, const Options &options, const Checkpoint *resume = nullptr)
+  CheckpointedRun run_with_checkpoints(const SampleOptions &sample,
+                                       const Loading       &loading,
+                                       const Options       &options,
+                                       const Checkpoint    *resume = nullptr)
   {
-    Course course;
-    Panel *running = nullptr;
-    Hooks  hooks;
+    CheckpointedRun course;
+    Panel          *running = nullptr;
+    Hooks           hooks;
     hooks.on_row      = [&](const HistoryRow &row) { course.rows.push_back(row); };
     hooks.before_step = [&] { course.before.push_back(running->checkpoint()); };
     Panel panel(sample, loading, options, hooks);
@@ -34,7 +37,7 @@ namespace
                         const Options             &options,
                         const std::vector<size_t> &ks)
   {
-    const Course whole = loaded(sample, loading, options);
+    const CheckpointedRun whole = run_with_checkpoints(sample, loading, options);
     ASSERT_EQ(whole.report.status, Status::finished) << whole.report.message;
     ASSERT_EQ(whole.snapshots.size(), loading.stages.size() + 1);
     ASSERT_EQ(whole.rows.size(), whole.before.size());
@@ -44,7 +47,7 @@ namespace
         ASSERT_LT(k, whole.rows.size());
         const std::vector<HistoryRow> rest(whole.rows.begin() + k, whole.rows.end());
         const StoredCheckpoint        kept  = written_and_read({whole.before[k], long(k), ""});
-        const Course                  again = loaded(sample, loading, options, &kept.panel);
+        const CheckpointedRun         again = run_with_checkpoints(sample, loading, options, &kept.panel);
         ASSERT_EQ(again.report.status, Status::finished) << again.report.message;
         EXPECT_TRUE(bits(again.rows) == bits(rest));
         const std::size_t done = kept.panel.stage + 1; // snapshots written before the checkpoint
@@ -142,7 +145,7 @@ namespace
     Loading loading                 = two_stages();
     loading.inertial_number         = 0.05;
     loading.stages                  = {0.001, 0.002, 0.003};
-    const std::size_t n             = loaded(small_sample(80), loading, options).rows.size();
+    const std::size_t n             = run_with_checkpoints(small_sample(80), loading, options).rows.size();
     expect_same_from(small_sample(80), loading, options, {0, 2, n / 2, n - 1});
   }
 
@@ -157,7 +160,7 @@ namespace
     loading.stages.clear();
     for (int k = 1; k <= 8; ++k)
       loading.stages.push_back(k * 0.005);
-    const Course             whole = loaded(small_sample(80), loading, options);
+    const CheckpointedRun    whole = run_with_checkpoints(small_sample(80), loading, options);
     std::vector<std::size_t> first_steps;
     for (std::size_t k = 1; k < whole.before.size(); ++k)
       if (whole.before[k].stage > whole.before[k - 1].stage)
@@ -170,17 +173,17 @@ namespace
   // times the length. The shear force on the platen must continue, apart from the change in one step, and not be scaled by 0.7.
   TEST(Penalty, SpringsPersistIfTheStepChanges)
   {
-    Options options                 = quick_options();
-    options.method.method           = Method::penalty;
-    options.method.history_interval = 1;
-    options.penalty.step_fraction   = 0.05;
-    Loading loading                 = two_stages();
-    loading.inertial_number         = 0.05;
-    loading.stages                  = {0.001};
-    const Course one                = loaded(small_sample(80), loading, options);
-    const double strain_of_a_step   = one.report.step * loading.inertial_number;
-    loading.stages                  = {0.001, 0.001 + 0.7 * strain_of_a_step};
-    const Course change             = loaded(small_sample(80), loading, options);
+    Options options                        = quick_options();
+    options.method.method                  = Method::penalty;
+    options.method.history_interval        = 1;
+    options.penalty.step_fraction          = 0.05;
+    Loading loading                        = two_stages();
+    loading.inertial_number                = 0.05;
+    loading.stages                         = {0.001};
+    const CheckpointedRun one              = run_with_checkpoints(small_sample(80), loading, options);
+    const double          strain_of_a_step = one.report.step * loading.inertial_number;
+    loading.stages                         = {0.001, 0.001 + 0.7 * strain_of_a_step};
+    const CheckpointedRun change           = run_with_checkpoints(small_sample(80), loading, options);
     ASSERT_EQ(change.rows.size(), one.rows.size() + 1);
     ASSERT_NEAR(change.report.step / one.report.step, 0.7, 1e-9);
     const double before = one.rows.back().upper_force.x(), after = change.rows.back().upper_force.x();

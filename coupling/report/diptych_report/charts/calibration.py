@@ -1,4 +1,4 @@
-# diptych: pictures of a calibration: curves before and after, residuals, correlation, profiles
+# diptych: charts of a calibration: curves before and after, residuals, correlation, profiles
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 import numpy as np
@@ -13,7 +13,7 @@ MARKS = {"stress_ratio": "o", "volumetric_strain": "s", "ln_width": "D"}
 
 
 def curve(path, kind):
-    """Mean of the grains with the band of two deviations of one sample, the continuum before and after."""
+    """Mean of the grains with two standard deviations of one sample, and the continuum before and after."""
     figure = Figure(figsize=(4.5, 3.1))
     axes = ruled(figure.add_axes([0.15, 0.16, 0.825, 0.8]))
     label = draw_curve(axes, path, kind)
@@ -22,12 +22,12 @@ def curve(path, kind):
 
 
 def draw_curve(axes, path, kind):
-    """Without a legend; returns the label."""
+    """Draws a curve without a legend. Returns the label of its axis."""
     name, label, scale = CURVES[kind]
     x = 100 * numbers(path["progress"])
     low, high = scale * numbers(path[name + "_low"]), scale * numbers(path[name + "_high"])
     if np.isfinite(low).any():
-        axes.fill_between(x, low, high, color=GRAINS, alpha=0.18, linewidth=0, label="grains, two deviations of a sample")
+        axes.fill_between(x, low, high, color=GRAINS, alpha=0.18, linewidth=0, label="grains, ± 2 deviations of a sample")
     axes.plot(x, scale * numbers(path[name]), color=GRAINS, label=f"grains, mean of {len(path['seeds'])}")
     for when, look in (("before", dict(color=FAINT, linestyle=(0, (2, 1.5)))), ("after", dict(color=CONTINUUM, linestyle=(0, (5, 1.5))))):
         y = scale * numbers(path[f"{name}_{when}"])
@@ -40,7 +40,7 @@ def draw_curve(axes, path, kind):
 
 
 def residuals(path):
-    """(continuum - grains) / deviation of the mean of the samples."""
+    """(continuum - grains) / standard deviation of the mean of the samples."""
     entries = [o for o in path["observables"] if o["after"] is not None and o["mean"] is not None and o["deviation_of_mean"]]
     if not entries:
         return None
@@ -57,7 +57,7 @@ def residuals(path):
                           label=KINDS[kind] + ("" if counts else ", not fitted"))
     axes.set(xlabel="axial strain, %", ylabel="difference / deviation")
     axes.legend(loc="best")
-    return svg(figure, f"Residuals of {path['name']} in deviations of the samples' mean, bin by bin.")
+    return svg(figure, f"Residuals of {path['name']} for each bin, over the standard deviation of the mean of the samples.")
 
 
 def correlation(calibration):
@@ -74,11 +74,11 @@ def correlation(calibration):
     axes.set(xticks=range(n), yticks=range(n), yticklabels=names)
     axes.set_xticklabels(names, rotation=50, ha="right")
     axes.tick_params(length=0)
-    return svg(figure, "Correlation of the parameters in the coordinates of the search.")
+    return svg(figure, "Correlation of the parameters, in the coordinates of the search.")
 
 
 def parabola(x, y, logarithm):
-    """Through three points, which a linear model's chi squared is in the coordinate of the search; fewer known ones as they are."""
+    """The parabola through three points: chi squared of a linear model in the coordinate of the search. Fewer points stay points."""
     at = np.log(x) if logarithm else x
     if not np.isfinite(y).all() or len(set(at)) < 3:
         return x, y
@@ -87,7 +87,7 @@ def parabola(x, y, logarithm):
 
 
 def profiles(calibration):
-    """chi^2 one and a half deviations to either side of the minimum, as run and as the linear model expects."""
+    """chi^2 at 1.5 standard deviations to both sides of the minimum, computed and predicted by the linear model."""
     entries = [p for p in calibration.parameters if None not in p["profile_number"]]
     columns = 3
     rows = -(-len(entries) // columns)
@@ -96,7 +96,7 @@ def profiles(calibration):
         axes = ruled(figure.add_subplot(rows, columns, k + 1))
         x = numbers(p["profile_number"])
         axes.plot(*parabola(x, numbers(p["profile_expected"]), p["coordinate"] == "logarithm"), color=FAINT, label="linear model")
-        axes.plot(x, numbers(p["profile_chi2"]), "o", color=CONTINUUM, markersize=4.5, label="as run")
+        axes.plot(x, numbers(p["profile_chi2"]), "o", color=CONTINUUM, markersize=4.5, label="computed")
         axes.set_xlabel(label(p) + {"share_of": ", share", "drop_from": ", drop"}.get(p["coordinate"], ""))
         axes.locator_params(nbins=4)
         if k % columns == 0:
@@ -104,4 +104,4 @@ def profiles(calibration):
         if k == 0:
             axes.legend(loc="upper center")
     figure.tight_layout()
-    return svg(figure, "Profiles of chi squared over every parameter, the others moved along.")
+    return svg(figure, "Profiles of chi squared over every parameter, with the others adjusted.")

@@ -1,4 +1,4 @@
-# diptych: force chains inside and outside the zone; traction across the zone
+# diptych: charts of force chains inside and outside the band, and of the traction along the band
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 import numpy as np
@@ -9,7 +9,7 @@ from diptych_report.data.panels import PANEL_NAMES
 
 
 def distribution(increment):
-    """Share of grains whose major principal stress exceeds a multiple of the mean; inside and outside the zone."""
+    """Share of grains whose major principal stress exceeds a multiple of the mean, inside and outside the band."""
     chains = increment.panel("discrete").get("force_chains") or {}
     levels = np.array(chains.get("quantiles") or [], dtype=float)
     figure, (axes,) = frame("distribution", (4.5, 3.1), [[0.15, 0.16, 0.825, 0.8]])
@@ -30,11 +30,11 @@ def distribution(increment):
     axes.set(xlabel="major principal stress of a grain / mean", ylabel="share of grains above", xlim=(0, None))
     axes.legend(loc="best", title="10–90 % width of the band", title_fontsize=8.5)
     where = " and ".join(drawn)
-    return svg(figure, f"Distribution of the major principal stress of single grains {where} the zone, {increment.title}.")
+    return svg(figure, f"Distribution of the major principal stress of single grains {where} the band, {increment.title}.")
 
 
 def traction(increment):
-    """Mean normal and shear traction on strips parallel to the grains' band: equilibrium asks for uniform ones."""
+    """Mean normal and shear traction on strips parallel to the band of the grains; uniform in equilibrium."""
     stored = {panel: increment.panel(panel).get("band_traction") or {} for panel in PANEL_NAMES}
     figure, both = frame("traction", (4.5, 3.9), [[0.15, 0.57 - 0.44 * k, 0.825, 0.385] for k in range(2)])
     drawn = []
@@ -61,6 +61,6 @@ def traction(increment):
             low, high = min(low, 0), max(high, 0)
             axes.set_ylim(low, high + 0.45 * (high - low))
             axes.legend(loc="upper left", ncol=2, title="variation", title_fontsize=8.5, alignment="left")
-    axes.set_xlabel("distance along the band's normal / d")
+    axes.set_xlabel("distance along the normal of the band / d")
     alt = f"Normal and shear traction on strips parallel to the band, both panels, {increment.title}."
     return svg(figure, alt) if drawn else None

@@ -1,4 +1,4 @@
-# diptych: tractions across the diameters of a circle against its mean stress's prediction, both panels
+# diptych: charts of tractions across the diameters of a circle, and their prediction by the mean stress
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Moreau 1997, section 3 and figure 3."""
 
@@ -12,7 +12,7 @@ PARTS = (("normal", "normal (P)"), ("tangential", "tangential (P)"))
 
 
 def pair(increment):
-    """Both panels on the same axes. A picture is None where no circle is stored."""
+    """Both panels on the same axes. A picture is None if no circle is stored."""
     stored = {panel: _columns(increment.panel(panel).get("circular_probe")) for panel in PANEL_NAMES}
     known = [columns for columns in stored.values() if columns]
     if not known:
@@ -27,14 +27,14 @@ def pair(increment):
 
 
 def _sampling(increment):
-    """What the bars are: in equilibrium neighbouring blocks carry what one lacks, so the difference stays below them."""
+    """Explains the bars. In equilibrium, neighbouring blocks compensate each other, so the difference is smaller than the bars."""
     alone = plain((increment.panel("discrete").get("circular_probe") or {}).get("independent_blocks"))
-    return "" if alone is None else ("Bars: standard errors, blocks along the diameter taken as independent; blocks that were so "
-                                     f"would differ from the mean stress by {100 * alone:.1f}\u00a0%.")
+    return "" if alone is None else ("Bars: standard errors for independent blocks along the diameter. Independent blocks would "
+                                     f"differ from the mean stress by {100 * alone:.1f}\u00a0%.")
 
 
 def _columns(circle):
-    """The probe's columns as arrays of equal length; None if they are not all there."""
+    """The columns of the probe as arrays of equal length; None if one is missing."""
     names = ["angles_deg"] + [prefix + part for part, _ in PARTS for prefix in ("", "predicted_")]
     if not circle or any(not circle.get(name) for name in names):
         return None
@@ -56,7 +56,7 @@ def _panel(increment, panel, columns, spans):
     for k, ((part, label), axes) in enumerate(zip(PARTS, both)):
         axes.errorbar(columns["angles_deg"], columns[part], columns[part + "_error"], fmt="o", markersize=3, elinewidth=0.8,
                       color=PANEL_COLOURS[panel], label="across the diameter")
-        axes.plot(columns["angles_deg"], columns["predicted_" + part], color=INK, linewidth=1.3, label="by the mean stress")
+        axes.plot(columns["angles_deg"], columns["predicted_" + part], color=INK, linewidth=1.3, label="from the mean stress")
         axes.set(ylabel=label, xlim=(0, 180), ylim=spans[part], xticks=range(0, 181, 30))
         axes.tick_params(labelbottom=k == 1)
         if k == 0:

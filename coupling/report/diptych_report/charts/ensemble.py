@@ -1,4 +1,4 @@
-# diptych: pictures of an ensemble: differences against margins, every seed, every curve
+# diptych: charts of an ensemble: differences over margins, every seed, every curve
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 import numpy as np
@@ -13,7 +13,7 @@ BAND = 0.25  # opacity
 
 
 def differences(rows):
-    """Each difference over its margin, with both intervals. rows: [(label, verdict record)]; None where none is known."""
+    """Each difference over its margin, with both intervals. rows: [(label, verdict record)]. None without differences."""
     rows = [(label, v) for label, v in rows if v["difference"]["value"] is not None]
     if not rows:
         return None
@@ -32,15 +32,15 @@ def differences(rows):
         axes.plot(scale * verdict["difference"]["value"], k, VERDICT_MARKS[verdict["verdict"]], color=INK, markersize=6.5,
                   markerfacecolor=INK if filled else "white", markeredgewidth=1.2)
     axes.set(yticks=range(len(rows)), yticklabels=[label for label, _ in rows], ylim=(len(rows) - 0.4, -0.6),
-             xlabel="difference, continuum − grains, in margins")
+             xlabel="(continuum − grains) / margin")
     axes.set_xlim(*_limits(rows))
     axes.tick_params(axis="y", length=0)
-    return svg(figure, "Difference of the panels in units of its margin, with 90 % and 95 % intervals, one row a quantity: "
+    return svg(figure, "Difference of the panels in units of its margin, with 90 % and 95 % intervals, one row per quantity: "
                + "; ".join(f"{label}: {verdict['verdict']}" for label, verdict in rows) + ".")
 
 
 def _limits(rows):
-    """Symmetric, wide enough for every value; an interval far wider than all others may leave the picture."""
+    """Symmetric limits that include every value. An interval far wider than the others may be cut."""
     ends = [abs(v["difference"][key]) / v["margin"] for _, v in rows for key in ("low", "high")
             if v["difference"][key] is not None]
     values = [abs(v["difference"]["value"]) / v["margin"] for _, v in rows]
@@ -49,7 +49,7 @@ def _limits(rows):
 
 
 def dots(verdict, quantities, label, scale=1.0):
-    """Every seed in both panels, a pair joined by a line, with mean and 95 % interval beside. None without any value."""
+    """Every seed in both panels, pairs joined by lines, with mean and 95 % interval. None without values."""
     panels = list(PANEL_NAMES)
     values = {panel: np.array([np.nan if x is None else x for x in verdict[panel]], dtype=float) for panel in panels}
     if not any(np.isfinite(v).any() for v in values.values()):
@@ -76,7 +76,7 @@ def dots(verdict, quantities, label, scale=1.0):
 
 
 def curves(results, name, label, scale=1.0):
-    """Running mean of every seed, their mean and its 95 % interval, both panels. None where none is stored."""
+    """Running mean of every seed, their mean and its 95 % interval, both panels. None if nothing is stored."""
     figure, axes = chart(results, label)
     drawn = False
     for panel, colour in PANEL_COLOURS.items():

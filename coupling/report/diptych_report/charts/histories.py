@@ -1,4 +1,4 @@
-# diptych: histories of both panels against the loading
+# diptych: charts of histories over the loading, both panels
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Every step from discrete.csv and continuum.csv, running means from comparison.h5, stages from comparison.json. Forces in P d
 (unit thickness)."""
@@ -10,7 +10,7 @@ from diptych_report.charts.style import (INK, PANEL_COLOURS, PANEL_LINES, PANEL_
 from diptych_report.data.numbers import scaled
 from diptych_report.data.panels import PANEL_NAMES
 
-ROUND_OFF = 1e-3  # %, of a sample that keeps its volume: no axis is stretched over it
+ROUND_OFF = 1e-3  # %, smallest range of the axis for a sample with constant volume
 RAW_WIDTH = {"discrete": 0.5, "continuum": 0.9}
 
 
@@ -18,16 +18,16 @@ def figures(result):
     """List of (Picture or None, caption) in the order of the page."""
     return [
         _both(result, ("stress_ratio", "stress_ratio_mean"), 1.0, "stress ratio t/s", "Stress ratio of the whole sample. Thin: "
-              f"every step; thick: mean over {result.averaging}; open marks: the stages, with 95 % intervals of the mean in time."),
+              f"every step; thick: mean over {result.averaging}. Open marks: stages, with 95 % intervals of the mean in time."),
         _both(result, ("volumetric_strain", "volumetric_strain"), 100.0, "volumetric strain (%)", "Volumetric strain 1 − V/V₀, "
-              "every step; dilation is negative. Open marks: the stages."),
+              "every step; dilation is negative. Open marks: stages."),
         _platens(result),
         _platen_difference(result),
     ]
 
 
 def _both(result, columns, scale, label, caption):
-    """columns: (of every step, of the thick line)."""
+    """columns: (name for every step, name for the thick line)."""
     figure, axes = chart(result, label)
     across, drawn, (every, thick) = result.walk.factor, [], columns
     for panel, colour in PANEL_COLOURS.items():
@@ -75,8 +75,8 @@ def _platens(result):
 
 
 def _platen_difference(result):
-    caption = ("Relative difference of the two platens' vertical forces on the grains, |F_lower + F_upper| over their "
-               "mean size. The paper reports less than 1 %.")
+    caption = ("Relative difference of the vertical forces of both platens on the grains, |F_lower + F_upper| over their mean "
+               "magnitude. Moreau (1997) reports less than 1 %.")
     found = result.history("discrete", "platen_difference")
     if found is None or not (found[1] > 0).any():
         return None, caption
@@ -88,4 +88,4 @@ def _platen_difference(result):
     axes.annotate("1 %", (0.99, 1), xycoords=("axes fraction", "data"), ha="right", va="bottom")
     axes.set_xlim(left=0)
     axes.set_ylim(decades(np.append(difference, 1.0)))
-    return svg(figure, "Relative difference of the platens' vertical forces against the loading, log scale."), caption
+    return svg(figure, "Relative difference of the vertical platen forces against the loading, log scale."), caption

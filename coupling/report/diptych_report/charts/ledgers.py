@@ -1,4 +1,4 @@
-# diptych: energies of both panels, kinetic energy and contact solver of the grains, against the loading
+# diptych: charts of energies, kinetic energy and contact solver over the loading
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 from matplotlib.figure import Figure
@@ -19,8 +19,8 @@ def figures(result):
 
 
 def _energies(result):
-    caption = ("Energies since the start. Of the grains, work = friction + impacts + change of kinetic energy (their energy "
-               "residual is in the accuracy table); of the continuum, the plastic work.")
+    caption = ("Energies since the start. Grains: work = friction + impacts + change of kinetic energy; the accuracy table gives the residual. "
+               "Continuum: plastic work.")
     figure, axes = chart(result, "energy (P d²)")
     unit, drawn = result.units.size("pressure length^2"), 0
     for panel, lines in ENERGIES.items():
@@ -38,8 +38,8 @@ def _energies(result):
 
 
 def _kinetic_energy(result):
-    caption = ("Kinetic energy of the grains over M|V|²/4 (half of the mass moving with the platen). A median above 2 "
-               "warns of solver noise; single peaks are crises of the packing. The continuum is quasi-static: it has none.")
+    caption = ("Kinetic energy of the grains over M|V|²/4 (half of the mass moving with the platen). A median above 2 indicates solver "
+               "noise. Single peaks are rearrangements of the packing. The continuum is quasi-static and has no kinetic energy.")
     found = result.history("discrete", "kinetic_energy_ratio")
     if found is None or not (found[1] > 0).any():
         return None, caption
@@ -60,8 +60,8 @@ def _kinetic_energy(result):
 
 def solver(result):
     """(Picture or None, caption): sweeps and residual of every step."""
-    caption = ("Contact solver, every step: sweeps over the contacts, and the residual measured outside the solver "
-               "(natural map, relative).")
+    caption = ("Contact solver, every step: number of sweeps over the contacts, and the residual (natural map, relative), computed "
+               "outside the solver.")
     sweeps, residual = (result.history("discrete", name) for name in ("sweeps", "residual"))
     if sweeps is None or residual is None:
         return None, caption

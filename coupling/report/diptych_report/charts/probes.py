@@ -1,6 +1,6 @@
-# diptych: contact normals of the grains in the probes, in 24 sectors
+# diptych: roses of contact normals in the probes, with 24 sectors
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Moreau 1997, section 3: each sector filled up to a radius that grows with its number of contact normals."""
+"""Moreau 1997, section 3: the radius of each sector grows with its number of contact normals."""
 
 import numpy as np
 from matplotlib.collections import PatchCollection
@@ -13,7 +13,7 @@ SECTORS = 24
 
 
 def roses(increment):
-    """[Picture]: share of contact normals in each sector over the isotropic share; counts hold both senses of a normal."""
+    """[Picture]: share of contact normals in each sector over the isotropic share. Counts include both senses of a normal."""
     probes = increment.panel("discrete").get("probes") or []
     found = [(p, np.asarray(p["normals_24"], dtype=float)) for p in probes if len(p.get("normals_24") or []) == SECTORS]
     found = [(probe, SECTORS * counts / counts.sum()) for probe, counts in found if counts.sum() > 0]

@@ -1,4 +1,4 @@
-# diptych: how the homogenised stress depends on the width of the averaging
+# diptych: charts of the homogenised stress over the averaging width
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 from matplotlib.figure import Figure
@@ -10,7 +10,7 @@ LOOKS = ((GRAINS, "o", "-"), (INK, "s", (0, (5, 1.5))), (THIRD, "^", (0, (2, 1.2
 
 
 def figures(result):
-    """List of (Picture, caption): values at points and scatter over cells, against the kernel's width and the cells' size."""
+    """List of (Picture, caption): values at points and scatter over cells, against the width of the kernel and the size of the cells."""
     study = result.part("resolution_study")
     shaded = " Shaded: the plateau." if study.get("plateau_d") else ""
     found = []

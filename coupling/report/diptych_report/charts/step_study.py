@@ -1,4 +1,4 @@
-# diptych: figure of a study of the step
+# diptych: figure of a study of the time step
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 import os
@@ -11,7 +11,7 @@ from matplotlib.ticker import NullFormatter
 from diptych_report.charts.style import GRAINS, INK, THIRD, decades, ruled, set_up
 
 LOOKS = ((THIRD, (0, (5, 1.5))), (GRAINS, (0, (1.5, 1))), (INK, "-"))
-# (column of study_step.csv, its words, line width)
+# (column of study_step.csv, title, line width)
 PANELS = (("stress_ratio_mean", "stress ratio t/s, running mean", 1.5),
           ("external_work", "work of platens, pressure [pressure length$^2$]", 1.5),
           ("friction_dissipation", "dissipated by friction [pressure length$^2$]", 1.5),
@@ -22,7 +22,7 @@ LOGARITHMIC = ("kinetic_energy", "max_penetration")
 
 
 def draw(study, folder):
-    """study_step.png of a data.step_study.StepStudy; units are the scene's own."""
+    """Writes study_step.png of a data.step_study.StepStudy, in the units of the scene."""
     set_up()
     figure = Figure(figsize=(10.5, 6.4))
     for k, panel in enumerate(PANELS):

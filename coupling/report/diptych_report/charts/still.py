@@ -1,4 +1,4 @@
-# diptych: a map as a still picture, for readers without scripts
+# diptych: a map as a picture, for readers without JavaScript
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ LEFT, RIGHT, TOP, BOTTOM, BAR = 0.5, 0.1, 0.28, 0.44, 0.52
 
 @dataclass
 class StillMap:
-    """One panel's map. numbers: one a grain or a cell, nan without a value. frame: (x0, x1, y0, y1) [d]. limits: (low, high)."""
+    """The map of one panel. numbers: one per grain or cell; NaN: no value. frame: (x0, x1, y0, y1) [d]. limits: (low, high)."""
 
     panel: str
     label: str
@@ -31,7 +31,7 @@ class StillMap:
 
 
 def picture(shown, increment):
-    """Grains as discs, the continuum as cells, with the detected bands, as draw.js draws them."""
+    """Grains as discs or the continuum as cells, with the detected bands, as in draw.js."""
     x0, x1, y0, y1 = shown.frame
     inner = WIDTH - LEFT - RIGHT
     tall = inner * (y1 - y0) / (x1 - x0)

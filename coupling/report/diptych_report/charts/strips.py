@@ -1,6 +1,6 @@
-# diptych: mean longitudinal displacement increment in strips parallel to the band
+# diptych: charts of the mean displacement increment in strips parallel to the band
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Moreau 1997, section 3: 16 strips; here for both panels, with the fitted profile of the band."""
+"""Moreau 1997, section 3: 16 strips, here for both panels and with the fitted profile of the band."""
 
 import numpy as np
 
@@ -8,11 +8,11 @@ from diptych_report.charts.style import INK, PANEL_COLOURS, Pair, frame, signed,
 from diptych_report.data.numbers import interval, plain
 from diptych_report.data.panels import DIFFUSE, PANEL_NAMES
 
-LARGEST_TURN = 10  # degrees between a band and the strips, beyond which its fit is not drawn over their means
+LARGEST_TURN = 10  # degrees; fits of bands with a larger angle to the strips are not drawn
 
 
 def pair(increment):
-    """Both panels on the same axes. A picture is None where no strips are stored."""
+    """Both panels on the same axes. A picture is None if no strips are stored."""
     stored = {panel: increment.panel(panel).get("strips") or {} for panel in PANEL_NAMES}
     profiles = {panel: _profile(strips) for panel, strips in stored.items()}
     known = [profile for profile in profiles.values() if profile is not None]
@@ -29,7 +29,7 @@ def pair(increment):
 
 
 def _profile(strips):
-    """(edges [d] (n+1), mean (n), deviation (n)); nan for an empty strip."""
+    """(edges [d] (n+1), mean (n), deviation (n)); NaN: an empty strip."""
     if not strips or not strips.get("edges_d"):
         return None
     edges = np.asarray(strips["edges_d"], dtype=float)
@@ -49,28 +49,28 @@ def _panel(increment, panel, profile, box, angle):
     across = np.tile([box[2], box[3], np.nan], len(edges))
     axes.plot(np.repeat(edges, 3), across, color="white", linewidth=0.8)  # strips apart
     axes.errorbar(middle, mean, deviation, fmt="none", ecolor=colour, elinewidth=1, capsize=2,
-                  label="standard deviation in it")
+                  label="standard deviation")
     bands = increment.bands(panel)
-    # A band that crosses the strips has no profile in them.
+    # A band across the strips has no profile in them.
     parallel = [band for band in bands if angle is None or _turn(band, angle) < LARGEST_TURN]
-    # The straight line under the profile belongs to the first band of the panel.
+    # The linear background belongs to the first band of the panel.
     straight = [plain(increment.panel(panel)["strips"].get(name)) for name in ("background", "background_slope")]
     for band in parallel:
         _draw_fit(axes, band, box, straight if band is bands[0] else (None, None))
     if not parallel:
-        axes.plot([], [], " ", label="no band along these strips" if bands else DIFFUSE)
-    axes.set(xlim=box[:2], ylim=box[2:], xlabel="distance along the strips' normal / d",
+        axes.plot([], [], " ", label="no band parallel to the strips" if bands else DIFFUSE)
+    axes.set(xlim=box[:2], ylim=box[2:], xlabel="distance along the normal of the strips / d",
              ylabel="displacement increment / |ΔU|")
     axes.set_title(PANEL_NAMES[panel], loc="left", fontweight="bold")
     axes.axhline(0, color=INK, linewidth=0.6)
     axes.legend(loc="upper left", handlelength=1.6)
     alt = f"{PANEL_NAMES[panel]}: mean longitudinal displacement increment of {len(mean)} strips, {increment.title}" + (
-        ", with the fitted tanh." if parallel else "; no band along them.")
+        ", with the fitted tanh." if parallel else "; no band parallel to them.")
     return svg(figure, alt)
 
 
 def _turn(band, angle):
-    """Between a band and the strips, in [0, 90]: lines have no sense."""
+    """Angle between a band and the strips, in [0, 90] degrees."""
     found = plain(band.get("angle_deg"))
     return 90.0 if found is None else abs((found - angle + 90) % 180 - 90)
 

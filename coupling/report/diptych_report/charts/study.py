@@ -1,4 +1,4 @@
-# diptych: pictures of a study: error against cost, maps of classes
+# diptych: charts of a study: error over cost, maps of classes
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 import itertools
@@ -13,8 +13,8 @@ from diptych_report.data.study import CLASSES
 
 FAMILY_COLOURS = (GRAINS, CONTINUUM, THIRD, "#CC79A7", "#E69F00", "#56B4E9")
 FAMILY_MARKS = "osD^vP"
-FEW = 50  # a range below this ratio has ticks between the decades
-LEAST_ERROR = 1e-6  # below it a deterministic difference is none
+FEW = 50  # ranges below this ratio have ticks between the decades
+LEAST_ERROR = 1e-6  # smaller differences count as zero
 
 
 def _mark(study, family):
@@ -23,8 +23,8 @@ def _mark(study, family):
 
 
 def error_against_cost(study, place, reference):
-    """|error| of a quantity over CPU seconds of all that is held against a reference: every point, the front, the limit and the samples'
-    scatter. None without a point."""
+    """|error| of a quantity over CPU seconds for all points of a reference, with front, limit and scatter of the samples. None without
+    points."""
     figure = Figure(figsize=(4.7, 3.5))
     axes = figure.add_axes([0.16, 0.14, 0.815, 0.83])
     place_labels(axes, 0.035, 0.055)
@@ -35,7 +35,7 @@ def error_against_cost(study, place, reference):
 
 
 def draw_error_against_cost(axes, study, place, reference):
-    """The same into axes; False where there is no point."""
+    """The same, drawn into axes. Returns False without points."""
     ruled(axes)
     quantity, scatter = study.quantities[place], study.points[reference]["quantities"][place]["scatter"]
     shown = []
@@ -71,7 +71,7 @@ def draw_error_against_cost(axes, study, place, reference):
             colour, mark = _mark(study, family["name"])
             axes.plot([], [], mark, color=colour, markersize=5, linestyle="", label=family["name"] or "points")
     values = factor * np.array([abs(error["value"]) for _, _, error in shown])
-    axes.set(xscale="log", yscale="log", xlabel="CPU seconds a sample",
+    axes.set(xscale="log", yscale="log", xlabel="CPU seconds per sample",
              ylabel="|error|" + (" (%)" if quantity["relative"] else ""))
     floor = [factor * scatter / np.sqrt(max(1, len(study.record["seeds"])))] if scatter else []
     limit = [factor * quantity["limit"]] if quantity["limit"] else []
@@ -85,14 +85,14 @@ def draw_error_against_cost(axes, study, place, reference):
 
 
 def _position(axis, value):
-    """Where a value lies between the middles of the cells of an axis, by its logarithm; nan where that has no meaning."""
+    """Position of a value on an axis of cells, interpolated by its logarithm; NaN: not possible."""
     places = [p["value"] for p in axis["points"]]
     if any(p is None or p <= 0 for p in places) or value <= 0 or len(places) < 2:
         return np.nan
     logs, order = np.log(places), np.argsort(places)
     steps = np.arange(len(places))[order]
     found = np.interp(np.log(value), logs[order], steps, left=np.nan, right=np.nan)
-    if np.isnan(found):  # beyond the middles: on with the last slope
+    if np.isnan(found):  # beyond the outer cells: extrapolate
         ends = (0, 1) if np.log(value) < logs.min() else (-2, -1)
         (a, b), (u, v) = logs[order][list(ends)], steps[list(ends)]
         found = v + (np.log(value) - b) / (b - a) * (v - u)
@@ -100,8 +100,7 @@ def _position(axis, value):
 
 
 def parts_of(study, family):
-    """What the maps of a family show: [(title, axes (across, down or None), {labels: point})]; one for every choice of the axes beyond
-    two."""
+    """Maps of a family: [(title, axes (across, down or None), {labels: point})], one for every value of the axes beyond two."""
     axes = family["axes"]
     if not axes or not family["grid"]:
         return []
@@ -133,7 +132,7 @@ def _class_map(study, family, pair, points):
 
 
 def draw_classes(axes, study, family, pair, points):
-    """Class and worst error of every point, and the borders, into axes; pair and points as of parts_of()."""
+    """Draws class and worst error of every point, and the borders, into axes. pair and points come from parts_of()."""
     across, down = pair
     n, m = len(across["points"]), len(down["points"]) if down else 1
     for labels, point in points.items():
@@ -159,7 +158,7 @@ def draw_classes(axes, study, family, pair, points):
 
 
 def worst_error(study, point):
-    """"+3.4 %": of the quantities with a limit the error that is largest against it. Empty where none is known."""
+    """The largest error relative to its limit, as "+3.4 %"; empty: unknown."""
     found = [(abs(q["error"]["value"]) / of["limit"], q["error"]["value"], of) for q, of in zip(point["quantities"], study.quantities)
              if of["limit"] and q["error"]["value"] is not None]
     if not found or point["class"] in ("refused", "stopped", "not run"):
@@ -170,7 +169,7 @@ def worst_error(study, point):
 
 
 def _draw_border(axes, border, across, down):
-    """y = c x^p of axis names x and y; the map's axes may be the other way round."""
+    """Draws y = c x^p, also if the axes of the map are swapped."""
     first = across if across["name"] == border["x"] else down
     values = [p["value"] for p in first["points"]]
     if any(v is None or v <= 0 for v in values):

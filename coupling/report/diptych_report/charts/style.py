@@ -1,6 +1,6 @@
-# diptych: look of the report's figures and their encoding into the page
+# diptych: style of the figures, and their encoding for the page
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Colours, type sizes, frames that figures share, and the one way a figure becomes an embedded picture."""
+"""Colours, font sizes, frames that figures share, and conversion of a figure to an embedded picture."""
 
 import base64
 import io
@@ -17,10 +17,10 @@ from PIL import Image
 
 from diptych_report.data.numbers import interval, plain
 
-# Okabe and Ito's palette: told apart by colour-blind readers; line styles differ as well, for prints in grey.
+# Okabe and Ito's palette suits colour-blind readers. Line styles differ as well, for prints in grey.
 GRAINS = "#0072B2"
 CONTINUUM = "#D55E00"
-THIRD = "#007A5E"   # for a third line beside the two panels
+THIRD = "#007A5E"   # for a third line
 INK = "#222222"
 FAINT = "#9a9a9a"
 GRID = "#e4e4e4"
@@ -29,7 +29,7 @@ PANEL_COLOURS = {"discrete": GRAINS, "continuum": CONTINUUM}
 PANEL_LINES = {"discrete": "-", "continuum": (0, (5, 1.5))}
 PANEL_MARKS = {"discrete": "o", "continuum": "s"}
 MAP_DPI = 110
-POINTS = 1500       # of a curve on paper
+POINTS = 1500       # per curve
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Picture:
 
 @dataclass(frozen=True)
 class Pair:
-    """Two pictures of one instant, grains left and continuum right; one is None where its data are not stored."""
+    """Two pictures of one instant, grains left and continuum right; None: not stored."""
 
     left: object
     right: object
@@ -52,22 +52,21 @@ class Pair:
 
 
 def set_up():
-    """Start from matplotlib's own defaults, so that a user's matplotlibrc cannot change a report."""
+    """Sets the style on top of matplotlib's defaults. A user's matplotlibrc does not change a report."""
     matplotlib.rcdefaults()
     matplotlib.rcParams.update({
         "font.size": 9, "axes.titlesize": 10, "axes.labelsize": 9.5, "legend.fontsize": 8.5,
         "xtick.labelsize": 8.5, "ytick.labelsize": 8.5, "axes.edgecolor": INK, "axes.linewidth": 0.7,
         "axes.unicode_minus": True, "legend.frameon": False, "lines.linewidth": 1.6,
-        # A stated title height spares matplotlib a search that costs a tenth of the page's time.
+        # A fixed title height saves a tenth of the time of a page.
         "axes.titley": 1.0, "svg.hashsalt": "diptych", "path.simplify_threshold": 0.3,
-        # Text stays text. It is measured in the font that comes with matplotlib; a reader without it sees one as wide or
-        # narrower: nothing is cut off.
+        # Text stays text, measured in the font of matplotlib. The other fonts are not wider, so nothing is cut.
         "svg.fonttype": "none", "font.sans-serif": ["DejaVu Sans", "Verdana", "Arial", "sans-serif"],
     })
 
 
 def chart(result, label, height=3.1, log=False):
-    """(figure, axes) of a curve against the progress of `result.walk`: one size and one frame for all."""
+    """(figure, axes) for a curve over the progress `result.walk`, always with the same frame."""
     figure = Figure(figsize=(4.5, height))
     axes = ruled(figure.add_axes([0.15, 0.5 / height, 0.825, 1 - 0.6 / height]))
     axes.set(xlabel=result.walk.label, ylabel=label)
@@ -78,7 +77,7 @@ def chart(result, label, height=3.1, log=False):
 
 
 def logarithmic(axes):
-    """Decades as plain numbers, without ticks between them: set formulas and small ticks take most of the time of such an axis."""
+    """Decades as plain numbers without minor ticks; formulas and minor ticks would take most of the time."""
     if axes.get_yscale() != "log":
         axes.set_yscale("log")
         axes.yaxis.set_major_formatter("{x:g}")
@@ -89,8 +88,8 @@ _frames = {}
 
 
 def frame(name, size, boxes):
-    """(figure, axes) without data, one ruled axes for every box. Kept under `name` for the next chart of its kind: to make axes and
-    their ticks costs more than to draw them."""
+    """(figure, axes) without data, one ruled axes per box. They are kept under `name` for the next chart, because creating axes takes
+    longer than drawing."""
     if name not in _frames:
         figure = Figure(figsize=size)
         _frames[name] = figure, [ruled(figure.add_axes(box)) for box in boxes]
@@ -103,7 +102,7 @@ def frame(name, size, boxes):
 
 
 def place_labels(axes, x, y):
-    """The y label at x and the x label at y, in parts of the figure: stated places spare a search among the tick labels."""
+    """Puts the y label at x and the x label at y, in fractions of the figure. Fixed places save a search among the tick labels."""
     axes.xaxis.set_label_coords(0.5, y, transform=blended_transform_factory(axes.transAxes, axes.figure.transFigure))
     axes.yaxis.set_label_coords(x, 0.5, transform=blended_transform_factory(axes.figure.transFigure, axes.transAxes))
 
@@ -126,20 +125,20 @@ def ruled(axes):
 
 
 def with_intervals(axes, x, numbers, **look):
-    """Points with their 95 % intervals, where they carry one; numbers as in data.numbers. True if any has a value."""
+    """Draws points with their 95 % intervals, if known; numbers as in data.numbers. Returns True if any has a value."""
     points = [(at, plain(n), interval(n)) for at, n in zip(x, numbers) if plain(n) is not None]
     if not points:
         return False
     at, values = np.array([p[0] for p in points]), np.array([p[1] for p in points])
     ends = np.array([p[2] or (p[1], p[1]) for p in points])
-    # An end may lie on the wrong side of the value by round-off or by a skewed resampling: a bar has no negative length.
+    # Round-off or a skewed bootstrap may put an end on the wrong side of the value; bars have no negative length.
     bars = np.clip(np.stack([values - ends[:, 0], ends[:, 1] - values]), 0, None)
     axes.errorbar(at, values, bars, capsize=2.5, elinewidth=1, **look)
     return True
 
 
 def thin(x, y, points=POINTS):
-    """Lowest and highest point of each of points/2 bins: a long history keeps its spikes."""
+    """Keeps the lowest and highest point of each of points/2 bins, so that a long history keeps its spikes."""
     if len(x) <= points:
         return x, y
     keep = set()
@@ -151,7 +150,7 @@ def thin(x, y, points=POINTS):
 
 
 def decades(values):
-    """Whole decades that hold the values, so that a logarithmic axis always has labels."""
+    """Whole decades around the values, so that a logarithmic axis always has labels."""
     if not len(values):
         return 0.1, 1.0
     low, high = np.floor(np.log10(values.min()) + 1e-9), np.ceil(np.log10(values.max()) - 1e-9)
@@ -164,13 +163,13 @@ def signed(text):
 
 
 def band_axes(angle_deg):
-    """Unit vectors along and normal to a band: angle from the horizontal, in (-90, 90]; normal = direction + 90."""
+    """Unit vectors along a band (angle from the horizontal, in (-90, 90]) and normal to it (90 degrees further)."""
     angle = np.radians(angle_deg)
     return np.array([np.cos(angle), np.sin(angle)]), np.array([-np.sin(angle), np.cos(angle)])
 
 
 def png(figure, alt, dpi=MAP_DPI):
-    """Raster picture for maps of thousands of shapes, with a palette of 255 colours: a third of the bytes."""
+    """Raster picture for maps of thousands of shapes. A palette of 255 colours takes a third of the bytes."""
     canvas = FigureCanvasAgg(figure)
     figure.set_dpi(dpi)
     canvas.draw()
@@ -182,24 +181,24 @@ def png(figure, alt, dpi=MAP_DPI):
 
 
 def svg(figure, alt):
-    """Vector picture for curves. No date is written, so that the same results give the same bytes."""
+    """Vector picture for curves. It has no date, so the same results give the same bytes."""
     stream = io.BytesIO()
     figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
     return _picture(figure, "image/svg+xml", io.BytesIO(_lean(stream.getvalue())), alt)
 
 
-DECIMALS = re.compile(rb"(\.\d\d)\d+")  # of places, which stand in tags: the numbers of a label stay as they are
-# (pattern, what replaces it) of a picture's text.
+DECIMALS = re.compile(rb"(\.\d\d)\d+")  # only coordinates, which are inside tags; numbers in labels stay
+# (pattern, replacement) for the text of a picture.
 LEAN = [(re.compile(pattern, re.DOTALL), new) for pattern, new in (
     (rb"<\?xml.*?>\n", b""), (rb"<[^>]*>", lambda tag: DECIMALS.sub(rb"\1", tag.group())), (rb"\n *", b"\n"), (rb"<metadata>.*?</metadata>\n", b""), (rb"<!DOCTYPE.*?>\n", b""),
     (rb'<g id="[^"]*">', b"<g>"), (rb' transform="rotate\(-0 [^)]*\)"', b""), (rb"font: ([\d.]+px) [^;\"]*", rb"font-size:\1"),
     (rb" ?\n([LCQz])", rb"\1"), (rb"([\d\"])([LCQ]) (?=[-\d])", rb"\1\2"), (rb">\n<", b"><"),
-    (rb'(<use [^>]*) style="stroke: #\w+; stroke-width: [\d.]+"/>', rb"\1/>"))]  # a tick's path has the style
+    (rb'(<use [^>]*) style="stroke: #\w+; stroke-width: [\d.]+"/>', rb"\1/>"))]  # the path of the tick has the style
 
 
 def _lean(text):
-    """The same picture in half the bytes: a hundredth of a point is enough, nothing refers to the groups' names, one rule says the
-    fonts, and what is turned by no angle needs no turn."""
+    """The same picture in half the bytes: coordinates to a hundredth of a point, no names of groups, one rule for the fonts, no
+    rotations by zero."""
     for pattern, new in LEAN:
         text = pattern.sub(new, text)
     fonts = ", ".join(f"'{name}'" if " " in name else name for name in matplotlib.rcParams["font.sans-serif"])

@@ -1,6 +1,6 @@
-# diptych: what the stages tell together: inclination and width of the bands, dissipation in them, difference of the stress
+# diptych: charts over the stages: inclination and width of the bands, dissipation in them, difference of the stress
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Every figure against the loading, both panels, with the 95 % intervals that the comparison gives."""
+"""Every figure is over the loading, for both panels, with the 95 % intervals of the comparison."""
 
 from diptych_report.charts.style import FAINT, INK, PANEL_COLOURS, PANEL_MARKS, THIRD, chart, svg, with_intervals
 from diptych_report.data.numbers import plain, scaled
@@ -15,15 +15,15 @@ def figures(result):
 
 
 def strongest_band(stage, panel):
-    """The comparison lists the strongest first; {} where none is detected."""
+    """The first band, which is the strongest, or {}."""
     return next(iter(stage.bands(panel)), {})
 
 
 def _points(axes, result, numbers):
-    """One set of points a panel; numbers(stage, panel). True if any was drawn."""
+    """Draws one set of points per panel from numbers(stage, panel). Returns True if any was drawn."""
     drawn = False
     for k, panel in enumerate(PANEL_NAMES):
-        # Half a line width apart, so that equal values do not hide each other.
+        # The panels are half a line width apart, so that equal values stay visible.
         x = [result.walk.factor * s.end * (1 + 0.004 * (2 * k - 1)) for s in result.stages]
         drawn |= with_intervals(axes, x, [numbers(s, panel) for s in result.stages], fmt=PANEL_MARKS[panel], markersize=4.5,
                                 color=PANEL_COLOURS[panel], label=PANEL_NAMES[panel])
@@ -32,8 +32,8 @@ def _points(axes, result, numbers):
 
 
 def _inclination(result):
-    caption = ("Angle between the first band and the direction of the minor principal stress in the zone, beside the theory "
-               "lines of the continuum's parameters (φ friction, ψ dilatancy). 95 % intervals where given.")
+    caption = ("Angle between the first band and the minor principal stress in it, and theory lines for the parameters of the continuum "
+               "(φ friction, ψ dilatancy). Bars: 95 % intervals, if known.")
     figure, axes = chart(result, "band to minor stress (degrees)")
     if not _points(axes, result, lambda stage, panel: strongest_band(stage, panel).get("to_minor_stress_deg")):
         return None, caption
@@ -48,7 +48,7 @@ def _inclination(result):
 
 
 def _width(result):
-    caption = "Width of the first band, in current coordinates. 95 % intervals by block bootstrap where given."
+    caption = "Width of the first band, in current coordinates. Bars: 95 % intervals by block bootstrap, if known."
     figure, axes = chart(result, "10–90 % width of the band (d)")
     if not _points(axes, result, lambda stage, panel: strongest_band(stage, panel).get("width_10_90_d")):
         return None, caption
@@ -58,8 +58,8 @@ def _width(result):
 
 
 def _dissipation(result):
-    caption = ("Share of the energy dissipated in a stage that is dissipated within the 10–90 % width of the grains' band; "
-               "dashed: that band's share of the area. Grains: friction and impacts; continuum: plastic work.")
+    caption = ("Share of the dissipation of a stage inside the 10–90 % width of the band of the grains. Dashed: share of the area of this "
+               "band. Grains: friction and impacts; continuum: plastic work.")
     figure, axes = chart(result, "dissipated inside the band (%)")
     of = lambda stage, panel: scaled((stage.panel(panel).get("dissipation") or {}).get("share_inside"), 100)  # noqa: E731
     if not _points(axes, result, of):
@@ -70,13 +70,12 @@ def _dissipation(result):
         axes.plot(*zip(*area), color=FAINT, linestyle="--", linewidth=1.2, label="share of the area")
     axes.set_ylim(0, 100)
     axes.legend(loc="best")
-    return svg(figure, "Share of dissipation inside the grains' band against the loading, both panels."), caption
+    return svg(figure, "Share of dissipation inside the band of the grains against the loading, both panels."), caption
 
 
 def _stress_difference(result):
-    caption = ("Relative difference of the stress of the two panels (L2 over cells that carry both), at three sizes of cell. "
-               "Dashed: the grains' scatter about their own quadratic surface, a narrow band in it included: what sampling alone "
-               "would give, and rather more.")
+    caption = ("Relative difference of the stress of both panels (L2 over cells with both), for three sizes of cell. Dashed: scatter of the "
+               "grains about a quadratic surface, an upper estimate of the difference from sampling only, because it includes narrow bands.")
     rows = {}
     for stage in result.stages:
         for row in (stage.record.get("difference") or {}).get("stress") or []:

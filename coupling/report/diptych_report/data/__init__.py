@@ -1,2 +1,2 @@
-# diptych: folders of results as plain values
+# diptych: result folders as plain values
 # SPDX-License-Identifier: LGPL-2.1-or-later

@@ -1,4 +1,4 @@
-# diptych: HDF5 files of a result folder, opened for reading
+# diptych: opens HDF5 files of a result folder
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 import contextlib
@@ -13,19 +13,19 @@ USUAL = [getattr(h5py.h5t, f"{kind}{order}") for order in ("LE", "BE")
 
 @contextlib.contextmanager
 def open_arrays(path):
-    """The file. Raises InputError where it is none, where something in it stands in another file (links may lead to a pipe, which never ends, and to
-    what is no result), or where numbers are of no usual type (the library turns odd ones bit by bit, by what the file says, over the ends of its memory)."""
+    """The open file. Raises InputError if it is no HDF5 file, if it refers to other files (a link may lead to a pipe, which never ends),
+    or if it has numbers of unusual types (damaged type descriptions make the library read beyond its memory)."""
     try:
         with h5py.File(path, "r") as file:
             _demand_inside(path, file, set())
             yield file
-    except (OSError, RuntimeError) as error:  # of h5py: a damaged file is either, by the place of the damage
+    except (OSError, RuntimeError) as error:  # h5py raises either for a damaged file
         raise InputError(f"{path}: {error}") from error
 
 
 def _names(group):
-    """In the file's own order: for the order of names, in which h5py goes by itself, the library makes a table first, of which it frees what it never
-    filled where the group is damaged."""
+    """Names in the order of the file. h5py's default, the order of names, crashes in damaged groups: the library frees a table that it
+    never filled."""
     names = []
     group.id.links.iterate(lambda name, *_: names.append(name.decode("utf-8", "surrogateescape")), idx_type=h5py.h5.INDEX_NAME, order=h5py.h5.ITER_NATIVE)
     return names
@@ -36,19 +36,19 @@ def _demand_inside(path, group, seen):
         place = f"{path}: {group.name.rstrip('/')}/{name}"
         link = group.get(name, getlink=True)
         if isinstance(link, h5py.ExternalLink):
-            raise InputError(f"{place} stands in another file, {link.filename!r}: links into other files are not followed")
+            raise InputError(f"{place} is a link to another file, {link.filename!r}; such links are not followed")
         item = group.get(name)
         if item is not None:
             _demand_types(place, item)
         if isinstance(item, h5py.Dataset) and (item.external or item.is_virtual):
-            raise InputError(f"{place} has its numbers in other files, which are not read")
+            raise InputError(f"{place} has its numbers in other files; these are not read")
         if isinstance(item, h5py.Group) and item.id not in seen:
             seen.add(item.id)
             _demand_inside(path, item, seen)
 
 
 def _attributes(item):
-    """In the file's own order, as _names."""
+    """Names of attributes in the order of the file, as in _names."""
     names = []
     h5py.h5a.iterate(item.id, lambda name, *_: names.append(name), index_type=h5py.h5.INDEX_NAME, order=h5py.h5.ITER_NATIVE)
     return names
@@ -59,4 +59,4 @@ def _demand_types(place, item):
     types += [(f"@{name.decode('utf-8', 'replace')}", h5py.h5a.open(item.id, name).get_type()) for name in _attributes(item)]
     for where, kind in types:
         if kind.get_class() in (h5py.h5t.INTEGER, h5py.h5t.FLOAT) and kind not in USUAL:
-            raise InputError(f"{place}{where} holds numbers of no usual type (integers of 8 to 64 bits, floats of 32 or 64)")
+            raise InputError(f"{place}{where} has numbers of an unusual type; allowed are integers of 8 to 64 bits and floats of 32 or 64 bits")

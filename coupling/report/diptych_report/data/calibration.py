@@ -1,4 +1,4 @@
-# diptych: a calibration read into plain values
+# diptych: reads a calibration
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Reads calibration.json and calibration_cost.json."""
 
@@ -30,12 +30,12 @@ class Calibration:
 
 
 def label(parameter):
-    """Its key, and whose own it is."""
+    """The key of a parameter, and its targets if it is not common to all."""
     return parameter["key"] + (f" ({', '.join(parameter['targets'])})" if parameter["targets"] else "")
 
 
 def load(folder):
-    """Raises InputError where a file is missing, broken, of another format, or of a calibration that did not come to its end."""
+    """Raises InputError if a file is missing, broken or has another format, or if the calibration did not finish."""
     path = os.path.join(folder, "calibration.json")
     record = read_json(path)
     if record.get("format") != FORMAT:
@@ -46,5 +46,5 @@ def load(folder):
 
 
 def numbers(values):
-    """As an array, NaN where a value is not known."""
+    """The values as an array; NaN: unknown."""
     return np.array([np.nan if value is None else value for value in values], dtype=float)

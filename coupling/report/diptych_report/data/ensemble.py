@@ -1,7 +1,7 @@
-# diptych: an ensemble of seeds read into plain values
+# diptych: reads an ensemble of seeds
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Reads ensemble.json, ensemble.h5 and what a member's comparison.json says of the numbers; ensemble.prm and provenance.json if
-they are there."""
+"""Reads ensemble.json and ensemble.h5, the meaning of numbers from comparison.json of a member, and the optional files ensemble.prm
+and provenance.json."""
 
 import os
 import re
@@ -17,13 +17,13 @@ from diptych_report.data.scene import scene_value
 from diptych_report.data.walk import Walk, walk_of
 
 FORMAT = 1
-MOST_CURVES = 200  # members whose curves are drawn
+MOST_CURVES = 200  # members with a drawn curve
 NUMBER = re.compile(r"-?[0-9.]+(?:e[+-]?[0-9]+)?")
 
 
 @dataclass
 class Ensemble:
-    """quantities: by name; numbers: of a member's comparison; averaging: progress of the running means, None if not stored.
+    """quantities: by name. numbers: those of a member's comparison. averaging: width of the running means; None: not stored.
 
     curves: {"discrete/stress_ratio": {"members": (m, n), "mean": (n), "low": (n), "high": (n)}} over progress (n); {} if absent.
     """
@@ -46,7 +46,7 @@ class Ensemble:
     def place(self, text):
         """(kind, words) of "window 0.01-0.02" or "stage 0.02": ("window", "1–2 %")."""
         kind, at = text.split(" ", 1)
-        # The dash between two ends is no sign.
+        # The dash between two ends is not a minus sign.
         ends = [float(x) for x in NUMBER.findall(re.sub(r"(?<=[0-9.])-", " ", at))]
         return kind, "–".join([self.walk.number(x) for x in ends[:-1]] + [self.span(ends[-1])])
 
@@ -58,7 +58,7 @@ class Ensemble:
 
 
 def load(folder):
-    """Ensemble of a folder. Raises InputError, naming the file, where ensemble.json is missing, broken or of another format."""
+    """The ensemble of a folder. Raises InputError if ensemble.json is missing, broken or has another format."""
     path = os.path.join(folder, "ensemble.json")
     record = read_json(path)
     if record.get("format") != FORMAT:
@@ -75,7 +75,7 @@ def load(folder):
 
 
 def _member(folder, seeds):
-    """comparison.json of the first finished member that still has one; {} without any."""
+    """comparison.json of the first finished member that has one, or {}."""
     paths = [os.path.join(folder, f"seed_{seed}", "comparison.json") for seed in seeds]
     return next((read_json(path) for path in paths if os.path.isfile(path)), {})
 

@@ -1,4 +1,4 @@
-# diptych: text files of a result folder read into plain values
+# diptych: reads text files of a result folder
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 import csv
@@ -11,14 +11,14 @@ from diptych_report.data.input_error import InputError
 
 
 def require(folder, names):
-    """Raises InputError naming every file of names that the folder lacks."""
+    """Raises InputError with the missing files."""
     missing = [name for name in names if not os.path.isfile(os.path.join(folder, name))]
     if missing:
         raise InputError(f"{folder}: missing {', '.join(missing)}")
 
 
 def read_json(path):
-    """The object of a JSON file. Raises InputError where it cannot be read or is no object."""
+    """The object of a JSON file. Raises InputError if it cannot be read or is not an object."""
     try:
         with open(path, encoding="utf-8") as stream:
             value = json.load(stream)
@@ -32,15 +32,15 @@ def read_json(path):
 
 
 def read_provenance(path):
-    """provenance.json as every run writes it. Raises InputError where it cannot be read or is no record of a run."""
+    """The record in provenance.json. Raises InputError if it cannot be read or is not the record of a run."""
     record = read_json(path)
     if record.get("program") != "diptych" or not isinstance(record.get("phases"), list):
-        raise InputError(f"{path}: is no record of a run of diptych: 'program' or 'phases' is missing or is none that it writes")
+        raise InputError(f"{path}: is not the record of a run of diptych: 'program' or 'phases' is missing or wrong")
     return record
 
 
 def read_csv(path):
-    """{column: array of its numbers}; nan where the text is no number. Raises InputError where there is no header."""
+    """{column: array of numbers}; NaN: no number. Raises InputError if there is no header."""
     try:
         with open(path, encoding="utf-8", newline="") as stream:
             rows = list(csv.reader(stream))
@@ -49,13 +49,13 @@ def read_csv(path):
     if not rows:
         raise InputError(f"{path}: empty")
     names = [name.strip() for name in rows[0]]
-    # A killed run may leave its last line half written.
+    # A killed run may leave an incomplete last line.
     rows = [row for row in rows[1:] if len(row) == len(names)]
     return {name: np.array([number(row[k]) for row in rows]) for k, name in enumerate(names)}
 
 
 def read_text(path):
-    """The file's text; empty where there is no file."""
+    """The text of the file, or "" if it does not exist."""
     if not os.path.isfile(path):
         return ""
     with open(path, encoding="utf-8", errors="replace") as stream:
@@ -63,7 +63,7 @@ def read_text(path):
 
 
 def number(text):
-    """A float; nan where the text is none."""
+    """The text as a float; NaN: no number."""
     try:
         return float(text)
     except (TypeError, ValueError):

@@ -1,6 +1,6 @@
 # diptych: increments of a comparison (stages and windows) with their arrays, lengths in d and stresses in P
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""comparison.json says which increments there are; comparison.h5 holds a group of arrays for each."""
+"""comparison.json lists the increments; comparison.h5 has a group of arrays for each."""
 
 from dataclasses import dataclass, field
 
@@ -12,12 +12,12 @@ from diptych_report.data.numbers import Description
 from diptych_report.data.walk import Walk, walk_of
 
 MESHES = ("cells", "grid")
-SAME = 1e-6  # of progress
+SAME = 1e-6  # tolerance of progress
 
 
 @dataclass
 class Increment:
-    """What happened between two instants of the loading, in both panels.
+    """Change between two instants of the loading, in both panels.
 
     arrays: datasets by path in the group, as "cells/discrete_stress" (C, 2, 2) [P]; "cells/corners" (C, 4, 2) [d] is the mesh.
     state: arrays of the stage that ends at the same progress (a stage's own): stresses and forces at that instant.
@@ -49,7 +49,7 @@ class Increment:
         return self.panel(name).get("bands") or []
 
     def place(self, path):
-        """Of a number of this increment in the list of numbers: "discrete/bands/jump" -> "stages/discrete/bands/jump"."""
+        """Place of a number in the list of numbers: "discrete/bands/jump" -> "stages/discrete/bands/jump"."""
         return f"{self.kind}s/{path}"
 
     @property
@@ -66,8 +66,8 @@ class Increment:
 def read(comparison, file, units):
     """(increments, {path: Description}): windows first, then stages, in the order of comparison.json.
 
-    comparison: shown in `units`. Raises KeyError where a stage or window lacks its progress, InputError naming comparison.h5
-    where it has no such stage or window.
+    comparison: converted to `units`. Raises KeyError if a stage or window has no progress, InputError if comparison.h5 does not have
+    the stage or window.
     """
     walk = walk_of(comparison.get("walk"))
     increments, groups = [], {}
@@ -90,15 +90,15 @@ def read(comparison, file, units):
 
 
 def read_arrays(group, units, described):
-    """{path: array} of a group, by each dataset's attribute `unit` in d and P; what is said of it goes into `described`."""
+    """{path: array} of a group, converted to d and P by the attribute `unit`. Adds the descriptions of the datasets to `described`."""
     arrays = {}
 
     def take(path, item):
         if not isinstance(item, h5py.Dataset):
             return
-        said = Description(*[text_of(item, name) for name in ("unit", "meaning", "title")])
-        described.setdefault(path, said)
-        size = units.size(said.unit)
+        found = Description(*[text_of(item, name) for name in ("unit", "meaning", "title")])
+        described.setdefault(path, found)
+        size = units.size(found.unit)
         arrays[path] = item[()] if size == 1.0 else np.asarray(item[()], dtype=float) / size
 
     group.visititems(take)
@@ -111,13 +111,13 @@ def text_of(item, name):
 
 
 def _group_of(increment, name, file):
-    """The group of comparison.h5 that holds the increment's arrays."""
+    """The group of comparison.h5 with the arrays of the increment."""
     group = file.get(name)
     if not isinstance(group, h5py.Group):
-        raise InputError(f"{file.filename}: has no group {name}, which comparison.json beside it tells of")
+        raise InputError(f"{file.filename}: has no group {name}, but comparison.json lists it")
     end = group.attrs.get("to")
     if not (np.isscalar(end) and abs(float(end) - increment.end) < SAME):
-        raise InputError(f"{file.filename}: {name} does not end where comparison.json beside it says: at {increment.end!r}")
+        raise InputError(f"{file.filename}: {name} does not end at {increment.end!r}, as comparison.json states")
     return group
 
 

@@ -1,8 +1,8 @@
-# diptych: numbers of a result, their units and what they mean
+# diptych: numbers of a result with units and meanings
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A number is plain, or {"value", "low", "high"} with its 95 % interval; None where it is not known.
+"""A number is plain, or {"value", "low", "high"} with its 95 % interval; None: unknown.
 
-A unit is what the files say, as "pressure length^2", "length/time", "mean diameters" or "-".
+Units are those of the files: "pressure length^2", "length/time", "mean diameters" or "-".
 """
 
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ import numpy as np
 
 
 def plain(number):
-    """The value of a number that may carry an interval; None where there is no number."""
+    """The value of a number with or without an interval, or None."""
     if isinstance(number, dict):
         number = number.get("value")
     if isinstance(number, bool) or not isinstance(number, (int, float)) or not np.isfinite(number):
@@ -20,7 +20,7 @@ def plain(number):
 
 
 def interval(number):
-    """(low, high) of a number with an interval; None where it has none or an end is not known."""
+    """(low, high) of a number with a complete interval, or None."""
     if not isinstance(number, dict):
         return None
     ends = plain(number.get("low")), plain(number.get("high"))
@@ -28,7 +28,7 @@ def interval(number):
 
 
 def scaled(number, factor):
-    """The number, plain or with an interval, or each of a list, times factor; what is no number stays."""
+    """The number (plain, with interval, or a list) times factor. Other values stay."""
     if isinstance(number, dict):
         return {key: scaled(value, factor) for key, value in number.items()}
     if isinstance(number, (list, tuple)):
@@ -38,13 +38,13 @@ def scaled(number, factor):
 
 @dataclass(frozen=True)
 class Units:
-    """What lengths and stresses are shown in: mean diameter d [length] and pressure P [pressure] of the scene."""
+    """Units of shown lengths and stresses: mean diameter d [length] and pressure P [pressure] of the scene."""
 
     diameter: float = 1.0
     pressure: float = 1.0
 
     def size(self, unit):
-        """How large 1 is in the files' own units: what a stored number of this unit is divided by. Times stay as they are."""
+        """Divisor of stored numbers with this unit. Times are not scaled."""
         above, _, below = (unit or "").partition("/")
         return self._product(above) / self._product(below)
 
@@ -64,7 +64,7 @@ class Description:
 
 
 class Descriptions:
-    """Of every number of a comparison by its place, as "stages/discrete/bands/angle_deg"."""
+    """Descriptions of the numbers of a comparison, by place: "stages/discrete/bands/angle_deg"."""
 
     def __init__(self, numbers):
         self._numbers = {place: Description(entry.get("unit", "-"), entry.get("meaning", ""))
@@ -74,12 +74,12 @@ class Descriptions:
         return self._numbers.get(place, Description()).unit
 
     def meaning(self, place):
-        """What the program says of it; its key where the program says nothing."""
+        """The meaning from the program, or else the key."""
         found = self._numbers.get(place, Description()).meaning
         return found or place.rsplit("/", 1)[-1].replace("_", " ")
 
     def shown_in(self, tree, units, place=""):
-        """A part of the comparison with lengths in d and stresses in P."""
+        """A part of the comparison, converted to lengths in d and stresses in P."""
         if isinstance(tree, dict) and not (place in self._numbers and "value" in tree):
             return {key: self.shown_in(value, units, f"{place}/{key}" if place else key) for key, value in tree.items()}
         if isinstance(tree, list) and any(isinstance(entry, dict) for entry in tree):

@@ -1,7 +1,7 @@
-# diptych: the two panels and what is said of them everywhere
+# diptych: names of the panels and of the theory lines
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 PANEL_NAMES = {"discrete": "Grains", "continuum": "Continuum"}
 DIFFUSE = "diffuse: no band"
-# key of "theory" -> its line's name
+# key of "theory" -> name of the line
 THEORY = {"coulomb_deg": "Coulomb 45° + φ/2", "arthur_deg": "Arthur 45° + (φ + ψ)/4", "roscoe_deg": "Roscoe 45° + ψ/2"}

@@ -1,6 +1,6 @@
-# diptych: a result folder read into plain values, lengths in d and stresses in P
+# diptych: reads a result folder, with lengths in d and stresses in P
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Reads comparison.json, comparison.h5, discrete.csv, continuum.csv, provenance.json; scene.prm if it is there."""
+"""Reads comparison.json, comparison.h5, discrete.csv, continuum.csv, provenance.json, and the optional scene.prm and import.json."""
 
 import os
 from dataclasses import dataclass
@@ -20,9 +20,9 @@ FORMAT = 2
 
 @dataclass
 class Result:
-    """comparison: the record in d and P, without its list of numbers, which is `numbers`. arrays: {path in a group: Description}.
+    """comparison: the record in d and P, without its list `numbers`. arrays: {path in a group: Description}.
 
-    histories: "discrete", "continuum": column -> array, in the files' own units; running means of comparison.h5 in d and P.
+    histories: "discrete", "continuum": column -> array in the units of the files; running means of comparison.h5 in d and P.
     """
 
     comparison: dict
@@ -32,8 +32,8 @@ class Result:
     units: Units
     numbers: Descriptions
     arrays: dict
-    scene_text: str   # echo of the scene, empty if absent
-    imported: dict    # import.json of another code's sample; {} where the grains are our own
+    scene_text: str   # the resolved scene, or ""
+    imported: dict    # import.json of an imported sample, or {}
 
     @property
     def walk(self) -> Walk:
@@ -41,16 +41,16 @@ class Result:
 
     @property
     def averaging(self):
-        """Words of the progress over which running means are taken."""
+        """The range of the running means as text."""
         width = plain(self.comparison.get("averaging_width"))
         return "a part of the loading" if width is None else f"the last {self.walk.text(width)} of {self.walk.word}"
 
     def part(self, key):
-        """A group of the comparison; {} where it is absent."""
+        """A group of the comparison, or {}."""
         return self.comparison.get(key) or {}
 
     def history(self, panel, name):
-        """(progress, values) where both are finite; None where the column is not there or has no two such rows."""
+        """(progress, values) of the rows with finite numbers; None: no such column, or fewer than two rows."""
         columns = self.histories[panel]
         progress, values = columns.get("progress"), columns.get(name)
         if progress is None or values is None or len(progress) != len(values):
@@ -68,8 +68,7 @@ class Result:
 
 
 def load(folder):
-    """Result of a folder. Raises InputError, naming the file, where one that is required is missing, broken or of another
-    format."""
+    """The result of a folder. Raises InputError if a required file is missing, broken or has another format."""
     require(folder, REQUIRED)
     comparison = read_json(os.path.join(folder, "comparison.json"))
     if comparison.get("format") != FORMAT:

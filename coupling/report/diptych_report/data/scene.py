@@ -1,11 +1,11 @@
-# diptych: the echo of a scene file
+# diptych: reads keys of a resolved scene
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 import re
 
 
 def scene_section(text, section):
-    """[(key, value, meaning)] of one section; meaning is the comment above the key, nested sections make keys with slashes."""
+    """[(key, value, meaning)] of one section. The meaning is the comment above the key; nested sections give keys with slashes."""
     rows, path, comment = [], [], ""
     for line in text.splitlines():
         line = line.strip()
@@ -24,5 +24,5 @@ def scene_section(text, section):
 
 
 def scene_value(text, section, key):
-    """Text of one key; "" where the echo lacks it."""
+    """Value of one key as text, or ""."""
     return next((value for name, value, _ in scene_section(text, section) if name == key), "")

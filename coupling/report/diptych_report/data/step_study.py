@@ -1,4 +1,4 @@
-# diptych: a study of the step read into plain values
+# diptych: reads a study of the time step
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 import os
@@ -9,14 +9,14 @@ from diptych_report.data.files import InputError, read_csv, read_json, require
 
 @dataclass
 class StepStudy:
-    """runs: [(step, {column: array})], the longest step first; verdict: the program's sentence."""
+    """runs: [(step, {column: array})], the longest step first. verdict: a sentence of the program."""
 
     verdict: str
     runs: list
 
 
 def load(folder):
-    """Raises InputError, naming the file, where study_step.csv or study_step.json is missing or broken."""
+    """Raises InputError if study_step.csv or study_step.json is missing or broken."""
     require(folder, ("study_step.csv", "study_step.json"))
     record = read_json(os.path.join(folder, "study_step.json"))
     table = read_csv(os.path.join(folder, "study_step.csv"))

@@ -1,6 +1,6 @@
-# diptych: a study read into plain values
+# diptych: reads a study
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Reads study.json and study_cost.json; study.h5 if it is there."""
+"""Reads study.json, study_cost.json and the optional study.h5."""
 
 import os
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ CLASSES = {"right": ("#b7e1cd", "#222222", "R"), "struggled": ("#e3f0b5", "#2222
 
 @dataclass
 class Study:
-    """cost: of finished points, by their place in record["points"]; curves: {panel: (progress, {name: rows of points})}."""
+    """cost: of the finished points, by index in record["points"]. curves: {panel: (progress, {name: rows of points})}."""
 
     folder: str
     record: dict
@@ -38,7 +38,7 @@ class Study:
         return next(f for f in self.record["families"] if f["name"] == name)
 
     def of_family(self, name):
-        """[(place in points, point)]."""
+        """[(index, point)] of a family, without references."""
         return [(k, point) for k, point in enumerate(self.points) if point["family"] == name and not self.is_reference(k)]
 
     def is_reference(self, place):
@@ -46,7 +46,7 @@ class Study:
 
     @property
     def references(self):
-        """Their places in points."""
+        """Indices of the references."""
         return [k for k in range(len(self.points)) if self.is_reference(k)]
 
     def name(self, place):
@@ -55,12 +55,12 @@ class Study:
         if self.is_reference(place):
             return "reference" + (": " + ", ".join(point["labels"]) if point["labels"] else "")
         axes = [axis["name"] for axis in self.family(point["family"])["axes"]]
-        words = ", ".join(f"{axis} {label}" for axis, label in zip(axes, point["labels"]))
-        return ": ".join(text for text in (point["family"], words) if text)
+        setting = ", ".join(f"{axis} {label}" for axis, label in zip(axes, point["labels"]))
+        return ": ".join(text for text in (point["family"], setting) if text)
 
 
 def load(folder):
-    """Study of a folder. Raises InputError, naming the file, where one is missing, broken or of another format."""
+    """The study of a folder. Raises InputError if a file is missing, broken or has another format."""
     record, bill = (_read(os.path.join(folder, name)) for name in ("study.json", "study_cost.json"))
     return Study(folder, record, bill, {c["point"]: c for c in bill["points"]}, _curves(os.path.join(folder, "study.h5")))
 

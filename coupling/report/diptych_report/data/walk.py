@@ -1,4 +1,4 @@
-# diptych: what a loading walks along
+# diptych: the loading variable (progress)
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Walk:
-    """How a progress is written: factor times the stored number, then the unit."""
+    """Text of a progress: factor times the stored number, then the unit."""
 
     word: str
     unit: str = " %"
@@ -14,7 +14,7 @@ class Walk:
 
     @property
     def label(self):
-        """Of an axis."""
+        """Label of an axis."""
         return self.word + (" (%)" if self.unit else "")
 
     def number(self, progress):
@@ -28,5 +28,5 @@ WALKS = {"axial_strain": Walk("axial strain"), "shear_strain": Walk("shear strai
 
 
 def walk_of(name):
-    """Of the entry `walk` of a file; one without name or unit where a file does not say."""
+    """For the entry `walk` of a file; if it is missing, a Walk without name or unit."""
     return WALKS.get(name, Walk("progress", "", 1.0))

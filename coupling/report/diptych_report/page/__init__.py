@@ -1,2 +1,2 @@
-# diptych: pages put together
+# diptych: the pages
 # SPDX-License-Identifier: LGPL-2.1-or-later

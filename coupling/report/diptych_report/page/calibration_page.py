@@ -9,7 +9,7 @@ from diptych_report.tables import calibration as tables
 
 
 def draw(folder):
-    """Raises InputError where a file is missing, broken or of another format."""
+    """Raises InputError if a file is missing, broken or has another format."""
     calibration = load(folder)
     style.set_up()
     write(folder, page(calibration))

@@ -10,7 +10,7 @@ from diptych_report.tables.wording import origin
 
 
 def draw(folder):
-    """Raises InputError where ensemble.json is missing, broken or of another format."""
+    """Raises InputError if ensemble.json is missing, broken or has another format."""
     results = load(folder)
     style.set_up()
     write(folder, page(results))
@@ -18,7 +18,7 @@ def draw(folder):
 
 def page(results):
     rows = tables.verdict_rows(results)
-    labelled = [(row["words"], verdict) for row, verdict in zip(rows, results.record["verdicts"])]
+    labelled = [(row["text"], verdict) for row, verdict in zip(rows, results.record["verdicts"])]
     dots = [(figures.dots(verdict, tables.panel_quantities(results, verdict), label, scale), caption)
             for verdict, label, scale, caption in tables.captions(results)]
     lines = tables.curve_caption(results)

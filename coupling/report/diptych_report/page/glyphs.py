@@ -1,14 +1,14 @@
-# diptych: arrows, crosses, forces and probes of one increment, as the browser draws them
+# diptych: arrows, crosses, forces and probes of one increment, for the browser
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Every function gives entries of a Store; {} or None where nothing is stored."""
+"""Every function returns entries of a Store; {} or None: nothing is stored."""
 
 import numpy as np
 
 from diptych_report.data.numbers import plain
 from diptych_report.data.panels import PANEL_NAMES
 
-SPACING = 2.5       # d, of the grid near whose points an arrow is drawn, in both panels
-MOST_DRAWN = 12000  # crosses or forces of one map; the weakest are left out beyond it
+SPACING = 2.5       # d, of the grid with one arrow per square, in both panels
+MOST_DRAWN = 12000  # crosses or forces of one map; the weakest are left out
 PRINCIPAL = ("major_stress", "minor_stress", "stress_direction")
 
 
@@ -24,7 +24,7 @@ def or_none(number):
 
 
 def thinned(position):
-    """Indices of the point nearest to each point of a regular grid, one a square."""
+    """For each square of a regular grid, the index of the point nearest to its centre."""
     low = position.min(axis=0)
     column = np.floor((position - low) / SPACING).astype(int)
     distance = np.linalg.norm(position - (low + (column + 0.5) * SPACING), axis=1)
@@ -35,7 +35,7 @@ def thinned(position):
 
 
 def arrows(increment, store):
-    """Moreau 1997, figure 1: displacement increments and, of the grains, velocities; in units of the platen's."""
+    """Moreau 1997, figure 1: displacement increments, for grains also velocities, in units of those of the platen."""
     found, unit = {}, increment.displacement_unit
     for panel, group in (("discrete", "discrete"), ("continuum", "nodes")):
         position = increment.arrays.get(group + "/position")
@@ -52,7 +52,7 @@ def arrows(increment, store):
 
 
 def _velocity(increment):
-    """Of the grains at the increment's end, over the platen's (N, 2)."""
+    """Velocity of the grains at the end of the increment over that of the platen, (N, 2)."""
     values = increment.state.get("discrete/velocity")
     return None if values is None or increment.velocity_unit is None else values[:, :2] / increment.velocity_unit
 
@@ -63,7 +63,7 @@ def _field(store, position, vectors, chosen):
 
 
 def crosses(increment, store):
-    """Moreau 1997, figure 2: principal stresses of each grain; of each cell of the continuum."""
+    """Moreau 1997, figure 2: principal stresses of each grain and of each cell of the continuum."""
     state, found = increment.state, {}
     position, corners = state.get("discrete/position"), state.get("cells/corners")
     places = {"discrete": ("discrete/", position), "continuum": ("cells/continuum_", None if corners is None else
@@ -80,7 +80,7 @@ def crosses(increment, store):
 
 
 def cross_unit(increments):
-    """Half length of the line of a stress of 1 P [d]: the continuum's crosses just fill their cells."""
+    """Half length of the line of a stress of 1 P [d], so that the crosses of the continuum fill their cells."""
     units = []
     for increment in increments:
         major, corners = increment.state.get("cells/continuum_major_stress"), increment.state.get("cells/corners")
@@ -91,7 +91,7 @@ def cross_unit(increments):
 
 
 def forces(increment, store):
-    """Moreau 1997, figure 3: forces at the contacts, mean over the stage [P d]."""
+    """Moreau 1997, figure 3: contact forces, averaged over the stage [P d]."""
     point, force = increment.state.get("window/point"), increment.state.get("window/force")
     if point is None or force is None:
         return None
@@ -103,14 +103,14 @@ def forces(increment, store):
 
 
 def force_unit(increments):
-    """Thickness of the line of a force of 1 P d [d]: the strongest hundredth is drawn 0.7 d thick or more."""
+    """Thickness of the line of a force of 1 P d [d], so that the largest 1 % are at least 0.7 d thick."""
     found = [increment.state.get("window/force") for increment in increments]
     largest = [np.percentile(np.linalg.norm(f[:, :2], axis=1), 99) for f in found if f is not None and len(f)]
     return short(0.7 / max(np.median(largest), 1e-9)) if largest else 0.1
 
 
 def probes(increment):
-    """Rectangles with their principal stresses, and the circle; of the stage that ends here."""
+    """Rectangles with their principal stresses, and the circle, of the stage that ends here."""
     found = {}
     for panel in PANEL_NAMES:
         record = increment.end_panel(panel)

@@ -6,11 +6,11 @@ import numpy as np
 from diptych_report.data.panels import PANEL_NAMES
 from diptych_report.page.quantities import PLACES
 
-MARGIN = 2.0      # d, round the sample
+MARGIN = 2.0      # d, around the sample
 
 
 def box(increments):
-    """(x0, x1, y0, y1) [d] holding every grain and cell of every increment: stepping does not move the axes. None without any."""
+    """(x0, x1, y0, y1) [d] around all grains and cells of all increments, so that stepping does not move the axes; None: no data."""
     low, high = [], []
     for increment in increments:
         position, radius = increment.arrays.get("discrete/position"), increment.arrays.get("discrete/radius")
@@ -28,12 +28,11 @@ def box(increments):
 
 
 def limits(quantity, place, increments, result):
-    """Function increment -> (low, high): one rule for both panels and for every instant; None where nothing is stored.
+    """Function increment -> (low, high), the same rule for both panels and all instants; None: nothing is stored.
 
-    Limits are medians over the increments of 2nd and 98th percentiles, so that one instant does not set the scale of
-    all, and means over the panels. A strain increment is scaled by the progress it spans, and of the two panels'
-    percentiles the lower counts: a band one element thick saturates, which the bar's arrow says, instead of hiding the
-    wider band of the grains.
+    Limits are medians over the increments of the 2nd and 98th percentiles, so that no single instant sets the scale, and means over
+    the panels. A strain increment is scaled by its range of progress, and the lower percentile of the two panels counts. A band of
+    one element then saturates, which the arrow of the bar shows, and does not hide the wider band of the grains.
     """
     if not _offered(quantity, place, increments, result):
         return None
@@ -43,7 +42,7 @@ def limits(quantity, place, increments, result):
         sets = [values[np.isfinite(values)] / _scale(quantity, increment) for values in sets if values is not None]
         sets = [np.abs(values) if quantity.signed else values for values in sets if len(values)]
         if sets:
-            # One percentile a panel, so that each weighs the same whatever its number of grains or cells.
+            # One percentile per panel: both weigh the same for any number of grains or cells.
             join = np.min if quantity.per_progress and quantity.from_zero else np.mean
             lows.append(join([np.percentile(values, 2) for values in sets]))
             highs.append(join([np.percentile(values, 98) for values in sets]))
@@ -57,7 +56,7 @@ def limits(quantity, place, increments, result):
 
 
 def _offered(quantity, place, increments, result):
-    """The grains decide where a quantity can be shown; one that only the continuum has is shown on its cells."""
+    """A quantity is shown at the places where the grains have it; if only the continuum has it, on its cells."""
     def has(panel, at):
         return any(quantity.values(i, result, at, panel) is not None for i in increments)
     if has("discrete", place):

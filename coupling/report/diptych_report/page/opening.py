@@ -8,16 +8,21 @@ from diptych_report.page.limits import box, limits
 from diptych_report.page.quantities import QUANTITIES
 
 
-def opens_at(increments):
-    """The increment that is shown first: the first window, else the first that has walked 0.01; None without any."""
-    start = next((i.end for i in increments if i.kind == "window"), 0.01)
-    return next((i for i in increments if i.end >= start - 1e-9), increments[-1] if increments else None)
+def end_of(increments):
+    """Progress at which the page opens: the end of the last window, or of the last stage if there is no window."""
+    windows = [i for i in increments if i.kind == "window"]
+    return (windows or increments)[-1].end if increments else 0.0
+
+
+def opens_at(increments, end):
+    """The first increment that reaches `end`; windows come before stages. None without increments."""
+    return next((i for i in increments if i.end >= end - 1e-9), increments[-1] if increments else None)
 
 
 def still_pair(result):
-    """Shear strain increment of the opening instant, for readers without scripts; None where nothing is stored."""
+    """Shear strain increment of the opening instant, for readers without JavaScript; None: nothing is stored."""
     drawn = [i for i in result.increments if i.arrays]
-    quantity, frame, increment = QUANTITIES[0], box(drawn), opens_at(drawn)
+    quantity, frame, increment = QUANTITIES[0], box(drawn), opens_at(drawn, end_of(result.increments))
     rule = limits(quantity, "discs", drawn, result)
     if increment is None or frame is None or rule is None:
         return Pair(None, None)

@@ -1,6 +1,6 @@
 # diptych: the quantities that the maps can show
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A new quantity is one entry of QUANTITIES: its datasets and its colours. Titles, units and meanings are the datasets' own."""
+"""A new quantity is one entry of QUANTITIES with its datasets and colours. Titles, units and meanings come from the datasets."""
 
 from dataclasses import dataclass
 
@@ -9,18 +9,18 @@ import numpy as np
 from diptych_report.data.panels import PANEL_NAMES
 from diptych_report.tables.wording import suffix, typeset
 
-PLACES = ("discs", "cells", "grid")  # the grains' panel: discs, or means on the mesh's cells or on a regular grid
-BOTH = "{panel}_"                    # before the name of a cell's dataset, where both panels may have one
+PLACES = ("discs", "cells", "grid")  # the grains are shown as discs, or as means on the cells of the mesh or of a regular grid
+BOTH = "{panel}_"                    # prefix of a dataset on cells that both panels may have
 DEGREES = 180 / np.pi
 
 
 @dataclass(frozen=True)
 class Quantity:
-    """name: of the dataset of grains, and with `prefix` before it of cells; continuum: the continuum's own where it differs.
+    """name: dataset of the grains, and with `prefix` that of the cells. continuum: dataset of the continuum, if it differs.
 
-    component: (row, column) of a tensor. home: the place shown first. Limits: from_zero, or else signed (symmetric about 0), or
-    else percentiles at both ends; per_progress: an increment, whose limits grow with the progress it spans. of_state: a stage
-    alone stores it; a window shows that of the stage it ends with. per_cent: a pure number shown times 100.
+    component: (row, column) of a tensor. home: the place shown first. Limits: from_zero, or signed (symmetric about 0), or percentiles
+    at both ends. per_progress: an increment, whose limits grow with its range of progress. of_state: only stages store it; a window
+    shows the stage that ends with it. per_cent: shown times 100.
     """
 
     key: str
@@ -40,14 +40,14 @@ class Quantity:
     grains_only: bool = False
 
     def path(self, place, panel):
-        """Of the dataset below an increment's group."""
+        """Path of the dataset in the group of an increment."""
         if place == "discs" and panel == "discrete":
             return "discrete/" + self.name
         name = self.continuum or self.name if panel == "continuum" else self.name
         return f"{'grid' if place == 'grid' else 'cells'}/{self.prefix.format(panel=panel)}{name}"
 
     def values(self, increment, result, place, panel):
-        """One number a grain or a cell; None if not stored. Place discs: the continuum's panel shows its cells."""
+        """One number per grain or cell; None: not stored. With the place "discs" the continuum shows its cells."""
         if self.grains_only and panel == "continuum":
             return None
         path = self.path(place, panel)
@@ -61,36 +61,36 @@ class Quantity:
         return self.factor(result) * (values[(slice(None), *self.component)] if self.component else values)
 
     def described(self, result):
-        """What the first of its datasets that is stored says of itself."""
+        """Description of the first stored dataset, or None."""
         paths = [self.path(place, panel) for place in PLACES for panel in PANEL_NAMES]
         return next((result.arrays[path] for path in paths if path in result.arrays), None)
 
     def factor(self, result):
-        said = self.described(result)
-        return 100.0 if self.per_cent else DEGREES if said and said.unit == "rad" else 1.0
+        found = self.described(result)
+        return 100.0 if self.per_cent else DEGREES if found and found.unit == "rad" else 1.0
 
     def full_title(self, result):
         return self.title or getattr(self.described(result), "title", "") or self.key
 
     def label(self, result):
-        """Of a colour bar: title and unit."""
-        said = self.described(result)
-        unit = "%" if self.per_cent else "degrees" if said and said.unit == "rad" else suffix(said.unit if said else "").strip()
+        """Title and unit for a colour bar."""
+        found = self.described(result)
+        unit = "%" if self.per_cent else "degrees" if found and found.unit == "rad" else suffix(found.unit if found else "").strip()
         return self.full_title(result) + (f" ({unit})" if unit else "")
 
     def meaning(self, result, place):
-        """What the datasets of a place say of themselves: "grains: ...; continuum: ..."."""
-        said = []
+        """Meaning of the datasets of a place: "grains: ...; continuum: ..."."""
+        parts = []
         for panel, name in PANEL_NAMES.items():
             text = getattr(result.arrays.get(self.path(place, panel)), "meaning", "")
             if text and not (self.grains_only and panel == "continuum"):
-                said.append(text if text.startswith(name.lower()) else f"{name.lower()}: {text}")
-        sentence = typeset("; ".join(said))
+                parts.append(text if text.startswith(name.lower()) else f"{name.lower()}: {text}")
+        sentence = typeset("; ".join(parts))
         return sentence[:1].upper() + sentence[1:] + ("." if sentence else "")
 
 
 def corners(increment, mesh):
-    """(C, 4, 2) [d] of an increment's own mesh, or of the stage that it ends with."""
+    """(C, 4, 2) [d]: corners of the mesh of an increment, or of the stage that ends with it."""
     own = increment.arrays.get(mesh + "/corners")
     return increment.state.get(mesh + "/corners") if own is None else own
 
@@ -103,7 +103,7 @@ QUANTITIES = (
     Quantity("shear", name="shear_strain_increment", title="shear strain increment ε₁ − ε₂", home="discs", from_zero=True,
              per_progress=True, per_cent=True, **MOTION),
     Quantity("displacement", name="displacement_over_platen", home="discs", from_zero=True, **MOTION),
-    # The continuum is quasi-static: over the platen's, its velocity is its displacement increment.
+    # The continuum is quasi-static: relative to the platen, its velocity equals its displacement increment.
     Quantity("velocity", name="speed_over_platen", continuum="displacement_over_platen", home="discs", from_zero=True,
              of_state=True, **MOTION),
     Quantity("rotation", name="rotation_increment", **TURN),

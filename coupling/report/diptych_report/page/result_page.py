@@ -10,49 +10,49 @@ from diptych_report.tables import accounts, accuracy, bands, stage, summary, wor
 
 
 class Part:
-    """A part of the page stepped through by increments.
+    """A part of the page with one pane per increment.
 
-    maps: name of a pair of maps that draw.js draws, or "". content(increment): what stands under it, by name; the page says
-    how each is shown. Each part opens at the end of its first window, or at 1 % of strain: all open at one instant.
+    maps: name of a pair of maps that draw.js draws, or "". content(increment): charts, tables and notes below the maps, by name;
+    the template shows them. end: all parts open at the increment that ends there.
     """
 
-    def __init__(self, name, title, increments, content, maps=""):
+    def __init__(self, name, title, increments, end, content, maps=""):
         self.name, self.title, self.maps = name, title, maps
-        first = opening.opens_at(increments)
+        first = opening.opens_at(increments, end)
         self.items = [{"key": i.key, "label": i.label, "kind": i.kind, "title": i.title, "end": f"{i.end:.9g}",
                        "open": i is first, **content(i)} for i in increments]
 
 
 def parts(result):
-    """The steppable parts in the order of the page; a new one is one entry here, its words one in the page."""
+    """The parts in the order of the page. A new part is an entry here and its explanation in templates/result.html."""
     mapped = [i for i in result.increments if i.arrays]
-    stages = [i for i in mapped if i.kind == "stage"]
+    stages, end = [i for i in mapped if i.kind == "stage"], opening.end_of(result.increments)
     return [
-        Part("maps", "Grains and continuum at the same instant", mapped, lambda i: {
+        Part("maps", "Grains and continuum at the same instant", mapped, end, lambda i: {
             "tables": [bands.bands(result, i)], "notes": bands.notes(result, i)}, "quantity"),
-        Part("difference", "Difference on the same cells", mapped, lambda i: {
+        Part("difference", "Difference on the same cells", mapped, end, lambda i: {
             "tables": [stage.stress_difference(result, i), stage.dissipation(result, i)],
-            "notes": said((i.record.get("difference") or {}).get("stress_verdict"))}, "difference"),
-        Part("arrows", "Field of motion", mapped, lambda i: {}, "arrows"),
-        Part("strips", "Sixteen strips parallel to the band", result.increments, lambda i: {"pair": strips.pair(i)}),
-        Part("probes", "Probes: mean stress and contact normals", stages, lambda i: {
+            "notes": paragraph((i.record.get("difference") or {}).get("stress_verdict"))}, "difference"),
+        Part("arrows", "Displacements and velocities", mapped, end, lambda i: {}, "arrows"),
+        Part("strips", "Sixteen strips parallel to the band", result.increments, end, lambda i: {"pair": strips.pair(i)}),
+        Part("probes", "Probes: mean stress and contact normals", stages, end, lambda i: {
             "roses": probes.roses(i), "notes": [], "tables": [
                 stage.probes(result, i), stage.differences(result, i), stage.grain_pressures(result, i)]}, "probes"),
-        Part("crosses", "Internal moments of single grains", stages, lambda i: {
+        Part("crosses", "Internal moments of single grains", stages, end, lambda i: {
             "pair": Pair(chains.distribution(i), chains.traction(i)),
-            "tables": [stage.chains(result, i)], "notes": said(stage.chains_verdict(i))}, "crosses"),
-        Part("forces", "Contact forces", stages, lambda i: {}, "forces"),
-        Part("circle", "Circular probe", stages, lambda i: {"pair": circular.pair(i)}),
+            "tables": [stage.chains(result, i)], "notes": paragraph(stage.chains_verdict(i))}, "crosses"),
+        Part("forces", "Contact forces", stages, end, lambda i: {}, "forces"),
+        Part("circle", "Circular probe", stages, end, lambda i: {"pair": circular.pair(i)}),
     ]
 
 
-def said(sentence):
-    """A verdict as a paragraph of its own: capital letter, full stop."""
+def paragraph(sentence):
+    """[A verdict with capital letter and full stop], or [] for an empty one."""
     return [wording.typeset(sentence[0].upper() + sentence[1:].rstrip(".") + ".")] if sentence else []
 
 
 def draw(folder):
-    """Raises InputError where a file of the folder is missing, broken or of another format."""
+    """Raises InputError if a file of the folder is missing, broken or has another format."""
     result = load(folder)
     style.set_up()
     write(folder, page(result))
@@ -61,10 +61,11 @@ def draw(folder):
 def page(result):
     maps = viewer.data(result)
     return template("result.html").render(
-        comparison=result.comparison, imported=result.imported, parts=parts(result), maps=maps, map_json=viewer.as_json(maps) if maps else "",
+        comparison=result.comparison, imported=result.imported, parts=parts(result), maps=maps,
+        map_json=viewer.as_json(maps) if maps else "",
         still=opening.still_pair(result), curves=histories.figures(result) + ledgers.figures(result),
         solver=ledgers.solver(result), trends=trends.figures(result),
-        resolution=resolution.figures(result), resolution_verdict=said(resolution.verdict(result)),
+        resolution=resolution.figures(result), resolution_verdict=paragraph(resolution.verdict(result)),
         stages=bands.stages(result), mapping=stage.mapping(result), accuracy=accuracy.table(result),
         discrete_summary=summary.table(result, "discrete_summary"),
         continuum_summary=summary.table(result, "continuum_summary"),

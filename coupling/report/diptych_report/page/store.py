@@ -1,15 +1,15 @@
-# diptych: arrays of the page's maps, 12 bits a number, each stored once
+# diptych: arrays of the maps, with 12 bits per number, each stored once
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 import base64
 
 import numpy as np
 
-LARGEST = 4094  # code of the highest value; 4095 stands for nan
+LARGEST = 4094  # code of the largest value; 4095 is NaN
 
 
 def packed(codes):
-    """Bytes of 12-bit codes: of each pair the low eight bits of the first, its high four below the low four of the second, the rest."""
+    """Bytes of 12-bit codes. Three bytes per pair: low 8 bits of the first; its high 4 bits with the low 4 of the second; the rest."""
     first, second = np.append(codes, np.zeros(len(codes) % 2, codes.dtype)).reshape(-1, 2).T
     return np.stack([first & 255, first >> 8 | (second & 15) << 4, second >> 4], axis=1).astype(np.uint8).tobytes()
 
@@ -17,7 +17,7 @@ def packed(codes):
 class Store:
     """Arrays as {"low", "high", "size", "data"}: value = low + code (high - low)/4094, two codes in three bytes (packed), base64.
 
-    Equal arrays share one entry: the grains' positions at the end of a window are those of the stage that ends there.
+    Equal arrays share one entry, such as the positions of grains at the end of a window and of the stage that ends there.
     """
 
     def __init__(self):
@@ -25,7 +25,7 @@ class Store:
         self._known = {}
 
     def add(self, values):
-        """Index of the array's entry; any shape, stored flat. None stays None."""
+        """Index of the entry of an array of any shape, which is stored flat. None for None."""
         if values is None:
             return None
         values = np.asarray(values, dtype=float).ravel()

@@ -16,7 +16,7 @@ PANEL_WORDS = {"discrete": "grains", "continuum": "continuum", "material_point":
 
 
 def draw(folder):
-    """Raises InputError where a file is missing, broken or of another format."""
+    """Raises InputError if a file is missing, broken or has another format."""
     study = load(folder)
     style.set_up()
     write(folder, page(study))
@@ -36,7 +36,7 @@ def page(study):
 
 
 def curves(study):
-    """For the script of the page: progress and rows of every curve, five digits, None where there is no value."""
+    """Progress and rows of every curve for the script of the page, with five digits; None: no value."""
     def row(values):
         return [None if not np.isfinite(v) else float(f"{v:.5g}") for v in values]
     return [{"title": f"{PANEL_WORDS[panel]}, {CURVE_NAMES[name]}", "progress": row(progress), "rows": [row(r) for r in rows[name]]}

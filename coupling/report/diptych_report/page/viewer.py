@@ -1,6 +1,6 @@
-# diptych: what the page's maps are drawn from, as one JSON object
+# diptych: the data of the maps as one JSON object
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The browser draws the maps (draw.js): a map of 4000 grains is 8 kB a quantity, and sharp on every screen and on paper."""
+"""The browser draws the maps (draw.js). So a map of 4000 grains takes 8 kB per quantity and is sharp on screens and on paper."""
 
 import json
 
@@ -19,7 +19,7 @@ from diptych_report.page.store import Store
 
 
 def data(result):
-    """The object; None where no increment has arrays. Its "arrays" are entries of a Store, all else refers to them."""
+    """The object, or None if no increment has arrays. Its "arrays" are entries of a Store; the rest refers to them by index."""
     drawn = [i for i in result.increments if i.arrays]
     if not drawn:
         return None
@@ -38,7 +38,7 @@ def data(result):
 
 
 def as_json(value):
-    """Text that may stand inside a <script> of HTML."""
+    """JSON text that is safe inside a <script> of HTML."""
     return json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
 
 
@@ -53,7 +53,7 @@ def _table(name):
 
 
 def _frame(increment, store):
-    """Where things are: grains, cells, outline, bands."""
+    """Places of grains, cells, outline and bands."""
     arrays, state = increment.arrays, increment.state
     position, radius = arrays.get("discrete/position"), arrays.get("discrete/radius")
     grains = position is not None and radius is not None
@@ -70,7 +70,7 @@ def _frame(increment, store):
 
 
 def _values(quantity, increment, result, rules, store):
-    """place -> {"limits", "discrete", "continuum"}; only places where one panel has numbers."""
+    """place -> {"limits", "discrete", "continuum"}, for the places where at least one panel has numbers."""
     found = {}
     for place in PLACES:
         if not rules[quantity.key, place]:

@@ -1,4 +1,4 @@
-# diptych: templates of the pages, and how a page reaches the disk
+# diptych: templates of the pages, and writing of a page
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 import os
@@ -15,11 +15,11 @@ def template(name):
 
 
 def write(folder, text):
-    """report.html; an old one stays until the new one is whole."""
+    """Writes report.html. The old page stays until the new one is complete."""
     path = os.path.join(folder, "report.html")
     try:
         with open(path + ".part", "w", encoding="utf-8") as stream:
             stream.write(text)
         os.replace(path + ".part", path)
-    except OSError as error:  # of a write it names no file
+    except OSError as error:  # a failed write does not name the file
         raise OSError(error.errno, error.strerror, path) from error

@@ -1,4 +1,4 @@
-# diptych: how accurate the numbers of a result are: solver, ledgers, mapping, mesh and step
+# diptych: table of the accuracy of a result: solver, balances, mapping, mesh and step
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 from diptych_report.data.files import number as parsed
@@ -7,16 +7,16 @@ from diptych_report.data.scene import scene_value
 from diptych_report.tables.wording import ABSENT, EXPECTED, number, rounded, shown_unit
 
 MAPPING = {"total_relative_error": "conservative: round-off", "nodal_residual": "identity of virtual power: round-off",
-           "outside_share": "warned above 5 %"}
+           "outside_share": "the program warns above 5 %"}
 
 
 def table(result):
-    """Rows: what, value, what to hold it against."""
-    return {"head": ["", "value", "hold against"], "rows": _grains(result) + _mapping(result) + _continuum(result)}
+    """Rows: quantity, value, expected value."""
+    return {"head": ["", "value", "expected"], "rows": _grains(result) + _mapping(result) + _continuum(result)}
 
 
 def _row(result, part, key, digits=4):
-    """A number of a summary in the program's own words."""
+    """A number of a summary, with its meaning from the program."""
     place = f"{part}/{key}"
     panel = "grains" if part == "discrete_summary" else "continuum"
     text = number(result.part(part).get(key), shown_unit(result.numbers, place), digits)
@@ -27,33 +27,33 @@ def _grains(result):
     part, summary = "discrete_summary", result.part("discrete_summary")
     rows = [_row(result, part, "residual"), _row(result, part, "solver_noise", 2), _grain_stress_error(result, summary)]
     if summary.get("snapshots_sampled"):
-        rows.append(["grains: snapshots that reached the demanded accuracy of grain stress",
+        rows.append(["grains: snapshots with the required accuracy of grain stress",
                      f"{number(summary.get('snapshots_accurate'))} of {number(summary['snapshots_sampled'])}",
-                     "means over a stage bear less accuracy than single snapshots do"])
+                     "means over a stage need less accuracy than single snapshots"])
     spin, acceleration = (number(_largest(result, key), "", 2) for key in ("dynamic_share", "acceleration_share"))
     return rows + [_row(result, part, "energy_residual"), _row(result, part, "momentum_residual"),
                    ["grains: dynamic terms over the mean stress, largest of the stages: spin; acceleration in one step",
-                    f"{spin}; {acceleration}", "paper: below 10⁻³"],
+                    f"{spin}; {acceleration}", "Moreau (1997): below 10⁻³"],
                    _row(result, part, "max_penetration_d"), _row(result, part, "step_length"),
                    _row(result, part, "mean_inertial_number")]
 
 
 def _largest(result, key):
-    """Largest size of a number of the grains' stages; None where no stage has it."""
+    """Largest magnitude of a number over the stages of the grains, or None."""
     return max((abs(plain(s.panel("discrete").get(key))) for s in result.stages
                 if plain(s.panel("discrete").get(key)) is not None), default=None)
 
 
 def _grain_stress_error(result, summary):
-    words = "grains: " + result.numbers.meaning("discrete_summary/grain_stress_error")
+    label = "grains: " + result.numbers.meaning("discrete_summary/grain_stress_error")
     if plain(summary.get("grain_stress_error")) is not None:
         factor = number(summary.get("residual_factor"), "", 2)
-        return [words, number(summary["grain_stress_error"], "%", 2), f"{factor} × residual, measured on the first snapshot"]
+        return [label, number(summary["grain_stress_error"], "%", 2), f"{factor} × residual, measured on the first snapshot"]
     change, reached = plain(summary.get("residual_factor_error")), plain(summary.get("residual_factor_reference_residual"))
     if change is None:
-        return [words, ABSENT, ""]
-    return [words, "not known", f"the first snapshot, solved on to a residual of {number(reached)}, changed by "
-            f"{number(change, '%', 2)}: too much to tell an error from"]
+        return [label, ABSENT, ""]
+    return [label, "unknown", f"the first snapshot, solved further to a residual of {number(reached)}, changed by "
+            f"{number(change, '%', 2)}, too much for an estimate"]
 
 
 def _mapping(result):
@@ -78,7 +78,7 @@ def _continuum(result):
                      f"{rounded(summary.get('peak_stress_ratio'), '')}; {rounded(coarse.get('peak_stress_ratio'), '')}",
                      f"coarse mesh: elements of {number(coarse.get('element_size_d'), ' d')}"])
         rows.append(["continuum: band width, last window; on the coarse mesh", "; ".join(_widths(result, coarse)),
-                     "a thickness counts only where both agree"])
+                     "the width is reliable only if both agree"])
     return rows + [_row(result, "continuum_summary", "share_zz_not_intermediate")]
 
 

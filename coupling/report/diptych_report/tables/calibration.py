@@ -12,7 +12,8 @@ KINDS = {"stress_ratio": "rms of t/s", "volumetric_strain": "rms of volume", "ln
 
 
 def text(value, digits=4):
-    return "–" if value is None or not np.isfinite(value) else f"{value:.{digits}g}".replace("-", "−")
+    """A number with some significant digits and without an exponent below a million."""
+    return "–" if value is None or not np.isfinite(value) else f"{float(f'{value:.{digits}g}'):g}".replace("-", "−")
 
 
 def parameters(calibration):
@@ -23,7 +24,7 @@ def parameters(calibration):
         rows.append([label(p), text(p["value"]), f"{ratio}{p['of']}: {number}" if ratio else "", f"{text(p['number_low'], 3)} … {text(p['number_high'], 3)}",
                      f"{text(p['low'], 3)} … {text(p['high'], 3)}", f"{100 * p['share_known']:.0f} %",
                      ("yes" if p["is_identified"] else "not identified") + (", at its bound" if p["at_bound"] else "")])
-    return {"head": ["continuum/", "value", "searched for as", "95 %", "bounds", "deviation left", "identified"], "rows": rows}
+    return {"head": ["continuum/", "value", "fitted as", "95 %", "bounds", "deviation left", "identified"], "rows": rows}
 
 
 def predictions(calibration):
@@ -38,7 +39,7 @@ def predictions(calibration):
 
 
 def misfits(calibration):
-    """Root mean squares over the bins, before and after, and what the parameters' own deviation makes of them."""
+    """Root mean squares over the bins, before and after, and those from the standard deviation of the parameters."""
     rows = []
     for path in calibration.paths:
         for kind, label in KINDS.items():
@@ -49,7 +50,7 @@ def misfits(calibration):
                 steps = numbers([o["half_step"] for o in entries])
                 rows.append([path["name"], label, *rms, text(np.sqrt(np.nanmean(numbers([o["deviation_of_mean"] for o in entries]) ** 2)), 2),
                              text(np.sqrt(np.nanmean(deviation ** 2)), 2), text(np.sqrt(np.nanmean(steps ** 2)), 2)])
-    return {"head": ["path", "", "before", "calibrated", "deviation of the samples’ mean", "by the parameters’ deviation", "half the load step moves"],
+    return {"head": ["path", "", "before", "calibrated", "deviation of the mean of the samples", "from the deviation of the parameters", "change with half the load step"],
             "rows": rows}
 
 
@@ -62,6 +63,6 @@ def minima(calibration):
 
 def cost(calibration):
     r = calibration.record
-    return {"head": ["", ""], "rows": [["coarse runs (search and profiles)", str(r["coarse_runs"])], ["runs on the samples’ own mesh", str(r["fine_runs"])],
-                                       ["runs of predictions", str(r["other_runs"])], ["CPU time of the continuum, s", text(calibration.cost["continuum_cpu_s"], 3)],
+    return {"head": ["", ""], "rows": [["runs on the coarse mesh (search and profiles)", str(r["coarse_runs"])], ["runs on the fine mesh", str(r["fine_runs"])],
+                                       ["runs for predictions", str(r["other_runs"])], ["CPU time of the continuum, s", text(calibration.cost["continuum_cpu_s"], 3)],
                                        ["CPU time of the grains, s", text(calibration.cost["grains_cpu_s"], 3)]]}

@@ -1,4 +1,4 @@
-# diptych: what an ensemble of seeds tells, as rows of text
+# diptych: tables of an ensemble of seeds
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 import os
@@ -17,20 +17,20 @@ def place_of(verdict):
 
 
 def described_at(verdict):
-    """Place of a verdict's quantity in a comparison's list of numbers."""
+    """Place of the quantity of a verdict in the list of numbers of a comparison."""
     place, key = place_of(verdict)
     return f"{place.split(' ')[0]}s/discrete/bands/{key}" if place else f"discrete_summary/{key}"
 
 
-def own_words(results, verdict):
+def own_text(results, verdict):
     """("inclination of the band", unit of wording.rounded)."""
     at = described_at(verdict)
     return results.numbers.meaning(at) + (" of the band" if place_of(verdict)[0] else ""), shown_unit(results.numbers, at)
 
 
-def words_of(results, verdict):
+def text_of(results, verdict):
     """"inclination of the band, 0–1 %"."""
-    place, text = place_of(verdict)[0], own_words(results, verdict)[0]
+    place, text = place_of(verdict)[0], own_text(results, verdict)[0]
     return f"{text}, {results.place(place)[1]}" if place else text
 
 
@@ -41,7 +41,7 @@ def panel_quantities(results, verdict):
 
 
 def with_interval(record, unit):
-    """"16.9 [14.7, 19.1] d": the unit once, so that columns stay narrow."""
+    """"16.9 [14.7, 19.1] d", with the unit once so that columns stay narrow."""
     if record is None or record["mean"] is None:
         return "–"
     text = _plain(record["mean"], unit)
@@ -52,7 +52,7 @@ def with_interval(record, unit):
 
 def _plain(value, unit, decimals=None):
     decimals = DECIMALS.get(unit, 3) if decimals is None else decimals
-    value = round(100 * value if unit == "%" else value, decimals) + 0.0  # no minus before a zero
+    value = round(100 * value if unit == "%" else value, decimals) + 0.0  # no minus sign before zero
     return f"{value:.{decimals}f}".replace("-", "−")
 
 
@@ -61,15 +61,15 @@ def _suffix(unit):
 
 
 def verdict_rows(results):
-    """One row of the first table a verdict: words, means, difference, intervals, margin, pairs, verdict."""
+    """One row per verdict: text, means, difference, intervals, margin, pairs, verdict."""
     rows = []
     for verdict in results.record["verdicts"]:
-        own_unit = own_words(results, verdict)[1]
+        own_unit = own_text(results, verdict)[1]
         unit, decimals = ("%", 1) if verdict["relative"] else (own_unit, DECIMALS.get(own_unit, 3))
         means = panel_quantities(results, verdict)
         margin = 100 * verdict["margin"] if unit == "%" else verdict["margin"]
         rows.append({
-            "words": words_of(results, verdict), "relative": verdict["relative"],
+            "text": text_of(results, verdict), "relative": verdict["relative"],
             "means": [with_interval(means[p], own_unit) for p in PANEL_NAMES],
             "difference": _signed(verdict["difference"]["value"], unit, decimals, _suffix(unit)),
             "intervals": [_ends(verdict[key], unit, decimals) for key in ("difference_90", "difference")],
@@ -86,33 +86,33 @@ def _signed(value, unit, decimals, suffix=""):
 
 def _ends(interval, unit, decimals):
     if interval["low"] is None or interval["high"] is None:
-        return "not known"
+        return "unknown"
     return f"{_signed(interval['low'], unit, decimals)} to {_signed(interval['high'], unit, decimals)}{_suffix(unit)}"
 
 
 def captions(results):
-    """[(verdict, axis label, factor of the axis, caption)] of every verdict's seeds."""
+    """[(verdict, axis label, factor of the axis, caption)] for the chart of every verdict."""
     found = {band["name"]: band["text"] for band in results.record["bands"]}
     rows = []
     for verdict in results.record["verdicts"]:
         place = place_of(verdict)[0]
-        words, unit = own_words(results, verdict)
-        caption = words_of(results, verdict)
+        text, unit = own_text(results, verdict)
+        caption = text_of(results, verdict)
         if place:
             caption += ". Bands found, grains: " + "; continuum: ".join(found.get(f"{place} {p}", "–") for p in PANEL_NAMES)
-        rows.append((verdict, words.split(",")[0] + AXIS_UNITS.get(unit, ""), 100 if unit == "%" else 1, caption + "."))
+        rows.append((verdict, text.split(",")[0] + AXIS_UNITS.get(unit, ""), 100 if unit == "%" else 1, caption + "."))
     return rows
 
 
 def curve_caption(results):
-    """What the lines of a figure of histories are."""
+    """Explains the lines in the charts of histories."""
     more = "" if len(results.record["done"]) <= MOST_CURVES else f" Curves of the first {MOST_CURVES} seeds."
     width = "" if results.averaging is None else f", mean over the last {results.span(results.averaging)} of {results.walk.word}"
-    return (f" Thin: every seed{width}; thick: mean of the seeds; shaded: 95 % interval of that mean (Student)." + more)
+    return (f" Thin: every seed{width}. Thick: mean of the seeds. Shaded: 95 % interval of this mean (Student)." + more)
 
 
 def band_table(results):
-    """Where how many bands were found."""
+    """Number of bands in every stage and window."""
     texts = {band["name"]: band["text"] for band in results.record["bands"]}
     places = [name.removesuffix(" discrete") for name in texts if name.endswith(" discrete")]
     rows = [[" ".join(results.place(place))] + [texts.get(f"{place} {p}", "–") for p in PANEL_NAMES] for place in places]
@@ -120,7 +120,7 @@ def band_table(results):
 
 
 def members(results):
-    """Every seed: what became of it, with links to its report and its output."""
+    """Every seed with its state and links to its report and its messages."""
     record = results.record
     failed = {member["seed"]: member for member in record["failed"]}
     place = {seed: k for k, seed in enumerate(record["done"])}

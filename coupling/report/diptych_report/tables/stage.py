@@ -1,14 +1,14 @@
-# diptych: probes, stress differences, dissipation and force chains of one stage as rows of text
+# diptych: tables of one stage: probes, stress differences, dissipation and force chains
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Every table is None where nothing of it is stored."""
+"""A table is None if nothing of it is stored."""
 
 from diptych_report.data.numbers import interval
 from diptych_report.data.panels import PANEL_NAMES
-from diptych_report.tables.wording import number, rounded, told, typeset
+from diptych_report.tables.wording import number, rounded, shown, typeset
 
 PERCENTILES = ("5", "25", "50", "75", "95")
 OF_BOTH = ("s1", "s2", "direction_deg", "t_over_s", "count")
-# key -> the number beside it that is its error
+# key -> key of its error
 OF_GRAINS = {"fabric_direction_deg": "fabric_direction_error_deg", "fabric_to_stress_deg": None,
              "anisotropy": "anisotropy_error", "contacts": None}
 
@@ -27,15 +27,15 @@ def probes(result, increment):
 
 
 def _cell(result, place, record, key, error=None):
-    """A number, with its standard error behind it where it has no interval."""
-    text = told(result.numbers, f"{place}/{key}", record.get(key))
+    """A number, followed by its standard error if it has no interval."""
+    text = shown(result.numbers, f"{place}/{key}", record.get(key))
     if error is None or record.get(error) is None or interval(record.get(key)):
         return text
-    return f"{text} ± {told(result.numbers, f'{place}/{error}', record[error])}"
+    return f"{text} ± {shown(result.numbers, f'{place}/{error}', record[error])}"
 
 
 def differences(result, increment):
-    """Zone minus packs, of the grains."""
+    """Differences between the probes of the grains in the band and outside."""
     place = increment.place("discrete/probe_differences")
     keys = ("t_over_s", "anisotropy", "direction_deg")
     rows = [[f"{row.get('of', '')} − {row.get('and', '')}", *[_cell(result, place, row, key) for key in keys],
@@ -45,7 +45,7 @@ def differences(result, increment):
 
 
 def grain_pressures(result, increment):
-    """Dispersion of the pressure of single grains in each probe."""
+    """Scatter of the pressure of single grains in each probe."""
     place, rows = increment.place("discrete/probes/grain_pressure"), []
     for probe in increment.panel("discrete").get("probes") or []:
         spread = probe.get("grain_pressure")
@@ -58,7 +58,7 @@ def grain_pressures(result, increment):
 
 
 def stress_difference(result, increment):
-    """Cells, 3 d, 6 d: difference of the stress beside what sampling alone would give; the verdict is the caption."""
+    """Difference of the stress on cells, 3 d and 6 d, and the difference expected from sampling only. The verdict is a note."""
     place, keys = increment.place("difference/stress"), ("resolution_d", "relative_l2", "sampling_alone", "direction_deg")
     rows = [[row.get("label", ""), *[_cell(result, place, row, key) for key in keys]]
             for row in (increment.record.get("difference") or {}).get("stress") or []]
@@ -66,7 +66,7 @@ def stress_difference(result, increment):
 
 
 def mapping(result):
-    """How well each stage's mapping kept its totals."""
+    """Errors of the mapping at each stage."""
     rows = [[result.walk.text(stage.end), str(kept.get("method", "")), number(kept.get("total_relative_error"), "", 2),
              number(kept.get("nodal_residual"), "", 2), rounded(kept.get("outside_share"), "%", 2)]
             for stage in result.stages for kept in [stage.record.get("mapping") or {}] if kept]
@@ -80,15 +80,15 @@ def dissipation(result, increment):
         found = increment.panel(panel).get("dissipation")
         if found:
             place = increment.place(f"{panel}/dissipation")
-            rows.append([words] + [told(result.numbers, f"{place}/{key}", found.get(key), digits)
+            rows.append([words] + [shown(result.numbers, f"{place}/{key}", found.get(key), digits)
                                    for key, digits in zip(keys, (1, 1, 2))])
     place = increment.place("discrete/dissipation")
-    return {"head": ["dissipation since the stage before (grains: friction and impacts; continuum: plastic work)"]
+    return {"head": ["dissipation since the previous stage (grains: friction and impacts; continuum: plastic work)"]
             + [result.numbers.meaning(f"{place}/{key}") for key in keys], "rows": rows} if rows else None
 
 
 def chains(result, increment):
-    """Major principal stress of single grains inside and outside the zone."""
+    """Major principal stress of single grains inside and outside the band."""
     found = increment.panel("discrete").get("force_chains") or {}
     place, rows = increment.place("discrete/force_chains"), []
     for name in ("inside", "outside"):

@@ -1,4 +1,4 @@
-# diptych: what a study tells, as rows of text
+# diptych: tables of a study
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 import os
@@ -8,7 +8,7 @@ from diptych_report.tables.wording import number
 
 
 def share(value, relative, signed=True):
-    """"+3.4 %" of a relative error, three digits of another; an en dash where there is none."""
+    """A relative error as "+3.4 %", another one with three digits; an en dash for None."""
     if value is None:
         return "–"
     text = f"{100 * value:+.1f}" if relative else f"{value:+.3g}"
@@ -39,36 +39,36 @@ def accuracy_of(study, row):
 
 
 def cheapest(study):
-    """One row a quantity and accuracy: [words, accuracy, point, seconds, its errors, sure or by luck]."""
+    """One row per quantity and accuracy: [text, accuracy, point, seconds, errors, sure or not]."""
     rows = []
     for row in study.bill["cheapest"]:
         known = row["point"] >= 0
         errors = study.points[row["point"]]["quantities"] if known else []
         text = "; ".join(f"{of['name']} {with_ends(q['error'], of['relative'])}" for q, of in zip(errors, study.quantities)
                          if of["limit"] and row["quantity"] in ("", of["name"]))
-        sure = "–" if not known else "yes" if row["certain"] else "within the samples’ scatter"
-        held = ", ".join(study.points[row["reference"]]["labels"])
-        rows.append([(row["quantity"] or "all with a limit") + (f" ({held})" if held else ""), accuracy_of(study, row), study.name(row["point"]) if known else "none of these",
+        sure = "–" if not known else "yes" if row["certain"] else "no, within the scatter of the samples"
+        reference = ", ".join(study.points[row["reference"]]["labels"])
+        rows.append([(row["quantity"] or "all with a limit") + (f" ({reference})" if reference else ""), accuracy_of(study, row), study.name(row["point"]) if known else "none of these",
                      seconds(row["cpu_s"]), text or "–", sure])
-    return {"head": ["quantity", "error at most", "cheapest point", "CPU a sample", "error [95 %]", "sure"], "rows": rows}
+    return {"head": ["quantity", "error at most", "cheapest point", "CPU per sample", "error [95 %]", "sure"], "rows": rows}
 
 
 def points(study):
-    """One row a point: name, class, errors, cost, what the program said."""
+    """One row per point: name, class, errors, cost, messages."""
     rows = []
     for k, point in enumerate(study.points):
         cost = study.cost.get(k)
-        said = [point["words"]] if point["words"] else []
+        messages = [point["words"]] if point["words"] else []
         if point["warned"]:
-            said.append(f"warned in {point['warned']} of {len(point['folders'])}")
+            messages.append(f"warned in {point['warned']} of {len(point['folders'])}")
         if point["halved_steps"]:
-            said.append(f"{point['halved_steps']} steps halved")
+            messages.append(f"{point['halved_steps']} steps halved")
         if point["cut_backs"]:
-            said.append(f"{point['cut_backs']:g} load steps halved")
+            messages.append(f"{point['cut_backs']:g} load steps halved")
         rows.append({"place": k, "name": study.name(k), "kind": point["class"], "sure": point["certain"],
                      "colour": CLASSES[point["class"]][0], "ink": CLASSES[point["class"]][1],
                      "errors": [with_ends(q["error"], of["relative"]) for q, of in zip(point["quantities"], study.quantities)],
-                     "cost": seconds(cost["cpu_s"] if cost else None), "said": "; ".join(said),
+                     "cost": seconds(cost["cpu_s"] if cost else None), "messages": "; ".join(messages),
                      "log": point["folders"][0] + ".log" if os.path.isfile(os.path.join(study.folder, point["folders"][0] + ".log"))
                      else ""})
     return rows
@@ -101,11 +101,11 @@ def counts(study):
 
 
 def disturbed(study):
-    """What to think of the seconds; empty where nothing else ran."""
+    """A warning about the CPU times, or ""."""
     if not study.bill["disturbed"]:
         return ""
-    return (f"During {study.bill['disturbed']} of {study.bill['runs']} runs the machine had other work as well: "
-            "CPU seconds of those may be too large.")
+    return (f"During {study.bill['disturbed']} of {study.bill['runs']} runs other programs used the machine. "
+            "The CPU times of these runs may be too large.")
 
 
 def provenance(study):
@@ -113,7 +113,7 @@ def provenance(study):
     return {"head": ["", ""], "rows": [
         ["scene", record["scene"]], ["command", "diptych " + record["command"]],
         ["settings of all points", "; ".join(record["settings"]) or "those of the scene"],
-        ["reference", "; ".join(study.points[0]["settings"]) or "the scene as it is"],
-        ["samples", f"{len(record['seeds'])}: seeds {', '.join(map(str, record['seeds']))}" if record["seeds"] else "the one of the scene"],
-        ["program", record["revision"]], ["phases that count", ", ".join(bill["phases"])],
+        ["reference", "; ".join(study.points[0]["settings"]) or "the unchanged scene"],
+        ["samples", f"{len(record['seeds'])}: seeds {', '.join(map(str, record['seeds']))}" if record["seeds"] else "the sample of the scene"],
+        ["program", record["revision"]], ["phases counted", ", ".join(bill["phases"])],
         ["all runs", f"{bill['runs']} runs, {number(bill['total_cpu_s'])} CPU seconds"]]}

@@ -1,13 +1,13 @@
-# diptych: the numbers of a panel's whole run as rows of text
+# diptych: tables of the numbers of a whole run
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 from diptych_report.tables.wording import EXPECTED, NULLS, ORDER, number, shown_unit
 
-LEFT_OUT = ("law", "parameters_from")  # told elsewhere on the page
+LEFT_OUT = ("law", "parameters_from")  # shown elsewhere on the page
 
 
 def table(result, part):
-    """Words, number, what to hold it against, of a group of the comparison; texts that are empty are left out."""
+    """Rows of a group of the comparison: meaning, number, expected value. Empty texts are left out."""
     rows = []
     values = result.part(part)
     for key in sorted(values, key=lambda name: (ORDER.index(name) if name in ORDER else len(ORDER), name)):
@@ -16,7 +16,7 @@ def table(result, part):
             continue
         place = f"{part}/{key}"
         rows.append([result.numbers.meaning(place), _text(result, place, key, value), EXPECTED.get(key, "")])
-    return {"head": ["", "value", "hold against"], "rows": rows}
+    return {"head": ["", "value", "expected"], "rows": rows}
 
 
 def _text(result, place, key, value):

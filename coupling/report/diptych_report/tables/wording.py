@@ -1,8 +1,8 @@
-# diptych: numbers as text, and what they are held against
+# diptych: numbers as text, and their expected values
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A number may carry an interval: {"value", "low", "high"}. Unit "%" multiplies by 100, others are appended.
 
-Words and units come from the comparison's own list of numbers; here stands what the program cannot say.
+Meanings and units come from the list of numbers of the comparison. This file adds expected values and the form of numbers.
 """
 
 import math
@@ -10,17 +10,17 @@ import re
 
 ABSENT = "not computed"
 MESH_SET = "set by the mesh (local law)"
-MESH_SET_REASON = "It is no property of the material unless it stays the same on two meshes."
-LENGTH_SET_REASON = "It depends on that length, the size of the sample and the softening, all of them chosen or fitted."
+MESH_SET_REASON = "It is not a material property, unless it is the same on two meshes."
+LENGTH_SET_REASON = "It depends on this length, the size of the sample and the softening; all are chosen or fitted."
 
-# Pure numbers that are shown in per cent, by their key.
+# Keys of pure numbers that are shown in per cent.
 PER_CENT = {"volumetric_strain", "final_volumetric_strain", "reached_axial_strain", "reached_shear_strain", "share_inside",
             "area_share", "share_above_mean", "lost_share", "relative_l2", "stress_l2_relative", "sampling_alone",
             "lowest_scatter", "outside_share", "viscous_share", "unstable_share", "share_zz_not_intermediate", "solver_share_of_cpu",
             "platen_difference_share_below_1_percent", "platen_difference_mean", "platen_difference_largest",
             "grain_stress_error", "residual_factor_error", "residual_factor_estimate"}
 
-# Order of a summary; keys that are not here follow by their alphabet.
+# Order of a summary; other keys follow in alphabetical order.
 ORDER = ("grains", "cells", "unknowns", "element_size_d", "preparation_solid_fraction", "preparation_friction",
          "preparation_steps", "preparation_residual", "preparation_unbalanced_force", "initial_height", "platen_speed",
          "mean_inertial_number", "finished", "reached_progress", "reached_axial_strain", "reached_shear_strain",
@@ -33,34 +33,34 @@ ORDER = ("grains", "cells", "unknowns", "element_size_d", "preparation_solid_fra
          "coordination_number", "rattlers", "preparation_cpu_s", "discrete_cpu_s", "continuum_cpu_s", "comparison_cpu_s",
          "peak_memory_mb")
 
-# key -> what to hold the number against
+# key -> expected value
 EXPECTED = {
     "mean_inertial_number": "quasi-static: well below 10⁻³",
-    "solver_noise": "right below 0.03",
-    "internal_length_d": "a local law has none: its band is set by the mesh",
+    "solver_noise": "reliable below 0.03",
+    "internal_length_d": "local laws have none; the mesh sets their band",
     "viscous_share": "rate independent: 0",
-    "unstable_share": "0 where nothing weakens while it contracts",
+    "unstable_share": "0, unless the law softens while it contracts",
     "platen_unbalance": "equilibrium: 0",
-    "share_zz_not_intermediate": "below 5 %: the in-plane yield surface is exact only where it is",
+    "share_zz_not_intermediate": "below 5 %; elsewhere the in-plane yield surface is approximate",
     "max_penetration_d": "rigid grains: 0",
     "energy_residual": "closed balance: 0",
     "momentum_residual": "closed balance: 0",
-    "spin_term_share": "paper: below 10⁻³",
+    "spin_term_share": "Moreau (1997): below 10⁻³",
     "kinetic_energy_ratio_median": "slow: below 2",
-    "platen_difference_share_below_1_percent": "expected: 98 % or more",
-    "platen_difference_mean": "paper: below 1 %",
+    "platen_difference_share_below_1_percent": "98 % or more",
+    "platen_difference_mean": "Moreau (1997): below 1 %",
 }
 
-# key -> what null says, where it does say something
+# key -> meaning of null
 NULLS = {"internal_length_d": "none", "localisation_strain": "never", "localisation_angle_deg": "–"}
 
-UNBROKEN = "\u00a0"  # between a number and its unit: no line is broken there
+UNBROKEN = "\u00a0"  # between a number and its unit: no line break
 SUFFIXES = {"": "", "-": "", "time": "", "as walk says": "", "degrees": "°", "rad": " rad", "mean diameters": " d"}
 DECIMALS = {"°": 1, " d": 1, " P": 2, "%": 2, "": 3}
 
 
 def suffix(unit):
-    """What follows a number of one of the files' units, lengths in d and stresses in P: " P d²" for "pressure length^2"."""
+    """Suffix of a number for a unit of the files, lengths in d and stresses in P: " P d²" for "pressure length^2"."""
     if unit in SUFFIXES:
         return SUFFIXES[unit]
     return " " + unit.replace("pressure", "P").replace("length", "d").replace("^2", "²")
@@ -71,8 +71,8 @@ def shown_unit(numbers, place):
     return "%" if place.rsplit("/", 1)[-1] in PER_CENT else suffix(numbers.unit(place))
 
 
-def told(numbers, place, value, decimals=None):
-    """Text of the value of a place, with as many decimals as its unit is read with."""
+def shown(numbers, place, value, decimals=None):
+    """Text of the value of a place, with the usual decimals of its unit."""
     return rounded(value, shown_unit(numbers, place), decimals)
 
 
@@ -80,19 +80,19 @@ LETTERS = (("eps_1", "ε₁"), ("eps_2", "ε₂"), ("s_1", "σ₁"), ("s_2", "σ
 
 
 def typeset(text):
-    """A sentence of the program with the signs and letters of the page: "eps_1 - eps_2" becomes "ε₁ − ε₂"."""
+    """A sentence of the program with Greek letters and minus signs: "eps_1 - eps_2" becomes "ε₁ − ε₂"."""
     for plain, letter in LETTERS:
         text = text.replace(plain, letter)
     return re.sub(r"(?<![\w.])-(?=\d)", "−", text)
 
 
 def origin(text):
-    """Where the continuum's parameters come from, in the scene's own words (key comparison/parameters_from)."""
-    return text or "the scene does not say whether its parameters are fitted or predicted"
+    """Origin of the continuum parameters, from the key comparison/parameters_from of the scene."""
+    return text or "origin not stated in the scene (key comparison/parameters_from)"
 
 
 def number(value, unit="", digits=4):
-    """Text of a number with true minus sign and powers of ten; an interval follows in brackets."""
+    """A number as text, with minus signs and powers of ten; its interval follows in brackets."""
     if isinstance(value, dict) and "value" in value:
         text = number(value["value"], unit, digits)
         if value.get("low") is None or value.get("high") is None:
@@ -119,13 +119,13 @@ def number(value, unit="", digits=4):
 
 
 def _brackets(ends, unit):
-    """Interval without its unit, in one piece when a line is broken."""
+    """An interval without its unit and without line breaks."""
     suffix = (" %" if unit == "%" else unit).replace(" ", UNBROKEN, 1)
     return "[" + ",\u00a0".join(end.removesuffix(suffix) if suffix else end for end in ends) + "]"
 
 
 def rounded(value, unit, decimals=None):
-    """As number(), but with a fixed count of decimals, so that a column reads evenly."""
+    """As number(), but with a fixed number of decimals, so that columns align."""
     if isinstance(value, dict) and "value" in value:
         text = rounded(value["value"], unit, decimals)
         if value.get("low") is None or value.get("high") is None:
@@ -135,5 +135,5 @@ def rounded(value, unit, decimals=None):
         return number(value, unit)
     decimals = DECIMALS.get(unit, 3) if decimals is None else decimals
     scale, unit = (100, " %") if unit == "%" else (1, unit)
-    value = round(scale * value, decimals) + 0.0  # no minus before a zero
+    value = round(scale * value, decimals) + 0.0  # no minus sign before zero
     return f"{value:.{decimals}f}".replace("-", "−") + unit.replace(" ", UNBROKEN, 1)

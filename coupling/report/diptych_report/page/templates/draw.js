@@ -1,11 +1,11 @@
-// diptych: drawing of one map on a canvas. SPDX-License-Identifier: LGPL-2.1-or-later
-// Lengths in mean diameters d, stresses in P; "view" turns them into pixels.
+// diptych: draws one map on a canvas. SPDX-License-Identifier: LGPL-2.1-or-later
+// Lengths are in mean diameters d, stresses in P. A "view" converts them to pixels.
 "use strict";
 const INK = "#222222", FONT = '11px Arial, "Liberation Sans", Helvetica, "DejaVu Sans", sans-serif';
 const data = JSON.parse(document.getElementById("map-data").textContent);
 const decoded = new Map();
 
-// Values of one stored array; nan where there is none.
+// Values of one stored array; NaN: no value.
 function values(id) {
   if (id === null || id === undefined) return null;
   if (!decoded.has(id)) {
@@ -39,7 +39,7 @@ function numeral(value, digits) {
   return value.toFixed(digits).replace(/^-(0(\.0*)?)$/, "$1").replace("-", "\u2212");
 }
 
-// Prepares a canvas of a given width on the page; the height follows from the equal scale of both axes.
+// Prepares a canvas of a given width. Both axes have the same scale, which gives the height.
 function viewOf(canvas, width, pixels) {
   const [x0, x1, y0, y1] = data.box, left = 38, right = 6, top = 6, bottom = 34;
   const scale = Math.max(0.1, (width - left - right) / (x1 - x0)), height = top + bottom + scale * (y1 - y0);
@@ -118,7 +118,7 @@ function drawCells(view, id, numbers, map, limits) {
   const corners = values(id), c = view.c;
   c.lineWidth = 0.6;
   for (let k = 0; 8 * k < corners.length; ++k) {
-    // Edges in the face's colour close the hairlines that anti-aliasing leaves between neighbours.
+    // Edges in the colour of the face close the hairlines that anti-aliasing leaves between cells.
     c.fillStyle = c.strokeStyle = typeof numbers === "string" ? numbers : colourOf(map, limits, numbers[k]);
     cellPath(view, corners, k);
     c.fill();
@@ -136,8 +136,8 @@ function drawOutline(view, increment) {
   }
 }
 
-// Centre line of each band, dashed lines at plus and minus half its 10-90 % width; white with a dark rim on colours. Bands
-// with less than half of the largest jump are fainter.
+// Centre line of each band, and dashed lines at plus and minus half its 10-90 % width. On colours the lines are white with a
+// dark rim. Bands with less than half of the largest jump are fainter.
 function drawBands(view, increment, panel, onColour) {
   const c = view.c, far = 4 * (data.box[1] - data.box[0] + data.box[3] - data.box[2]);
   const bands = increment.bands[panel] || [], strongest = Math.max(0, ...bands.map((band) => Math.abs(band[3] || 0)));
@@ -163,7 +163,7 @@ function drawBands(view, increment, panel, onColour) {
   c.globalAlpha = 1;
 }
 
-// One shared bar under a pair; an end with an arrow says that values go beyond it.
+// One colour bar for a pair of maps. An arrow at an end marks values beyond it.
 function drawBar(canvas, width, pixels, quantity, limits, beyond) {
   const height = 46, inset = Math.max(24, 0.12 * width), c = canvas.getContext("2d");
   canvas.width = Math.round(width * pixels);
@@ -173,7 +173,7 @@ function drawBar(canvas, width, pixels, quantity, limits, beyond) {
   c.fillStyle = "#ffffff";
   c.fillRect(0, 0, width, height);
   const long = width - 2 * inset, table = data.maps[quantity.map];
-  // Each colour runs to the end and the next paints over it: no seams at any scale.
+  // Each colour is painted to the end and the next one over it, so there are no seams.
   table.forEach((colour, k) => { c.fillStyle = colour; c.fillRect(inset + long * k / 256, 2, long * (1 - k / 256), 10); });
   [[0, -1], [1, 1]].forEach(([end, sense]) => {
     if (!beyond[end]) return;

@@ -1,8 +1,8 @@
-// diptych: arrows, crosses, forces and probes on a map. SPDX-License-Identifier: LGPL-2.1-or-later
+// diptych: draws arrows, crosses, forces and probes on a map. SPDX-License-Identifier: LGPL-2.1-or-later
 "use strict";
-const ARROW = 4;  // d, length on paper of the upper platen's own increment
+const ARROW = 4;  // d, drawn length of the increment of the upper platen
 
-// A key above the axes' lower right corner: a line and what it stands for.
+// A legend in the lower right corner: a line and its meaning.
 function drawKey(view, length, thick, colour, words) {
   const c = view.c, x = view.right - 8, y = view.bottom - 11;
   c.font = FONT;
@@ -55,7 +55,7 @@ function cross(view, x, y, angle, arms) {
   });
 }
 
-// Principal stresses as lines whose half length is the stress; tension, which a line cannot show, in grey.
+// Principal stresses as lines; the half length is the stress. Tension is grey.
 function drawCrosses(view, increment, panel) {
   const stored = increment.crosses[panel];
   if (!stored) return 0;
@@ -75,8 +75,8 @@ function drawCrosses(view, increment, panel) {
   return x.length;
 }
 
-// Grains: forces as segments of one diameter centred at the contacts, thickness by force. Continuum: principal stresses
-// as crosses of one size, thickness by the force sigma d that a stress carries across one diameter.
+// Grains: forces as segments of one diameter, centred at the contacts; the thickness is the force. Continuum: principal stresses
+// as crosses of one size; the thickness is the force sigma d across one diameter.
 function drawForces(view, increment, panel) {
   const c = view.c, unit = view.scale * data.force_unit;
   const stored = panel === "discrete" ? increment.forces : increment.crosses.continuum;
@@ -98,7 +98,7 @@ function drawForces(view, increment, panel) {
   return x.length;
 }
 
-// Half length of the line of 1 P [d], such that the largest stress of both panels fits into the smallest probe.
+// Half length of the line of 1 P [d]. The largest stress of both panels fits into the smallest probe.
 function stressArm(increment, rectangles) {
   const extents = rectangles.flatMap((p) => [0, 1].map((n) => p.polygon.map((q) => q[n])).map((u) => Math.max(...u) - Math.min(...u)));
   const stresses = Object.keys(data.panels).flatMap((panel) => increment.probes[panel].rectangles.map((p) => p.s1 || 0));
@@ -143,7 +143,7 @@ function drawProbes(view, increment, panel) {
   return rectangles.length + (circle ? 1 : 0);
 }
 
-// Above a level rectangle; below the lowest corner of an oblique one, where no other probe lies.
+// Puts the name above a horizontal rectangle, or below the lowest corner of an oblique one, where no other probe lies.
 function nameProbe(view, probe) {
   const c = view.c, ys = probe.polygon.map((q) => q[1]), low = probe.polygon[ys.indexOf(Math.min(...ys))];
   const level = probe.polygon.filter((q) => Math.abs(q[1] - low[1]) < 1e-3).length > 1;

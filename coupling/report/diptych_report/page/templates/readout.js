@@ -1,4 +1,4 @@
-// diptych: value under the pointer in both panels; the maps of a print. SPDX-License-Identifier: LGPL-2.1-or-later
+// diptych: shows the values under the pointer in both panels, and draws the maps of a print. SPDX-License-Identifier: LGPL-2.1-or-later
 "use strict";
 const hover = { part: null };
 
@@ -8,7 +8,7 @@ function discAt(discs, x, y) {
   return -1;
 }
 
-// Index of the convex cell that holds a point; corners run round the cell.
+// Index of the convex cell that contains a point; the corners are in order.
 function cellAt(id, x, y) {
   const q = values(id);
   for (let k = 0; 8 * k < q.length; ++k) {
@@ -53,7 +53,7 @@ document.addEventListener("pointermove", (event) => {
   }
 });
 
-// On paper every increment of the chosen quantity is shown, in small pairs.
+// A print shows every increment of the chosen quantity as a small pair of maps.
 function fillSheet() {
   const sheet = document.getElementById("sheet");
   sheet.replaceChildren(...data.increments.map((increment) => {

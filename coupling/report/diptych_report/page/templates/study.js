@@ -1,4 +1,4 @@
-// diptych: curves of the chosen points of a study
+// diptych: draws the curves of the ticked points of a study
 // SPDX-License-Identifier: LGPL-2.1-or-later
 "use strict";
 const palette = ["#222222", "#0072B2", "#D55E00", "#007A5E", "#CC79A7", "#E69F00", "#56B4E9"];
@@ -13,7 +13,7 @@ function element(name, attributes, text) {
   picture.append(made);
 }
 
-// About five round numbers between two ends.
+// About five round numbers within a range.
 function ticks(low, high) {
   const rough = (high - low) / 5, decade = 10 ** Math.floor(Math.log10(rough));
   const step = decade * [1, 2, 5, 10].find((m) => m * decade >= rough);
@@ -29,7 +29,7 @@ function drawCurves() {
   const chosen = boxes.filter((b) => b.checked).map((b) => Number(b.dataset.point));
   const values = chosen.flatMap((k) => curve.rows[k].filter((v) => v !== null));
   if (!values.length) {
-    element("text", {x: 360, y: 170, "text-anchor": "middle"}, "no curve: tick a point that finished");
+    element("text", {x: 360, y: 170, "text-anchor": "middle"}, "no curve; tick a finished point");
     return;
   }
   let low = Math.min(0, ...values), high = Math.max(0, ...values);

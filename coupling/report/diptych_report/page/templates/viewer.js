@@ -1,12 +1,12 @@
-// diptych: stepping, choosing and reading the maps. SPDX-License-Identifier: LGPL-2.1-or-later
+// diptych: steps through the increments and draws the chosen maps. SPDX-License-Identifier: LGPL-2.1-or-later
 "use strict";
 const increments = new Map(data.increments.map((increment) => [increment.key, increment]));
 const chosen = { quantity: data.quantities[0], place: data.quantities[0].home, arrows: "increment" };
 const all = (selector, root) => Array.from((root || document).querySelectorAll(selector));
-let paper = 0;  // width of a map in a print [CSS pixels]; 0 on a screen
+let paper = 0;  // width of a map in print [CSS pixels]; 0 on a screen
 let pixels = Math.min(3, Math.max(2, window.devicePixelRatio || 1));
 
-// Numbers of one panel of the chosen quantity; place discs: the continuum's panel shows its cells.
+// Numbers of one panel for a quantity. With the place "discs" the continuum shows its cells.
 function shown(increment, panel, quantity, place) {
   const stored = (increment.values[quantity.key] || {})[place];
   const cells = place === "grid" ? increment.grid : increment.cells;
@@ -14,7 +14,7 @@ function shown(increment, panel, quantity, place) {
            discs: place === "discs" && panel === "discrete", cells };
 }
 
-function bandWords(increment, panel) {
+function bandText(increment, panel) {
   const bands = increment.bands[panel];
   if (bands === null || bands === undefined) return "band not computed";
   return bands.length ? bands.map((band) => "band at " + numeral(band[0], 0) + " degrees").join("; ") : "no band detected";
@@ -29,10 +29,10 @@ function drawQuantity(view, increment, panel, canvas) {
   drawBands(view, increment, panel, true);
   Object.assign(canvas.dataset, { quantity: chosen.quantity.key, low: limits[0], high: limits[1] });
   const what = numbers.length + (discs ? " grains as discs" : " cells");
-  return chosen.quantity.label + ", " + what + "; " + bandWords(increment, panel);
+  return chosen.quantity.label + ", " + what + "; " + bandText(increment, panel);
 }
 
-// Continuum minus grains on the same cells; panel "error": standard error of the grains.
+// Continuum minus grains on the same cells; for the panel "error" the standard error of the grains.
 function differenceOf(increment, panel) {
   const place = chosen.place === "grid" ? "grid" : "cells", cells = place === "grid" ? increment.grid : increment.cells;
   const quantity = panel === "error" ? data.quantities.find((q) => q.key === "error") : chosen.quantity;
@@ -58,7 +58,7 @@ function drawDifference(view, increment, panel) {
 
 const counted = (draw, what) => (view, increment, panel) => {
   const n = draw(view, increment, panel, chosen.arrows);
-  return n ? n + " " + what + "; " + bandWords(increment, panel) : "";
+  return n ? n + " " + what + "; " + bandText(increment, panel) : "";
 };
 const DRAWINGS = {
   quantity: drawQuantity, difference: drawDifference,
@@ -83,8 +83,8 @@ function drawMap(canvas, drawing, increment) {
   drawAxes(view);
   canvas.dataset.key = increment.key;
   canvas.dataset.drawn = words ? "yes" : "no";
-  const reason = increment.kind === "window" ? "stages alone store this: choose a stage"
-               : panel === "continuum" ? "the continuum has none" : "not stored";
+  const reason = increment.kind === "window" ? "only stages store this; choose a stage"
+               : panel === "continuum" ? "not defined for the continuum" : "not stored";
   canvas.setAttribute("aria-label", (data.panels[panel] || canvas.dataset.title) + ", " + increment.title + ": " + (words || reason));
   frame.classList.toggle("empty", !words);
   all(".none", frame).forEach((none) => { none.textContent = reason; });
@@ -109,7 +109,7 @@ function beyond(sets, limits) {
   return [every.some((set) => set.some((v) => v < limits[0])), every.some((set) => set.some((v) => v > limits[1]))];
 }
 
-// The widest that lets both maps of a pair and what stands under them fit the screen.
+// The largest width at which both maps of a pair and their controls fit the screen.
 function fit() {
   const [x0, x1, y0, y1] = data.box;
   for (const pair of all(".pair[data-draw]")) {
@@ -138,8 +138,8 @@ function refresh(part) {
   if (hover.part === part) hideReadout();
 }
 
-// What the files say of the chosen numbers.
-function tellMeaning() {
+// Shows the meaning of the chosen numbers, from the files.
+function showMeaning() {
   document.getElementById("meaning").textContent = (chosen.quantity.meaning || {})[chosen.place] || "";
 }
 
@@ -148,7 +148,7 @@ function refreshAll() {
   all("section.part").forEach(refresh);
 }
 
-// Choosing an increment in one part chooses the same one in every other, or one that ends at the same strain.
+// Chooses an increment in one part, and the same one (or one with the same end) in all other parts.
 function choose(radio) {
   radio.checked = true;
   const own = radio.closest("section.part");
@@ -170,16 +170,16 @@ function chooseQuantity(key) {
 }
 
 function offerPlaces() {
-  const names = { discs: "grains as discs", cells: "both on the mesh’s cells", grid: "both on a regular grid" };
+  const names = { discs: "grains as discs", cells: "both on the cells of the mesh", grid: "both on a regular grid" };
   const place = document.getElementById("place");
   place.replaceChildren(...chosen.quantity.places.map((key) => new Option(names[key], key, false, key === chosen.place)));
-  tellMeaning();
+  showMeaning();
 }
 
 document.addEventListener("change", (event) => {
   const target = event.target;
   if (target.id === "quantity") chooseQuantity(target.value);
-  else if (target.id === "place") chosen.place = target.value, tellMeaning(), all("section.part").forEach(refresh);
+  else if (target.id === "place") chosen.place = target.value, showMeaning(), all("section.part").forEach(refresh);
   else if (target.id === "arrows-kind") chosen.arrows = target.value, all("section.part").forEach(refresh);
   else if (target.dataset.key && target.type === "radio") choose(target);
 });
