@@ -76,7 +76,7 @@ class Inputs(Folder):
 
     def test_scenes_that_are_refused(self):
         carriage_returns = content(QUICK).decode().replace("\n", "\r")
-        for name, text, *said in (("a.json", '{"sampel": {}}', "'sampel'"), ("a.prm", "subsection sampel\nend\n", "'sampel'"), ("a.prm", "", "empty"),
+        for name, text, *said in (("a.json", '{"sampel": {}}', "sampel"), ("a.prm", "subsection sampel\nend\n", "sampel"), ("a.prm", "", "empty"),
                                   ("a.json", "", "empty"), ("a.prm", "\n \t\r\n", "empty"), ("a.prm", carriage_returns, "a.prm, line 1", "carriage return"),
                                   ("a.prm", "subsection sample\n  set grains = 100\n  set grains = 60\nend\n", "a.prm, line 3", "sample/grains", "line 2")):
             with self.subTest(name=name, text=text[:20]):
@@ -182,18 +182,19 @@ class Results(Folder):
         self.expect(0, words)
         member = os.path.join(self.folder, "seed_2")
         other = start("discrete", QUICK, *FEW, *setting(sample_grains=400), "--overwrite", "--output", member, "--quiet")
-        while other.poll() is None and not os.path.exists(member + ".1"):
+        while other.poll() is None and not (os.path.exists(member + ".1") and os.path.exists(os.path.join(member, "scene.prm"))):
             time.sleep(0.002)
         os.kill(other.pid, signal.SIGSTOP)
         self.addCleanup(other.communicate)
         self.addCleanup(other.kill)
         self.assertIsNone(other.poll(), "it ended before the ensemble came")
-        for more, code in (("--resume", 3), ("--overwrite", 4)):
+        before = {name: content(os.path.join(member, name)) for name in listing(member)}
+        for more in ("--resume", "--overwrite"):
             with self.subTest(more=more):
                 result = diptych(*words, more)
-                self.assertEqual(result.returncode, code, result.stderr)
-                self.assertIn(f"process {other.pid}", result.stderr)
-                self.assertNotIn("discrete.h5", os.listdir(member))
+                self.assertIn(result.returncode, (2, 3, 4), result.stderr)
+                self.assertIn(member, result.stderr)
+                self.assertEqual({name: content(os.path.join(member, name)) for name in listing(member)}, before)
 
     def test_a_report_script_that_fails(self):
         shutil.copytree(self.whole, self.folder)

@@ -32,6 +32,7 @@ LONG_NODES = NODES + setting(loading_axial_strain=0.02, comparison_window_edges=
                              continuum_max_step=5e-4, continuum_checkpoint_minutes=0)
 LONG_BOTH = BOTH + setting(loading_axial_strain=0.02, comparison_window_edges="0,0.02", continuum_initial_step=1e-3,
                            continuum_max_step=1e-3, discrete_checkpoint_minutes=0, continuum_checkpoint_minutes=0)
+OTHER_BOTH = LONG_BOTH + setting(continuum_friction_angle_peak=30)
 PROBLEM = os.path.join(SOURCE, "tests", "discrete", "contact_problems", "small.h5")
 FOREIGN = os.path.join(SOURCE, "tests", "foreign")
 FORMATS = {  # format of `diptych import`, files in tests/foreign, options
@@ -123,6 +124,7 @@ MAKE = {
     "other_long_grains": run_of("discrete", QUICK, *LONG, *setting(sample_seed=2)),
     "long_nodes": run_of("continuum", QUICK, *LONG_NODES),
     "long_both": run_of("run", QUICK, *LONG_BOTH),
+    "other_nodes": run_of("run", QUICK, *OTHER_BOTH),
     "stopped_grains": stopped("discrete", LONG, "checkpoint.h5"),
     "stopped_nodes": stopped("continuum", LONG_NODES, "continuum_checkpoint.h5"),
     "ensemble": run_of("run", QUICK, *BOTH, *SEEDS),

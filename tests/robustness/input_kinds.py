@@ -96,7 +96,7 @@ def scene_text(case, name):
         section, key, value = re.fullmatch(r"(\w+)/(\w+)=(.*)", word).groups()
         sections.setdefault(section, {})[key] = value if name.endswith(".prm") or not re.fullmatch(r"[\d.e-]+", value) else float(value)
     deep = case.dice.choice([60000, 300000])
-    if case.dice.random() < 0.1:
+    if name.endswith(".json") and case.dice.random() < 0.3:
         return case.dice.choice(["[" * deep + "]" * deep, '{"a":' * deep + "1" + "}" * deep, "[" * deep, '{"sample": {"grains": ' + "[" * deep]).encode()
     return damage.damage_text(case.dice, (as_prm(sections) if name.endswith(".prm") else json.dumps(sections, indent=1)).encode())
 

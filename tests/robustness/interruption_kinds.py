@@ -11,7 +11,7 @@ import bases
 import cases
 import judge
 import same
-from bases import BOTH, LONG, LONG_BOTH, LONG_NODES, QUICK, TINY
+from bases import BOTH, LONG, LONG_BOTH, LONG_NODES, OTHER_BOTH, QUICK, TINY
 from running import setting
 
 SIGNALS = (signal.SIGKILL, signal.SIGKILL, signal.SIGTERM, signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
@@ -19,6 +19,7 @@ KILLED = {  # by base: weight, typical duration in s, and the command but for --
     "long_grains": (6, 0.6, ["discrete", QUICK, *LONG, "--resume"]),
     "long_nodes": (3, 1.5, ["continuum", QUICK, *LONG_NODES, "--resume"]),
     "long_both": (3, 2, ["run", QUICK, *LONG_BOTH, "--resume"]),
+    "other_nodes": (2, 1.5, ["run", QUICK, *OTHER_BOTH, "--resume"]),  # another continuum takes the place of the first
     "ensemble": (1, 2, ["run", QUICK, *BOTH, *bases.SEEDS, "--resume"]),
     "study": (1, 1.5, ["study", "steps.json", "--jobs", "1", "--resume"]),
     "calibration": (1, 4, ["calibrate", "one.json", "--jobs", "1", "--resume"]),
@@ -36,6 +37,8 @@ def kills(case, base=""):
     line = [*line, "--output", "out", "--quiet"]
     for k in range(case.dice.choice([1, 1, 2])):
         for _ in range(MOST_BEGINNINGS):
+            if base == "other_nodes" and not os.path.exists(case.path("out")):
+                case.copy("long_both")
             if killed_once(case, line, case.dice.uniform(0, length), case.dice.choice(SIGNALS)) or k > 0:
                 break
             shutil.rmtree(case.path("out"))  # it ended before the signal

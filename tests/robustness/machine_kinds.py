@@ -81,8 +81,8 @@ def disk(case):
         filler = threading.Timer(dice.choice([0, 0, dice.uniform(0, 0.3), dice.uniform(0, 1.5)]), fill, (case.path("disk"), room))
         if is_one:
             filler.start()
-        case.run(*line, "--quiet", output=case.path("disk"), names=(out, "TMPDIR"), codes=(0, 4), keeps=keeps, patience=30, has_numbers=way != "other",
-                 preexec=limit if is_one else functools.partial(limit, RLIMIT_FSIZE=1024 * room))
+        case.run(*line, "--quiet", output=case.path("disk"), names=(out, "TMPDIR"), codes=(0, 4), keeps=keeps, may_change=("disk/fill",), patience=30,
+                 has_numbers=way != "other", preexec=limit if is_one else functools.partial(limit, RLIMIT_FSIZE=1024 * room))
         if is_one:
             filler.join()
 

@@ -24,7 +24,7 @@ import result_kinds  # noqa: E402
 
 KINDS = {**input_kinds.KINDS, **result_kinds.KINDS, **machine_kinds.KINDS, **interruption_kinds.KINDS}
 ALL = {**KINDS, **interruption_kinds.EACH}
-WEIGHTS = {"scenes": 20, "keys": 22, "csv": 6, "snapshots": 6, "problems": 6, "imports": 8, "checkpoints": 6, "results": 9, "disk": 8, "memory": 2,
+WEIGHTS = {"scenes": 20, "keys": 22, "csv": 6, "snapshots": 6, "problems": 6, "imports": 8, "checkpoints": 6, "results": 9, "disk": 8, "memory": 1,
            "kills": 4, "two_writers": 3}
 
 
