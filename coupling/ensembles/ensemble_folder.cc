@@ -64,7 +64,7 @@ namespace diptych::coupling
     const bool         is_empty  = is_empty_folder(directory);
     require_usable(directory, opening);
     if (!is_empty && opening.overwrite)
-      set_aside(lock, input_files(scene));
+      set_aside(lock, with_files_of(opening, scene));
     else if (!is_empty)
       {
         demand_same_scene(scene);

@@ -384,7 +384,12 @@ namespace diptych::coupling
 
   Opening opening_of(const CommandLine &line, const bool adds)
   {
-    return {line.resume, line.overwrite, adds, line.text};
+    Opening opening{line.resume, line.overwrite, adds, line.command != Command::import_sample, line.text, {}};
+    if (std::error_code none; std::filesystem::is_regular_file(line.target, none))
+      opening.inputs.emplace_back("the scene", line.target);
+    for (const std::string &file : line.set_files)
+      opening.inputs.emplace_back("--set-file", file);
+    return opening;
   }
 
   Scene scene_of(const CommandLine &line)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/program/compare_command.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -16,6 +17,7 @@
 #include "coupling/store/provenance.h"
 #include "coupling/store/result_folder.h"
 #include "coupling/studies/study_folder.h"
+#include "discrete/files/text_file.h"
 
 namespace diptych::coupling
 {
@@ -43,16 +45,24 @@ namespace diptych::coupling
       const std::string &directory = scene.output.directory;
       Progress           progress(line.quiet);
       progress.update("comparing", 0);
-      const PhaseTimer timer("comparison");
-      Comparison       c = compared(scene, results, progress);
-      forget_files(directory, "comparison");
-      remove_results(directory, {"report.html"}); // shows the earlier comparison, and may not be drawn again
-      write_compared_scene(directory, scene, line.text);
-      write_comparison_h5(directory, scene, c, results);
-      write_fields_vtu(directory, c);
-      record_phases(directory, scene, line.text, {timer.stop()});
-      c.cost = summary_of(read_run_facts(directory).phases); // now with the comparison's own
-      write_comparison(directory, scene, c);
+      const PhaseTimer  timer("comparison");
+      Comparison        c    = compared(scene, results, progress);
+      const std::string next = next_comparison(directory);
+      remove_results(directory, {"next_comparison"}); // of a comparison that did not finish
+      make_folder(next);
+      write_comparison_h5(next, scene, c, results);
+      write_fields_vtu(next, c);
+      std::vector<PhaseCost> phases = read_run_facts(directory).phases;
+      phases.erase(
+        std::remove_if(phases.begin(), phases.end(), [](const PhaseCost &phase) { return phase.name == "comparison"; }),
+        phases.end());
+      phases.push_back(timer.stop());
+      c.cost = summary_of(phases);
+      write_comparison(next, scene, c);
+      discrete::write_text(scene_prm(next), resolved_text(scene));
+      take_next_comparison(directory);
+      record_phases(directory, scene, line.text, {phases.back()});
+      record_compared_scene(scene, line.text);
       record_files(directory, "comparison");
       progress.finish();
       for (const StageRecord &stage : c.stages)

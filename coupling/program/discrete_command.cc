@@ -226,7 +226,7 @@ namespace diptych::coupling
         {
           const Scene part = divisor == 1 ? first_part : part_of_study(scene, divisor);
           const int   code = writing(part.output.directory, [&](FolderLock &lock) {
-            open_result_folder(part, lock, {line.resume, false, false, line.text},
+            open_result_folder(part, lock, {line.resume, false, false, true, line.text, {}},
                                  [&](const SceneChanges &) { check_resumed(line, part); });
             return discrete_panel(line, part, std::move(first));
           });

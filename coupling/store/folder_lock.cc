@@ -85,6 +85,18 @@ namespace diptych::coupling
     });
   }
 
+  void require_unlocked(const std::string &directory)
+  {
+    const int opened = open(lock_file(directory).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (opened < 0)
+      return;
+    const bool is_locked = flock(opened, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    close(opened);
+    if (is_locked)
+      throw std::runtime_error("the folder '" + directory + "' is being written to by " + owner_of(directory) +
+                               ". Wait for it, or name another folder.");
+  }
+
   void make_folder(const std::string &directory)
   {
     std::error_code error;

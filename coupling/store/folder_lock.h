@@ -34,6 +34,9 @@ namespace diptych::coupling
     int         descriptor = -1;
   };
 
+  // Throws std::runtime_error naming the writer where another process has locked the folder.
+  void require_unlocked(const std::string &directory);
+
   // No file but a lock and what a killed run has left unfinished (.part).
   bool is_empty_folder(const std::string &directory);
 

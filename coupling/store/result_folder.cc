@@ -87,8 +87,17 @@ namespace diptych::coupling
     if (!is_result_folder(directory))
       throw SceneError("the folder '" + directory + "' holds other files and no results. Name a new or an empty folder.");
     if (!opening.resume && !opening.overwrite)
-      throw SceneError("the folder '" + directory + "' holds results. Add --resume to go on from them, --overwrite to rename " +
-                       "them to " + plain_path(directory).filename().string() + ".1, or --output with another folder.");
+      throw SceneError("the folder '" + directory + "' holds results. Add " +
+                       (opening.can_resume ? "--resume to go on from them, " : "") + "--overwrite to rename them to " +
+                       plain_path(directory).filename().string() + ".1, or --output with another folder.");
+  }
+
+  InputFiles with_files_of(const Opening &opening, const Scene &scene)
+  {
+    InputFiles inputs = opening.inputs;
+    for (const auto &input : input_files(scene))
+      inputs.push_back(input);
+    return inputs;
   }
 
   void set_aside(FolderLock &lock, const InputFiles &inputs)
@@ -98,8 +107,12 @@ namespace diptych::coupling
       if (lies_in(file, path) || lies_in(file, aside))
         throw SceneError("--overwrite: " + what + " '" + file + "' lies in the folder that would be renamed. Name another " +
                          "folder with --output.");
+    for (const fs::directory_entry &entry : fs::recursive_directory_iterator(path))
+      if (entry.is_directory())
+        require_unlocked(entry.path().string());
     if (fs::equivalent(path, fs::current_path()))
       throw SceneError("--overwrite: '" + lock.folder() + "' is the working directory. Start from another one.");
+    require_unlocked(aside.string());
     if (fs::exists(aside) && !is_result_folder(aside.string()))
       throw SceneError("--overwrite: '" + aside.string() + "' exists and holds no results. Move it elsewhere.");
     const bool replaces = fs::remove_all(aside) > 0;
@@ -114,12 +127,11 @@ namespace diptych::coupling
     discrete::write_text(scene_prm(directory), resolved_text(scene));
   }
 
-  void write_compared_scene(const std::string &directory, const Scene &scene, const std::string &command)
+  void record_compared_scene(const Scene &scene, const std::string &command)
   {
-    SceneHashes hashes = read_run_facts(directory).hashes;
+    SceneHashes hashes = read_run_facts(scene.output.directory).hashes;
     hashes.comparison  = hashes_of(scene).comparison;
-    record_scene(directory, scene, command, hashes);
-    discrete::write_text(scene_prm(directory), resolved_text(scene));
+    record_scene(scene.output.directory, scene, command, hashes);
   }
 
   SceneChanges open_result_folder(const Scene                                     &scene,
@@ -144,7 +156,7 @@ namespace diptych::coupling
     if (check)
       check(changes);
     if (!is_empty && opening.overwrite)
-      set_aside(lock, input_files(scene));
+      set_aside(lock, with_files_of(opening, scene));
     // The scene of a finished continuum or comparison stays beside it until a new one takes its place.
     if (is_empty || opening.overwrite || (!changes.continuum.empty() && !has_continuum(directory)))
       write_scene(directory, scene, opening.command);
@@ -203,6 +215,21 @@ namespace diptych::coupling
     take_continuum_facts(directory, next);
     remove_results(directory, {"next"});
     return true;
+  }
+
+  std::string next_comparison(const std::string &directory)
+  {
+    return directory + "/next_comparison";
+  }
+
+  void take_next_comparison(const std::string &directory)
+  {
+    const std::string next = next_comparison(directory);
+    forget_files(directory, "comparison");
+    remove_results(directory, {"report.html"}); // shows the earlier comparison, and may not be drawn again
+    for (const fs::directory_entry &entry : fs::directory_iterator(next))
+      fs::rename(entry.path(), directory + "/" + entry.path().filename().string());
+    remove_results(directory, {"next_comparison"});
   }
 
   void remove_results(const std::string &directory, const std::vector<std::string> &names)

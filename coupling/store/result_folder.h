@@ -13,13 +13,18 @@
 
 namespace diptych::coupling
 {
+  // Files that a command reads, each with what it is: "the scene" -> "mine.prm".
+  using InputFiles = std::vector<std::pair<std::string, std::string>>;
+
   // What a command does about results that stand in its folder.
   struct Opening
   {
-    bool        resume    = false; // --resume: goes on from them
-    bool        overwrite = false; // --overwrite: renames their folder to DIRECTORY.1
-    bool        adds      = false; // computes a part beside a sample that stays, as `diptych continuum` does
-    std::string command;           // for provenance.json
+    bool        resume     = false; // --resume: goes on from them
+    bool        overwrite  = false; // --overwrite: renames their folder to DIRECTORY.1
+    bool        adds       = false; // computes a part beside a sample that stays, as `diptych continuum` does
+    bool        can_resume = true;  // the command has --resume
+    std::string command;            // for provenance.json
+    InputFiles  inputs;             // files that the command line names
   };
 
   // The keys by which the scene differs from the one of the folder, the first of each kind; empty: none.
@@ -38,9 +43,12 @@ namespace diptych::coupling
   void require_usable(const std::string &directory, const Opening &opening);
 
   // Renames the results in the folder to DIRECTORY.1; an earlier DIRECTORY.1 is replaced. Throws SceneError where it would move
-  // one of the `inputs` (what it is, file) or the working directory, or where DIRECTORY.1 holds no results.
-  using InputFiles = std::vector<std::pair<std::string, std::string>>;
+  // one of the `inputs` or the working directory, or where DIRECTORY.1 holds no results; std::runtime_error
+  // where another run writes to a folder in it.
   void set_aside(FolderLock &lock, const InputFiles &inputs);
+
+  // The files of the command line and of the scene.
+  InputFiles with_files_of(const Opening &opening, const Scene &scene);
 
   // Prepares the folder of a run: refuses it as above, compares the scene with the one whose results stand there, calls `check`,
   // which may throw before anything has changed, sets old results aside, and writes scene.prm and provenance.json.
@@ -53,8 +61,8 @@ namespace diptych::coupling
   // The resolved scene as DIRECTORY/scene.prm and its hashes in provenance.json.
   void write_scene(const std::string &directory, const Scene &scene, const std::string &command);
 
-  // The same after a comparison with other keys: sample and continuum stay those that were run.
-  void write_compared_scene(const std::string &directory, const Scene &scene, const std::string &command);
+  // Records the hash of a comparison with other keys; sample and continuum stay those that were run.
+  void record_compared_scene(const Scene &scene, const std::string &command);
 
   // Everything that the scene asks for is in the folder, computed from this scene and these inputs.
   // Throws std::invalid_argument naming a file that was changed since.
@@ -69,6 +77,10 @@ namespace diptych::coupling
   // Moves the finished continuum from DIRECTORY/next to its place and removes the comparison with the old one; does nothing where
   // it is not finished. Can be repeated after a crash. True: it was moved.
   bool take_next_continuum(const std::string &directory);
+
+  // A comparison is written to DIRECTORY/next_comparison, with the scene that it is of, and then moved to its place.
+  std::string next_comparison(const std::string &directory);
+  void        take_next_comparison(const std::string &directory);
 
   // Removes files and folders that a run has written.
   void remove_results(const std::string &directory, const std::vector<std::string> &names);
