@@ -52,7 +52,8 @@ namespace diptych::continuum
   {
     visit("step", r.step, "-", "accepted load steps so far");
     visit("axial_strain", r.axial_strain, "-", "descent of the upper platen / initial height");
-    visit("stress_ratio", r.stress_ratio, "-", "t/s of the mean stress; nan if the sample carries no stress");
+    visit("stress_ratio", r.stress_ratio, "-",
+          ColumnMeaning{"t/s of the mean stress; nan if the sample carries no stress", true});
     visit("volumetric_strain", r.volumetric_strain, "-", "1 - V/V0, dilation negative");
     visit("sxx", r.mean_stress(0, 0), "pressure", "mean stress over the area, xx component");
     visit("sxy", r.mean_stress(0, 1), "pressure", "mean stress, xy component (x component of the force on a face with normal y)");

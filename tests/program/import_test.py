@@ -147,22 +147,16 @@ class Refused(Case):
         self.refused("import", "lammps", *LAMMPS, "--output", out, says="holds other files")
         self.refused("import", "csv", *CSV, "--output", os.path.dirname(CSV[0]), says="plain_csv")
 
-    def test_only_a_folder_of_an_import_is_imported_into(self):
-        """Nor one in which a run has its results, though it keeps the import's record."""
+    def test_an_earlier_import_is_replaced_only_on_request(self):
         self.done("import", "csv", *CSV, "--output", self.path("mine"), "--quiet")
-        self.done("import", "csv", *CSV, "--output", self.path("mine"), "--quiet")
-        os.mkdir(self.path("mine", "discrete"))
-        notes = write(self.path("mine", "discrete", "notes.txt"), "mine")
-        self.done("import", "csv", *CSV, "--output", self.path("mine"), "--quiet")
-        self.assertEqual(content(notes), b"mine")
-        self.done("discrete", self.path("mine", "scene.prm"), "--output", self.path("ran"), "--quiet")
-        self.refused("import", "csv", *CSV, "--output", self.path("ran"), says="holds other files")
+        write(self.path("mine", "notes.txt"), "mine")
+        self.refused("import", "csv", *CSV, "--output", self.path("mine"), says="--overwrite")
+        self.done("import", "csv", *CSV, "--output", self.path("mine"), "--quiet", "--overwrite")
+        self.assertEqual(content(self.path("mine.1", "notes.txt")), b"mine")
         os.mkdir(self.path("foreign"))
-        for record in ("mine", "{}", "", "[1]"):
-            write(self.path("foreign", "import.json"), record)
-            write(self.path("foreign", "discrete.csv"), "precious")
-            self.refused("import", "csv", *CSV, "--output", self.path("foreign"), says="import.json")
-            self.assertEqual(content(self.path("foreign", "discrete.csv")), b"precious")
+        write(self.path("foreign", "discrete.csv"), "precious")
+        self.refused("import", "csv", *CSV, "--output", self.path("foreign"), "--overwrite", says="holds other files")
+        self.assertEqual(content(self.path("foreign", "discrete.csv")), b"precious")
 
     def test_a_scene_that_would_not_run_is_not_announced(self):
         for words, key in ((("--density", "1e13"), "sample/density"), (("--pressure", "1e30"), "loading/pressure")):
@@ -180,7 +174,7 @@ class Refused(Case):
         write(self.path("mine", "import.json"), record[:len(record) // 2].decode())
         self.refused("discrete", scene, "--output", self.path("out"), says="import.json")
         write(self.path("mine", "import.json"), record.decode())
-        self.refused("run", scene, "--output", self.path("mine"), says="files that this run replaces")
+        self.refused("run", scene, "--output", self.path("mine"), says="holds results")
         self.refused("run", scene, "--output", self.path("out"), "--set", "discrete/file=absent.h5", says="absent.h5")
         self.refused("run", scene, "--output", self.path("out"), "--set", "loading/stages=0.01,0.03", "--set", "loading/axial_strain=0.03", "--set",
                      "comparison/window_edges=0,0.03", says="frames")

@@ -137,7 +137,7 @@ class Resume(unittest.TestCase):
         for other in [setting(sample_seed=2), setting(discrete_friction=0.3)]:
             refused = self.resume(*LONG, *other)
             self.assertEqual(refused.returncode, 2, refused.stderr)
-            self.assertIn("--resume", refused.stderr)
+            self.assertIn("--overwrite", refused.stderr)
             self.assertIn(self.folder, refused.stderr)
         self.assertEqual({name: content(os.path.join(self.folder, name)) for name in listing(self.folder)}, before)
 
