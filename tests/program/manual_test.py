@@ -143,10 +143,10 @@ class Manual(Built):
                     self.assertIn(option, known, f"{name}: diptych {command}")
 
     def test_equations_are_the_comments_of_the_sources(self):
-        shown, count = " ".join(self.shown("equations.html").replace("\n", " ").split()), 0
+        shown, count = "".join(self.shown("equations.html").split()), 0  # without blanks: list items are lines of their own
         for path in re.findall(r"<!-- equations: (.+) -->", content(os.path.join(MANUAL, "pages", "equations.md")).decode()):
             for comment in headers.formulas(content(os.path.join(SOURCE, path)).decode()):
-                self.assertIn(" ".join(comment.replace("`", "").split()[:9]), shown, path)
+                self.assertIn("".join(comment.replace("`", "").split()[:9]), shown, path)
                 count += 1
         self.assertGreater(count, 40)
 
