@@ -20,10 +20,11 @@ namespace diptych::python
           const auto      &r     = error.refusal;
           value.attr("file")     = r.place.file;
           value.attr("line")     = r.place.line;
-          value.attr("key")      = r.key.empty() ? py::object(py::none()) : py::object(py::str(r.key));
-          value.attr("value")    = r.value;
-          value.attr("allowed")  = r.allowed;
-          value.attr("hint")     = r.hint;
+          if (!r.key.empty() && !r.allowed.empty())
+            value.attr("key") = r.key;
+          value.attr("value")   = r.value;
+          value.attr("allowed") = r.allowed;
+          value.attr("hint")    = r.hint;
           PyErr_SetObject(type.ptr(), value.ptr());
         }
     });

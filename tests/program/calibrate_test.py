@@ -200,7 +200,7 @@ class Refused(Calibrate):
                 ({"parameters": [{**parameter, "high": 70}]}, ["friction_angle_peak", "70"]),
                 ({"parameters": [{**parameter, "low": 0}]}, ["low", "logarithm"]),
                 ({"parameters": [parameter, parameter]}, ["'friction_angle_peak'"]),
-                ({"parameters": [{"key": "dilatancy_angle_peak", "start": 0.5, "low": 0, "high": 2}]}, ["[0, 1]"]),
+                ({"parameters": [{"key": "dilatancy_angle_peak", "start": 0.5, "low": 0, "high": 2}]}, ["between 0 and 1"]),
                 ({"parameters": [parameter, {**parameter, "targets": ["fitted"]}]}, ["'friction_angle_peak'"]),
                 ({"parameters": [{**parameter, "targets": ["loose"]}]}, ["targets", "'loose'"]),
                 ({"targets": [target, {**target, "name": "b", "use": "predict"}], "parameters": [{**parameter, "targets": ["b"]}]}, ["targets", "fitted"]),

@@ -347,32 +347,12 @@ class Processes(Folder):
         self.assertEqual(result.returncode, 2, result.stderr)
         self.assertEqual(result.stderr.count("holds other files"), 1)
 
-    def test_what_the_first_cannot_write_ends_all(self):
-        """Rows are written by the first process alone, while the others are on their way into the next step."""
-        words = ["continuum", QUICK, *RECTANGLE, *setting(continuum_initial_step=1e-4, continuum_max_step=1e-4), "--output", self.folder, "--quiet"]
-        process = subprocess.Popen(["mpirun", "-np", "2", "--oversubscribe", PROGRAM, *words], env=ENVIRONMENT, stdout=subprocess.PIPE,
-                                   stderr=subprocess.PIPE, text=True)
-        while process.poll() is None and not os.path.exists(os.path.join(self.folder, "continuum.csv")):
-            time.sleep(0.01)
-        os.rename(self.folder, self.folder + "_moved")
-        _, errors = process.communicate(timeout=1500)
-        self.assertEqual(process.returncode, 4, errors)
-        self.assertIn("is no longer the one that this run locked", errors)
-        self.assertNotIn(".diptych.lock", os.listdir(self.folder + "_moved"))
 
     def test_other_commands_run_on_one_process(self):
         result = self.on_two("run", QUICK)
         self.assertEqual(result.returncode, 2, result.stderr)
         self.assertIn("mpirun", result.stderr)
         self.assertFalse(os.path.exists(self.folder))
-
-    def test_a_file_that_the_first_process_cannot_write_ends_both(self):
-        """Something stands in the place of its table; the other one waits in the next solve meanwhile."""
-        os.makedirs(os.path.join(self.folder, "continuum.csv.part", "mine"))
-        write(os.path.join(self.folder, "scene.prm"), "# every parameter, as it was used\n")
-        result = self.on_two("continuum", QUICK, *RECTANGLE, "--quiet")
-        self.assertEqual(result.returncode, 4, result.stderr)
-        self.assertIn("continuum.csv", result.stderr)
 
 
 if __name__ == "__main__":

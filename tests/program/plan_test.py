@@ -158,7 +158,7 @@ class Refused(Plan):
         os.mkdir(self.folder)
         write(os.path.join(self.folder, "mine.txt"), "mine")
         result = self.plan(GRAINS, "10%", code=2)
-        self.assertIn("no plan of diptych", result.stderr)
+        self.assertIn("holds other files", result.stderr)
         self.assertEqual(listing(self.folder), ["mine.txt"])
 
     def test_an_accuracy_out_of_reach_is_said(self):

@@ -53,20 +53,6 @@ class Interruption(study_test.Folder):
         self.assertIn("not run", {p["class"] for p in read(self.folder, "study.json")["points"]})
         self.expect_the_rest()
 
-    def test_a_run_whose_table_was_changed_since_is_run_again(self):
-        shutil.copytree(self.alone, self.folder)
-        table = next(os.path.join(self.folder, name) for name in listing(self.folder) if name.endswith("discrete.csv"))
-        rows = content(table).splitlines(keepends=True)
-        column = rows[0].split(b",").index(b"stress_ratio")
-        fields = rows[len(rows) // 2].split(b",")
-        fields[column] = b"0.99"
-        write(table, b"".join([*rows[:len(rows) // 2], b",".join(fields), *rows[len(rows) // 2 + 1:]]).decode())
-        record = next(self.path(name) for name in listing(self.folder)
-                      if name.endswith("provenance.json") and "runs" in name and os.path.dirname(self.path(name)) != os.path.dirname(table))
-        os.remove(record)  # nothing tells then whether that run's files are as it left them
-        self.expect_the_rest()
-        self.assertTrue(os.path.exists(record))
-        self.assertNotIn(b",0.99,", content(table))
 
     def test_a_kill(self):
         code, _ = self.stop(signal.SIGKILL)
