@@ -348,6 +348,18 @@ class Processes(Folder):
         self.assertEqual(result.stderr.count("holds other files"), 1)
 
 
+    def test_what_the_first_cannot_write_ends_all(self):
+        """Only the first process writes rows, while the others are on their way into the next step."""
+        words = ["continuum", QUICK, *RECTANGLE, *setting(continuum_initial_step=1e-4, continuum_max_step=1e-4), "--output", self.folder, "--quiet"]
+        process = subprocess.Popen(["mpirun", "-np", "2", "--oversubscribe", PROGRAM, *words], env=ENVIRONMENT, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        while process.poll() is None and not os.path.exists(os.path.join(self.folder, "continuum.csv")):
+            time.sleep(0.01)
+        os.rename(self.folder, self.folder + "_moved")
+        _, errors = process.communicate(timeout=1500)
+        self.assertEqual(process.returncode, 4, errors)
+        self.assertIn(self.folder, errors)
+
     def test_other_commands_run_on_one_process(self):
         result = self.on_two("run", QUICK)
         self.assertEqual(result.returncode, 2, result.stderr)

@@ -53,6 +53,15 @@ class Interruption(study_test.Folder):
         self.assertIn("not run", {p["class"] for p in read(self.folder, "study.json")["points"]})
         self.expect_the_rest()
 
+    def test_a_run_whose_table_was_changed_since_is_run_again(self):
+        shutil.copytree(self.alone, self.folder)
+        table = next(os.path.join(self.folder, name) for name in listing(self.folder) if name.endswith("discrete.csv"))
+        rows = content(table).splitlines(keepends=True)
+        fields = rows[len(rows) // 2].split(b",")
+        fields[rows[0].split(b",").index(b"stress_ratio")] = b"0.99"
+        write(table, b"".join([*rows[:len(rows) // 2], b",".join(fields), *rows[len(rows) // 2 + 1:]]).decode())
+        self.expect_the_rest()
+        self.assertNotIn(b",0.99,", content(table))
 
     def test_a_kill(self):
         code, _ = self.stop(signal.SIGKILL)
