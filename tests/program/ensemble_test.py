@@ -149,9 +149,9 @@ class Statistics(Folder):
                 put()
                 refused = diptych("compare", self.folder)
                 self.assertEqual(refused.returncode, 2, refused.stderr)
-                self.assertIn(self.path("seed_2", told), refused.stderr)
+                self.assertIn(self.path("seed_2"), refused.stderr)
+                self.assertIn(told, refused.stderr)
                 self.assertEqual(content(self.path("ensemble.json")), content(os.path.join(self.three, "ensemble.json")))
-
 
     def test_more_seeds_are_added_by_resuming(self):
         shutil.copytree(self.three, self.folder)
