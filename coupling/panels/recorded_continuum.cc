@@ -199,7 +199,8 @@ namespace diptych::coupling
     on_first_process([&] {
       flush_rows();
       snapshots->add(snapshot);
-      results.snapshots.push_back(std::move(snapshot));
+      if (keeps_snapshots)
+        results.snapshots.push_back(std::move(snapshot));
       return 0;
     });
   }

@@ -38,7 +38,9 @@ namespace diptych::coupling
 
     const continuum::Report &run();
 
-    ContinuumResults results; // the first process's rows and snapshots, where the run begins in this process
+    // The first process's rows and, if wanted, snapshots, where the run begins in this process.
+    ContinuumResults results;
+    bool             keeps_snapshots = false;
 
   private:
     using Clock = std::chrono::steady_clock;

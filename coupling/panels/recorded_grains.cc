@@ -136,11 +136,13 @@ namespace diptych::coupling
 
   void RecordedGrains::add_snapshot()
   {
-    const discrete::Snapshot &snapshot = results.snapshots.emplace_back(panel.snapshot());
+    discrete::Snapshot snapshot = panel.snapshot();
     table->flush();
     snapshots->add(snapshot);
     if (const std::string text = accuracy_text(snapshot, scene.discrete.sampling.snapshot_accuracy); !text.empty())
       warnings += text + "\n";
+    if (keeps_snapshots)
+      results.snapshots.push_back(std::move(snapshot));
   }
 
   void RecordedGrains::before_step()

@@ -26,7 +26,8 @@ namespace diptych::coupling
     RecordedGrains &operator=(const RecordedGrains &) = delete;
 
     std::string     warnings; // of its snapshots, a line each
-    DiscreteResults results;  // rows and snapshots, where the run begins in this process
+    DiscreteResults results;  // rows and, if wanted, snapshots, where the run begins in this process
+    bool            keeps_snapshots = false;
 
     void                    prepare();                                  // the sample, without any file
     discrete::Snapshot      sample() const { return panel.snapshot(); } // once it is prepared and not yet loaded

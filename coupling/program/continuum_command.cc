@@ -89,9 +89,12 @@ namespace diptych::coupling
     }
 
     // What the curve says, and what should not be overlooked in it.
-    void say_result(const CommandLine &line, const Scene &scene, const ContinuumPart &part, const continuum::Report &report)
+    void say_result(const CommandLine                        &line,
+                    const Scene                              &scene,
+                    const ContinuumPart                      &part,
+                    const continuum::Report                  &report,
+                    const std::vector<continuum::HistoryRow> &rows)
     {
-      const auto rows = discrete::read_rows<continuum::HistoryRow>(continuum_csv(part.directory));
       if (rows.empty())
         return;
       const auto larger_by = [](const auto member) {
@@ -142,10 +145,9 @@ namespace diptych::coupling
                                      const Grains        &grains,
                                      const ContinuumTask &task)
     {
-      const bool              wants_resume = task.resume;
-      const bool              resume       = on_first_process([&] {
-        const bool found = wants_resume && std::filesystem::exists(part.checkpoint());
-        if (wants_resume && !found)
+      const bool        resume = on_first_process([&] {
+        const bool found = task.resume && std::filesystem::exists(part.checkpoint());
+        if (line.resume && !found)
           say(line, part.title + ": no checkpoint in " + part.directory + ": from the beginning");
         if (found)
           forget_files(scene.output.directory, part.name);
@@ -153,15 +155,17 @@ namespace diptych::coupling
           forget_fact(scene.output.directory, part.name);
         return int(found);
       });
-      const PhaseTimer        timer(part.name);
-      RecordedContinuum       recorded(line, scene, part, grains.pointer(), grains.solid_fraction, resume);
+      const PhaseTimer  timer(part.name);
+      RecordedContinuum recorded(line, scene, part, grains.pointer(), grains.solid_fraction, resume);
+      recorded.keeps_snapshots       = task.results != nullptr;
       const continuum::Report report = recorded.run();
       PhaseCost               cost   = timer.stop();
       cost.cpu_s                     = sum_over_processes(cost.cpu_s);
       on_first_process([&] {
         record_phases(scene.output.directory, scene, line.text, {cost});
         record_facts(scene.output.directory, part.name, facts_of(report));
-        say_result(line, scene, part, report);
+        say_result(line, scene, part, report,
+                   resume ? discrete::read_rows<continuum::HistoryRow>(continuum_csv(part.directory)) : recorded.results.rows);
         if (task.results != nullptr && !resume)
           {
             recorded.results.facts                                       = facts_of(report);
@@ -218,7 +222,7 @@ namespace diptych::coupling
     const int code        = continuum_panel(line, next, task);
     if (code == done)
       on_first_process([&] {
-        take_next_continuum(directory);
+        replace_continuum(directory);
         say(line, "the new continuum has replaced the earlier one in " + directory + ", of " + changes.continuum);
         return 0;
       });

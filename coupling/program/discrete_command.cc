@@ -283,6 +283,7 @@ namespace diptych::coupling
     const PhaseTimer timer("discrete");
     const bool       before   = checkpoint.has_value() || prepared != nullptr; // the timer began
     RecordedGrains  &recorded = prepared ? *prepared : *(prepared = std::make_unique<RecordedGrains>(line, scene, checkpoint));
+    recorded.keeps_snapshots  = results != nullptr;
     const discrete::Report &report = recorded.run();
     const std::string       csv    = discrete_csv(directory);
     const Rows              rows   = !checkpoint                    ? recorded.results.rows

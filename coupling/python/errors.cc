@@ -20,7 +20,7 @@ namespace diptych::python
           const auto      &r     = error.refusal;
           value.attr("file")     = r.place.file;
           value.attr("line")     = r.place.line;
-          if (!r.key.empty() && !r.allowed.empty())
+          if (!r.key.empty())
             value.attr("key") = r.key;
           value.attr("value")   = r.value;
           value.attr("allowed") = r.allowed;

@@ -83,18 +83,59 @@ namespace diptych::coupling
         check_windows(scene, last);
     }
 
+    // Value by section/key.
+    std::map<std::string, std::string> values_of(const Scene &scene)
+    {
+      std::map<std::string, std::string> values;
+      Scene                              copy = scene;
+      for_each_section(copy, [&](const char *section, auto &options) {
+        std::vector<KeyDescription> keys;
+        visit_parameters(options, DescribeKeys{section, keys});
+        for (const KeyDescription &key : keys)
+          values[key.section + "/" + key.name] = key.value;
+      });
+      return values;
+    }
+
+    // The second run shows what larger elements do to the band.
+    std::optional<std::string> doubtful_coarse_mesh(const Scene &scene)
+    {
+      const double coarse = scene.comparison.coarse_element_size, fine = scene.continuum.element_size;
+      if (coarse == 0 || coarse > fine || scene.continuum.mesh.kind == continuum::MeshOption::Kind::file)
+        return std::nullopt;
+      return "comparison/coarse_element_size = " + text_of(coarse) +
+             " is not larger than continuum/element_size = " + text_of(fine) +
+             ": the run on the coarse mesh is no coarser than the first; give a larger size, or 0 for no such run";
+    }
+
     bool is_word(const std::string &text, const std::size_t at, const std::size_t length)
     {
       const auto joins = [&](const std::size_t k) { return k < text.size() && (std::isalnum(text[k]) != 0 || text[k] == '_'); };
       return !(at > 0 && joins(at - 1)) && !joins(at + length);
     }
 
-    bool speaks_of(const std::string &message, const std::string &key)
+    // Where a message names a key; npos: nowhere.
+    std::size_t place_of(const std::string &key, const std::string &message)
     {
       for (std::size_t at = message.find(key); at != std::string::npos; at = message.find(key, at + 1))
         if (is_word(message, at, key.size()))
-          return true;
-      return false;
+          return at;
+      return std::string::npos;
+    }
+
+    bool speaks_of(const std::string &message, const std::string &key)
+    {
+      return place_of(key, message) != std::string::npos;
+    }
+
+    // The first key that a message names with its section; empty: none.
+    std::string first_key(const std::string &message)
+    {
+      std::string first;
+      for (const auto &[key, value] : values_of(Scene()))
+        if (first.empty() ? speaks_of(message, key) : place_of(key, message) < place_of(first, message))
+          first = key;
+      return first;
     }
 
     // The assignments that a message is about, as they were made last: it names the key with its section or, in a check of one
@@ -132,8 +173,12 @@ namespace diptych::coupling
         {
           const std::vector<Entry> about = assignments_in(error.what(), section, entries);
           SceneError whole(file + ": " + (section.empty() ? "" : "section " + section + ": ") + error.what() + places_of(about));
-          if (!about.empty())
-            whole.refusal = {about.front().place, about.front().name(), about.front().value, "", ""};
+          whole.refusal.key = first_key(error.what());
+          if (whole.refusal.key.empty() && !about.empty())
+            whole.refusal.key = about.front().name();
+          for (const Entry &entry : about)
+            if (entry.name() == whole.refusal.key)
+              whole.refusal = {entry.place, entry.name(), entry.value, "", ""};
           throw whole;
         }
     }
@@ -208,31 +253,6 @@ namespace diptych::coupling
       if (scene.loading.mode == LoadingMode::time)
         keys.push_back({"comparison/averaging_strain", "loading/mode = time: means are over the whole stage"});
       return keys;
-    }
-
-    // Value by section/key.
-    std::map<std::string, std::string> values_of(const Scene &scene)
-    {
-      std::map<std::string, std::string> values;
-      Scene                              copy = scene;
-      for_each_section(copy, [&](const char *section, auto &options) {
-        std::vector<KeyDescription> keys;
-        visit_parameters(options, DescribeKeys{section, keys});
-        for (const KeyDescription &key : keys)
-          values[key.section + "/" + key.name] = key.value;
-      });
-      return values;
-    }
-
-    // The second run shows what larger elements do to the band.
-    std::optional<std::string> doubtful_coarse_mesh(const Scene &scene)
-    {
-      const double coarse = scene.comparison.coarse_element_size, fine = scene.continuum.element_size;
-      if (coarse == 0 || coarse > fine || scene.continuum.mesh.kind == continuum::MeshOption::Kind::file)
-        return std::nullopt;
-      return "comparison/coarse_element_size = " + text_of(coarse) +
-             " is not larger than continuum/element_size = " + text_of(fine) +
-             ": the run on the coarse mesh is no coarser than the first; give a larger size, or 0 for no such run";
     }
   } // namespace
 

@@ -52,6 +52,12 @@ namespace diptych::coupling
       return difference.empty() ? "an input file has changed since" : difference;
     }
 
+    // Where the next continuum stands once all its parts are complete.
+    std::string whole_next_folder(const std::string &directory)
+    {
+      return directory + "/next_whole";
+    }
+
     bool has_continuum(const std::string &directory)
     {
       return fs::exists(continuum_h5(directory));
@@ -147,7 +153,7 @@ namespace diptych::coupling
     SceneChanges changes;
     if (!is_empty && !opening.overwrite)
       {
-        take_next_continuum(directory);
+        finish_replacement(directory);
         changes = changes_since(scene, directory);
         if (!changes.sample.empty())
           throw SceneError("the results in '" + directory + "' are of another sample: " + changes.sample +
@@ -195,12 +201,11 @@ namespace diptych::coupling
     return false;
   }
 
-  bool take_next_continuum(const std::string &directory)
+  void finish_replacement(const std::string &directory)
   {
-    const std::string next = next_folder(directory);
-    if (!fs::exists(next + "/provenance.json") || !read_run_facts(next).continuum.finished ||
-        fs::exists(continuum_checkpoint(next)) || fs::exists(continuum_checkpoint(coarse_folder(next))))
-      return false;
+    const std::string next = whole_next_folder(directory);
+    if (!fs::exists(next))
+      return;
     remove_results(directory, comparison_files);
     for (const char *name :
          {"continuum.csv", "continuum.h5", "continuum.xdmf", "continuum.pvd", "continuum", "coarse", "sample.msh", "scene.prm"})
@@ -213,8 +218,13 @@ namespace diptych::coupling
     if (read_run_facts(next).continuum_coarse.cells == 0)
       remove_results(directory, {"coarse"});
     take_continuum_facts(directory, next);
-    remove_results(directory, {"next"});
-    return true;
+    fs::remove_all(next);
+  }
+
+  void replace_continuum(const std::string &directory)
+  {
+    fs::rename(next_folder(directory), whole_next_folder(directory));
+    finish_replacement(directory);
   }
 
   std::string next_comparison(const std::string &directory)

@@ -74,9 +74,11 @@ namespace diptych::coupling
   // Prepares that folder. True: it holds an interrupted run of the same scene, which can go on.
   bool open_next_continuum(const Scene &scene, const std::string &command);
 
-  // Moves the finished continuum from DIRECTORY/next to its place and removes the comparison with the old one; does nothing where
-  // it is not finished. Can be repeated after a crash. True: it was moved.
-  bool take_next_continuum(const std::string &directory);
+  // Moves the complete continuum from there to its place and removes the comparison with the old one.
+  void replace_continuum(const std::string &directory);
+
+  // The same from where a killed run has left it; does nothing where there is nothing to finish.
+  void finish_replacement(const std::string &directory);
 
   // A comparison is written to DIRECTORY/next_comparison, with the scene that it is of, and then moved to its place.
   std::string next_comparison(const std::string &directory);

@@ -4,12 +4,6 @@
 
 from __future__ import annotations
 
-import re
-
-
-# A key in a message, but not within a path; or the name of an unknown section.
-_KEY = re.compile(r"(?<![\w/.-])(?:sample|loading|discrete|continuum|comparison|output)/\w+|(?<=unknown section ')[^']*")
-
 
 class SceneError(ValueError):
     """A scene is wrong. Attributes, as far as they are known: `file` and `line` (0: none), `key` ("sample/grains", or a section;
@@ -21,10 +15,9 @@ class SceneError(ValueError):
     allowed: str = ""
     hint: str = ""
 
-    def __init__(self, text: str) -> None:
+    def __init__(self, text: str, key: str | None = None) -> None:
         super().__init__(text)
-        found = _KEY.search(text)
-        self.key: str | None = found.group() if found else None
+        self.key = key
 
 
 class NotConverged(RuntimeError):

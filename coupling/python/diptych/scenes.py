@@ -43,7 +43,7 @@ def _changes(sections: Mapping[str, Any]) -> Iterator[Change]:
             yield name, key, text_of(keys)
         elif isinstance(keys, Mapping):
             if section not in _diptych.section_names():
-                raise SceneError(f"scene: unknown section '{section}'; there are {', '.join(_diptych.section_names())}")
+                raise SceneError(f"scene: unknown section '{section}'; there are {', '.join(_diptych.section_names())}", section)
             for key, value in keys.items():
                 yield section, key, text_of(value)
         else:
