@@ -64,7 +64,12 @@ namespace diptych::coupling
     const bool         is_empty  = is_empty_folder(directory);
     require_usable(directory, opening);
     if (!is_empty && opening.overwrite)
-      set_aside(lock, with_files_of(opening, scene));
+      {
+        InputFiles inputs = opening.inputs;
+        for (const auto &input : input_files(scene))
+          inputs.push_back(input);
+        set_aside(lock, inputs);
+      }
     else if (!is_empty)
       {
         demand_same_scene(scene);
@@ -78,7 +83,7 @@ namespace diptych::coupling
   void demand_member(const Scene &scene, const int seed)
   {
     const Scene        member     = member_scene(scene, seed);
-    const SceneChanges changes    = changes_since(member, member.output.directory);
+    const SceneChanges changes    = ResultFolder(member).changes();
     const std::string &difference = changes.sample.empty() ? changes.comparison : changes.sample;
     if (!difference.empty())
       throw SceneError("the results in '" + member.output.directory + "' are not of this ensemble: " + difference +
@@ -89,7 +94,7 @@ namespace diptych::coupling
   {
     const Scene       member = member_scene(scene, seed);
     const std::string folder = member.output.directory;
-    if (!holds_finished_run(member))
+    if (!ResultFolder(member).holds_finished_run())
       return false;
     const json comparison = json::parse(discrete::read_text(comparison_json(folder)), nullptr, /* exceptions */ false);
     try

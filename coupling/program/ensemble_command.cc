@@ -136,7 +136,7 @@ namespace diptych::coupling
       if (!sample)
         return;
       require_elements_fit(scene, height_of(sample->outline));
-      require_comparable_sample(scene, *sample);
+      require_comparable_sample(scene.comparison.probes, *sample);
     }
 
     // Those that need not run again, by what stands in their folders. Throws, before anything changes, where that is damaged.

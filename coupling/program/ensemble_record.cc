@@ -119,7 +119,7 @@ namespace diptych::coupling
     write_ensemble_curves(directory, scene, record.ensemble.seeds);
     write_ensemble_json(directory, scene, record);
     write_ensemble_csv(directory, record.ensemble);
-    record_phases(directory, scene, line.text, {timer.stop()}, record.seeds);
+    record_phases(directory, {scene.name, record.seeds, line.text}, {timer.stop()});
     record_files(directory, "ensemble");
     for (const PanelVerdict &verdict : record.ensemble.verdicts)
       say(line, text_of(verdict));

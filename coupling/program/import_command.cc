@@ -138,7 +138,7 @@ namespace diptych::coupling
       Scene described;
       described.name             = fs::path(line.output).filename().string();
       described.output.directory = line.output;
-      record_phases(line.output, described, line.text, {timer.stop()});
+      record_phases(line.output, {described.name, {described.sample.seed}, line.text}, {timer.stop()});
       record_facts(line.output, results.facts);
       say_checks(line, arrival);
       say(line, loaded ? "written to " + line.output + "; both panels: diptych run " + scene_prm(line.output)
