@@ -54,6 +54,22 @@ namespace diptych::coupling
         }
     }
 
+    // Weights of all grains; without masses they follow from --density.
+    void take_weights(const ForeignFrame &from, const ForeignOptions &options, Arrival &arrival, ArrivedFrame &to)
+    {
+      to.weight.assign(to.position.size(), Eigen::Vector2d::Zero());
+      const Eigen::Vector2d gravity = options.gravity.value_or(from.gravity);
+      if (!gravity.allFinite() || gravity == Eigen::Vector2d::Zero())
+        return;
+      for (std::size_t i = 0; i < to.weight.size(); ++i)
+        to.weight[i] = gravity * (std::isfinite(to.mass[i]) ? to.mass[i]
+                                                            : M_PI * to.radius[i] * to.radius[i] * options.density.value_or(not_told));
+      if (!std::isfinite(to.weight[0].sum()))
+        throw SceneError(from.grain_file + ": frame " + from.name +
+                         ": gravity acts on the grains, but the files contain no masses; give --density, the mass per area");
+      remark_once(arrival, "the grains have weight; the continuum of a run has none");
+    }
+
     // All frames must have the grains of the first one.
     void require_same_grains(const std::vector<long> &ids, const std::vector<ForeignGrain> &grains, const ForeignFrame &frame)
     {
@@ -214,6 +230,7 @@ namespace diptych::coupling
         frame.time       = from.time.value_or(not_told);
         frame.step       = from.step.value_or(long(k));
         take_grains(grains[k], arrival.thickness, frame);
+        take_weights(from, options, arrival, frame);
         take_contacts(from, arrival, options, frame);
         require_later_time(arrival, frame, from.grain_file);
         arrival.frames.push_back(std::move(frame));

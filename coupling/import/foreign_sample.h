@@ -67,6 +67,7 @@ namespace diptych::coupling
     std::string                 wall_file;                // for messages; file that places the walls, if not the grains' file
     std::optional<double>       time = {};
     std::optional<long>         step = {};
+    Eigen::Vector2d             gravity = {not_told, not_told}; // acceleration of every grain [length/time^2]
     std::vector<ForeignGrain>   grains;
     std::vector<ForeignContact> contacts;
     bool                        has_contacts = false;
@@ -101,6 +102,7 @@ namespace diptych::coupling
     std::optional<double>    density;   // if no file contains masses
     std::optional<double>    pressure;  // lateral; empty: that of the first frame with forces
     std::optional<double>    mean_diameter;
+    std::optional<Eigen::Vector2d> gravity; // replaces that of the files [length/time^2]
     bool                     walls_touch = false; // place missing walls at the outermost grains
   };
 } // namespace diptych::coupling

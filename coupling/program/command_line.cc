@@ -232,14 +232,14 @@ namespace diptych::coupling
       {
         CLI::App *in = add(Command::import_sample,
                            "a sample of another code as results of the discrete panel, checked on arrival");
-        in->add_option("FORMAT", line.target, "whose files")
+        in->add_option("FORMAT", line.target, "whose files; or a Python file that registers a reader of your own")
           ->required()
-          ->check(CLI::IsMember({"lammps", "liggghts", "yade", "lmgc90", "mercurydpm", "csv"}));
+          ->check(CLI::IsMember({"lammps", "liggghts", "yade", "lmgc90", "mercurydpm", "csv"}) | CLI::ExistingFile);
         in->add_option("FILES", line.foreign.files, "of grains, contacts and walls, in any order")->required();
         in->add_option("--output", line.output, "folder of the imported sample")->check(is_filled)->type_name("DIR")->required();
         in->add_option(
             "--columns", line.foreign.columns,
-            "KIND=NAME,NAME,...: what columns mean that the files do not name; KIND: contacts or walls; may be repeated")
+            "KIND=NAME,NAME,...: what columns mean that the files do not name; KIND: particles, contacts or walls; may be repeated")
           ->allow_extra_args(false)
           ->type_name("KIND=NAMES");
         const auto number = [&](const char *name, std::optional<double> &value, const char *meaning) {
@@ -251,6 +251,10 @@ namespace diptych::coupling
         number("--density", line.foreign.density, "mass per area, where no file tells masses");
         number("--pressure", line.foreign.pressure, "lateral (default: that of the right wall in the first frame with forces)");
         number("--mean-diameter", line.foreign.mean_diameter, "(default: mean of the grains)");
+        in->add_option("--gravity", ignored, "acceleration of the grains (default: that of the files)")
+          ->type_name("GX,GY");
+        in->add_option("--frames", ignored, "10-20,30: these alone, counted from 0 in ascending order")
+          ->type_name("LIST");
         in->add_flag("--walls-touch", line.foreign.walls_touch,
                      "walls that no file places stand where the grains reach farthest");
         add_overwrite(in);
@@ -280,6 +284,7 @@ namespace diptych::coupling
 
       CommandLine                  &line;
       CLI::App                      app;
+      std::string                   ignored; // options that the importers parse again
       std::map<CLI::App *, Command> by_parser;
     };
 

@@ -139,7 +139,7 @@ namespace
       case Command::report:
         return report_again(line);
       case Command::import_sample:
-        return import_sample(line);
+        start_importers(argv);
       case Command::export_sample:
         return export_sample(line);
       default:
