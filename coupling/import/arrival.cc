@@ -62,8 +62,9 @@ namespace diptych::coupling
       if (!gravity.allFinite() || gravity == Eigen::Vector2d::Zero())
         return;
       for (std::size_t i = 0; i < to.weight.size(); ++i)
-        to.weight[i] = gravity * (std::isfinite(to.mass[i]) ? to.mass[i]
-                                                            : M_PI * to.radius[i] * to.radius[i] * options.density.value_or(not_told));
+        to.weight[i] = gravity * (std::isfinite(to.mass[i])
+                                    ? to.mass[i]
+                                    : M_PI * to.radius[i] * to.radius[i] * options.density.value_or(not_told));
       if (!std::isfinite(to.weight[0].sum()))
         throw SceneError(from.grain_file + ": frame " + from.name +
                          ": gravity acts on the grains, but the files contain no masses; give --density, the mass per area");
@@ -111,18 +112,8 @@ namespace diptych::coupling
     // A user who gives an option without effect believes that it counts.
     void require_effect(const ForeignSample &sample, const ForeignOptions &options)
     {
-      if (options.timestep && !sample.counts_steps)
-        refuse_without_effect(sample, "--timestep", "these files contain times and not steps");
       if (options.pressure && sample.frames.size() == 1)
         refuse_without_effect(sample, "--pressure", "a single frame has no loading, so there is no scene");
-      for (const std::string &text : options.columns)
-        {
-          const std::string kind = text.substr(0, text.find('='));
-          if (text.size() < kind.size() + 2 || (kind != "contacts" && kind != "walls"))
-            throw SceneError("--columns " + text + ": is not KIND=NAME,NAME,..., where KIND is contacts or walls");
-          if (std::find(sample.unnamed.begin(), sample.unnamed.end(), kind) == sample.unnamed.end())
-            refuse_without_effect(sample, "--columns " + text, "every file of " + kind + " names its columns");
-        }
     }
 
     // Masses that grow as r^3 belong to spheres, even if the run was in the plane.
@@ -153,7 +144,7 @@ namespace diptych::coupling
         refuse_without_effect(sample, "--density", "the files contain the masses of the grains");
       if (std::isfinite(mass))
         return mass / area;
-      return options.density.value_or(sample.is_spheres ? not_told : sample.density);
+      return options.density.value_or(not_told);
     }
 
     void note_what_is_lacking(const Arrival &arrival, std::vector<std::string> &lacking)

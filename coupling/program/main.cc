@@ -156,10 +156,7 @@ namespace
       }
     catch (const std::bad_alloc &error)
       {
-        std::string about = line.target;
-        for (const std::string &file : line.foreign.files)
-          about += (about.empty() ? "" : ", ") + file;
-        throw diptych::discrete::OutOfMemory(about + ": " + diptych::discrete::text_of(error));
+        throw diptych::discrete::OutOfMemory(line.target + ": " + diptych::discrete::text_of(error));
       }
   }
 
