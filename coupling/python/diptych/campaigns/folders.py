@@ -124,7 +124,7 @@ def write_arrays(path: str, arrays: Mapping[str, tuple[Any, str, str, str]], att
         with h5py.File(part, "w", libver=("v110", "v110")) as file:
             for name, (values, *words) in arrays.items():
                 data = file.create_dataset(name, data=values, fletcher32=np.size(values) > 0 or None)
-                data.attrs.update(zip(("title", "unit", "meaning"), words))
+                data.attrs.update(zip(("title", "unit", "meaning"), map(np.bytes_, words)))
             for group, numbers in attributes.items():
                 file.require_group(group).attrs.update(numbers)
 
