@@ -12,7 +12,7 @@ namespace diptych::coupling
   // The folder that holds the package `diptych`: beside this program where it was built, else PREFIX/lib/python3/dist-packages.
   inline std::string python_package()
   {
-    namespace fs           = std::filesystem;
+    namespace fs          = std::filesystem;
     const fs::path folder = fs::path(own_path()).parent_path(), built = folder / "python";
     return (fs::exists(built / "diptych/campaigns") ? built : folder.parent_path() / "lib/python3/dist-packages").string();
   }

@@ -98,8 +98,8 @@ namespace diptych::python
       m.def("text_of_number", [](const double value) { return text_of(value); });
       m.def("digest", [](const std::string &text) { return hexadecimal(digest_of(text)); });
       m.def("numeric_columns", [] {
-        return py::dict(py::arg("discrete") = numeric_columns<discrete::HistoryRow>(),
-                        py::arg("continuum") = numeric_columns<continuum::HistoryRow>(),
+        return py::dict(py::arg("discrete")       = numeric_columns<discrete::HistoryRow>(),
+                        py::arg("continuum")      = numeric_columns<continuum::HistoryRow>(),
                         py::arg("material_point") = numeric_columns<continuum::MaterialPointRow>());
       });
       // place -> (unit, kind) of the numbers of comparison.json

@@ -109,7 +109,8 @@ namespace diptych::python
       .def("identity", identity_of)
       .def("input_files", &coupling::input_files)
       .def("averaging_width", &coupling::averaging_width)
-      .def("walk", [](const coupling::Scene &scene) { return std::string(discrete::name_of(discrete::walk_of(scene.loading.mode))); })
+      .def("walk",
+           [](const coupling::Scene &scene) { return std::string(discrete::name_of(discrete::walk_of(scene.loading.mode))); })
       .def("in_folder", in_folder)
       .def_property_readonly("directory", [](const coupling::Scene &scene) { return scene.output.directory; })
       .def("stages", [](const coupling::Scene &scene) { return coupling::stages(scene.loading); });
