@@ -218,7 +218,6 @@ def test_wrong_keys_and_values_are_named_with_their_lines(read, changes, words):
         assert word in str(refused.value)
 
 
-
 # ---- from Python ------------------------------------------------------------------------------------------------------------
 
 
