@@ -1,5 +1,6 @@
 // diptych: translation of scene errors to a Python exception
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/processes/stop_signal.h"
 #include "coupling/python/bindings.h"
 #include "coupling/scene/scene_error.h"
 
@@ -26,6 +27,10 @@ namespace diptych::python
           value.attr("allowed") = r.allowed;
           value.attr("hint")    = r.hint;
           PyErr_SetObject(type.ptr(), value.ptr());
+        }
+      catch (const coupling::StoppedOnRequest &stopped)
+        {
+          PyErr_SetString(py::object(py::module_::import("diptych.errors").attr("Stopped")).ptr(), stopped.what());
         }
     });
   }

@@ -8,6 +8,7 @@ PYBIND11_MODULE(_diptych, m)
   m.doc() = "Scenes, grains, operators and results of Diptych; use them through the package diptych.";
   translate_errors();
   bind_scene(m);
+  bind_campaigns(m);
   bind_snapshots(m);
   bind_results(m);
   bind_grains(m);

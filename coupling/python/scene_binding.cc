@@ -9,6 +9,7 @@
 #include <pybind11/stl.h>
 
 #include "coupling/python/bindings.h"
+#include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
 #include "coupling/scene/keys.h"
 #include "coupling/version.h"
@@ -68,6 +69,21 @@ namespace diptych::python
       return sections;
     }
 
+    // Typed values by section/key: of the sample, the continuum or the members of an ensemble.
+    coupling::Identity identity_of(const coupling::Scene &scene, const std::string &of)
+    {
+      return of == "sample" ? sample_identity(scene) : of == "continuum" ? continuum_identity(scene) : member_identity(scene);
+    }
+
+    // The same scene with another folder, name and seed.
+    coupling::Scene in_folder(coupling::Scene scene, const std::string &directory, const std::string &name, const int seed)
+    {
+      scene.output.directory = directory;
+      scene.name             = name;
+      scene.sample.seed      = seed;
+      return scene;
+    }
+
     // Every key with unit, allowed values and meaning.
     py::dict described()
     {
@@ -90,6 +106,13 @@ namespace diptych::python
       .def_readonly("warnings", &coupling::Scene::warnings)
       .def("dict", scene_dict)
       .def("text", [](const coupling::Scene &scene) { return coupling::resolved_text(scene); })
+      .def("identity", identity_of)
+      .def("input_files", &coupling::input_files)
+      .def("averaging_width", &coupling::averaging_width)
+      .def("walk",
+           [](const coupling::Scene &scene) { return std::string(discrete::name_of(discrete::walk_of(scene.loading.mode))); })
+      .def("in_folder", in_folder)
+      .def_property_readonly("directory", [](const coupling::Scene &scene) { return scene.output.directory; })
       .def("stages", [](const coupling::Scene &scene) { return coupling::stages(scene.loading); });
     m.def("read_scene", read, py::arg("file"), py::arg("changes"), py::arg("compares"));
     m.def("described_keys", described);

@@ -20,6 +20,7 @@ namespace diptych::coupling
     FolderLock &operator=(const FolderLock &) = delete;
 
     const std::string &folder() const { return directory; }
+    int                number() const { return descriptor; } // file descriptor of the lock
 
     // Renames the folder to `aside` and goes on with a new, locked folder in its place. Throws std::runtime_error.
     void set_aside(const std::string &aside);

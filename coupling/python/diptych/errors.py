@@ -24,5 +24,9 @@ class NotConverged(RuntimeError):
     """A panel or a law did not converge. The panel keeps the results so far."""
 
 
+class Stopped(RuntimeError):
+    """Work was left on request (Ctrl-C, SIGTERM). Finished runs are kept."""
+
+
 class SceneWarning(UserWarning):
     """A key has no effect, or a value is doubtful."""

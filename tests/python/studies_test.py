@@ -1,0 +1,247 @@
+# diptych: studies: files, points, errors, classes and costs with known answers
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Only the last test runs the program."""
+
+import json
+import math
+import os
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import diptych
+from diptych.campaigns import evaluation, statistics
+from diptych.campaigns.folders import SceneRun
+from diptych.campaigns.points import Point, RunResult, points_of
+from diptych.campaigns.study_file import Axis, AxisPoint, Family, Study, quantity, read_study
+
+
+# ---- studies ----------------------------------------------------------------------------------------------------------------
+
+
+def study_of(n, **changes):
+    """A quantity with a limit of 2 %, four samples, one axis of n points h = 1, 2, 4 ..."""
+    axis = Axis("step", [AxisPoint(str(k), [], 2.0**k) for k in range(n)], converges=True)
+    strength = quantity("strength", **{"limit": 0.02, **changes})
+    return Study(seeds=[1, 2, 3, 4], families=[Family(axes=[axis])], quantities=[strength])
+
+
+def points_on(n):
+    return [Point(runs=[SceneRun("run", "reference")]), *(Point(0, 0, (k,), [str(k)], [], [SceneRun("run", str(k))])
+                                                         for k in range(n))]
+
+
+def runs(share, cpu_s=1.0, **changes):
+    """Four samples around 0.4, all changed by the same share."""
+    phases = [{"name": "discrete", "cpu_s": cpu_s, "peak_memory_mb": 100},
+              {"name": "report", "cpu_s": 9, "peak_memory_mb": 100}]
+    return [RunResult(**{"known": True, "values": [value * (1 + share)], "phases": phases, **changes})
+            for value in (0.38, 0.40, 0.41, 0.43)]
+
+
+def point(results, study=None, reference=None):
+    study = study or study_of(1)
+    return evaluation.evaluate(study, points_on(1), [reference or runs(0)[:len(results)], results])[1]
+
+
+def test_errors_are_paired_by_sample():
+    """The samples scatter by 5 %. The change of 1 % is visible because it is the same in each sample."""
+    found = point(runs(0.01))
+    assert found["quantities"][0]["error"] == pytest.approx((0.01, 0.01, 0.01), abs=1e-9)
+    assert found["quantities"][0]["scatter"] == pytest.approx(np.std([0.38, 0.4, 0.41, 0.43], ddof=1) / 0.405)
+    assert (found["class"], found["certain"], found["quantities"][0]["pairs"]) == ("right", True, 4)
+
+
+def test_errors_that_scatter_leave_a_doubt():
+    scattered = runs(0.01)
+    scattered[0].values[0] *= 1.05
+    scattered[1].values[0] *= 0.95
+    found = point(scattered)
+    assert (found["class"], found["certain"], found["quantities"][0]["verdict"]) == ("right", False, "cannot tell")
+
+
+@pytest.mark.parametrize("changes, expected", [
+    ({}, "silently wrong"), ({2: {"warned": True}}, "wrong, warned"), ({3: {"exit_code": 3, "words": "no"}}, "stopped"),
+    ({3: {"exit_code": 3}, 0: {"exit_code": 2}}, "refused"), ({0: {"exit_code": 2}, 1: {"known": False}}, "not run")])
+def test_the_worst_run_decides(changes, expected):
+    results = runs(0.03)
+    for k, change in changes.items():
+        vars(results[k]).update(change)
+    assert point(results)["class"] == expected
+
+
+def test_a_point_that_halved_steps_struggled():
+    assert point(runs(0, halved_steps=3))["class"] == point(runs(0, cut_backs=1.0))["class"] == "struggled"
+
+
+def test_a_value_that_only_the_reference_has_is_beyond_any_limit():
+    none = runs(0, values=[math.nan])
+    assert point(none)["class"] == "silently wrong"
+    assert point(none, reference=none)["class"] == "unjudged"
+    assert point(runs(0.5), study_of(1, limit=None))["class"] == "unjudged"
+
+
+def test_an_unknown_interval_leaves_a_doubt_unless_there_is_one_sample():
+    study = study_of(1)
+    study.seeds = [1]
+    found = point(runs(0.05)[:1], study)
+    assert (found["class"], found["certain"]) == ("silently wrong", False)
+    study.seeds = []
+    assert point(runs(0.05)[:1], study)["certain"]
+
+
+def test_lines_are_compared_by_their_turn():
+    study = study_of(1, line=True, relative=False, limit=5)
+    found = point(runs(0, values=[-88.0]), study, runs(0, values=[89.0]))
+    assert found["quantities"][0]["error"].value == pytest.approx(3)
+
+
+def test_orders_are_fitted_along_axes_that_converge():
+    study, points = study_of(4), points_on(4)
+    results = [runs(0), *(runs(0.01 * 2**k) for k in range(4))]
+    order, = evaluation.orders_of(study, points, evaluation.evaluate(study, points, results))
+    assert order["order"].value == pytest.approx(1, abs=0.02)
+    assert order["limit"].value == pytest.approx(0.405, abs=1e-3) and order["limit"].low < 0.405 < order["limit"].high
+
+
+def cost(n, results, study=None, points=None):
+    study, points = study or study_of(n), points or points_on(n)
+    return evaluation.cost_of(study, points, results, evaluation.evaluate(study, points, results))
+
+
+def test_the_cheapest_right_point_is_found_and_the_reference_does_not_compete():
+    found = cost(3, [runs(0, 0.1), runs(0.005, 8), runs(-0.015, 2), runs(0.04, 1)])
+    cheapest = {(one["quantity"], one["accuracy"]): one["point"] for one in found["cheapest"]}
+    assert [cheapest["strength", accuracy] for accuracy in (0.05, 0.02, 0.01)] == [3, 2, 1]
+    assert cheapest["", 0.5] == 1
+    assert found["points"][2]["cpu_s"] == 2 and found["phases"] == ["discrete"]  # the report does not count
+    assert [one["front_of"] for one in found["points"]] == [[], ["strength"], ["strength"], ["strength"]]
+
+
+def test_a_point_that_costs_more_and_is_worse_is_not_on_the_front():
+    found = cost(2, [runs(0), runs(0.01, 1), runs(0.02, 2)], study_of(2, limit=None))
+    assert [one["front_of"] for one in found["points"]] == [[], ["strength"], []]
+    assert found["cheapest"] == []
+
+
+def test_points_compete_only_with_those_of_the_same_reference():
+    points = [Point(runs=[SceneRun("run", "other")]), *points_on(2)]
+    points[1].reference = points[3].reference = 1
+    found = cost(2, [runs(0), runs(1), runs(0.01, 1), runs(1.01, 2)], points=points)
+    assert [one["front_of"] for one in found["points"][2:]] == [["strength"], ["strength"]]
+    assert len(found["cheapest"]) == 12 and found["cheapest"][-1]["point"] == 3
+
+
+def test_other_work_on_the_machine_is_noticed():
+    assert not RunResult(load=2.3, at_once=2).disturbed and RunResult(load=3.1, at_once=2).disturbed
+
+
+# ---- study files ------------------------------------------------------------------------------------------------------------
+
+AXES = [{"key": "discrete/step", "values": [0.1, 0.2]}, {"key": "discrete/friction", "values": [0.3, 0.4, 0.5]}]
+FILE = {"scene": "scene.prm", "command": "discrete", "axes": AXES, "reference": {"discrete/step": 0.1},
+        "quantities": [{"strength": [0.005, 0.02]}]}
+
+
+@pytest.fixture
+def read(tmp_path):
+    """Points of a study file with other entries."""
+    (tmp_path / "scene.prm").write_text("subsection sample\n  set grains = 100\nend\n")
+
+    def read_points(**changes):
+        entries = {**FILE, **changes}
+        (tmp_path / "study.json").write_text(json.dumps({k: v for k, v in entries.items() if v is not None}, indent=1))
+        return points_of(read_study(str(tmp_path / "study.json")))
+
+    read_points.folder = tmp_path
+    return read_points
+
+
+def test_a_grid_has_every_pair_the_last_axis_fastest(read):
+    points = read()
+    assert [one.labels for one in points] == [[]] + [[a, b] for a in ("0.1", "0.2") for b in ("0.3", "0.4", "0.5")]
+    scene = points[6].runs[0].scene.dict()
+    assert scene["discrete"]["friction"] == 0.5 and not scene["output"]["report"]
+    assert points[0].runs[0].name == points[2].runs[0].name != points[1].runs[0].name  # the default friction is 0.4
+
+
+def test_a_list_moves_its_axes_together(read):
+    axes = [AXES[0], {**AXES[1], "values": [0.3, 0.4]}]
+    assert [one.labels for one in read(combine="list", axes=axes)[1:]] == [["0.1", "0.3"], ["0.2", "0.4"]]
+    with pytest.raises(diptych.SceneError, match="'step' has 2, 'friction' 3"):
+        read(combine="list")
+
+
+def test_an_axis_may_have_a_reference_of_its_own_at_each_point(read):
+    points = read(axes=[{**AXES[1], "values": [0.3, 0.5], "own_reference": True}, {**AXES[0], "values": [0.2, 0.4]}])
+    assert [one.labels for one in points[:2]] == [["friction 0.3"], ["friction 0.5"]]
+    reference = points[1].runs[0].scene.dict()["discrete"]
+    assert (reference["friction"], reference["step"]) == (0.5, 0.1)
+    assert [one.reference for one in points] == [0, 1, 0, 0, 1, 1]
+
+
+def test_seeds_are_samples_and_replace_the_word_in_file_names(read):
+    points = read(seeds="3-5")
+    assert [run.scene.dict()["sample"]["seed"] for run in points[1].runs] == [3, 4, 5]
+    (read.folder / "grains_7.csv").write_text("x,y,r\n0,0.5,0.5\n1,0.5,0.5\n")
+    scene = read(seeds=7, set={"sample/file": "grains_{seed}.csv"})[1].runs[0].scene
+    assert scene.dict()["sample"]["file"] == str(read.folder / "grains_7.csv")
+
+
+def test_contradictory_settings_refuse_only_their_point(read):
+    """No whole number of stages fits into 0.013."""
+    points = read(set={"loading/stage_strain": 0.005}, axes=[{"key": "loading/axial_strain", "values": [0.01, 0.013]}])
+    assert points[1].runs[0].scene and points[2].runs[0].scene is None and "0.013" in points[2].runs[0].refusal
+
+
+@pytest.mark.parametrize("changes, words", [
+    ({"scene": "none.prm"}, ["line 2", "none.prm"]), ({"seed": 3}, ["seed: unknown key", "'seeds'"]),
+    ({"seeds": "5-3"}, ["5-3", "descends"]), ({"command": "runn"}, ["line 3", "runn", "material-point"]),
+    ({"axes": [{"key": "discrete/stepp", "values": [0.1]}]}, ["discrete/stepp", "discrete/step"]),
+    ({"axes": [{"key": "discrete/friction", "values": [0.1, -1]}]}, ["discrete/friction = '-1'", "a number from"]),
+    ({"axes": [{"key": "discrete/step", "values": [0.1, 0.1]}]}, ["'0.1' twice"]),
+    ({"axes": [{"key": "discrete/method", "values": ["nscd"], "converges": True}]}, ["converges", "nscd"]),
+    ({"quantities": [{"column": "stres_ratio", "last": True}]}, ["stres_ratio", "stress_ratio"]),
+    ({"quantities": [{"strength": [0.02, 0.01]}]}, ["ascending"]),
+    ({"quantities": [{"last": True, "largest": True, "column": "time"}]}, ["exactly one of"]),
+    ({"quantities": []}, ["quantities", "missing or empty"]), ({"reference": None}, ["'reference' is missing"]),
+    ({"quantities": [{"of": "continuum", "strength": [0.005, 0.02]}]}, ["discrete does not write", "continuum"]),
+    ({"reference": {"loading/axial_strain": 0.013}}, ["the reference is refused", "0.013"]),
+    ({"command": "run", "quantities": [{"number": "window 0-0.01 discrete band width"}]}, ["'width'", "nearest"]),
+    ({"command": "run", "quantities": [{"number": "band angle"}]}, ["'band angle'", "'angle_deg'", "ensemble.csv"]),
+    ({"cost": ["discret"]}, ["'discret'", "'discrete'"])])
+def test_wrong_keys_and_values_are_named_with_their_lines(read, changes, words):
+    with pytest.raises(diptych.SceneError) as refused:
+        read(**changes)
+    for word in [*words, "study.json"]:
+        assert word in str(refused.value)
+
+
+# ---- from Python ------------------------------------------------------------------------------------------------------------
+
+
+def test_a_study_of_a_dict_gives_data_frames_and_explained_keys(tmp_path):
+    steps = {"scene": os.path.join(diptych.benchmarks_dir(), "moreau_quick", "scene.prm"), "command": "material-point",
+             "set": {"loading/axial_strain": 0.02}, "reference": {"continuum/initial_step": 1e-5},
+             "axes": [{"key": "continuum/initial_step", "values": [4e-4, 2e-4, 1e-4], "converges": True}],
+             "quantities": [{"name": "peak", "column": "stress_ratio", "largest": True, "limit": {"relative": 0.01}}]}
+    with pytest.raises(diptych.SceneError, match="'quantities'"):
+        diptych.study({**steps, "quantity": []}, tmp_path / "out")
+    found = diptych.study(steps, tmp_path / "out", jobs=2)
+    assert list(found.points["class"]) == ["right"] * 4 and found.points["peak"][0] == 0
+    assert len(found.table) == 4 and found.cost["runs"] == 4
+    explained = pd.read_csv(os.path.join(os.path.dirname(statistics.__file__), "result_entries.tsv"), sep="\t", keep_default_na=False)
+
+    def keys(record, place=""):
+        for key, value in record.items():
+            yield place + key
+            for entry in value if isinstance(value, list) else [value]:
+                if isinstance(entry, dict) and set(entry) != {"value", "low", "high"}:
+                    yield from keys(entry, f"{place}{key}/")
+
+    for file, record in (("study.json", found.numbers), ("study_cost.json", found.cost)):
+        assert set(keys(record)) <= set(explained[explained.file == file].entry)
+    with pytest.raises(diptych.SceneError, match="--resume"):
+        diptych.study(steps, tmp_path / "out")
+    assert diptych.Campaign.load(tmp_path / "out").numbers == found.numbers
