@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Array
+from .input_file import Setting
 
 COORDINATES = ("value", "logarithm", "share_of", "drop_from")
 
@@ -95,7 +96,8 @@ class Coordinates:
         numbers = self.numbers(point)
         return [self._value(p.key, p.targets[0] if p.targets else "", numbers, 0) for p in self.parameters]
 
-    def settings(self, point: Array, target: str) -> dict[str, str]:
-        """"continuum/key" -> value of one target. An empty name gives those that all targets share."""
+    def settings(self, point: Array, target: str) -> list[Setting]:
+        """Settings of one target. An empty name gives those that all targets share."""
         numbers = self.numbers(point)
-        return {"continuum/" + p.key: repr(self._value(p.key, target, numbers, 0)) for p in self.parameters if p.is_of(target)}
+        return [Setting("continuum", p.key, repr(self._value(p.key, target, numbers, 0)), "a point of the calibration")
+                for p in self.parameters if p.is_of(target)]
