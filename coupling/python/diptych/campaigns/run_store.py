@@ -179,7 +179,6 @@ def in_folder(directory: str, noun: str, file: str, input_name: str, inputs: Seq
     with open(file, encoding="utf-8") as source:
         text = source.read()
     lock = _diptych.FolderLock(directory)
-    engine.KEPT_OPEN.add(lock.descriptor)
     try:
         _diptych.require_usable(directory, options.resume, options.overwrite)
         if options.overwrite and not _diptych.is_empty_folder(directory):
@@ -188,6 +187,7 @@ def in_folder(directory: str, noun: str, file: str, input_name: str, inputs: Seq
             raise SceneError(f"the folder '{directory}' holds other results and no {noun}. Name another folder.")
         write_text(f"{directory}/{input_name}", text)
         os.makedirs(directory + "/runs", exist_ok=True)
+        engine.KEPT_OPEN.add(lock.descriptor)
         return work()
     finally:
         engine.KEPT_OPEN.discard(lock.descriptor)
