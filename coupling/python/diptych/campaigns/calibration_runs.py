@@ -18,15 +18,14 @@ from ..arrays import Array
 from ..errors import NotConverged, SceneError
 from .calibration_file import CURVE_COLUMNS, Calibration, Target, read_curve
 from .calibration_noise import Data, NoiseModel, Observable, covariance
+from .calibration_search import NORMAL
 from .histories import is_beyond, mean_over, panel_table, running_mean
 from .input_file import Setting
 from .run_store import PlannedRun, RunStore
-from .statistics import student_quantile
 
 CURVE_POINTS = 120
-SAME_PROGRESS = 1e-9
+SAME_PROGRESS = 1e-6
 BAND_OPTIONS = ("max_bands", "huber_threshold", "correlation_length", "minimum_jump", "residual_floor")
-NORMAL = student_quantile(0.975, 1e12)
 
 
 def _nan_curve() -> Array:
