@@ -15,8 +15,8 @@ from .calibration_coordinates import Coordinates
 from .calibration_noise import NoiseModel, covariance
 from .calibration_runs import Observation, Path
 from .calibration_search import LARGEST_SHARE, NORMAL, Knowledge
+from .folders import write_json, write_text
 from .input_file import listed
-from .run_store import write_json, write_text
 from .statistics import Difference, line_statistics, paired, statistics
 
 NORMAL_95 = 1.6448536269514722  # 95 % quantile

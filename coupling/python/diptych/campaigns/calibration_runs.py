@@ -7,7 +7,7 @@ from __future__ import annotations
 import importlib
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -15,13 +15,16 @@ import pandas as pd
 
 from .. import _diptych, operators
 from ..arrays import Array
-from ..errors import NotConverged, SceneError
+from ..errors import NotConverged, SceneError, Stopped
 from .calibration_file import CURVE_COLUMNS, Calibration, Target, read_curve
 from .calibration_noise import Data, NoiseModel, Observable, covariance
 from .calibration_search import NORMAL
+from .engine import Options, last_words
+from .folders import Runs, SceneRun, read_json
 from .histories import is_beyond, mean_over, panel_table, running_mean
 from .input_file import Setting
-from .run_store import PlannedRun, RunStore
+from .members import is_mirror_symmetric
+from .points import scene_run
 
 CURVE_POINTS = 120
 SAME_PROGRESS = 1e-6
@@ -65,13 +68,6 @@ class Path:
     data: Data
     samples: list[Observation]
     left_out: list[str]
-
-
-def is_mirror_symmetric(keys: dict[str, dict[str, Any]]) -> bool:
-    """True if chance alone decides whether a band leans to the left or to the right."""
-    driven = any(name.startswith("drive_") and value != "auto" for name, value in keys["discrete"].items())
-    return (not driven and keys["loading"]["mode"] == "descent" and keys["loading"]["horizontal_over_vertical"] == 0
-            and keys["discrete"]["gravity_x"] == 0)
 
 
 def observe_history(scene: _diptych.Scene, observables: Sequence[Observable], table: pd.DataFrame | None) -> Observation:
@@ -129,7 +125,7 @@ def add_bands(o: Observation, scene: _diptych.Scene, observables: Sequence[Obser
         found = operators.find_bands(**{**moved, **({} if of_grains else frame)}, band_resamples=0, **options).bands
         if found:
             o.values[k] = np.log(found[0].width_10_90 / d)
-            o.angle_deg = abs(found[0].angle_deg) if is_mirror_symmetric(keys) else found[0].angle_deg
+            o.angle_deg = abs(found[0].angle_deg) if is_mirror_symmetric(scene) else found[0].angle_deg
         elif not of_grains:
             o.values[k] = np.log(0.5 * frame["height"] / d)
     return o
@@ -149,13 +145,33 @@ def observe_curve(scene: _diptych.Scene, observables: Sequence[Observable], file
     return o, deviations
 
 
+def failure_of(runs: Runs, run: SceneRun) -> str:
+    """Why a run has no result; empty: it has one."""
+    end = runs.found_end(run) if run.scene else None
+    if run.refusal or (end and end["exit_code"] == 0):
+        return run.refusal
+    return (last_words(runs.path(run, ".log")).replace(runs.directory + "/", "") if end else "") or "the run was lost"
+
+
 class CalibrationRuns:
     """Functions that run something raise Stopped after a stop signal, and NotConverged where grains do not come to their end."""
 
-    def __init__(self, calibration: Calibration, store: RunStore) -> None:
-        self.calibration, self.store = calibration, store
+    def __init__(self, calibration: Calibration, directory: str, options: Options) -> None:
+        self.calibration, self.runs, self.options = calibration, Runs(directory), replace(options, resume=False)
         self.outlines: dict[str, Outline] = {}
         self.cpu_s = {"continuum": 0.0, "discrete": 0.0}
+        self._counted: set[str] = set()
+
+    def _do(self, runs: Sequence[SceneRun]) -> list[str]:
+        """Does the runs, adds their CPU time once, and returns for each why it has no result."""
+        if any(outcome.interrupted for outcome in self.runs.do(runs, self.options)):
+            raise Stopped("stopped on request")
+        for run in runs:
+            record = self.runs.path(run, "/provenance.json")
+            if run.name not in self._counted and os.path.exists(record):
+                self._counted.add(run.name)
+                self.cpu_s[run.command] += sum(phase["cpu_s"] for phase in read_json(record)["phases"])
+        return [failure_of(self.runs, run) for run in runs]
 
     def _grains(self, target: Target, seeds: Sequence[int], more: Sequence[Setting] = (), note: str = "") -> list[str]:
         """Runs samples of a target and returns their folders."""
@@ -164,14 +180,12 @@ class CalibrationRuns:
             own = [] if names_seed else [Setting("sample", "seed", str(seed), self.calibration.file)]
             return [one.with_seed(seed) for one in [*target.settings, *more, *own]]
 
-        runs = [self.store.plan("discrete", target.scene, on_sample(seed)) for seed in seeds]
-        self.store.do(runs)
-        for seed, run in zip(seeds, runs):
-            if failure := self.store.failure(run):
+        runs = [scene_run(target.scene, "discrete", on_sample(seed)) for seed in seeds]
+        for seed, failure in zip(seeds, self._do(runs)):
+            if failure:
                 raise NotConverged(f"{self.calibration.file}: target '{target.name}', seed {seed}{note}: "
                                    f"the grains did not come to their end: {failure}")
-            self.cpu_s["discrete"] += self.store.new_cpu_s(run)
-        return [self.store.path(run) for run in runs]
+        return [self.runs.path(run) for run in runs]
 
     def _outline(self, target: Target, scene: _diptych.Scene, observables: Sequence[Observable], snapshots: Sequence[Any]) -> Outline:
         for other in self.calibration.targets:
@@ -181,8 +195,8 @@ class CalibrationRuns:
         sides = np.concatenate([first.outline_left, first.outline_right])
         mesh = str(keys["continuum"]["mesh"])
         if mesh in ("outline", "rectangle"):
-            os.makedirs(self.store.directory + "/meshes", exist_ok=True)
-            mesh = os.path.abspath(f"{self.store.directory}/meshes/path_{1 + len(self.outlines)}.msh")
+            os.makedirs(self.runs.directory + "/meshes", exist_ok=True)
+            mesh = os.path.abspath(f"{self.runs.directory}/meshes/path_{1 + len(self.outlines)}.msh")
             importlib.import_module("diptych._continuum").write_mesh(scene, first, mesh)  # loads deal.II only now
         return Outline(*np.ptp(sides, axis=0), float(np.pi * (first.radius**2).sum() / first.area),
                        frames_of(observables, snapshots), mesh)
@@ -250,12 +264,11 @@ class CalibrationRuns:
             add("continuum", solid_fraction_start=outline.solid_fraction)  # the mean density: the meshes here have no grains
         return here
 
-    def _observed_continuum(self, path: Path, run: PlannedRun) -> Observation:
-        self.cpu_s["continuum"] += 0.0 if run.refusal else self.store.new_cpu_s(run)
-        observables, failure = path.data.observables, self.store.failure(run)
+    def _observed_continuum(self, path: Path, run: SceneRun, failure: str) -> Observation:
+        observables = path.data.observables
         if failure:
             return Observation(np.full(len(observables), np.nan), failure=failure)
-        folder = self.store.path(run)
+        folder = self.runs.path(run)
         o = observe_history(path.scene, observables, panel_table(folder, "continuum"))
         return add_bands(o, path.scene, observables, _diptych.read_nodes(folder).snapshots, self.outlines[path.target.name].frames,
                          False)
@@ -263,10 +276,10 @@ class CalibrationRuns:
     def continuum(self, paths: Sequence[Path], points: Sequence[Sequence[Sequence[Setting]]], fine: bool,
                   load_step: float) -> list[list[Observation]]:
         """Runs the continuum with points[point][path]; returns [point][path]."""
-        runs = [[self.store.plan("continuum", path.target.scene, self._settings(path, settings, fine, load_step))
-                 for path, settings in zip(paths, point)] for point in points]
-        self.store.do([run for of_point in runs for run in of_point])
-        return [[self._observed_continuum(path, run) for path, run in zip(paths, of_point)] for of_point in runs]
+        runs = [scene_run(path.target.scene, "continuum", self._settings(path, settings, fine, load_step))
+                for point in points for path, settings in zip(paths, point)]
+        seen = [self._observed_continuum(path, run, failure) for path, run, failure in zip(list(paths) * len(points), runs, self._do(runs))]
+        return [seen[k:k + len(paths)] for k in range(0, len(seen), len(paths))]
 
 
 def read_target(target: Target, more: Sequence[Setting] = ()) -> _diptych.Scene:
