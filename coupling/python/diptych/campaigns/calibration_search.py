@@ -18,6 +18,7 @@ from ..arrays import Array
 Residuals = Callable[[Sequence[Array]], "list[Array]"]  # of several points at once; NaN: the run failed
 DIFFERENCE = 0.005  # step of the forward differences; backward at the upper bound
 LEAST_GAIN, LEAST_DECREASE = 0.05, 1e-3  # of chi^2, absolute and relative: below either, a search has converged
+RADIUS_OF_FRESH, RADIUS_OF_GIVEN = 0.5, 0.1  # of the first trust region, with a Jacobian computed here or given
 EXACT = 1e-6  # mean square of the residuals below which the fit is exact
 MOST_STEPS = 6  # of a search with one Jacobian and its updates
 PRIOR = 0.25  # deviation of every coordinate before the data
@@ -100,9 +101,15 @@ class _Search:
     def run(self, fresh: bool) -> bool:
         """True if no step was rejected."""
         self.fresh = fresh
+        start, radius = self.fit.point, RADIUS_OF_FRESH if fresh else RADIUS_OF_GIVEN
+
+        def point(y: Array) -> Array:  # from 0 on, scipy's first trust region is 1
+            return np.clip(start + radius * y, 0, 1)
+
         try:
-            scipy.optimize.least_squares(self.value, self.fit.point, self.jacobian, bounds=(0, 1), method="dogbox", x_scale=1.0,
-                                         ftol=None, gtol=1e-10, xtol=1e-6, max_nfev=MOST_STEPS + 1)
+            scipy.optimize.least_squares(lambda y: self.value(point(y)), np.zeros_like(start), lambda y: radius * self.jacobian(point(y)),
+                                         bounds=(-start / radius, (1 - start) / radius), method="dogbox", x_scale=1.0, ftol=None,
+                                         gtol=1e-10, xtol=None, max_nfev=MOST_STEPS + 1)
         except _Ended:
             pass
         if self.trial[0] is not self.fit.point:
