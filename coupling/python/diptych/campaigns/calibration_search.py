@@ -18,7 +18,7 @@ from ..arrays import Array
 Residuals = Callable[[Sequence[Array]], "list[Array]"]  # of several points at once; NaN: the run failed
 DIFFERENCE = 0.005  # step of the forward differences; backward at the upper bound
 LEAST_GAIN, LEAST_DECREASE = 0.05, 1e-3  # of chi^2, absolute and relative: below either, a search has converged
-RADIUS_OF_FRESH, RADIUS_OF_GIVEN = 0.5, 0.1  # of the first trust region, with a Jacobian computed here or given
+RADIUS_OF_FRESH, RADIUS_OF_GIVEN = 0.25, 0.1  # of the first trust region, with a Jacobian computed here or given
 EXACT = 1e-6  # mean square of the residuals below which the fit is exact
 MOST_STEPS = 6  # of a search with one Jacobian and its updates
 PRIOR = 0.25  # deviation of every coordinate before the data
