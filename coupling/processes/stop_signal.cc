@@ -4,6 +4,7 @@
 
 #include <csignal>
 
+#include <sys/prctl.h>
 #include <unistd.h>
 
 namespace diptych::coupling
@@ -90,6 +91,7 @@ namespace diptych::coupling
   {
     patience = seconds;
     parent   = getppid();
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
   }
 
   void leave_if_stopped(const std::string &phase)

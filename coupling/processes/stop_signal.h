@@ -18,8 +18,7 @@ namespace diptych::coupling
   void block_stop_signals();
   void unblock_stop_signals();
 
-  // For a process that receives SIGTERM when its parent dies (start_piped_program). It then has `seconds` to end before SIGALRM
-  // kills it.
+  // This process receives SIGTERM when its parent dies. It then has `seconds` to end before SIGALRM kills it.
   void end_after_parent(unsigned int seconds);
 
   // Work was left on request: exit code 3. The hooks of the panels throw it, too.

@@ -91,7 +91,7 @@ namespace diptych::coupling
       {
         return to
           ->add_option("--jobs", line.jobs,
-                       when + "how many at once, on each process (default: cores it may use / threads; under mpirun 1)")
+                       when + "how many at once (default: cores it may use / threads; under mpirun one for each process)")
           ->check(CLI::Range(1, 4096));
       }
 
@@ -118,6 +118,7 @@ namespace diptych::coupling
         seeds->type_name("LIST")->check(
           [](const std::string &list) { return list.empty() ? "the list is empty; a list like 1-8" : ""; });
         add_jobs(run, "with --seeds: ")->needs(seeds);
+        run->add_flag("--check", line.checks_only, "check the scene and its first sample, print the resources, compute nothing");
         add_quiet(run);
       }
 

@@ -44,6 +44,7 @@ namespace diptych::coupling
     std::vector<std::string>             set_files;             // --set-file
     bool                                 study_of_step = false; // --study step
     std::string                          seeds;                 // --seeds: "1-8", "1,3,5-7"
+    bool                                 checks_only = false;   // --check of run
     std::string                          accuracy;              // --accuracy, --for, --run of plan
     std::string                          wanted;
     bool                                 runs_the_plan = false;

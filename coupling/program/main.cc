@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <iostream>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -22,12 +24,23 @@
 #include "coupling/scene/scene_error.h"
 #include "discrete/files/out_of_memory.h"
 #ifdef DIPTYCH_CONTINUUM
+#include "coupling/ensembles/ensemble_folder.h"
 #include "coupling/program/compare_command.h"
+#include "coupling/version.h"
 #endif
 
 namespace
 {
   using namespace diptych::coupling;
+
+  // Number of processes of an MPI job; 1 without one.
+  int n_processes()
+  {
+    for (const char *variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
+      if (const char *size = std::getenv(variable))
+        return std::atoi(size);
+    return 1;
+  }
 
 #ifdef DIPTYCH_CONTINUUM
   const std::vector<std::function<ResultList()>> result_lists = {discrete_result_entries, comparison_result_entries};
@@ -55,6 +68,16 @@ namespace
                                "' (TMPDIR): " + (none ? none.message() : std::strerror(error)));
   }
 
+  // The process becomes another program.
+  [[noreturn]] void become(const char *command, const std::string &program, char *const *words)
+  {
+    block_stop_signals(); // until the other program takes them
+    leave_if_stopped(command);
+    execv(program.c_str(), words);
+    unblock_stop_signals();
+    throw std::runtime_error("cannot start " + program + ": " + std::strerror(errno));
+  }
+
   // diptych-panels beside this program, or in PREFIX/libexec where it is installed.
   [[noreturn]] void start_the_panels(char **argv)
   {
@@ -66,16 +89,51 @@ namespace
       if (fs::exists(program))
         {
           argv[0] = const_cast<char *>(program.c_str());
-          block_stop_signals(); // until the other program takes them
-          leave_if_stopped(argv[1]);
-          execv(program.c_str(), argv);
-          unblock_stop_signals();
-          throw std::runtime_error("cannot start " + program.string() + ": " + std::strerror(errno));
+          become(argv[1], program.string(), argv);
         }
     throw std::runtime_error(name + " is not beside " + own_path() + "; the installation is broken");
   }
+  // Commands of many runs are those of the Python package, beside this program or in PREFIX/lib/python3/dist-packages.
+  bool is_campaign(const CommandLine &line)
+  {
+    return line.command == Command::study || (line.command == Command::run && !line.seeds.empty() && !line.checks_only) ||
+           (line.command == Command::compare && is_ensemble_folder(line.target));
+  }
+
+  [[noreturn]] void start_the_campaign(char **argv)
+  {
+    require_temporary_folder();
+    namespace fs           = std::filesystem;
+    const fs::path program = own_path(), folder = program.parent_path();
+    fs::path       package = folder / "python";
+    if (!fs::exists(package / "diptych/campaigns"))
+      package = folder.parent_path() / "lib/python3/dist-packages";
+    const char *others = std::getenv("PYTHONPATH");
+    setenv("PYTHONPATH", (package.string() + (others != nullptr ? ":" + std::string(others) : "")).c_str(), 1);
+    setenv("DIPTYCH_PROGRAM", program.c_str(), 1);
+    std::vector<std::string> words = {python, "-m", "diptych.campaigns"};
+    if (n_processes() > 1) // the first process leads, the others do runs for it
+      words = {python, "-m", "mpi4py.futures", "-m", "diptych.campaigns"};
+    std::vector<char *> pointers;
+    for (std::string &word : words)
+      pointers.push_back(word.data());
+    for (char **word = argv + 1; *word != nullptr; ++word)
+      pointers.push_back(*word);
+    pointers.push_back(nullptr);
+    become(argv[1], python, pointers.data());
+  }
 #else
   const std::vector<std::function<ResultList()>> result_lists = {discrete_result_entries};
+
+  bool is_campaign(const CommandLine &)
+  {
+    return false;
+  }
+
+  [[noreturn]] void start_the_campaign(char **)
+  {
+    std::abort();
+  }
 
   int compare(const CommandLine &)
   {
@@ -91,15 +149,6 @@ namespace
   }
 #endif
 
-  // Number of processes of an MPI job; 1 without one.
-  int n_processes()
-  {
-    for (const char *variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
-      if (const char *size = std::getenv(variable))
-        return std::atoi(size);
-    return 1;
-  }
-
   bool is_first_process()
   {
     for (const char *variable : {"OMPI_COMM_WORLD_RANK", "PMI_RANK"})
@@ -110,10 +159,11 @@ namespace
 
   int execute_command(const CommandLine &line, char **argv)
   {
+    if (is_campaign(line))
+      start_the_campaign(argv);
     switch (line.command)
       {
       case Command::run:
-      case Command::study:
       case Command::plan:
       case Command::calibrate:
       case Command::continuum:

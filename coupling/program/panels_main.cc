@@ -9,13 +9,12 @@
 #include "coupling/processes/processes.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/program/calibrate_command.h"
+#include "coupling/program/check_command.h"
 #include "coupling/program/continuum_command.h"
 #include "coupling/program/discrete_command.h"
-#include "coupling/program/ensemble_command.h"
 #include "coupling/program/material_point_command.h"
 #include "coupling/program/plan_command.h"
 #include "coupling/program/run_command.h"
-#include "coupling/program/study_command.h"
 #include "coupling/program/worker_command.h"
 #include "coupling/scene/scene_error.h"
 
@@ -25,8 +24,7 @@ namespace
 
   int execute(const CommandLine &line)
   {
-    if (n_processes() > 1 && line.command != Command::continuum && line.command != Command::study &&
-        line.command != Command::calibrate && line.seeds.empty())
+    if (n_processes() > 1 && line.command != Command::continuum && line.command != Command::calibrate)
       throw SceneError(
         "mpirun: diptych " + name_of(line.command) +
         " runs on one process; several may run `diptych continuum` alone, `diptych run` with --seeds, `diptych study` or "
@@ -36,9 +34,7 @@ namespace
     switch (line.command)
       {
       case Command::run:
-        return line.seeds.empty() ? run_both(line) : run_ensemble(line);
-      case Command::study:
-        return run_study(line);
+        return line.checks_only ? check_run(line) : run_both(line);
       case Command::plan:
         return make_plan(line);
       case Command::calibrate:

@@ -1,0 +1,203 @@
+# diptych: JSON input files of campaigns, with refusals that name file, line and key
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Parts of a JSON input file, with checked access to their members."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from collections.abc import Sequence
+from typing import Any, NamedTuple, NoReturn
+
+from .. import _diptych
+from ..errors import SceneError
+
+MOST_SEEDS = 10000
+LARGEST_SEED = 2147483647
+
+
+class Setting(NamedTuple):
+    """One key of a scene with its place and the folder of the files that it names."""
+
+    section: str
+    key: str
+    value: str
+    file: str
+    line: int = 0
+    folder: str = ""
+
+    def text(self) -> str:
+        """ "section/key = value" """
+        return f"{self.section}/{self.key} = {self.value}"
+
+    def with_seed(self, seed: int | str) -> Setting:
+        """The setting with {seed} in its value replaced."""
+        return self._replace(value=self.value.replace("{seed}", str(seed)))
+
+    def check(self) -> Setting:
+        """Raises SceneError if no scene has such a key or such a value of it, or if it sets the folder of a run."""
+        _diptych.check_entry(self.with_seed(1))
+        if (self.section, self.key) == ("output", "directory"):
+            place = f"{self.file}, line {self.line}: " if self.line else f"{self.file}: " if self.file else ""
+            raise SceneError(f"{place}output/directory cannot be set; runs use their own folders below --output",
+                             "output/directory")
+        return self
+
+
+def settings_of(overrides: Sequence[str], set_files: Sequence[str] = ()) -> list[Setting]:
+    """The keys of --set-file, then those of --set."""
+    settings = [Setting(*entry) for file in set_files for entry in _diptych.read_fragment(file)]
+    return [*settings, *(Setting(*_diptych.entry_of_override(text)) for text in overrides)]
+
+
+def read_seeds(text: str) -> list[int]:
+    """Seeds of a list like 1-8 or 1,3,5-7, ascending. Raises SceneError, which begins with --seeds."""
+
+    def refuse(why: str) -> NoReturn:
+        raise SceneError(f"--seeds {text}: {why}")
+
+    seeds: list[int] = []
+    for item in text.split(","):
+        match = re.fullmatch(r"([0-9]+)(?:-([0-9]+))?", item)
+        if match is None:
+            refuse(f"'{item}' is neither a seed nor a range; write a list like 1-8 or 1,3,5-7")
+        first, last = int(match[1]), int(match[2] or match[1])
+        if last > LARGEST_SEED:
+            refuse(f"seeds must be from 0 to {LARGEST_SEED}")
+        if last < first:
+            refuse(f"the range {item} descends")
+        if last - first + 1 + len(seeds) > MOST_SEEDS:
+            refuse(f"at most {MOST_SEEDS} seeds are allowed")
+        seeds += range(first, last + 1)
+    seeds.sort()
+    for seed, following in zip(seeds, seeds[1:]):
+        if seed == following:
+            refuse(f"seed {seed} is given twice")
+    return seeds
+
+
+def listed(names: Sequence[str]) -> str:
+    """ "a, b, c" """
+    return ", ".join(names)
+
+
+def value_text(value: Any) -> str:
+    """A value as the text that a scene would hold: the entries of a list separated by ", "."""
+    if isinstance(value, list):
+        return ", ".join(map(value_text, value))
+    return value if isinstance(value, str) else json.dumps(value, ensure_ascii=False)
+
+
+def is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+class Part:
+    """A value of an input file and its place. A missing member or one of another type raises SceneError with file, line and key."""
+
+    def __init__(self, file: str, lines: dict[str, int], value: Any, pointer: str = "") -> None:
+        self.file, self.lines, self.value, self.pointer = file, lines, value, pointer
+
+    @staticmethod
+    def read(file: str) -> Part:
+        """The whole of a JSON file; comments are allowed."""
+        text, lines = _diptych.read_json(file)
+        return Part(file, lines, json.loads(text))
+
+    def _line(self, key: str | None) -> int:
+        pointer = self.pointer if key is None else f"{self.pointer}/{key.replace('/', '~1', 1)}"
+        while pointer and pointer not in self.lines:
+            pointer = pointer.rpartition("/")[0]
+        return self.lines.get(pointer, 1)
+
+    def refuse(self, why: str, key: str | None = None) -> NoReturn:
+        """Raises SceneError at the line of this part, or of its member `key`."""
+        line = self._line(key)
+        error = SceneError(f"{self.file}, line {line}: {key or ''}{why}", key)
+        error.file, error.line = self.file, line
+        raise error
+
+    def allow(self, *keys: str) -> None:
+        """Refuses a value that is no object, and other keys than these."""
+        if not isinstance(self.value, dict):
+            self.refuse(f"an object is needed; its keys are {listed(keys)}")
+        for key in self.value:
+            if key not in keys:
+                self.refuse(f": unknown key; the nearest is '{_diptych.nearest_name(key, list(keys))}'; allowed are {listed(keys)}",
+                            key)
+
+    def has(self, key: str) -> bool:
+        return isinstance(self.value, dict) and key in self.value
+
+    def at(self, key: str) -> Part:
+        """A member that must be there."""
+        if not self.has(key):
+            self.refuse(f"'{key}' is missing")
+        return Part(self.file, self.lines, self.value[key], f"{self.pointer}/{key.replace('/', '~1', 1)}")
+
+    def list(self, key: str) -> list[Part]:
+        """The entries of a list; empty if it is missing."""
+        if not self.has(key):
+            return []
+        if not isinstance(self.value[key], list):
+            self.refuse(" must be a list", key)
+        return [Part(self.file, self.lines, entry, f"{self.pointer}/{key}/{k}") for k, entry in enumerate(self.value[key])]
+
+    def word(self, key: str, otherwise: str = "") -> str:
+        if not self.has(key):
+            return otherwise
+        if not isinstance(self.value[key], str):
+            self.refuse(f" = {json.dumps(self.value[key])} is not allowed; use a text", key)
+        return self.value[key]
+
+    def number(self, key: str, low: float, high: float) -> float:
+        """A number in [low, high] that must be there."""
+        value = self.at(key).value
+        if not is_number(value) or not low <= value <= high:
+            self.refuse(f" = {json.dumps(value)} is not allowed; use a number from {_diptych.text_of_number(low)} to "
+                        f"{_diptych.text_of_number(high)}", key)
+        return float(value)
+
+    def whole(self, key: str, low: int, high: int) -> int:
+        value = self.at(key).value
+        if is_number(value) and value != int(value):
+            self.refuse(f" = {json.dumps(value)} is not allowed; use a whole number", key)
+        return int(self.number(key, low, high))
+
+    def flag(self, key: str) -> bool:
+        """true or false; false if it is missing."""
+        value = self.value.get(key, False) if isinstance(self.value, dict) else False
+        if not isinstance(value, bool):
+            self.refuse(f" = {json.dumps(value)} is not allowed; use true or false", key)
+        return value
+
+    def choice(self, key: str, choices: Sequence[str], otherwise: str) -> str:
+        word = self.word(key, otherwise)
+        if word not in choices:
+            self.refuse(f" = '{word}' is not allowed; use one of {listed(choices)}", key)
+        return word
+
+    def seeds(self, key: str) -> list[int]:
+        """As on the command line: "1-8", "1,3,5-7" or a number. Empty if it is missing."""
+        try:
+            return read_seeds(value_text(self.value[key])) if self.has(key) else []
+        except SceneError as error:
+            self.refuse(str(error).removeprefix("--seeds"), key)
+
+    def settings(self, key: str) -> list[Setting]:
+        """{"section/key": value, ...}, each checked. Empty if it is missing."""
+        if not self.has(key):
+            return []
+        part = self.at(key)
+        if not isinstance(part.value, dict):
+            self.refuse(' must be an object of "section/key": value', key)
+        return [part.setting(name, name, value) for name, value in part.value.items()]
+
+    def setting(self, key: str, name: str, value: Any) -> Setting:
+        """One setting. key: the member of this part that contains it."""
+        section, slash, rest = name.partition("/")
+        line = self._line(key)
+        if not slash:
+            raise SceneError(f"{self.file}, line {line}: {name} is not a key of a scene; write section/key", name)
+        return Setting(section, rest, value_text(value), self.file, line, os.path.dirname(self.file)).check()

@@ -1,0 +1,266 @@
+# diptych: study files: points, samples, quantities and the reference
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Reads and checks study files. The keys are described in README.md of this folder."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from .. import _diptych
+from .histories import SOURCES
+from .input_file import Part, Setting, is_number, listed, value_text
+
+COMMANDS = {"discrete": ("discrete",), "continuum": ("continuum",), "run": ("discrete", "continuum"),
+            "material-point": ("material_point",)}  # the panels that each command runs
+REDUCTIONS = ("strength", "mean", "at", "peak", "largest", "last", "number")
+PHASES = ("preparation", "discrete", "continuum", "continuum_coarse", "comparison", "report", "material_point")
+_FAR = 1e12
+
+
+@dataclass
+class AxisPoint:
+    """One or several keys that are set together. `value` is that of a single key that is a number."""
+
+    label: str
+    settings: list[Setting] = field(default_factory=list)
+    value: float = math.nan
+
+
+@dataclass
+class Axis:
+    """`converges`: results have a limit as the values go to 0. `own_reference`: each point has a reference of its own."""
+
+    name: str
+    points: list[AxisPoint] = field(default_factory=list)
+    converges: bool = False
+    own_reference: bool = False
+
+
+@dataclass
+class Family:
+    """Points that share settings and axes: all combinations (grid), or the k-th points of all axes together."""
+
+    name: str = ""
+    settings: list[Setting] = field(default_factory=list)
+    grid: bool = True
+    axes: list[Axis] = field(default_factory=list)
+
+
+def quantity(name: str = "", **changes: Any) -> dict[str, Any]:
+    """A quantity with the entries that study.json has. `line`: an angle that repeats after 180 degrees."""
+    return {"name": name, "unit": "-", "source": "discrete", "reduction": "last", "column": "", "from": math.nan, "to": math.nan,
+            "relative": True, "limit": None, "line": False, **changes}
+
+
+@dataclass
+class Study:
+    """The contents of a study file."""
+
+    name: str = ""
+    file: str = ""
+    title: str = ""
+    scene: str = ""
+    command: str = "run"
+    settings: list[Setting] = field(default_factory=list)  # of all points
+    seeds: list[int] = field(default_factory=list)  # empty: the one sample of the scene
+    reference: list[Setting] = field(default_factory=list)
+    families: list[Family] = field(default_factory=list)
+    quantities: list[dict[str, Any]] = field(default_factory=list)
+    cost: list[str] = field(default_factory=list)  # phases that count; empty: all except the report
+    borders: list[dict[str, Any]] = field(default_factory=list)
+
+
+def _axis(part: Part) -> Axis:
+    part.allow("name", "key", "values", "points", "converges", "own_reference")
+    if part.has("key") == part.has("points"):
+        part.refuse("an axis needs either key and values, or points with label and set")
+    key, points = part.word("key", "points"), []
+    for value in part.list("values") if part.has("key") else []:
+        number = float(value.value) if is_number(value.value) else math.nan
+        points.append(AxisPoint(value_text(value.value), [part.setting("values", key, value.value)], number))
+    for one in part.list("points"):
+        one.allow("label", "set")
+        one.at("label")
+        points.append(AxisPoint(one.word("label"), one.settings("set")))
+    if not points:
+        part.refuse("this axis has no points; give values or points")
+    axis = Axis(part.word("name", key.partition("/")[2] or key), points, part.flag("converges"), part.flag("own_reference"))
+    for label, count in Counter(point.label for point in points).items():
+        if count > 1:
+            part.refuse(f"axis '{axis.name}' has '{label}' twice")
+    for point in points if axis.converges else []:
+        if not point.value > 0:
+            part.refuse(f" needs values above 0, which '{point.label}' is not", "converges")
+    return axis
+
+
+def _family(part: Part, settings: list[Setting]) -> Family:
+    family = Family(part.word("name"), settings, part.choice("combine", ("grid", "list"), "grid") == "grid")
+    for one in part.list("axes"):
+        axis = _axis(one)
+        if any(axis.name == other.name for other in family.axes):
+            one.refuse(f"two axes have the name '{axis.name}'")
+        family.axes.append(axis)
+        first = family.axes[0]
+        if not family.grid and len(axis.points) != len(first.points):
+            one.refuse(f"axes combined as a list need equally many points; '{first.name}' has {len(first.points)}, "
+                       f"'{axis.name}' {len(axis.points)}")
+    return family
+
+
+def _families(root: Part) -> list[Family]:
+    if not root.has("families"):
+        return [_family(root, [])]
+    if root.has("axes"):
+        root.refuse(" cannot be used together with families; put axes into each family", "axes")
+    families = []
+    for part in root.list("families"):
+        part.allow("name", "set", "axes", "combine")
+        part.at("name")
+        families.append(_family(part, part.settings("set")))
+    return families
+
+
+def _reduction(part: Part) -> dict[str, Any]:
+    given = [name for name in REDUCTIONS if part.has(name)]
+    if len(given) != 1:
+        part.refuse(f"a quantity needs exactly one of {listed(REDUCTIONS)}")
+    how = given[0]
+    if how in ("strength", "mean"):
+        ends = [end.value for end in part.list(how)]
+        if len(ends) != 2 or not all(map(is_number, ends)) or not ends[0] < ends[1]:
+            part.refuse(f" = {value_text(part.value[how])} is not allowed; give two ascending values of the progress", how)
+        return {"reduction": how, "from": float(ends[0]), "to": float(ends[1])}
+    if how == "at":
+        return {"reduction": how, "from": part.number("at", 0, _FAR)}
+    if how == "peak":
+        return {"reduction": how, "to": part.number("peak", 1e-12, _FAR)}
+    if how in ("largest", "last") and not part.flag(how):
+        part.refuse(" must be true or left out", how)
+    return {"reduction": how}
+
+
+def _limit(part: Part) -> dict[str, Any]:
+    if not part.has("limit"):
+        return {}
+    limit = part.at("limit")
+    limit.allow("relative", "absolute")
+    if len(limit.value) != 1:
+        limit.refuse("a limit needs one of relative and absolute")
+    relative = limit.has("relative")
+    return {"relative": relative, "limit": limit.number("relative" if relative else "absolute", 1e-12, _FAR)}
+
+
+def _describe_number(part: Part, name: str) -> dict[str, Any]:
+    """Unit and kind of a number of comparison.json, by the last word of its name."""
+    key, numbers = name.rpartition(" ")[2], _diptych.comparison_numbers()
+    for place, (unit, kind) in numbers.items():
+        if place.rpartition("/")[2] == key:
+            return {"column": name, "unit": unit, "line": kind == "line"}
+    keys = [place.rpartition("/")[2] for place, (_, kind) in numbers.items() if kind in ("number", "line")]
+    longer = sorted((other for other in keys if key and other.startswith(key)), key=len)
+    nearest = longer[0] if longer else _diptych.nearest_name(key, keys)
+    part.refuse(f" = '{name}': no number of a comparison ends with '{key}'; the nearest is '{nearest}'. Use a name from the first "
+                "column of ensemble.csv, such as 'window 0.01-0.03 discrete band angle_deg'", "number")
+
+
+def _default_name(q: dict[str, Any]) -> str:
+    begin, end = _diptych.text_of_number(q["from"]), _diptych.text_of_number(q["to"])
+    return {"strength": f"{q['source']} strength {begin}-{end}", "mean": f"{q['source']} {q['column']} {begin}-{end}",
+            "at": f"{q['source']} {q['column']} at {begin}", "number": q["column"]}.get(
+                q["reduction"], f"{q['source']} {q['reduction']} {q['column']}")
+
+
+def _quantity(part: Part, command: str) -> dict[str, Any]:
+    part.allow("name", "of", "column", "limit", *REDUCTIONS)
+    source = "comparison" if part.has("number") else part.choice("of", (*SOURCES, "comparison"), COMMANDS[command][0])
+    if source not in (*COMMANDS[command], "comparison" if command == "run" else ""):
+        part.refuse(f"command {command} does not write what '{source}' is read from; change command or of")
+    q = quantity(source=source, column=part.word("column"), **_reduction(part), **_limit(part))
+    if q["reduction"] in ("strength", "number"):
+        if part.has("column"):
+            part.refuse(" has no effect here; remove it", "column")
+        if q["reduction"] == "number":
+            q.update(_describe_number(part, part.word("number")))
+    else:
+        columns = _diptych.numeric_columns().get(source, {})
+        if q["column"] not in columns:
+            part.refuse(f" = '{q['column']}': {source}.csv has no such column; the nearest is "
+                        f"'{_diptych.nearest_name(q['column'], list(columns))}'", "column" if part.has("column") else "name")
+        q["unit"] = columns[q["column"]]
+    q["name"] = part.word("name", _default_name(q))
+    return q
+
+
+def _border(part: Part, families: Sequence[Family]) -> dict[str, Any]:
+    part.allow("label", "family", "x", "y", "coefficient", "exponent")
+    border = {key: part.word(key) for key in ("label", "family", "x", "y")}
+    border |= {"coefficient": part.number("coefficient", -1e300, 1e300), "exponent": part.number("exponent", -100, 100)}
+    family = next((one for one in families if one.name == border["family"]), None)
+    if family is None:
+        part.refuse(f" = '{border['family']}': there is no such family", "family")
+    for name in (border["x"], border["y"]):
+        if all(axis.name != name for axis in family.axes):
+            part.refuse(f"'{name}' is not an axis of this family")
+    return border
+
+
+def _phase(part: Part) -> str:
+    name = value_text(part.value)
+    if name not in PHASES:  # a wrong name would count as a cost of zero
+        part.refuse(f"cost: '{name}' is not a phase; the nearest is '{_diptych.nearest_name(name, list(PHASES))}'")
+    return name
+
+
+def _demand_consistency(root: Part, study: Study) -> None:
+    for name, count in Counter(q["name"] for q in study.quantities).items():
+        if count > 1:
+            root.refuse(f": two have the name '{name}'; give them different names", "quantities")
+    for name, count in Counter(family.name for family in study.families).items():
+        if count > 1:
+            root.refuse(f": two have the name '{name}'", "families")
+    points = [point for family in study.families for axis in family.axes for point in axis.points]
+    everything = [study.settings, study.reference, *(one.settings for one in (*study.families, *points))]
+    for setting in sum(everything, []):  # every point is run with every seed, which would replace a fixed one
+        if study.seeds and (setting.section, setting.key) == ("sample", "seed"):
+            place = f"{setting.file}, line {setting.line}" if setting.line else setting.file
+            root.refuse(f" cannot be used together with sample/seed = {setting.value}, set at {place}", "seeds")
+
+
+def _name_of(file: str) -> str:
+    folder, name = os.path.split(os.path.abspath(file))
+    stem = os.path.splitext(name)[0]
+    return os.path.basename(folder) if stem == "study" else stem
+
+
+def read_study(file: str, overrides: Sequence[Setting] = ()) -> Study:
+    """Reads a study file. `overrides` are settings of all points.
+
+    Paths are relative to the folder of the study; those of overrides to the working directory. Every key and value is checked by
+    itself; the combinations are checked with the points. Raises SceneError with file, line, key, value and the allowed values.
+    """
+    root = Part.read(file)
+    root.allow("title", "scene", "command", "set", "seeds", "reference", "families", "axes", "combine", "quantities", "cost",
+               "borders")
+    scene = os.path.abspath(os.path.join(os.path.dirname(file), root.word("scene")))
+    study = Study(_name_of(file), file, root.word("title", _name_of(file)), scene)
+    study.command = root.choice("command", tuple(COMMANDS), "run")
+    if not os.path.isfile(study.scene):
+        root.refuse(f" = '{study.scene}': there is no such file", "scene")
+    study.settings = [*root.settings("set"), *(setting.check() for setting in overrides)]
+    study.seeds = root.seeds("seeds")
+    root.at("reference")
+    study.reference = root.settings("reference")
+    study.families = _families(root)
+    study.quantities = [_quantity(part, study.command) for part in root.list("quantities")]
+    if not study.quantities:
+        root.refuse(" is missing or empty; name at least one quantity", "quantities")
+    study.cost = [_phase(part) for part in root.list("cost")]
+    study.borders = [_border(part, study.families) for part in root.list("borders")]
+    _demand_consistency(root, study)
+    return study
