@@ -39,6 +39,14 @@ def execute(words: Sequence[str]) -> int:
         from .study import run_study
 
         return run_study(line.target, line.output, settings_of(*changes), options, line.set_file)
+    if line.command == "plan":
+        from .plan import main_plan
+
+        return main_plan(line, options)
+    if line.command == "calibrate":
+        from .calibration import main_calibrate
+
+        return main_calibrate(line, options)
     from .ensemble import compare_again, run_ensemble
 
     if line.command == "compare":
