@@ -29,6 +29,8 @@ SIX = [Parameter("friction_angle_peak", "logarithm", 30, 12, 45),
        Parameter("youngs_modulus", "logarithm", 4000, 100, 20000)]
 TRUTHS = [23, 0.35, 0.6, 0.004, 0.7, 900]  # numbers of the coordinates
 USUAL = NoiseModel(0.02, 0.0045, 1e-4, 0.04, 0.3)
+BEFORE = {"friction_angle_peak": 30, "friction_angle_residual": 15, "friction_angle_start": 20, "mobilisation_strain": 0.01,
+          "dilatancy_angle_peak": 10, "youngs_modulus": 2000}  # of the scene
 SCENE = scenes.read({"loading": {"axial_strain": 0.03}, "comparison": {"window_edges": [0, 0.03]}})
 
 
@@ -38,7 +40,7 @@ def with_starts(parameters, numbers):
 
 def response(settings, observables):
     """t/s and volume of a law that mobilises, softens and dilates; dilation is negative."""
-    v = {one.key: float(one.value) for one in settings}
+    v = {**BEFORE, **{one.key: float(one.value) for one in settings}}
     x = np.array([one.middle for one in observables])
     mobilised = 1 - np.exp(-x / v["mobilisation_strain"])
     peak = v["friction_angle_start"] + (v["friction_angle_peak"] - v["friction_angle_start"]) * mobilised
