@@ -125,7 +125,7 @@ def test_a_wrong_rule_is_detected_and_costs_more():
 
 def test_one_sample_from_a_file_has_the_variation_of_one_run_instead_of_scatter(tmp_path):
     file = tmp_path / "sample.csv"
-    file.write_text("x,y,radius\n" + "".join(f"{k % 10},{k // 10},0.5\n" for k in range(100)))
+    file.write_text("x,y,r\n" + "".join(f"{k % 10},{k // 10},0.5\n" for k in range(100)))
     quiet = grains_plan(0.03, noise=0.001, file=str(file))
     assert quiet.reaches and quiet.n_samples == 1 and math.isnan(quiet.quantities[0].scatter)
     assert quiet.quantities[0].parts[-1].cause == "one run"

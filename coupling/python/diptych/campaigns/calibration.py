@@ -32,6 +32,7 @@ from .folders import Folder, draw
 from .input_file import Setting
 
 SAME_MINIMUM = 0.05  # in every coordinate; they run over [0, 1]
+FIRST_JACOBIANS = 4  # most of the first search
 HARDLY_WORSE = 4  # in chi^2: two deviations
 REACH = 1.5  # deviations to either side in a profile
 
@@ -112,14 +113,14 @@ class Calibrator:
         c, residuals, fits = self.calibration, self._residuals(False), []
         starts = [self.coordinates.start, *(spread_point(c.seed + k, len(self.coordinates)) for k in range(1, c.starts))]
         for k, start in enumerate(starts):
-            fit = least_squares(residuals, start, c.start_jacobians if k else max(2, c.start_jacobians))
+            fit = least_squares(residuals, start, c.start_jacobians if k else max(FIRST_JACOBIANS, c.start_jacobians))
             fits.append(fit)
             self.record["minima"].append({"start": self.coordinates.numbers(start), "runs": fit.evaluations, "is_best": False,
                                           "words": fit.note, **self._minimum(fit)})
         found = int(np.argmin([fit.chi2 for fit in fits]))
         if not np.isfinite(fits[found].chi2):
             raise NotConverged("the continuum did not finish at any start; change start, low and high")
-        best = fits[found] if found == 0 else least_squares(residuals, fits[found].point, 2)  # so far with the start's Jacobian
+        best = fits[found] if found == 0 else least_squares(residuals, fits[found].point, FIRST_JACOBIANS)  # so far with the start's Jacobian
         self.record["minima"][found] |= {"is_best": True, **self._minimum(best)}
         for k, fit in enumerate(fits):
             if k != found and np.isfinite(fit.chi2) and np.abs(fit.point - best.point).max() > SAME_MINIMUM:
