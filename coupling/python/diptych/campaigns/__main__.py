@@ -26,7 +26,13 @@ def parsed(words: Sequence[str]) -> argparse.Namespace:
         parser.add_argument(option, type=int, default=default)
     for option in ("--resume", "--overwrite", "--quiet", "--run"):
         parser.add_argument(option, action="store_true")
-    return parser.parse_args(words)
+    joined: list[str] = []
+    for word in words:  # --accuracy 2 % is two words
+        if word == "%" and joined:
+            joined[-1] += " %"
+        else:
+            joined.append(word)
+    return parser.parse_args(joined)
 
 
 def execute(words: Sequence[str]) -> int:
