@@ -26,21 +26,13 @@
 #ifdef DIPTYCH_CONTINUUM
 #include "coupling/ensembles/ensemble_folder.h"
 #include "coupling/program/compare_command.h"
+#include "coupling/program/python_package.h"
 #include "coupling/version.h"
 #endif
 
 namespace
 {
   using namespace diptych::coupling;
-
-  // Number of processes of an MPI job; 1 without one.
-  int n_processes()
-  {
-    for (const char *variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
-      if (const char *size = std::getenv(variable))
-        return std::atoi(size);
-    return 1;
-  }
 
 #ifdef DIPTYCH_CONTINUUM
   const std::vector<std::function<ResultList()>> result_lists = {discrete_result_entries, comparison_result_entries};
@@ -103,18 +95,11 @@ namespace
   [[noreturn]] void start_the_campaign(char **argv)
   {
     require_temporary_folder();
-    namespace fs           = std::filesystem;
-    const fs::path program = own_path(), folder = program.parent_path();
-    fs::path       package = folder / "python";
-    if (!fs::exists(package / "diptych/campaigns"))
-      package = folder.parent_path() / "lib/python3/dist-packages";
     const char *others = std::getenv("PYTHONPATH");
-    setenv("PYTHONPATH", (package.string() + (others != nullptr ? ":" + std::string(others) : "")).c_str(), 1);
-    setenv("DIPTYCH_PROGRAM", program.c_str(), 1);
+    setenv("PYTHONPATH", (python_package() + (others != nullptr ? ":" + std::string(others) : "")).c_str(), 1);
+    setenv("DIPTYCH_PROGRAM", own_path().c_str(), 1);
     std::vector<std::string> words = {python, "-m", "diptych.campaigns"};
-    if (n_processes() > 1) // the first process leads, the others do runs for it
-      words = {python, "-m", "mpi4py.futures", "-m", "diptych.campaigns"};
-    std::vector<char *> pointers;
+    std::vector<char *>      pointers;
     for (std::string &word : words)
       pointers.push_back(word.data());
     for (char **word = argv + 1; *word != nullptr; ++word)
@@ -148,6 +133,15 @@ namespace
       ": this program was built without the continuum; it has discrete, solve, report, import, export and explain");
   }
 #endif
+
+  // Number of processes of an MPI job; 1 without one.
+  int n_processes()
+  {
+    for (const char *variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
+      if (const char *size = std::getenv(variable))
+        return std::atoi(size);
+    return 1;
+  }
 
   bool is_first_process()
   {

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 from .. import _diptych
 from ..errors import Stopped
-from .engine import NOT_CONVERGED, SYSTEM_FAILURE, WRONG_INPUT, Options, complain
+from .engine import NOT_CONVERGED, SYSTEM_FAILURE, WRONG_INPUT, Options, complain, on_first_process
 
 
 def parsed(words: Sequence[str]) -> argparse.Namespace:
@@ -62,7 +62,6 @@ def execute(words: Sequence[str]) -> int:
 
 def main(words: Sequence[str]) -> int:
     """Does a command; an error is a message and an exit code."""
-    _diptych.install_signals()
     try:
         return execute(words)
     except Stopped as stopped:
@@ -76,4 +75,5 @@ def main(words: Sequence[str]) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    _diptych.install_signals()
+    sys.exit(on_first_process(lambda: main(sys.argv[1:])))

@@ -18,8 +18,8 @@ import sys
 import time
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import ExitStack
 from dataclasses import dataclass, field
+from typing import Any
 
 from .. import _diptych
 from ..errors import Stopped
@@ -184,11 +184,25 @@ class Worker:
         return code if code >= 0 else 128 - code
 
 
+_pool: Any = None  # mpi4py's executor on the other processes of mpirun
 _remote_worker = Worker()
 
 
 def _remote(line: str) -> tuple[int, bool]:
     return _remote_worker.run(line)
+
+
+def on_first_process(work: Callable[[], int]) -> int:
+    """Does the work on the first process of mpirun and returns its exit code; the other processes do runs for it and return 0."""
+    global _pool
+    if n_processes() == 1:
+        return work()
+    from mpi4py import MPI  # needs an MPI job
+    from mpi4py.futures import MPICommExecutor
+
+    _diptych.install_signals()  # once more: MPI changes some
+    with MPICommExecutor(MPI.COMM_WORLD, root=0, main=False) as _pool:
+        return work() if _pool is not None else DONE
 
 
 def n_processes() -> int:
@@ -285,16 +299,13 @@ def execute(runs: Sequence[Run], options: Options, *, noun: str = "runs", finish
         work.waiting.put(k)
     progress = _Progress(noun, options.quiet, len(runs) + finished, finished)
     seats, others = n_seats(options), n_processes() - 1
-    with ExitStack() as stack:
-        threads, sitting = stack.enter_context(ThreadPoolExecutor(seats)), []
+    with ThreadPoolExecutor(seats) as threads:
+        sitting = []
         for _ in range(min(len(runs), seats - others)):
             worker = Worker()
             sitting.append(threads.submit(work.sit, worker.run, worker.close))
         if others and len(runs) > len(sitting):
-            from mpi4py.futures import MPIPoolExecutor  # needs an MPI job
-
-            pool = stack.enter_context(MPIPoolExecutor(others, main=False, initializer=_diptych.install_signals))
-            sitting += [threads.submit(work.sit, lambda line: pool.submit(_remote, line).result(), lambda: None)
+            sitting += [threads.submit(work.sit, lambda line: _pool.submit(_remote, line).result(), lambda: None)
                         for _ in range(others)]
         while any(not seat.done() for seat in sitting) or not work.ended.empty():
             try:
