@@ -41,7 +41,8 @@ def response(settings, observables):
     """The material point, NaN if it does not converge."""
     values = {one.key: float(one.value) for one in settings}
     try:
-        table = diptych.biaxial({"continuum": {"law": "mohr_coulomb", "hardening": "mobilisation", "softening_strain": 0.05, **values}},
+        table = diptych.biaxial({"continuum": {"law": "mohr_coulomb", "hardening": "mobilisation", "softening_strain": 0.05,
+                                               **values}},
                                 axial_strain=0.03, step=2.5e-4)
     except (diptych.NotConverged, diptych.SceneError):
         return np.full(len(observables), np.nan)
@@ -52,7 +53,8 @@ def response(settings, observables):
 def calibration(parameters=SIX, targets=("only",), fixed=(), **options):
     """Synthetic data need no model tolerance."""
     own = NoiseOptions(stress_discrepancy=1e-5, early_stress_discrepancy=0, volume_discrepancy=1e-6, **options)
-    return Calibration("c", "c.json", "c", [Target(name, "", [], [1, 2]) for name in targets], ["stress_ratio", "volumetric_strain"], BINS,
+    return Calibration("c", "c.json", "c", [Target(name, "", [], [1, 2]) for name in targets],
+                       ["stress_ratio", "volumetric_strain"], BINS,
                        list(parameters), [Setting("continuum", *one, "") for one in fixed], own, starts=1)
 
 
@@ -104,7 +106,7 @@ def test_a_parameter_may_belong_to_some_targets():
     there = Coordinates([Parameter("friction_angle_peak", "value", 30, 10, 40), *own], {})
     found = {name: [float(one.value) for one in there.settings(there.start, name)] for name in ("dense", "loose", "medium", "")}
     assert found == {"dense": pytest.approx([30, 24]), "loose": pytest.approx([30, 6]), "medium": [30], "": [30]}
-    with pytest.raises(ValueError, match="other targets"):  # a key that differs between targets gives a common parameter no value
+    with pytest.raises(ValueError, match="other targets"):  # a common parameter has no value
         Coordinates([*own, Parameter("dilatancy_angle_peak", "share_of", 0.5, 0, 1, "friction_angle_start")],
                     {"friction_angle_peak": 30})
 
@@ -153,7 +155,8 @@ def test_noise_is_found_again():
 
 def test_weights_leave_the_common_level_out():
     weights = noise.working_weights(USUAL, NoiseOptions(), drawn(USUAL, usual_observables(), np.full(29, 0.3), 4, 3))
-    assert weights[12] ** -0.5 == pytest.approx(math.hypot(0.008, 0.0045 / 2), abs=1e-4)  # model tolerance, shape on four samples
+    assert weights[12] ** -0.5 == pytest.approx(math.hypot(0.008, 0.0045 / 2),
+                                                abs=1e-4)  # model tolerance, shape on four samples
 
 
 def test_parameters_that_the_data_do_not_determine_are_reported():
@@ -174,8 +177,10 @@ def test_a_calibration_finds_the_parameters_of_its_own_data():
 
 
 def test_a_calibration_finds_values_of_single_targets():
-    parameters = [Parameter("friction_angle_peak", "logarithm", 28, 12, 45), Parameter("mobilisation_strain", "logarithm", 0.01, 5e-4, 0.05),
-                  *(Parameter("friction_angle_start", "value", start, 1, 20, "", (name,)) for name, start in (("dense", 15), ("loose", 10)))]
+    parameters = [Parameter("friction_angle_peak", "logarithm", 28, 12, 45),
+                  Parameter("mobilisation_strain", "logarithm", 0.01, 5e-4, 0.05),
+                  *(Parameter("friction_angle_start", "value", start, 1, 20, "", (name,)) for name,
+                    start in (("dense", 15), ("loose", 10)))]
     c = calibration(parameters, ("dense", "loose", "other"),
                     [("dilatancy_angle_peak", "3"), ("friction_angle_residual", "12"), ("youngs_modulus", "900")], **EXACT)
     c.targets[2].is_fitted, truths = False, [24, 0.004, 18, 5]
@@ -188,7 +193,8 @@ def test_a_calibration_finds_values_of_single_targets():
 
 @pytest.mark.parametrize("known", [True, False])
 def test_intervals_hold(known):
-    """Twenty data sets of four samples; the noise is known, or estimated from the four, where Student's quantile keeps the coverage."""
+    """Twenty data sets of four samples; the noise is known, or estimated from the four, where Student's quantile keeps the
+    coverage."""
     names = ("stress_level", "stress_shape", "volume_start", "volume_growth")
     c = calibration(**({name: getattr(USUAL, name) for name in names} if known else {}))
     truth, z = truth_of(c, "", TRUTHS), []
@@ -204,13 +210,19 @@ def test_intervals_hold(known):
     assert (0.7 if known else 0.4) < np.sqrt(np.mean(np.square(z))) < 1.3
 
 
-CURVE = "# drained biaxial test\naxial_strain,stress_ratio,stress_ratio_deviation,volumetric_strain\n0,0,0.01,0\n0.01,0.3,0.01,-0.002\n0.02,0.4,0.02,-0.004\n"
+CURVE = """# drained biaxial test
+axial_strain,stress_ratio,stress_ratio_deviation,volumetric_strain
+0,0,0.01,0
+0.01,0.3,0.01,-0.002
+0.02,0.4,0.02,-0.004
+"""
 
 
 def test_a_measured_curve_gives_means_over_bins_and_its_own_deviations(tmp_path):
     file = tmp_path / "lab.csv"
     file.write_text(CURVE)
-    observables = [Observable("stress_ratio", 0, 0.01), Observable("stress_ratio", 0.01, 0.02), Observable("stress_ratio", 0.02, 0.03),
+    observables = [Observable("stress_ratio", 0, 0.01), Observable("stress_ratio", 0.01, 0.02),
+                   Observable("stress_ratio", 0.02, 0.03),
                    Observable("volumetric_strain", 0.01, 0.02)]
     o, deviations = observe_curve(SCENE, observables, str(file))
     assert o.values == pytest.approx([0.15, 0.35, np.nan, -0.003], nan_ok=True)  # beyond its end nothing is measured
@@ -233,8 +245,10 @@ def test_a_law_is_fitted_to_a_measured_curve():
 
 
 @pytest.mark.parametrize("text, words", [
-    ("strain,stress_ratio\n0,0\n1,1\n", "unknown column 'strain'"), ("axial_strain\n0\n1\n", "stress_ratio or volumetric_strain"),
-    ("axial_strain,stress_ratio\n0,0\n0.01,x\n", "row 2: stress_ratio = x"), ("axial_strain,stress_ratio\n0.01,0\n0,1\n", "ascend"),
+    ("strain,stress_ratio\n0,0\n1,1\n", "unknown column 'strain'"),
+                                         ("axial_strain\n0\n1\n", "stress_ratio or volumetric_strain"),
+    ("axial_strain,stress_ratio\n0,0\n0.01,x\n", "row 2: stress_ratio = x"),
+                                         ("axial_strain,stress_ratio\n0.01,0\n0,1\n", "ascend"),
     ("axial_strain,stress_ratio,stress_ratio_deviation\n0,0,0\n1,1,1\n", "row 1: stress_ratio_deviation = 0")])
 def test_a_wrong_curve_is_refused(tmp_path, text, words):
     (tmp_path / "lab.csv").write_text(text)
@@ -244,8 +258,8 @@ def test_a_wrong_curve_is_refused(tmp_path, text, words):
 
 def test_a_file_with_a_curve_is_read(tmp_path):
     (tmp_path / "lab.csv").write_text(CURVE)
-    text = ('{"targets": [{"name": "lab", "scene": "%s", "curve": "lab.csv"%s}], "quantities": ["stress_ratio"], "bins": [0, 0.01], '
-            '"parameters": [{"key": "friction_angle_peak", "start": 25, "low": 12, "high": 40}]}')
+    text = ('{"targets": [{"name": "lab", "scene": "%s", "curve": "lab.csv"%s}], "quantities": ["stress_ratio"], '
+            '"bins": [0, 0.01], "parameters": [{"key": "friction_angle_peak", "start": 25, "low": 12, "high": 40}]}')
     (tmp_path / "c.json").write_text(text % (QUICK, ""))
     c = read_calibration(str(tmp_path / "c.json"))
     assert os.path.samefile(c.targets[0].curve, tmp_path / "lab.csv") and c.targets[0].seeds == []

@@ -70,10 +70,12 @@ def test_numbers_of_samples_are_the_least_that_suffice():
 
 
 def test_the_choice_of_the_grains_is_the_cheapest():
-    known, cost = [GrainErrors(Estimate(1, 0.2), 0.03, True), GrainErrors(Estimate(1.5, 0.5), 0.02, True)], [(0.05, 1), (0.025, 1.6)]
+    known, cost = [GrainErrors(Estimate(1, 0.2), 0.03, True), GrainErrors(Estimate(1.5, 0.5), 0.02, True)], [(0.05, 1),
+                                                                                                             (0.025, 1.6)]
 
     def total(accuracy):
-        return max(errors.samples_for(one.scatter, 0.04 - one.at(accuracy)) or 1e6 for one in known) * errors.cost_at(cost, accuracy)
+        return max(errors.samples_for(one.scatter, 0.04 - one.at(accuracy)) or 1e6 for one in known) * errors.cost_at(cost,
+                                                                                                                      accuracy)
 
     accuracy, samples = errors.cheapest_choice(known, cost, 0.04, 0)
     assert samples > 0

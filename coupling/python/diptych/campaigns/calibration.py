@@ -1,7 +1,8 @@
 # diptych: the command calibrate: parameters of the continuum from the curves of the grains
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Searches from several starts on coarse meshes, then continues on the samples' own meshes with the coarse Jacobian. Afterwards it
-computes deviations of the parameters, the effect of load steps half as long, and predictions on paths that were not fitted."""
+"""Searches from several starts on coarse meshes, then continues on the samples' own meshes with the coarse Jacobian. Afterwards
+it computes deviations of the parameters, the effect of load steps half as long, and predictions on paths that were not
+fitted."""
 
 from __future__ import annotations
 
@@ -120,7 +121,9 @@ class Calibrator:
         found = int(np.argmin([fit.chi2 for fit in fits]))
         if not np.isfinite(fits[found].chi2):
             raise NotConverged("the continuum did not finish at any start; change start, low and high")
-        best = fits[found] if found == 0 else least_squares(residuals, fits[found].point, FIRST_JACOBIANS)  # so far with the start's Jacobian
+        best = fits[found]
+        if found > 0:  # so far with few Jacobians
+            best = least_squares(residuals, best.point, FIRST_JACOBIANS)
         self.record["minima"][found] |= {"is_best": True, **self._minimum(best)}
         for k, fit in enumerate(fits):
             if k != found and np.isfinite(fit.chi2) and np.abs(fit.point - best.point).max() > SAME_MINIMUM:
@@ -146,13 +149,16 @@ class Calibrator:
         knowledge = identify(jacobian, data.weights, wider * data.of_means(True), wider * data.of_means(False),
                              self.noise.degrees_of_freedom)
         if record["misfit"] > 1:
-            record["words"].append(f"chi^2 is {record['chi2']:.3g}, {record['misfit'] ** 2:.3g} times the expected value: this law "
-                                   "cannot reproduce the data within noise and model tolerance; deviations of the parameters are "
+            record["words"].append(f"chi^2 is {record['chi2']:.3g}, {record['misfit'] ** 2:.3g} times the expected value: "
+                                   "this law "
+                                   "cannot reproduce the data within noise and model tolerance; deviations of the parameters "
+                                   "are "
                                    f"multiplied by {record['misfit']:.3g}")
         record["parameters"] = parameter_records(self.coordinates, knowledge, fine.point)
         record["correlation"] = knowledge.correlation
         record["words"] += parameter_words(record["parameters"])
-        record["words"] += [f"on {mesh} mesh {fit.note}" for mesh, fit in (("the samples' own", fine), ("the coarse", coarse)) if fit.note]
+        record["words"] += [f"on {mesh} mesh {fit.note}" for mesh, fit in (("the samples' own", fine), ("the coarse", coarse))
+                            if fit.note]
         return knowledge, jacobian
 
     def _profile(self, coarse: Fit, knowledge: Knowledge) -> None:
@@ -193,8 +199,8 @@ class Calibrator:
         self.record["chi2_before"] = self._chi2(self.data.residual(np.concatenate([one.values for one in formerly])))
 
     def _jacobian_on(self, path: Path, best: Array, jacobian: Array) -> Array:
-        """(observables, parameters) of one path: the fit's if the path was fitted, on these or other samples; else differences on the
-        coarse mesh."""
+        """(observables, parameters) of one path: the fit's if the path was fitted, on these or other samples; else differences
+        on the coarse mesh."""
         n, at = len(path.data.observables), 0
         for other in self.fitted:
             same = all(p.is_of(path.target.name) == p.is_of(other.target.name) for p in self.coordinates.parameters)
@@ -209,7 +215,8 @@ class Calibrator:
         measured = np.isfinite(here)
         result = np.full((n, len(best)), np.nan)
         if measured.any():
-            result[measured] = difference_jacobian(lambda points: [one[measured] for one in values(points)], best, here[measured])
+            result[measured] = difference_jacobian(lambda points: [one[measured] for one in values(points)], best,
+                                                   here[measured])
         return result
 
 
@@ -234,7 +241,8 @@ def _check_target(calibration: Calibration, coordinates: Coordinates, target: Ta
     scene = read_target(target, [*calibration.fixed, *coordinates.settings(coordinates.start, target.name)])
     importlib.import_module("diptych._continuum").require_continuum(scene)
     if scene.dict()["continuum"]["initial_stress"] == "mapped":
-        raise SceneError(f"{target.scene}: continuum/initial_stress = mapped has no place in a calibration: one mesh serves all samples")
+        raise SceneError(f"{target.scene}: continuum/initial_stress = mapped has no place in a calibration: one mesh serves "
+                         "all samples")
     place = f"{calibration.file}: target '{target.name}': "
     try:
         observables = calibration.observables_of(scene, bool(target.curve))
@@ -257,8 +265,8 @@ def _check_target(calibration: Calibration, coordinates: Coordinates, target: Ta
 
 
 def _checked(file: str) -> tuple[Calibration, Coordinates]:
-    """Reads a calibration and checks it before anything is changed. Whether the scatter can be estimated follows from the number of
-    samples alone."""
+    """Reads a calibration and checks it before anything is changed. Whether the scatter can be estimated follows from the
+    number of samples alone."""
     calibration = read_calibration(file)
     coordinates = _coordinates_of(calibration)
     shapes = [_check_target(calibration, coordinates, target) for target in calibration.targets]
@@ -280,7 +288,8 @@ def _check_data(calibration: Calibration, paths: Sequence[Path], runs: Calibrati
             record["words"].append(f"target '{target.name}' is a measured curve: nothing was run again")
         elif path.scene.dict()["discrete"]["method"] == "imported":
             path.left_out = without_frames(path.scene, path.data.observables)
-            record["words"].append(f"target '{target.name}' is imported: nothing was run again, and only bins that hold a frame count")
+            record["words"].append(f"target '{target.name}' is imported: nothing was run again, and only bins that hold a "
+                                   "frame count")
         elif calibration.check_samples == 0 or target.results:
             record["words"].append(f"target '{target.name}' was not checked for the step of its grains")
         else:

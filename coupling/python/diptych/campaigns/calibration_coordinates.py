@@ -1,7 +1,7 @@
 # diptych: values of continuum keys as points of the unit cube, in which the search of a calibration works
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Strengths, stiffnesses and lengths are varied in their logarithm. A residual angle is varied by its drop, and a dilatancy angle by
-its share of a friction angle, so that no combination contradicts itself."""
+"""Strengths, stiffnesses and lengths are varied in their logarithm. A residual angle is varied by its drop, and a dilatancy
+angle by its share of a friction angle, so that no combination contradicts itself."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ def usual_coordinate(key: str) -> str:
 
 @dataclass(frozen=True)
 class Parameter:
-    """A key of the section continuum. start, low and high are numbers of the coordinate: the value itself (also for a logarithm), a
-    share or a drop. targets: names of the targets that it belongs to; empty: one value for all."""
+    """A key of the section continuum. start, low and high are numbers of the coordinate: the value itself (also for a
+    logarithm), a share or a drop. targets: names of the targets that it belongs to; empty: one value for all."""
 
     key: str
     coordinate: str
@@ -48,8 +48,8 @@ class Parameter:
 
 
 class Coordinates:
-    """others: values of fixed keys that shares and drops refer to. Raises ValueError if a parameter refers to an unknown key, to one
-    that belongs to other targets, or to itself in a circle."""
+    """others: values of fixed keys that shares and drops refer to. Raises ValueError if a parameter refers to an unknown key,
+    to one that belongs to other targets, or to itself in a circle."""
 
     def __init__(self, parameters: Sequence[Parameter], others: Mapping[str, float]) -> None:
         self.parameters, self.others = parameters, others
@@ -64,7 +64,8 @@ class Coordinates:
         return len(self.parameters)
 
     def _scaled(self, name: str) -> Array:
-        return np.array([np.log(getattr(p, name)) if p.coordinate == "logarithm" else getattr(p, name) for p in self.parameters])
+        return np.array([np.log(getattr(p, name)) if p.coordinate == "logarithm" else getattr(p, name)
+                         for p in self.parameters])
 
     @property
     def start(self) -> Array:

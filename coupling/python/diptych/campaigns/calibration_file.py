@@ -41,7 +41,8 @@ class Target:
 
     def is_same_path(self, other: Target) -> bool:
         """True if the paths differ in their samples only."""
-        return (self.scene, self.curve) == (other.scene, other.curve) and [s[:3] for s in self.settings] == [s[:3] for s in other.settings]
+        here, there = ([one.text() for one in target.settings] for target in (self, other))
+        return (self.scene, self.curve) == (other.scene, other.curve) and here == there
 
 
 @dataclass
@@ -85,8 +86,8 @@ def _existing(part: Part, key: str) -> str:
 
 
 def read_curve(file: str) -> pd.DataFrame:
-    """A measured curve: axial_strain, stress_ratio (t/s), volumetric_strain and, where given, their deviations; compression positive.
-    Raises SceneError with file and column."""
+    """A measured curve: axial_strain, stress_ratio (t/s), volumetric_strain and, where given, their deviations; compression
+    positive. Raises SceneError with file and column."""
     try:
         table = pd.read_csv(file, comment="#", skipinitialspace=True)
     except (ValueError, pd.errors.ParserError) as error:
@@ -94,7 +95,8 @@ def read_curve(file: str) -> pd.DataFrame:
     allowed = ["axial_strain", *CURVE_COLUMNS, *CURVE_COLUMNS.values()]
     unknown = [name for name in table if name not in allowed]
     if unknown or not {"axial_strain", *CURVE_COLUMNS} & set(table) > {"axial_strain"}:
-        raise SceneError(f"{file}: {f'unknown column {unknown[0]!r}; ' if unknown else ''}the first line must name axial_strain and "
+        raise SceneError(f"{file}: {f'unknown column {unknown[0]!r}; ' if unknown else ''}the first line must name "
+                         "axial_strain and "
                          f"stress_ratio or volumetric_strain; allowed are {', '.join(allowed)}")
     for name in table:
         values = pd.to_numeric(table[name], errors="coerce")
@@ -146,14 +148,16 @@ def _results(part: Part) -> tuple[list[str], list[int]]:
                 part.refuse(f"{pair}are the same sample ({mark})", "results")
             for key in identity:
                 if identity[key] != other.get(key):
-                    part.refuse(f"{pair}come from different scenes: {key} = '{identity[key]}' and '{other.get(key)}'", "results")
+                    part.refuse(f"{pair}come from different scenes: {key} = '{identity[key]}' and '{other.get(key)}'",
+                                "results")
     return folders, [seed for _, seed, _ in samples]
 
 
 def _target(part: Part) -> Target:
     part.allow("name", "scene", "set", "seeds", "results", "curve", "use", "before")
     part.at("name")
-    target = Target(part.word("name"), "", part.settings("set"), is_fitted=part.choice("use", ("fit", "predict"), "fit") == "fit")
+    target = Target(part.word("name"), "", part.settings("set"),
+                    is_fitted=part.choice("use", ("fit", "predict"), "fit") == "fit")
     if part.has("results"):
         target.results, target.seeds = _results(part)
         target.scene = target.results[0] + "/scene.prm"
@@ -234,7 +238,8 @@ def _kinds(root: Part) -> list[str]:
     for part in root.list("quantities"):
         word = value_text(part.value)
         if word not in KINDS or word in kinds:
-            part.refuse(f"quantities: '{word}' is {'given twice' if word in kinds else f'not allowed; use some of {listed(KINDS)}'}")
+            part.refuse(f"quantities: '{word}' is "
+                        f"{'given twice' if word in kinds else f'not allowed; use some of {listed(KINDS)}'}")
         kinds.append(word)
     if not kinds:
         root.refuse(f" is missing or empty; use some of {listed(KINDS)}", "quantities")
@@ -256,7 +261,8 @@ def _fixed(root: Part, parameters: Sequence[Parameter]) -> list[Setting]:
     fixed = root.settings("set")
     for entry in fixed:
         if entry.section != "continuum":
-            root.refuse(f": {entry.section}/{entry.key} is not a key of the continuum; set keys of the grains in the targets", "set")
+            root.refuse(f": {entry.section}/{entry.key} is not a key of the continuum; set keys of the grains in the targets",
+                        "set")
         if entry.key in KEYS_OF_THE_SEARCH:
             root.refuse(f": continuum/{entry.key} is set by the calibration itself; set it in a target, or use load_step and "
                         "coarse_element_size", "set")
@@ -282,7 +288,8 @@ def read_calibration(file: str) -> Calibration:
         root.refuse(f" is missing or empty; name 1 to {MOST_PARAMETERS} keys to be fitted", "parameters")
     for target in targets:  # each target uses a key once
         _demand_distinct(root, "parameters", [p.key for p in parameters if p.is_of(target.name)])
-    c = Calibration(name, file, root.word("title", name), targets, kinds, bins, parameters, _fixed(root, parameters), _noise(root))
+    c = Calibration(name, file, root.word("title", name), targets, kinds, bins, parameters, _fixed(root, parameters),
+                    _noise(root))
     for key, low, high in (("starts", 1, 20), ("start_jacobians", 1, 20), ("check_samples", 0, 1000), ("seed", 0, 1_000_000)):
         if root.has(key):
             setattr(c, key, root.whole(key, low, high))

@@ -32,9 +32,11 @@ def parameter_records(coordinates: Coordinates, knowledge: Knowledge, point: Arr
     return [{"key": p.key, "targets": list(p.targets), "coordinate": p.coordinate, "of": p.other, "low": p.low, "high": p.high,
              "start": p.start, "number": ends[1][k], "number_low": ends[0][k], "number_high": ends[2][k], "value": value,
              "share_known": share, "is_identified": bool(share < LARGEST_SHARE),
-             "at_bound": bool(not CLOSE <= point[k] <= 1 - CLOSE), "is_cut": bool(point[k] < reach[k] or point[k] + reach[k] > 1),
+             "at_bound": bool(not CLOSE <= point[k] <= 1 - CLOSE),
+             "is_cut": bool(point[k] < reach[k] or point[k] + reach[k] > 1),
              "profile_number": [], "profile_chi2": [], "profile_expected": []}
-            for k, (p, value, share) in enumerate(zip(coordinates.parameters, coordinates.values(point), knowledge.share_known))]
+            for k, (p, value, share) in enumerate(zip(coordinates.parameters, coordinates.values(point),
+                                                      knowledge.share_known))]
 
 
 def parameter_words(parameters: Sequence[dict[str, Any]]) -> list[str]:
@@ -43,7 +45,8 @@ def parameter_words(parameters: Sequence[dict[str, Any]]) -> list[str]:
     for p in parameters:
         name = p["key"] + (f" ({listed(p['targets'])})" if p["targets"] else "")
         if not p["is_identified"]:
-            words.append(f"{name} is not identified: its uncertainty is still {100 * p['share_known']:.0f} % of what it was before")
+            words.append(f"{name} is not identified: its uncertainty is still {100 * p['share_known']:.0f} % of what it was "
+                         "before")
         if p["at_bound"]:
             words.append(f"{name} lies at its bound; widen low and high, or fix it")
         elif p["is_cut"]:
@@ -51,7 +54,8 @@ def parameter_words(parameters: Sequence[dict[str, Any]]) -> list[str]:
     return words
 
 
-def _prediction(quantity: str, grains: Sequence[float], before: float, after: float, margin: float, kind: str) -> dict[str, Any]:
+def _prediction(quantity: str, grains: Sequence[float], before: float, after: float, margin: float, kind: str) -> dict[str,
+                                                                                                                       Any]:
     test = paired(grains, [after] * len(grains), kind)
     finite = [x for x in grains if np.isfinite(x)]
     return {"quantity": quantity, "data": (line_statistics if kind == "line" else statistics)(finite).mean, "before": before,
@@ -68,7 +72,8 @@ def predictions(path: Path, before: Observation, after: Observation) -> list[dic
 
     found = []
     if np.isfinite([s.peak_stress_ratio for s in samples]).any():
-        found.append(_prediction("peak_stress_ratio", *numbers("peak_stress_ratio"), margins["margin_peak_stress_ratio"], "relative"))
+        found.append(_prediction("peak_stress_ratio", *numbers("peak_stress_ratio"), margins["margin_peak_stress_ratio"],
+                                 "relative"))
     places = {one.kind: k for k, one in enumerate(path.data.observables)}  # the last of each kind
     if "volumetric_strain" in places:
         k = places["volumetric_strain"]
@@ -77,7 +82,8 @@ def predictions(path: Path, before: Observation, after: Observation) -> list[dic
     if "ln_width" in places:
         k = places["ln_width"]  # in the fit only, half the height replaces a missing band
         b, a = (float(np.exp(o.values[k])) if np.isfinite(o.angle_deg) else np.nan for o in (before, after))
-        found.append(_prediction("width_10_90", [float(np.exp(s.values[k])) for s in samples], b, a, margins["margin_thickness"],
+        found.append(_prediction("width_10_90", [float(np.exp(s.values[k])) for s in samples], b, a,
+                                 margins["margin_thickness"],
                                  "relative"))
         found.append(_prediction("angle_deg", *numbers("angle_deg"), margins["margin_angle"], "line"))
     return found
@@ -101,7 +107,8 @@ def path_record(path: Path, noise: NoiseModel, runs: Sequence[Observation], devi
     data, deviation = path.data, np.sqrt(np.diag(covariance(noise, path.data)))
     observables = [
         {"kind": one.kind, "from": one.low, "to": one.high, "count": int(data.count[k]), "mean": data.mean[k],
-         "deviation": deviation[k], "deviation_of_mean": deviation[k] / np.sqrt(max(1, data.count[k])), "before": before.values[k],
+         "deviation": deviation[k], "deviation_of_mean": deviation[k] / np.sqrt(max(1, data.count[k])),
+         "before": before.values[k],
          "after": after.values[k], "parameter_deviation": deviations[k], "half_step": halved.values[k] - after.values[k],
          "counts": False, "left_out": path.left_out[k]} for k, one in enumerate(data.observables)]
     return {"name": path.target.name, "use": "fit" if path.target.is_fitted else "predict", "seeds": path.target.seeds,
@@ -110,8 +117,8 @@ def path_record(path: Path, noise: NoiseModel, runs: Sequence[Observation], devi
 
 
 def widened(test: Difference, deviation: float, quantile: float) -> Difference:
-    """The same if its second part has an independent uncertainty, given by a deviation and a 97.5 % quantile. The squares of the half
-    widths are added."""
+    """The same if its second part has an independent uncertainty, given by a deviation and a 97.5 % quantile. The squares of
+    the half widths are added."""
     def wide(interval: Interval, half: float) -> Interval:
         value, low, high = interval
         return Interval(value, value - np.hypot(value - low, half), value + np.hypot(high - value, half))
@@ -122,8 +129,9 @@ def widened(test: Difference, deviation: float, quantile: float) -> Difference:
 
 
 def widen_predictions(record: dict[str, Any], quantile: float) -> None:
-    """Widens the predictions of a path that was not fitted by the deviation of the parameters. The angle is not widened, because the
-    fit has no derivative of it. The peak is the largest value of the curve: near a flat peak it moves as the curve does."""
+    """Widens the predictions of a path that was not fitted by the deviation of the parameters. The angle is not widened,
+    because the fit has no derivative of it. The peak is the largest value of the curve: near a flat peak it moves as the curve
+    does."""
     last: dict[str, dict[str, Any]] = {}
     for one in record["observables"]:
         if one["kind"] != "stress_ratio" or one["kind"] not in last or one["after"] > last[one["kind"]]["after"]:
@@ -141,7 +149,8 @@ def widen_predictions(record: dict[str, Any], quantile: float) -> None:
 
 def summary(record: dict[str, Any], cpu_s: float) -> str:
     """The result for the terminal."""
-    lines = [f"{record['title']}: chi^2 of {record['n_observables']} observables {record['chi2_before']:.4g} -> {record['chi2']:.4g}; "
+    lines = [f"{record['title']}: chi^2 of {record['n_observables']} observables {record['chi2_before']:.4g} -> "
+             f"{record['chi2']:.4g}; "
              f"{record['coarse_runs']} coarse and {record['fine_runs']} fine runs, {record['other_runs']} of predictions, "
              f"{cpu_s:.4g} CPU s"]
     for p in record["parameters"]:
@@ -166,7 +175,9 @@ def _fragment(record: dict[str, Any]) -> str:
 
 def _table(record: dict[str, Any]) -> str:
     def text(value: Any) -> str:
-        return str(int(value)) if isinstance(value, bool) else f"{value:.10g}" if isinstance(value, (float, np.floating)) else str(value)
+        return str(int(value)) if isinstance(value, bool) else f"{value:.10g}" if isinstance(value,
+                                                                                             (float,
+                                                                                              np.floating)) else str(value)
 
     rows = [",".join([path["name"], path["use"], *(text(one[name]) for name in COLUMNS)])
             for path in record["paths"] for one in path["observables"]]
@@ -175,7 +186,8 @@ def _table(record: dict[str, Any]) -> str:
 
 def write_calibration(directory: str, record: dict[str, Any], cpu_s: dict[str, float]) -> None:
     """Writes calibration.json, calibration.csv (a row per observable), calibration_cost.json and calibrated.prm."""
-    paths = [{**path, "predictions": [{key: value for key, value in one.items() if key != "test"} for one in path["predictions"]]}
+    paths = [{**path, "predictions": [{key: value for key, value in one.items() if key != "test"}
+                                      for one in path["predictions"]]}
              for path in record["paths"]]
     write_json(directory + "/calibration.json", {**record, "paths": paths})
     write_json(directory + "/calibration_cost.json", {"continuum_cpu_s": cpu_s["continuum"], "grains_cpu_s": cpu_s["discrete"]})

@@ -1,8 +1,8 @@
 # diptych: observables of a calibration, scatter of the samples, and the weights that follow from it
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A few samples cannot give a full covariance, so the scatter of one sample has a fixed form. The curve t/s is shifted as a whole
-(level) and varies locally, correlated in strain (shape). Volume has a constant scatter and one in proportion to strain. Widths
-scatter independently. A measured curve may bring deviations of its own, which replace this form."""
+"""A few samples cannot give a full covariance, so the scatter of one sample has a fixed form. The curve t/s is shifted as a
+whole (level) and varies locally, correlated in strain (shape). Volume has a constant scatter and one in proportion to strain.
+Widths scatter independently. A measured curve may bring deviations of its own, which replace this form."""
 
 from __future__ import annotations
 
@@ -20,7 +20,8 @@ ESTIMATED = {"stress_ratio": ("stress_level", "stress_shape"), "volumetric_strai
 
 @dataclass(frozen=True)
 class Observable:
-    """One number by which grains and continuum are compared: a mean over a bin of the progress, or ln of a width in a window."""
+    """One number by which grains and continuum are compared: a mean over a bin of the progress, or ln of a width in a
+    window."""
 
     kind: str
     low: float
@@ -33,7 +34,8 @@ class Observable:
 
 @dataclass
 class NoiseOptions:
-    """Values of the user replace the estimates; the others are the model tolerance, the misfit that the form of the law may have."""
+    """Values of the user replace the estimates; the others are the model tolerance, the misfit that the form of the law may
+    have."""
 
     stress_level: float | None = None
     stress_shape: float | None = None
@@ -106,7 +108,8 @@ def _stress_squares(paths: Iterable[Data]) -> tuple[float, float]:
 
 
 def _volume_squares(paths: Iterable[Data]) -> Array:
-    """(2): variances of start and growth in v = start^2 + growth^2 progress^2. The scatter of a variance is proportional to it."""
+    """(2): variances of start and growth in v = start^2 + growth^2 progress^2. The scatter of a variance is proportional to
+    it."""
     normal, right = np.zeros((2, 2)), np.zeros(2)
     for path in paths:
         at = path.of("volumetric_strain")
@@ -171,8 +174,8 @@ def discrepancy(options: NoiseOptions, data: Data) -> Array:
 
 
 def working_weights(noise: NoiseModel, options: NoiseOptions, data: Data) -> Array:
-    """(observables): 1 / (scatter of the mean without what all bins have in common + model tolerance). The common part is left out on
-    purpose, because a fit with it may lie below all data. 0 if the mean is NaN."""
+    """(observables): 1 / (scatter of the mean without what all bins have in common + model tolerance). The common part is left
+    out on purpose, because a fit with it may lie below all data. 0 if the mean is NaN."""
     own = np.diag(covariance(replace(noise, stress_level=0.0), data))
     variance = discrepancy(options, data) + own / np.maximum(1, data.count)
     return np.where(np.isfinite(data.mean) & (variance > 0), 1 / np.where(variance > 0, variance, 1), 0.0)
@@ -182,7 +185,8 @@ class FittedData:
     """The data of all fitted paths, one after the other, with the weights of the fit. left_out: a reason per observable of each
     path; one with a reason has no weight."""
 
-    def __init__(self, noise: NoiseModel, options: NoiseOptions, paths: Sequence[Data], left_out: Sequence[Sequence[str]]) -> None:
+    def __init__(self, noise: NoiseModel, options: NoiseOptions, paths: Sequence[Data],
+                 left_out: Sequence[Sequence[str]]) -> None:
         self.noise, self.options, self.paths = noise, options, paths
         self.weights = np.concatenate([np.where([bool(why) for why in reasons], 0, working_weights(noise, options, path))
                                        for path, reasons in zip(paths, left_out)])

@@ -1,6 +1,7 @@
 # diptych: the runs of a calibration and their observables
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Grains of every target are run or read; a measured curve stands instead of them. The continuum runs on one outline per path."""
+"""Grains of every target are run or read; a measured curve stands instead of them. The continuum runs on one outline per
+path."""
 
 from __future__ import annotations
 
@@ -111,9 +112,9 @@ def frames_of(observables: Sequence[Observable], snapshots: Sequence[Any]) -> li
 
 def add_bands(o: Observation, scene: _diptych.Scene, observables: Sequence[Observable], snapshots: Sequence[Any],
               frames: Sequence[dict[str, Any]], of_grains: bool) -> Observation:
-    """Adds ln(width / d) of the first band of every window. The continuum's bands are searched in the grains' frames, so that both
-    panels are measured alike. A continuum without a band counts as half the sample's height wide, which cannot be told from a
-    homogeneous deformation."""
+    """Adds ln(width / d) of the first band of every window. The continuum's bands are searched in the grains' frames, so that
+    both panels are measured alike. A continuum without a band counts as half the sample's height wide, which cannot be told
+    from a homogeneous deformation."""
     keys = scene.dict()
     options = {name: keys["comparison"][name] for name in BAND_OPTIONS}
     d = keys["sample"]["mean_diameter"]
@@ -132,8 +133,8 @@ def add_bands(o: Observation, scene: _diptych.Scene, observables: Sequence[Obser
 
 
 def observe_curve(scene: _diptych.Scene, observables: Sequence[Observable], file: str) -> tuple[Observation, Array]:
-    """A measured curve and the deviations (observables) that it brings, NaN where it brings none. Bins that begin before its first row
-    have no value. The deviation of a bin is its mean, as the error of one test is common to neighbouring readings."""
+    """A measured curve and the deviations (observables) that it brings, NaN where it brings none. Bins that begin before its
+    first row have no value. The deviation of a bin is its mean, as the error of one test is common to neighbouring readings."""
     table = read_curve(file)
     o, deviations = observe_history(scene, observables, table), np.full(len(observables), np.nan)
     x = table["progress"].to_numpy()
@@ -154,7 +155,8 @@ def failure_of(runs: Runs, run: SceneRun) -> str:
 
 
 class CalibrationRuns:
-    """Functions that run something raise Stopped after a stop signal, and NotConverged where grains do not come to their end."""
+    """Functions that run something raise Stopped after a stop signal, and NotConverged where grains do not come to their
+    end."""
 
     def __init__(self, calibration: Calibration, directory: str, options: Options) -> None:
         self.calibration, self.runs, self.options = calibration, Runs(directory), replace(options, resume=False)
@@ -187,7 +189,8 @@ class CalibrationRuns:
                                    f"the grains did not come to their end: {failure}")
         return [self.runs.path(run) for run in runs]
 
-    def _outline(self, target: Target, scene: _diptych.Scene, observables: Sequence[Observable], snapshots: Sequence[Any]) -> Outline:
+    def _outline(self, target: Target, scene: _diptych.Scene, observables: Sequence[Observable],
+                 snapshots: Sequence[Any]) -> Outline:
         for other in self.calibration.targets:
             if other.name in self.outlines and other.is_same_path(target):
                 return self.outlines[other.name]
@@ -218,7 +221,8 @@ class CalibrationRuns:
         table = panel_table(folder, "discrete")
         reached = 0.0 if table is None else float(table["progress"].iloc[-1])
         if is_beyond(observables[0].high, reached) or is_beyond(scene.dict()["loading"]["axial_strain"], reached):
-            raise SceneError(f"{self.calibration.file}: target '{target.name}': {folder} ends at {reached:g}, before the end of its "
+            raise SceneError(f"{self.calibration.file}: target '{target.name}': {folder} ends at {reached:g}, before the end "
+                             "of its "
                              "loading")
         snapshots = _diptych.read_grains(folder).snapshots
         if target.name not in self.outlines:
@@ -231,8 +235,8 @@ class CalibrationRuns:
         return [self._path(target) for target in self.calibration.targets]
 
     def unsteady(self, path: Path, noise: NoiseModel) -> list[str]:
-        """Runs the first samples with half the step. Why an observable is left out: it moves by more than samples scatter, and by more
-        than two runs of a sample differ by chance."""
+        """Runs the first samples with half the step. Why an observable is left out: it moves by more than samples scatter, and
+        by more than two runs of a sample differ by chance."""
         keys, seeds = path.scene.dict()["discrete"], path.target.seeds[:self.calibration.check_samples]
         key = "accuracy" if keys["step"] == "auto" else "step"
         half = [Setting("discrete", key, repr(0.5 * keys[key]), "the calibration")]
@@ -270,7 +274,8 @@ class CalibrationRuns:
             return Observation(np.full(len(observables), np.nan), failure=failure)
         folder = self.runs.path(run)
         o = observe_history(path.scene, observables, panel_table(folder, "continuum"))
-        return add_bands(o, path.scene, observables, _diptych.read_nodes(folder).snapshots, self.outlines[path.target.name].frames,
+        return add_bands(o, path.scene, observables, _diptych.read_nodes(folder).snapshots,
+                         self.outlines[path.target.name].frames,
                          False)
 
     def continuum(self, paths: Sequence[Path], points: Sequence[Sequence[Sequence[Setting]]], fine: bool,
@@ -278,7 +283,8 @@ class CalibrationRuns:
         """Runs the continuum with points[point][path]; returns [point][path]."""
         runs = [scene_run(path.target.scene, "continuum", self._settings(path, settings, fine, load_step))
                 for point in points for path, settings in zip(paths, point)]
-        seen = [self._observed_continuum(path, run, failure) for path, run, failure in zip(list(paths) * len(points), runs, self._do(runs))]
+        seen = [self._observed_continuum(path, run, failure) for path, run,
+                failure in zip(list(paths) * len(points), runs, self._do(runs))]
         return [seen[k:k + len(paths)] for k in range(0, len(seen), len(paths))]
 
 
@@ -287,10 +293,12 @@ def read_target(target: Target, more: Sequence[Setting] = ()) -> _diptych.Scene:
     scene = _diptych.read_changed_scene(target.scene, [tuple(one) for one in [*target.settings, *more]], not target.curve)
     keys = scene.dict()
     if target.curve and keys["continuum"]["mesh"] != "rectangle":
-        raise SceneError(f"{target.scene}: continuum/mesh = {keys['continuum']['mesh']}: a measured curve has no grains with an outline; "
+        raise SceneError(f"{target.scene}: continuum/mesh = {keys['continuum']['mesh']}: a measured curve has no grains with "
+                         "an outline; "
                          "set mesh = rectangle, rectangle_width and rectangle_height")
     if target.curve and scene.walk() != "axial_strain":
-        raise SceneError(f"{target.scene}: loading/mode = {keys['loading']['mode']}: a measured curve needs mode = descent, whose "
+        raise SceneError(f"{target.scene}: loading/mode = {keys['loading']['mode']}: a measured curve needs mode = descent, "
+                         "whose "
                          "progress is the axial strain")
     return scene
 

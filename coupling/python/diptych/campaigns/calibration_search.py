@@ -1,8 +1,8 @@
 # diptych: least squares of a calibration, and the deviations of its parameters
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The search works in the unit cube, where every residual needs a run. scipy's dogleg with bounds ("dogbox") does Gauss-Newton steps
-in a trust region. The Jacobian comes from forward differences, which run in parallel, and Broyden's rank-one update follows the
-accepted steps."""
+"""The search works in the unit cube, where every residual needs a run. scipy's dogleg with bounds ("dogbox") does Gauss-Newton
+steps in a trust region. The Jacobian comes from forward differences, which run in parallel, and Broyden's rank-one update
+follows the accepted steps."""
 
 from __future__ import annotations
 
@@ -27,7 +27,8 @@ NORMAL = float(scipy.stats.norm.ppf(0.975))
 
 
 def difference_jacobian(residuals: Residuals, point: Array, residual: Array) -> Array:
-    """(residuals, parameters): differences around a point. If a run fails, the column uses the other side; it is zero if both fail."""
+    """(residuals, parameters): differences around a point. If a run fails, the column uses the other side; it is zero if both
+    fail."""
     def columns(numbers: Sequence[int], steps: Array) -> Array:
         return np.array([(value - residual) / steps[k] for k, value in
                          zip(numbers, residuals([point + steps[k] * np.eye(len(point))[k] for k in numbers]))])
@@ -107,8 +108,10 @@ class _Search:
             return np.clip(start + radius * y, 0, 1)
 
         try:
-            scipy.optimize.least_squares(lambda y: self.value(point(y)), np.zeros_like(start), lambda y: radius * self.jacobian(point(y)),
-                                         bounds=(-start / radius, (1 - start) / radius), method="dogbox", x_scale=1.0, ftol=None,
+            scipy.optimize.least_squares(lambda y: self.value(point(y)), np.zeros_like(start),
+                                         lambda y: radius * self.jacobian(point(y)),
+                                         bounds=(-start / radius, (1 - start) / radius), method="dogbox", x_scale=1.0,
+                                         ftol=None,
                                          gtol=1e-10, xtol=None, max_nfev=MOST_STEPS + 1)
         except _Ended:
             pass
@@ -118,9 +121,9 @@ class _Search:
 
 
 def least_squares(residuals: Residuals, start: Array, most_jacobians: int = 4, jacobian: Array | None = None) -> Fit:
-    """Minimises the sum of squares within [0, 1]^n. A given Jacobian is trusted: the search with it has converged if no step fails.
-    It is recomputed if a step fails or the search with it ends. A point without a run counts as a failed step. If `start` has no
-    run, `note` says so. Exceptions of `residuals` pass through."""
+    """Minimises the sum of squares within [0, 1]^n. A given Jacobian is trusted: the search with it has converged if no step
+    fails. It is recomputed if a step fails or the search with it ends. A point without a run counts as a failed step. If
+    `start` has no run, `note` says so. Exceptions of `residuals` pass through."""
     fit = Fit(np.clip(np.asarray(start, dtype=float), 0, 1), evaluations=1)
     fit.residual = residuals([fit.point])[0]
     if not np.isfinite(fit.residual).all():
@@ -146,8 +149,8 @@ def least_squares(residuals: Residuals, start: Array, most_jacobians: int = 4, j
 
 @dataclass
 class Knowledge:
-    """All in the coordinates of the fit. covariance: of the estimate, with the covariance of the samples ("sandwich") and the prior.
-    quantile: 97.5 % quantile of estimate / deviation, Student's if few samples gave the scatter."""
+    """All in the coordinates of the fit. covariance: of the estimate, with the covariance of the samples ("sandwich") and the
+    prior. quantile: 97.5 % quantile of estimate / deviation, Student's if few samples gave the scatter."""
 
     covariance: Array
     quantile: Array
@@ -176,8 +179,8 @@ def identify(jacobian: Array, weights: Array, noise: Array, scatter: Array | Non
     jacobian  (n, parameters): of the unweighted observables
     weights   (n): of the fit
     noise     (n, n): covariance C of the means with the model tolerance
-    scatter   (n, n): the part of C that was estimated with `freedom` degrees of freedom nu. If it contributes v to a variance V,
-              nu (V / v)^2 degrees count (Satterthwaite, Biometrics Bull. 2 (1946) 110)."""
+    scatter   (n, n): the part of C that was estimated with `freedom` degrees of freedom nu. If it contributes v to a variance
+              V, nu (V / v)^2 degrees count (Satterthwaite, Biometrics Bull. 2 (1946) 110)."""
     weighted, inverse = weights[:, None] * jacobian, _inverse(jacobian, weights)
     result = inverse @ (weighted.T @ noise @ weighted + np.eye(len(inverse)) / PRIOR**2) @ inverse
     result = 0.5 * (result + result.T)
@@ -190,8 +193,8 @@ def identify(jacobian: Array, weights: Array, noise: Array, scatter: Array | Non
 
 
 def expected_chi2(jacobian: Array, weights: Array, noise: Array) -> float:
-    """Expected chi^2 of a fit with these weights if the law is right and the noise has this covariance. It differs from the number of
-    observables minus parameters, because the weights omit the scatter common to all bins."""
+    """Expected chi^2 of a fit with these weights if the law is right and the noise has this covariance. It differs from the
+    number of observables minus parameters, because the weights omit the scatter common to all bins."""
     left = np.eye(len(jacobian)) - jacobian @ _inverse(jacobian, weights) @ (weights[:, None] * jacobian).T
     return float(np.diag(left @ noise @ left.T) @ weights)
 

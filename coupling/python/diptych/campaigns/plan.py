@@ -1,6 +1,7 @@
 # diptych: the command plan: settings and number of samples that a scene needs for an accuracy
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Pilot runs in DIR/runs, plan.json and planned.prm; with --run the planned samples, too. A plan is a rule on runs of a study."""
+"""Pilot runs in DIR/runs, plan.json and planned.prm; with --run the planned samples, too. A plan is a rule on runs of a
+study."""
 
 from __future__ import annotations
 
@@ -66,7 +67,8 @@ class PilotRuns:
         finished = [result for result in results if result.known and result.exit_code == 0]
         words = [result.words or "the run was lost" for result in results if result not in finished]
         pilot = Pilot(values=[[result.values[q] for result in results] for q in range(len(task.quantities))],
-                      peak_memory_mb=max((phase["peak_memory_mb"] for result in results for phase in result.phases), default=0.0))
+                      peak_memory_mb=max((phase["peak_memory_mb"] for result in results for phase in result.phases),
+                                         default=0.0))
         if words and len(finished) >= LEAST_SHARE_THAT_FINISHES * len(results):
             pilot.remark = words[-1]
         elif words:
@@ -154,7 +156,8 @@ def write_plan(directory: str, question: Question, plan: Plan) -> None:
     write_text(directory + "/planned.prm", scene.in_folder("", scene.name, scene.dict()["sample"]["seed"]).text())
 
 
-def _carry_out(question: Question, scene: _diptych.Scene, directory: str, runs_the_plan: bool, options: Options) -> tuple[Plan, bool]:
+def _carry_out(question: Question, scene: _diptych.Scene, directory: str, runs_the_plan: bool, options: Options) -> tuple[Plan,
+                                                                                                                          bool]:
     pilot = PilotRuns(question, directory, options)
     plan = make_plan(question, scene, pilot)
     write_plan(directory, question, plan)
@@ -186,7 +189,8 @@ def main_plan(args: argparse.Namespace, options: Options) -> int:
     try:
         plan, reached, directory = run_plan(question, args.output, args.run, options, args.set_file)
     except Stopped as stopped:
-        raise Stopped(f"{stopped}; to go on: diptych plan {args.target} --output {args.output} --resume (with the same options)") from None
+        raise Stopped(f"{stopped}; to go on: diptych plan {args.target} --output {args.output} --resume (with the same "
+                      "options)") from None
     print(f"{text_of(plan)}\n{directory}/planned.prm, plan.json", flush=True)
     if not reached:
         complain(f"diptych: the accuracy of {percent(question.accuracy)} is not reached")

@@ -1,9 +1,9 @@
 # diptych: plans elements, load steps, tolerance, law and geometry of the continuum
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Starts from coarse elements and long load steps and halves one size after the other, until the estimated error is within its share
-of the accuracy. Then takes the largest size that the share allows. Cheaper models (small strain, a law without an internal length,
-simpler elements) are used if they change the results by less than their share. If the results of a law without an internal length
-keep changing with the elements, its Cosserat counterpart replaces it, and the plan reports this."""
+"""Starts from coarse elements and long load steps and halves one size after the other, until the estimated error is within its
+share of the accuracy. Then takes the largest size that the share allows. Cheaper models (small strain, a law without an
+internal length, simpler elements) are used if they change the results by less than their share. If the results of a law without
+an internal length keep changing with the elements, its Cosserat counterpart replaces it, and the plan reports this."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ import numpy as np
 
 from .. import _diptych
 from .input_file import Setting
-from .plan_errors import Refinement, half_interval, refinement, relative_difference, rounded_to_two_digits, samples_for, summary_of
+from .plan_errors import (Refinement, half_interval, refinement, relative_difference, rounded_to_two_digits, samples_for,
+                          summary_of)
 from .plan_question import Budget, PanelPlan, Part, Pilot, Question, RunPilot, Task, percent, planned
 
 # Shares of the accuracy. The rest, at least the last share, is for the scatter of the samples.
@@ -81,7 +82,8 @@ class ContinuumPlan:
             self._note("elements: from the mesh file; their error is unknown and not in the budget")
         elif not self._settle_elements():
             return self.plan
-        steps = Knob("continuum/max_step", min(LONGEST_LOAD_STEP, self.keys["loading"]["stage_strain"]), OF_LOAD_STEPS, _load_steps,
+        steps = Knob("continuum/max_step", min(LONGEST_LOAD_STEP, self.keys["loading"]["stage_strain"]), OF_LOAD_STEPS,
+                     _load_steps,
                      least_points=3, dearer_per_halving=2)
         if self._settle(steps, self._refine(steps)):
             self._settle_tolerance()
@@ -92,7 +94,7 @@ class ContinuumPlan:
 
     def _run_with(self, more: Sequence[Setting] = (), seeds: Sequence[int] = ()) -> Pilot:
         settings = [*self.question.changes, *self.chosen]
-        if self.plan.command == "run":  # only the grains' outline is used, but the windows of the bands need a run of the grains
+        if self.plan.command == "run":  # the windows of the bands need a run of the grains
             settings.append(planned("discrete/accuracy", "0.05"))
         return self.run(Task(self.plan.command, [*settings, *more], seeds, self.quantities))
 
@@ -132,7 +134,8 @@ class ContinuumPlan:
         """Takes the largest size within the share, limited to the sizes that were run."""
         if len(settled.points) < 2:
             self.plan.reaches = False
-            self._note(settled.failure or f"{knob.name}: not refined, because a second size would take more than {LONGEST_PILOT:.3g} CPU s")
+            self._note(settled.failure or f"{knob.name}: not refined, because a second size would take more than "
+                                          f"{LONGEST_PILOT:.3g} CPU s")
             return False
         size = settled.sizes[-1]
         if settled.reached:
@@ -149,7 +152,8 @@ class ContinuumPlan:
 
     def _first_elements(self, has_length: bool) -> float:
         o = self.options
-        side = (min(o["rectangle_width"], o["rectangle_height"]) / self.keys["sample"]["mean_diameter"] if o["mesh"] == "rectangle"
+        side = (min(o["rectangle_width"], o["rectangle_height"]) / self.keys["sample"]["mean_diameter"]
+                if o["mesh"] == "rectangle"
                 else np.sqrt(self.keys["sample"]["grains"]))
         across = side / ELEMENTS_ACROSS
         return rounded_to_two_digits(min(across, ELEMENTS_OVER_LENGTH * o["internal_length"]) if has_length else across)
@@ -201,7 +205,8 @@ class ContinuumPlan:
         shifts = self._shifts(point, self.now)
         worst, saving = max(map(abs, shifts)), 1 - point.cpu_s / self.now.cpu_s
         if worst > self.left_for_models or saving < WORTH_SAVING:
-            self._note(f"{name}: not used; it would save {f'{percent(saving)} of the' if saving > 0 else 'no'} time and change a quantity "
+            self._note(f"{name}: not used; it would save {f'{percent(saving)} of the' if saving > 0 else 'no'} time and "
+                       "change a quantity "
                        f"by up to {percent(worst)}")
             return
         for parts, shift in zip(self.parts, shifts):

@@ -29,8 +29,8 @@ class Estimate(NamedTuple):
 
 
 def improved(prior: Estimate, evidence: Iterable[tuple[float, float, float]]) -> Estimate:
-    """The factor measured / expected: the prior updated with (expected, measured, standard error) of differences (Gaussian, conjugate).
-    Evidence without a standard error, or with an expected difference of 0, does not count."""
+    """The factor measured / expected: the prior updated with (expected, measured, standard error) of differences (Gaussian,
+    conjugate). Evidence without a standard error, or with an expected difference of 0, does not count."""
     weight = prior.deviation**-2
     total = prior.mean * weight
     for expected, measured, error in evidence:
@@ -59,8 +59,8 @@ class Refinement:
 
 
 def refinement(sizes: Sequence[float], values: Sequence[float]) -> Refinement:
-    """sizes: descending, one value each. With three or more values the order follows from the last two changes; with two it is 1. A
-    change that is small by chance counts at least a quarter of the one before."""
+    """sizes: descending, one value each. With three or more values the order follows from the last two changes; with two it is
+    1. A change that is small by chance counts at least a quarter of the one before."""
     result = Refinement(sizes[-1])
     if len(values) < 2:
         return result
@@ -117,8 +117,8 @@ def rounded_to_two_digits(number: float) -> float:
 
 
 def cost_at(measured: Sequence[tuple[float, float]], accuracy: float) -> float:
-    """CPU s of one sample: interpolates (discrete/accuracy, CPU s) with descending accuracies, and extrapolates along the line through
-    the two nearest points in logarithms."""
+    """CPU s of one sample: interpolates (discrete/accuracy, CPU s) with descending accuracies, and extrapolates along the line
+    through the two nearest points in logarithms."""
     k = 1
     while k + 1 < len(measured) and accuracy < measured[k][0]:
         k += 1
@@ -140,7 +140,8 @@ class GrainErrors:
 
 def cheapest_choice(errors: Sequence[GrainErrors], cost: Sequence[tuple[float, float]], target: float,
                     samples: int) -> tuple[float, int]:
-    """(discrete/accuracy, number of samples) with the least cost; 0 samples: no number suffices. `samples`: their fixed number, or 0."""
+    """(discrete/accuracy, number of samples) with the least cost; 0 samples: no number suffices. `samples`: their fixed number,
+    or 0."""
     best, least, k = (0.0, 0), np.inf, 0
     while True:
         accuracy = max(FINEST_ACCURACY, rounded_to_two_digits(COARSEST_ACCURACY * 2 ** (-k / 4)))

@@ -1,8 +1,9 @@
 # diptych: plans step, tolerance, snapshots and number of samples of the grains
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The pilot runs eight samples at the coarsest discrete/accuracy and four of them at half of it. They give scatter and cost, and test
-the rule for the errors of step and tolerance (a factor, 1 +- 0.5 beforehand). The plan takes the accuracy that reaches the goal with
-the least CPU time. A coarser one is cheaper, but leaves less for the interval of the mean and so needs more samples."""
+"""The pilot runs eight samples at the coarsest discrete/accuracy and four of them at half of it. They give scatter and cost,
+and test the rule for the errors of step and tolerance (a factor, 1 +- 0.5 beforehand). The plan takes the accuracy that reaches
+the goal with the least CPU time. A coarser one is cheaper, but leaves less for the interval of the mean and so needs more
+samples."""
 
 from __future__ import annotations
 
@@ -62,7 +63,8 @@ class GrainsPlan:
             self.common.append(planned("discrete/snapshot_max_sweeps", "0"))
             self._note("sampled snapshots: off, because no quantity needs single grains")
         if command == "run":
-            self.common += [planned("comparison/" + key, "0") for key in ("coarse_element_size", "band_resamples", "probe_resamples")]
+            self.common += [planned("comparison/" + key, "0")
+                            for key in ("coarse_element_size", "band_resamples", "probe_resamples")]
         self.corrects = keys["discrete"]["penetration_correction"] != "none"
         self.preparation_steps = keys["sample"]["preparation_steps"]
         self.levels: list[Level] = []
@@ -118,11 +120,13 @@ class GrainsPlan:
             evidence = []
             for coarse, fine in zip(self.levels, self.levels[1:] if self.seeds else ()):
                 d = self._difference(coarse.point, fine.point, q)
-                evidence.append((self._expected(coarse, q) - self._expected(fine, q), d.mean, half_interval(d.deviation, d.n) / NORMAL))
+                evidence.append((self._expected(coarse, q) - self._expected(fine, q), d.mean,
+                                 half_interval(d.deviation, d.n) / NORMAL))
             factor = improved(RULE if asked["step_error"] else NO_RULE, evidence)
             slope = self._expected(self.levels[-1], q) / self.levels[-1].accuracy
             scatter = summary_of(self.levels[0].point.values[q], asked["line"])[1] if self.seeds else 0.0
-            found.append(GrainErrors(Estimate(factor.mean * slope, factor.deviation * slope), scatter, bool(asked["step_error"])))
+            found.append(GrainErrors(Estimate(factor.mean * slope, factor.deviation * slope), scatter,
+                                     bool(asked["step_error"])))
         return found
 
     def _cost(self) -> list[tuple[float, float]]:
@@ -144,15 +148,18 @@ class GrainsPlan:
         plan.peak_memory_mb = self.levels[-1].point.peak_memory_mb
         for q, errors in enumerate(self._errors()):
             mean = summary_of(self.levels[0].point.values[q], self.quantities[q]["line"])[0].mean
-            parts = [Part("step, tolerance", errors.at(accuracy), errors.step.mean * accuracy, errors.step.deviation * accuracy),
-                     Part("samples", half_interval(errors.scatter, samples)) if self.seeds else Part("one run", self.one_run[q]),
+            parts = [Part("step, tolerance", errors.at(accuracy), errors.step.mean * accuracy,
+                          errors.step.deviation * accuracy),
+                     Part("samples", half_interval(errors.scatter, samples)) if self.seeds
+                     else Part("one run", self.one_run[q]),
                      *(Part(name, abs(shifts[q]), shifts[q]) for name, shifts in self.cheaper.items())]
             plan.quantities.append(Budget(self.quantities[q]["name"], mean, errors.scatter if self.seeds else np.nan, parts))
         self._report_levels()
         self._advise()
 
     def _find_repeatability(self) -> None:
-        """Runs diverge from the last digit on. Runs with almost the same accuracy show how far one run may lie from their mean."""
+        """Runs diverge from the last digit on. Runs with almost the same accuracy show how far one run may lie from their
+        mean."""
         points = [self._run_at(share * self.levels[-1].accuracy, ()) for share in (1, 0.98, 0.96, 0.94)]
         for q, asked in enumerate(self.quantities):
             values = [point.values[q][0] for point in points if not point.failure]
@@ -160,21 +167,24 @@ class GrainsPlan:
 
     def _report_levels(self) -> None:
         for level in self.levels:
-            self._note(f"discrete/accuracy = {_diptych.text_of_number(level.accuracy)}: {level.point.cpu_s:.3g} CPU s per sample")
+            self._note(f"discrete/accuracy = {_diptych.text_of_number(level.accuracy)}: {level.point.cpu_s:.3g} CPU s per "
+                       "sample")
         for q, asked in enumerate(self.quantities if self.seeds else ()):
             first, second = self.levels[:2]
             d = self._difference(first.point, second.point, q)
             self._note(f"  {asked['name']}: {percent(d.mean)} +- {percent(half_interval(d.deviation, d.n))} from "
-                       f"{_diptych.text_of_number(first.accuracy)} to {_diptych.text_of_number(second.accuracy)} on {d.n} samples")
+                       f"{_diptych.text_of_number(first.accuracy)} to {_diptych.text_of_number(second.accuracy)} on {d.n} "
+                       "samples")
 
     def _try_knob(self, name: str, cheaper: Setting, saving: float, deviations: Sequence[float]) -> None:
-        """Runs a cheaper setting if it may be worth it and eight samples can measure its effect. Keeps it if the effect is small.
-        deviations: expected deviations of the differences, one per quantity."""
+        """Runs a cheaper setting if it may be worth it and eight samples can measure its effect. Keeps it if the effect is
+        small. deviations: expected deviations of the differences, one per quantity."""
         interval = half_interval(max(deviations), len(self.seeds))
         if saving < WORTH_TRYING:
             verdict = f"not tried; it would save {f'only {percent(saving)} of the' if saving > 0 else 'no'} time"
         elif not interval <= SHARE_OF_A_KNOB * self.question.accuracy:
-            verdict = (f"not used; it would save {percent(saving)} of the time, but {len(self.seeds)} samples give its error only to +- "
+            verdict = (f"not used; it would save {percent(saving)} of the time, but {len(self.seeds)} samples give its error "
+                       "only to +- "
                        f"{percent(interval)}")
         else:
             verdict = self._verdict_on(name, cheaper, saving)
@@ -202,7 +212,8 @@ class GrainsPlan:
         less, point = self.preparation_steps // 3, self.levels[-1].point
         if less > 0:
             self._try_knob(f"preparation of {less} steps", planned("sample/preparation_steps", str(less)),
-                           2 / 3 * point.preparation_cpu_s / point.cpu_s, [np.sqrt(2) * errors.scatter for errors in self._errors()])
+                           2 / 3 * point.preparation_cpu_s / point.cpu_s,
+                           [np.sqrt(2) * errors.scatter for errors in self._errors()])
 
     def _try_without_correction(self) -> None:
         """One sample gives the cost. The runs diverge as much as between two steps."""
@@ -224,6 +235,8 @@ class GrainsPlan:
         deciding = max(self.plan.quantities, key=lambda q: q.scatter)
         left = self.question.accuracy - deciding.method
         low, high = (samples_for(factor * deciding.scatter, left) or "more than a million" for factor in (0.66, 2.0))
-        self._note(f"eight samples give the scatter to within a factor of 0.66 to 2.0, so {low} to {high} samples may be needed")
-        self._note(f"{deciding.name} determines the number of samples; one sample scatters by {percent(deciding.scatter)}; the scatter "
+        self._note(f"eight samples give the scatter to within a factor of 0.66 to 2.0, so {low} to {high} samples may be "
+                   "needed")
+        self._note(f"{deciding.name} determines the number of samples; one sample scatters by {percent(deciding.scatter)}; "
+                   "the scatter "
                    "falls with the square root of the number of grains")

@@ -24,7 +24,8 @@ PANELS = {"discrete": ("sample", "discrete"), "continuum": ("continuum",)}  # an
 
 @dataclass
 class Question:
-    """quantities: by panel; those of the grains have step_error: the rule for their error, strength, dilation or "" (measured only)."""
+    """quantities: by panel; those of the grains have step_error: the rule for their error, strength, dilation or "" (measured
+    only)."""
 
     scene: str
     changes: list[Setting]  # --set-file, --set
@@ -121,8 +122,10 @@ class PanelPlan:
         return self.cpu_s * self.n_samples if self.quantities else 0.0
 
     def record(self) -> dict[str, Any]:
-        return {"panel": self.panel, "command": self.command, "settings": [one.text() for one in self.settings], "seeds": self.seeds,
-                "reaches": self.reaches, "cpu_s": self.cpu_s, "total_cpu_s": self.total_cpu_s, "peak_memory_mb": self.peak_memory_mb,
+        return {"panel": self.panel, "command": self.command, "settings": [one.text() for one in self.settings],
+                "seeds": self.seeds,
+                "reaches": self.reaches, "cpu_s": self.cpu_s, "total_cpu_s": self.total_cpu_s,
+                "peak_memory_mb": self.peak_memory_mb,
                 "decisions": self.decisions, "outcome_cpu_s": self.outcome_cpu_s, "outcomes": self.outcomes,
                 "quantities": [{**vars(q), "total": q.total, "bias": q.bias, "parts": [vars(part) for part in q.parts]}
                                for q in self.quantities]}
@@ -148,7 +151,8 @@ class Plan:
 
     def record(self) -> dict[str, Any]:
         return {"format": 1, "scene": self.scene, "revision": _diptych.git_revision, "accuracy": self.accuracy,
-                "pilot_cpu_s": self.pilot_cpu_s, "total_cpu_s": self.total_cpu_s, "panels": [panel.record() for panel in self.panels]}
+                "pilot_cpu_s": self.pilot_cpu_s, "total_cpu_s": self.total_cpu_s,
+                "panels": [panel.record() for panel in self.panels]}
 
 
 def planned(name: str, value: Any) -> Setting:
@@ -184,7 +188,8 @@ def _short(name: str, panel: str, scene: _diptych.Scene) -> dict[str, Any]:
     """One of NAMES for one panel."""
     full, keys = f"{panel}.{name}", scene.dict()
     if name == "peak_stress_ratio":
-        return quantity(full, source=panel, reduction="peak", column="stress_ratio", to=scene.averaging_width(), step_error="strength")
+        return quantity(full, source=panel, reduction="peak", column="stress_ratio", to=scene.averaging_width(),
+                        step_error="strength")
     if name == "strength":
         end = scene.stages()[-1]
         return quantity(full, source=panel, reduction="strength", to=end, step_error="strength",
@@ -210,13 +215,15 @@ def _add(question: Question, word: str, panels: set[str], scene: _diptych.Scene)
         return
     of = [panel for panel in PANELS if f" {panel} " in word or word.startswith(panel + "_summary ")]
     if len(of) != 1:
-        raise SceneError(f"--for '{word}' is unknown; use {', '.join(NAMES)}, with the prefix discrete. or continuum. for one panel, or a "
+        raise SceneError(f"--for '{word}' is unknown; use {', '.join(NAMES)}, with the prefix discrete. or continuum. for one "
+                         "panel, or a "
                          "number of comparison.json with its name in ensemble.csv")
     question.quantities[of[0]].append(quantity(word, source="comparison", reduction="number", column=word, line="angle" in word,
                                                step_error=""))
 
 
-def read_question(scene_file: str, accuracy: str, wanted: str, overrides: Sequence[str] = (), set_files: Sequence[str] = ()) -> Question:
+def read_question(scene_file: str, accuracy: str, wanted: str, overrides: Sequence[str] = (),
+                  set_files: Sequence[str] = ()) -> Question:
     """The question of a command line. Raises SceneError."""
     changes = [one.check() for one in settings_of(overrides, set_files)]
     question = Question(scene_file, changes, read_accuracy(accuracy))
@@ -228,10 +235,12 @@ def read_question(scene_file: str, accuracy: str, wanted: str, overrides: Sequen
     if keys["loading"]["mode"] == "time":
         raise SceneError(f"{scene_file}: loading/mode = time; plans support loadings along a strain only")
     if question.quantities["discrete"] and keys["discrete"]["method"] != "nscd":
-        raise SceneError(f"{scene_file}: discrete/method = {keys['discrete']['method']}; plans support nscd only (cost of springs: "
+        raise SceneError(f"{scene_file}: discrete/method = {keys['discrete']['method']}; plans support nscd only (cost of "
+                         "springs: "
                          "benchmarks/penalty, benchmarks/rigid_limit)")
     if question.needs_comparison and keys["continuum"]["mesh"] != "outline":
-        raise SceneError(f"{scene_file}: continuum/mesh = {keys['continuum']['mesh']}; --for asks for a number of the comparison, which "
+        raise SceneError(f"{scene_file}: continuum/mesh = {keys['continuum']['mesh']}; --for asks for a number of the "
+                         "comparison, which "
                          "needs both panels on one sample (mesh = outline)")
     return question
 
@@ -247,12 +256,14 @@ def _panel_text(panel: PanelPlan) -> list[str]:
     for q in panel.quantities:
         scatter = f"; one sample scatters by {percent(q.scatter)}" if np.isfinite(q.scatter) else ""
         lines.append(f"  {q.name:<43} error at most about {percent(q.total)}, bias {percent(q.bias)}{scatter}")
-        lines += [f"    {part.cause:<41} {percent(part.error)}" + (f" +- {percent(part.deviation)}" if np.isfinite(part.deviation) else "")
+        lines += [f"    {part.cause:<41} {percent(part.error)}" + (f" +- {percent(part.deviation)}"
+                                                                   if np.isfinite(part.deviation) else "")
                   for part in q.parts]
     lines += ["  set " + one.text() for one in panel.settings]
     lines += [] if panel.reaches else ["  the accuracy is NOT reached by this plan"]
     seeds = f" (seeds {panel.seeds[0]}-{panel.seeds[-1]})" if len(panel.seeds) > 1 else ""
-    lines.append(f"  {panel.command} on {panel.n_samples} sample{'s' if panel.n_samples > 1 else ''}{seeds}: {panel.cpu_s:.3g} CPU s each, "
+    lines.append(f"  {panel.command} on {panel.n_samples} sample{'s' if panel.n_samples > 1 else ''}{seeds}: "
+                 f"{panel.cpu_s:.3g} CPU s each, "
                  f"{panel.total_cpu_s:.3g} s in all, {panel.peak_memory_mb:.3g} MB")
     if panel.outcomes:
         lines.append(f"  result, at {panel.outcome_cpu_s:.3g} CPU s per sample:")
