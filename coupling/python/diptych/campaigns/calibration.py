@@ -17,7 +17,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from .. import _diptych
 from ..arrays import Array
 from ..errors import NotConverged, SceneError, Stopped
 from .calibration_coordinates import Coordinates
