@@ -7,10 +7,8 @@
 #include <iostream>
 
 #include "coupling/comparison/comparison_output.h"
-#include "coupling/ensembles/ensemble_folder.h"
 #include "coupling/processes/progress.h"
 #include "coupling/processes/stop_signal.h"
-#include "coupling/program/ensemble_record.h"
 #include "coupling/program/report_command.h"
 #include "coupling/scene/scene_file.h"
 #include "coupling/store/file_names.h"
@@ -87,8 +85,8 @@ namespace diptych::coupling
       for (const std::string &text : line.overrides)
         if (text.rfind("comparison/", 0) != 0 && text.rfind("output/", 0) != 0)
           throw SceneError("--set " + text + ": only comparison/ and output/ can be changed without running the panels again");
-        else
-          refuse_other_folder(text);
+        else if (text.rfind("output/directory=", 0) == 0)
+          throw SceneError("--set " + text + ": a comparison stands in the folder that it is of");
       Scene scene            = read_computed_scene(scene_prm(line.target), line.overrides);
       scene.output.directory = line.target;
       if (const std::string name = recorded_scene(line.target); !name.empty())
@@ -117,8 +115,6 @@ namespace diptych::coupling
 
   int compare_again(const CommandLine &line)
   {
-    if (is_ensemble_folder(line.target))
-      return writing(line.target, [&](FolderLock &) { return compare_ensemble_again(line); });
     if (std::filesystem::exists(import_json(line.target)) && !std::filesystem::exists(continuum_csv(line.target)))
       throw SceneError(line.target + ": holds an imported sample and no continuum yet; diptych run " + line.target +
                        "/scene.prm computes it beside the grains and compares");

@@ -1,18 +1,19 @@
 // diptych: what the continuum's and the comparison's files hold
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
 #include "continuum/history.h"
 #include "continuum/laws/material_point_row.h"
 #include "continuum/snapshot_fields.h"
 #include "coupling/comparison/comparison_arrays.h"
 #include "coupling/comparison/comparison_output.h"
 #include "coupling/comparison/comparison_schema.h"
-#include "coupling/ensembles/ensemble_curves.h"
-#include "coupling/ensembles/ensemble_numbers.h"
+#include "coupling/program/python_package.h"
 #include "coupling/program/result_entries.h"
 #include "coupling/calibration/calibration_numbers.h"
 #include "coupling/plans/plan_numbers.h"
-#include "coupling/studies/study_curves.h"
-#include "coupling/studies/study_numbers.h"
 
 namespace diptych::coupling
 {
@@ -56,15 +57,23 @@ namespace diptych::coupling
       list_history_arrays(history, 1, AddArrays{"comparison.h5, groups histories/discrete and histories/continuum", "", result});
     }
 
-    void add_ensemble(ResultList &result)
+    // The files of campaigns, which Python writes: file, entry, shape, unit and meaning, separated by tabs.
+    void add_campaigns(ResultList &result)
     {
-      const EnsembleRecord record;
-      add_record("ensemble.json", EnsembleDocument{Scene(), record}, result);
-      add_table("ensemble.csv", ensemble_columns(), result);
-      const std::string file = "ensemble.h5";
-      list_grid(EnsembleGrid(), AddArrays{file, "", result});
-      list_curve_arrays(EnsembleCurves(),
-                        AddArrays{file + ", groups PANEL/stress_ratio and PANEL/volumetric_strain", "", result});
+      const std::string path = python_package() + "/diptych/campaigns/result_entries.tsv";
+      std::ifstream     in(path);
+      if (!in)
+        throw std::runtime_error(path + " cannot be read; the installation is broken");
+      std::string line;
+      std::getline(in, line); // the names of the columns
+      while (std::getline(in, line))
+        {
+          std::istringstream fields(line);
+          ResultEntry        entry;
+          for (std::string *field : {&entry.file, &entry.name, &entry.shape, &entry.unit, &entry.meaning})
+            std::getline(fields, *field, '\t');
+          result.push_back(entry);
+        }
     }
 
     void add_plan(ResultList &result)
@@ -77,19 +86,6 @@ namespace diptych::coupling
       add_record("calibration.json", CalibrationRecord(), result);
       add_record("calibration_cost.json", CalibrationCost(), result);
     }
-
-    void add_study(ResultList &result)
-    {
-      const Study                   study;
-      const std::vector<ScenePoint> points;
-      const StudyRecord             record;
-      add_record("study.json", StudyDocument{study, points, record, ""}, result);
-      add_record("study_cost.json", StudyCost(), result);
-      add_table("study.csv", study_columns(), result);
-      const std::string file = "study.h5, groups discrete, continuum and material_point";
-      list_grid(StudyGrid(), AddArrays{file, "", result});
-      list_curve_arrays(StudyCurves(), AddArrays{file, "", result});
-    }
   } // namespace
 
   ResultList comparison_result_entries()
@@ -101,8 +97,7 @@ namespace diptych::coupling
     add_numbers("comparison.json", comparison_schema(), result);
     add_table("comparison.csv", comparison_columns(), result);
     add_comparison_arrays(result);
-    add_ensemble(result);
-    add_study(result);
+    add_campaigns(result);
     add_plan(result);
     add_calibration(result);
     return result;

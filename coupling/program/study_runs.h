@@ -7,9 +7,9 @@
 
 #include "coupling/processes/task_queue.h"
 #include "coupling/program/command_line.h"
-#include "coupling/studies/study_evaluation.h"
 #include "coupling/studies/study_folder.h"
 #include "coupling/studies/study_points.h"
+#include "coupling/studies/study_results.h"
 
 namespace diptych::coupling
 {

@@ -28,6 +28,9 @@ namespace diptych::coupling
     std::vector<double>    values; // one per quantity; NaN if there is none
   };
 
+  // results[point][sample]
+  using StudyResults = std::vector<std::vector<RunResult>>;
+
   // Rows of a panel's table in a result folder; every row has `progress`. Empty if there is no table.
   HistoryTable panel_table(const std::string &folder, Source source);
 

@@ -1,9 +1,10 @@
 # diptych: statistics, histories and evaluation of campaigns on values with known answers
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Needs no run of the program."""
+"""Only the last tests run the program."""
 
 import json
 import math
+import os
 
 import numpy as np
 import pandas as pd
@@ -145,7 +146,8 @@ def test_strength_is_the_ratio_of_the_means():
 def study_of(n, **changes):
     """A quantity with a limit of 2 %, four samples, one axis of n points h = 1, 2, 4 ..."""
     axis = Axis("step", [AxisPoint(str(k), [], 2.0**k) for k in range(n)], converges=True)
-    return Study(seeds=[1, 2, 3, 4], families=[Family(axes=[axis])], quantities=[quantity("strength", **{"limit": 0.02, **changes})])
+    strength = quantity("strength", **{"limit": 0.02, **changes})
+    return Study(seeds=[1, 2, 3, 4], families=[Family(axes=[axis])], quantities=[strength])
 
 
 def points_on(n):
@@ -155,7 +157,8 @@ def points_on(n):
 
 def runs(share, cpu_s=1.0, **changes):
     """Four samples around 0.4, all changed by the same share."""
-    phases = [{"name": "discrete", "cpu_s": cpu_s, "peak_memory_mb": 100}, {"name": "report", "cpu_s": 9, "peak_memory_mb": 100}]
+    phases = [{"name": "discrete", "cpu_s": cpu_s, "peak_memory_mb": 100},
+              {"name": "report", "cpu_s": 9, "peak_memory_mb": 100}]
     return [RunResult(**{"known": True, "values": [value * (1 + share)], "phases": phases, **changes})
             for value in (0.38, 0.40, 0.41, 0.43)]
 
@@ -343,8 +346,8 @@ def test_lists_of_seeds(text, seeds):
     assert read_seeds(text) == seeds
 
 
-@pytest.mark.parametrize("text", ["", ",", "1,", "1-", "-3", "one", "1.5", "1 2", "8-1", "1,1", "1-3,2", "0-10000", "2147483648",
-                                  "1--2", "1-2-3"])
+@pytest.mark.parametrize("text", ["", ",", "1,", "1-", "-3", "one", "1.5", "1 2", "8-1", "1,1", "1-3,2", "0-10000",
+                                  "2147483648", "1--2", "1-2-3"])
 def test_invalid_lists_of_seeds_are_refused(text):
     with pytest.raises(diptych.SceneError, match="--seeds"):
         read_seeds(text)
@@ -401,7 +404,8 @@ def test_only_members_with_a_band_count_for_it():
     assert pairs == {"peak_stress_ratio": 3, "strength": 0, "final_volumetric_strain": 0, "window 0-0.04 band angle_deg": 2,
                      "window 0-0.04 band width_10_90_d": 2}
     assert {key: one["text"] for key, one in named(record["bands"]).items() if key.startswith("window")} == {
-        "window 0-0.04 continuum": "one band in 3 of 3", "window 0-0.04 discrete": "one band in 1 of 3, two bands in 1, none in 1"}
+        "window 0-0.04 continuum": "one band in 3 of 3",
+        "window 0-0.04 discrete": "one band in 1 of 3, two bands in 1, none in 1"}
 
 
 def test_mirror_images_of_a_band_are_folded_together():
@@ -439,3 +443,32 @@ def test_means_of_curves_need_all_members():
     half = stats.t.ppf(0.975, 1) * stats.sem([1, 3])
     assert (mean[0], low[0], high[0]) == pytest.approx((2, 2 - half, 2 + half))
     assert (mean[1], low[1], high[1]) == (2, 2, 2) and np.isnan([mean[2], low[2], high[2]]).all()
+
+
+# ---- from Python ------------------------------------------------------------------------------------------------------------
+
+
+def test_a_study_of_a_dict_gives_data_frames_and_explained_keys(tmp_path):
+    steps = {"scene": os.path.join(diptych.benchmarks_dir(), "moreau_quick", "scene.prm"), "command": "material-point",
+             "set": {"loading/axial_strain": 0.02}, "reference": {"continuum/initial_step": 1e-5},
+             "axes": [{"key": "continuum/initial_step", "values": [4e-4, 2e-4, 1e-4], "converges": True}],
+             "quantities": [{"name": "peak", "column": "stress_ratio", "largest": True, "limit": {"relative": 0.01}}]}
+    with pytest.raises(diptych.SceneError, match="'quantities'"):
+        diptych.study({**steps, "quantity": []}, tmp_path / "out")
+    found = diptych.study(steps, tmp_path / "out", jobs=2)
+    assert list(found.points["class"]) == ["right"] * 4 and found.points["peak"][0] == 0
+    assert len(found.table) == 4 and found.cost["runs"] == 4
+    explained = pd.read_csv(os.path.join(os.path.dirname(statistics.__file__), "result_entries.tsv"), sep="\t", keep_default_na=False)
+
+    def keys(record, place=""):
+        for key, value in record.items():
+            yield place + key
+            for entry in value if isinstance(value, list) else [value]:
+                if isinstance(entry, dict) and set(entry) != {"value", "low", "high"}:
+                    yield from keys(entry, f"{place}{key}/")
+
+    for file, record in (("study.json", found.numbers), ("study_cost.json", found.cost)):
+        assert set(keys(record)) <= set(explained[explained.file == file].entry)
+    with pytest.raises(diptych.SceneError, match="--resume"):
+        diptych.study(steps, tmp_path / "out")
+    assert diptych.Campaign.load(tmp_path / "out").numbers == found.numbers

@@ -22,9 +22,20 @@ from .results import Comparison, PanelResults, Results, compare, load
 from .scenes import keys, scene
 from .shipped import benchmarks_dir, notebooks_dir
 
+
+
+def __getattr__(name: str) -> object:
+    """Campaigns need pandas and SciPy, which load only with them."""
+    if name in ("CalibrationResult", "Campaign", "PlanResult", "calibrate", "ensemble", "plan", "study"):
+        from .campaigns import api
+
+        return getattr(api, name)
+    raise AttributeError(f"module 'diptych' has no attribute '{name}'")
+
+
 __all__ = [
-    "Band", "BandReport", "Comparison", "Contacts", "ContinuumPanel", "ContinuumSnapshot", "DiscretePanel", "DiscreteSnapshot",
-    "History", "Interval", "Mesh", "NotConverged", "PanelResults", "Record", "Results", "SceneError", "SceneWarning", "StressMap",
-    "__version__", "benchmarks_dir", "biaxial", "compare", "contacts", "find_bands", "grid", "increment", "integrate", "keys", "load",
-    "map_stress", "notebooks_dir", "principal", "probe", "scene", "shear_strain", "solve", "strips", "theory_lines",
+    "Band", "BandReport", "CalibrationResult", "Campaign", "Comparison", "Contacts", "ContinuumPanel", "ContinuumSnapshot", "DiscretePanel",
+    "DiscreteSnapshot", "History", "Interval", "Mesh", "NotConverged", "PanelResults", "PlanResult", "Record", "Results", "SceneError", "SceneWarning", "StressMap",
+    "__version__", "benchmarks_dir", "biaxial", "calibrate", "compare", "contacts", "ensemble", "find_bands", "grid", "increment", "integrate",
+    "keys", "load", "map_stress", "notebooks_dir", "plan", "principal", "probe", "scene", "shear_strain", "solve", "strips", "study", "theory_lines",
 ]

@@ -8,14 +8,11 @@ from __future__ import annotations
 
 import argparse
 import importlib
-import json
-import os
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
-import pandas as pd
 
 from ..arrays import Array
 from ..errors import NotConverged, SceneError, Stopped
@@ -335,48 +332,3 @@ def run_calibration(file: str, output: str, options: Options) -> int:
 def main_calibrate(args: argparse.Namespace, options: Options) -> int:
     """The command `diptych calibrate FILE`. args: target and output."""
     return run_calibration(args.target, args.output, options)
-
-
-@dataclass(repr=False)
-class CalibrationResult:
-    """The results of a calibration. record: calibration.json, whose meaning the README gives."""
-
-    folder: str
-    record: dict[str, Any]
-
-    @property
-    def parameters(self) -> pd.DataFrame:
-        """A row per parameter: key, value, number with its 95 % interval, share_known, is_identified, ..."""
-        return pd.DataFrame(self.record["parameters"])
-
-    @property
-    def observables(self) -> pd.DataFrame:
-        """A row per path and observable: mean of the grains, before, after, deviations."""
-        return pd.DataFrame([{"path": path["name"], "use": path["use"], **one} for path in self.record["paths"]
-                             for one in path["observables"]])
-
-    @property
-    def predictions(self) -> pd.DataFrame:
-        """A row per path and quantity, with the verdict."""
-        return pd.DataFrame([{"path": path["name"], "use": path["use"], **one} for path in self.record["paths"]
-                             for one in path["predictions"]])
-
-    def __repr__(self) -> str:
-        return f"CalibrationResult({self.folder!r}: {self.record['status']}, chi2 = {self.record['chi2']:.4g})"
-
-
-def calibrate(file: str | os.PathLike[str], output: str = "", **options: Any) -> CalibrationResult:
-    """Runs a calibration file as the command does and returns its results.
-
-    output   result folder; default: results/NAME_calibration
-    options  jobs, threads, quiet, resume, overwrite, as on the command line
-
-    Raises SceneError for wrong input, NotConverged if it does not come to its end."""
-    file = os.fspath(file)
-    directory = output or f"results/{read_calibration(file).name}_calibration"
-    code = run_calibration(file, directory, Options(**options))
-    with open(directory + "/calibration.json", encoding="utf-8") as text:
-        record = json.load(text)
-    if code != DONE:
-        raise NotConverged(record["status"])
-    return CalibrationResult(directory, record)

@@ -133,7 +133,7 @@ def environment() -> dict[str, str]:
 
 
 def run_program(words: Sequence[str]) -> int:
-    """Runs a program with the output of this process and returns its exit code. On a stop request kills it and raises Stopped."""
+    """Runs a program with the output of this process; returns its exit code. On a stop request kills it and raises Stopped."""
     process = subprocess.Popen(words, env=environment(), stdin=subprocess.DEVNULL, process_group=0)
     while True:
         try:
@@ -193,7 +193,7 @@ def _remote(line: str) -> tuple[int, bool]:
 
 
 def on_first_process(work: Callable[[], int]) -> int:
-    """Does the work on the first process of mpirun and returns its exit code; the other processes do runs for it and return 0."""
+    """Does the work on the first process of mpirun; returns its exit code. The others do runs for it and return 0."""
     global _pool
     if n_processes() == 1:
         return work()
@@ -232,7 +232,8 @@ class _Progress:
         if self.quiet or (now - self.shown < 0.2 if self.terminal else part == self.last_part):
             return
         at_work = [now - since for since in started]
-        left = (self.seconds / max(1, self.known) * (self.total - ended) - sum(at_work)) / max(1, min(seats, self.total - ended))
+        waiting = self.total - ended
+        left = (self.seconds / max(1, self.known) * waiting - sum(at_work)) / max(1, min(seats, waiting))
         remaining = f", {duration(left)} remaining" if self.known else ""
         text = f"{self.done} of {self.total} {self.noun} done, {len(at_work)} running, {self.failed} failed{remaining}"
         _write("stderr", f"\r\033[K{text}" if self.terminal else text + "\n")

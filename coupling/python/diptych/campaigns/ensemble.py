@@ -25,6 +25,7 @@ from .statistics import line_statistics, paired, statistics, student_quantile
 
 _LARGEST_ERROR_OF_THE_TOTAL = 1e-12  # above it `diptych run` ends with exit code 1
 _PANELS = ("discrete", "continuum")
+_Question = tuple[str, str, str, float, str]  # name, quantity of the grains, that of the continuum, margin, kind of difference
 
 
 def member_folder(directory: str, seed: int) -> str:
@@ -53,7 +54,7 @@ def evaluate(members: Sequence[Member], margins: dict[str, float]) -> dict[str, 
         s = (line_statistics if line else statistics)(values[name])
         quantities.append({"name": name, "unit": unit, **s._asdict(), "values": values[name]})
     bands = [_band_count(name, members) for name in dict.fromkeys(name for member in members for name in member.bands)]
-    verdicts = [_answer(*question, values, named, len(members)) for question in _questions(bands, margins)]
+    verdicts = [_answer(question, values, named, len(members)) for question in _questions(bands, margins)]
     return {"quantities": quantities, "bands": bands, "verdicts": verdicts}
 
 
@@ -65,11 +66,12 @@ def _band_count(name: str, members: Sequence[Member]) -> dict[str, Any]:
     return {"name": name, "none": none, "one": one, "two": two, "text": ", ".join(texts)}
 
 
-def _questions(bands: Sequence[dict[str, Any]], margins: dict[str, float]) -> list[tuple[str, str, str, float, str]]:
-    """(name, quantity of the grains, quantity of the continuum, margin, kind of difference)"""
-    single = [("peak_stress_ratio", "margin_peak_stress_ratio", "relative"), ("strength", "margin_peak_stress_ratio", "relative"),
+def _questions(bands: Sequence[dict[str, Any]], margins: dict[str, float]) -> list[_Question]:
+    single = [("peak_stress_ratio", "margin_peak_stress_ratio", "relative"),
+              ("strength", "margin_peak_stress_ratio", "relative"),
               ("final_volumetric_strain", "margin_volumetric_strain", "absolute")]
-    questions = [(key, f"discrete_summary {key}", f"continuum_summary {key}", margins[margin], kind) for key, margin, kind in single]
+    questions = [(key, f"discrete_summary {key}", f"continuum_summary {key}", margins[margin], kind)
+                 for key, margin, kind in single]
     for count in bands:
         window, _, panel = count["name"].rpartition(" ")
         if panel == "discrete" and window.startswith("window "):
@@ -79,8 +81,8 @@ def _questions(bands: Sequence[dict[str, Any]], margins: dict[str, float]) -> li
     return questions
 
 
-def _answer(name: str, grains: str, continuum: str, margin: float, kind: str, values: dict[str, list[float]],
-            named: dict[str, tuple[str, bool]], n: int) -> dict[str, Any]:
+def _answer(question: _Question, values: dict[str, list[float]], named: dict[str, tuple[str, bool]], n: int) -> dict[str, Any]:
+    name, grains, continuum, margin, kind = question
     units = [named[one][0] for one in (grains, continuum) if one in named]
     unit = "-" if kind == "relative" else units[0] if units else "degrees" if kind == "line" else "-"
     first, second = (values.get(one, [math.nan] * n) for one in (grains, continuum))
@@ -209,7 +211,7 @@ def _demand_member(scene: Any, seed: int) -> None:
 
 
 def _is_finished(scene: Any, seed: int) -> bool:
-    """Panels, comparison and report are complete, and the mapping keeps the total. Raises ValueError with a file that was changed."""
+    """Panels, comparison and report are complete; the mapping keeps the total. Raises ValueError with a changed file."""
     member = _member_scene(scene, seed)
     if not _diptych.holds_finished_run(member):
         return False
@@ -318,7 +320,8 @@ def compare_again(directory: str, changes: tuple[Sequence[str], Sequence[str]], 
     overrides = [f"{s.section}/{s.key}={s.value}" for s in settings_of(*changes)]
     for text in overrides:
         if not text.startswith(("comparison/margin_", "output/")):
-            raise SceneError(f"--set {text}: only comparison/margin_* and output/ can be changed without running the members again")
+            raise SceneError(f"--set {text}: only comparison/margin_* and output/ can be changed without running the "
+                             "members again")
         if text.startswith("output/directory="):
             raise SceneError(f"--set {text}: a comparison stands in the folder that it is of")
     with Folder(directory):

@@ -126,13 +126,15 @@ def _mark_fronts(study: Study, records: Sequence[dict[str, Any]], rivals: list[d
                 one["front_of"].append(quantity["name"])
 
 
-def _cheapest(study: Study, records: Sequence[dict[str, Any]], rivals: list[dict[str, Any]], reference: int) -> list[dict[str, Any]]:
+def _cheapest(study: Study, records: Sequence[dict[str, Any]], rivals: list[dict[str, Any]],
+              reference: int) -> list[dict[str, Any]]:
     """The cheapest rival within each accuracy: 5, 2 and 1 % for relative errors; 2.5, 1 and 0.5 times the limit for absolute
     errors and for all quantities together. Without any limit there is none."""
     judged = [(q, quantity) for q, quantity in enumerate(study.quantities) if quantity["limit"] is not None]
 
     def found(name: str, accuracy: float, wanted: list[tuple[int, float]]) -> dict[str, Any]:
-        best = {"quantity": name, "accuracy": accuracy, "reference": reference, "point": -1, "cpu_s": math.nan, "certain": False}
+        best = {"quantity": name, "accuracy": accuracy, "reference": reference, "point": -1, "cpu_s": math.nan,
+                "certain": False}
         for one in rivals:
             errors = [(records[one["point"]]["quantities"][q]["error"], most) for q, most in wanted]
             if all(abs(e.value) <= most for e, most in errors) and not one["cpu_s"] >= best["cpu_s"]:

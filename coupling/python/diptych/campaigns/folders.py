@@ -51,7 +51,7 @@ class Folder:
         KEPT_OPEN.add(self._lock.descriptor)
 
     def open_runs(self, noun: str, input_file: str, options: Options, inputs: Callable[[], list[tuple[str, str]]]) -> None:
-        """Prepares the folder for runs and copies the input file there as NOUN_input.json. Raises SceneError for other results."""
+        """Prepares the folder for runs; copies the input file there as NOUN_input.json. Raises SceneError for other results."""
         copy = os.path.join(self.directory, noun + "_input" + os.path.splitext(input_file)[1])
         _diptych.require_usable(self.directory, options.resume, options.overwrite)
         with open(input_file, encoding="utf-8") as file:
@@ -117,8 +117,9 @@ def read_json(path: str) -> Any:
     return record
 
 
-def write_arrays(path: str, arrays: Mapping[str, tuple[Any, str, str, str]], attributes: Mapping[str, Mapping[str, float]]) -> None:
-    """Writes arrays to HDF5, with checksums. arrays: name -> (values, title, unit, meaning); attributes: group -> name -> value."""
+def write_arrays(path: str, arrays: Mapping[str, tuple[Any, str, str, str]],
+                 attributes: Mapping[str, Mapping[str, float]]) -> None:
+    """Writes HDF5 with checksums. arrays: name -> (values, title, unit, meaning); attributes: group -> name -> value."""
 
     def write(part: str) -> None:
         with h5py.File(part, "w", libver=("v110", "v110")) as file:
@@ -180,7 +181,7 @@ class SceneRun:
 
 
 def run_name(scene: Any, command: str) -> str:
-    """A hash of scene and command. It omits keys that change no result and does not depend on the folders of the scene's files."""
+    """A hash of scene and command. It omits keys that change no result, and depends on no folder of the scene's files."""
     if command == "run":
         identity = {**scene.identity("member"), "sample/seed": str(scene.dict()["sample"]["seed"])}
     else:
@@ -242,8 +243,8 @@ class Runs:
 
     def end(self, run: SceneRun, exit_code: int, at_once: int) -> None:
         """Records the end of a run, with the load of the machine: processes ready to run, mean over the last minute."""
-        write_json(self.path(run, ".json"), {"exit_code": exit_code, "revision": _diptych.git_revision, "load": os.getloadavg()[0],
-                                             "at_once": at_once}, None)
+        write_json(self.path(run, ".json"), {"exit_code": exit_code, "revision": _diptych.git_revision,
+                                             "load": os.getloadavg()[0], "at_once": at_once}, None)
 
     def do(self, runs: Sequence[SceneRun], options: Options) -> list[Outcome]:
         """Does the runs that are not finished, each name once. Runs whose checkpoint is damaged begin anew."""

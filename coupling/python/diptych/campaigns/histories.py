@@ -43,7 +43,7 @@ def _arrays(table: pd.DataFrame, name: str) -> tuple[np.ndarray, np.ndarray]:
 
 
 def mean_over(x: np.ndarray, y: np.ndarray, begin: float, end: float) -> float:
-    """Mean over [begin, end] of the broken line through (x, y), x ascending, constant beyond its ends; the value if both are equal."""
+    """Mean over [begin, end] of the broken line through (x, y), constant beyond its ends; for begin = end its value there."""
     if not end > begin:
         return float(np.interp(begin, x, y))
     inside = x[(x > begin) & (x < end)]
@@ -80,7 +80,7 @@ def resampled(table: pd.DataFrame, values: np.ndarray, grid: np.ndarray) -> np.n
 
 
 def reduced(table: pd.DataFrame | None, quantity: dict) -> float:
-    """The number that a quantity takes from a table: strength, mean, at, peak, largest or last. NaN if the history is too short."""
+    """The number that a quantity takes from a table, by its reduction. NaN if the history is too short."""
     if table is None:
         return math.nan
     how, name, begin, end = (quantity[key] for key in ("reduction", "column", "from", "to"))

@@ -94,7 +94,7 @@ def is_number(value: Any) -> bool:
 
 
 class Part:
-    """A value of an input file and its place. A missing member or one of another type raises SceneError with file, line and key."""
+    """A value of an input file and its place. A missing or wrong member raises SceneError with file, line and key."""
 
     def __init__(self, file: str, lines: dict[str, int], value: Any, pointer: str = "") -> None:
         self.file, self.lines, self.value, self.pointer = file, lines, value, pointer
@@ -124,8 +124,8 @@ class Part:
             self.refuse(f"an object is needed; its keys are {listed(keys)}")
         for key in self.value:
             if key not in keys:
-                self.refuse(f": unknown key; the nearest is '{_diptych.nearest_name(key, list(keys))}'; allowed are {listed(keys)}",
-                            key)
+                nearest = _diptych.nearest_name(key, list(keys))
+                self.refuse(f": unknown key; the nearest is '{nearest}'; allowed are {listed(keys)}", key)
 
     def has(self, key: str) -> bool:
         return isinstance(self.value, dict) and key in self.value

@@ -22,7 +22,7 @@ def _described() -> dict[str, tuple[str, str]]:
 
 @dataclass
 class Member:
-    """numbers: name -> (value, unit, whether it is the angle of a line, place); bands: "window 0-0.01 discrete" -> their number."""
+    """numbers: name -> (value, unit, True for the angle of a line, place); bands: "window 0-0.01 discrete" -> their number."""
 
     seed: int = 0
     numbers: dict[str, tuple[float, str, bool, str]] = field(default_factory=dict)
@@ -112,8 +112,9 @@ def member_of_record(record: dict[str, Any], path: str, folded: bool = False) ->
 
 
 def is_mirror_symmetric(scene: Any) -> bool:
-    """True if only chance distinguishes left from right: vertical descent, no horizontal gravity, no wall with its own drive."""
+    """True if only chance tells left from right: vertical descent, no horizontal gravity, no wall with its own drive."""
     keys = scene.dict()
     loading, grains = keys["loading"], keys["discrete"]
     driven = any(value != "auto" for key, value in grains.items() if key.startswith("drive_"))
-    return (not driven and loading["mode"] == "descent" and loading["horizontal_over_vertical"] == 0 and grains["gravity_x"] == 0)
+    vertical = loading["mode"] == "descent" and loading["horizontal_over_vertical"] == 0
+    return vertical and not driven and grains["gravity_x"] == 0

@@ -9,10 +9,9 @@ import argparse
 import importlib
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
-import pandas as pd
 
 from .. import _diptych
 from ..errors import Stopped
@@ -195,42 +194,3 @@ def main_plan(args: argparse.Namespace, options: Options) -> int:
     if not reached:
         complain(f"diptych: the accuracy of {percent(question.accuracy)} is not reached")
     return DONE if reached else NOT_CONVERGED
-
-
-@dataclass(repr=False)
-class PlanResult:
-    """A plan with its folder, which holds planned.prm."""
-
-    folder: str
-    plan: Plan
-    reached: bool
-
-    @property
-    def errors(self) -> pd.DataFrame:
-        """A row per panel, quantity and cause: error, bias, deviation, relative to the mean."""
-        return pd.DataFrame([{"panel": panel.panel, "quantity": q.name, **vars(part)}
-                             for panel in self.plan.panels for q in panel.quantities for part in q.parts])
-
-    @property
-    def panels(self) -> pd.DataFrame:
-        """A row per panel: command, number of samples, CPU time of one sample [s], settings."""
-        return pd.DataFrame([{"panel": p.panel, "command": p.command, "samples": p.n_samples, "cpu_s": p.cpu_s,
-                              "settings": [one.text() for one in p.settings], "reaches": p.reaches} for p in self.plan.panels])
-
-    def __repr__(self) -> str:
-        return text_of(self.plan)
-
-
-def plan(scene: str | os.PathLike[str], accuracy: float, wanted: str = "", output: str = "", run: bool = False,
-         **options: object) -> PlanResult:
-    """Plans a scene file as the command does.
-
-    accuracy  relative, of the mean of every quantity, 0.001 to 0.5
-    wanted    names of quantities, separated by commas, as for --for
-    run       True: runs the planned samples, too
-    options   jobs, threads, quiet, resume, overwrite, as on the command line
-
-    Raises SceneError for wrong input."""
-    question = read_question(os.fspath(scene), repr(accuracy), wanted)
-    made, reached, directory = run_plan(question, output, run, Options(**options))
-    return PlanResult(directory, made, reached)

@@ -153,7 +153,8 @@ def _add_effort(result: RunResult) -> None:
     if grains is not None:
         result.sweeps = float(grains["sweeps"].sum())
     if continuum is not None:
-        result.newton_iterations, result.cut_backs = (float(continuum[name].iloc[-1]) for name in ("newton_iterations", "cut_backs"))
+        last = continuum.iloc[-1]
+        result.newton_iterations, result.cut_backs = float(last["newton_iterations"]), float(last["cut_backs"])
 
 
 def values_of(folder: str, run: SceneRun, tables: dict[str, Any], quantities: Sequence[dict[str, Any]]) -> list[float]:

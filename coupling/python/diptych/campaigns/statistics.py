@@ -154,8 +154,8 @@ class Convergence(NamedTuple):
 def fit_convergence(h: Sequence[float], values: Sequence[float]) -> Convergence | None:
     """Least squares over orders from 1/4 to 6 in steps of 0.01, for at least three different h > 0.
 
-    None if the values follow no power law: the best order is at an end of the range, the rms residual exceeds a twentieth of the
-    values' range, or all values are equal. Source: Roache, J. Fluids Eng. 116 (1994) 405: observe the order, do not assume it.
+    None if the values follow no power law: the best order is at an end of the range, the rms residual exceeds a twentieth of
+    the values' range, or all values are equal. Source: Roache, J. Fluids Eng. 116 (1994) 405: the order is to be observed.
     """
     sizes, y = np.asarray(h, float), np.asarray(values, float)
     if len(np.unique(sizes)) < 3 or not np.ptp(y) > 0:

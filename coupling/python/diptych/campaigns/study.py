@@ -26,8 +26,8 @@ from .study_file import COMMANDS, Study, read_study
 
 _RUN_COLUMNS = ("point", "family", "settings", "sample", "class", "exit_code", "halved_steps", "cut_backs", "sweeps",
                 "newton_iterations", "peak_memory_mb", "folder")
-_CURVES = (("stress_ratio", "stress ratio t/s", "running mean, averaged over the samples, one row per point; nan if a sample has "
-            "no value"),
+_CURVES = (("stress_ratio", "stress ratio t/s", "running mean, averaged over the samples, one row per point; nan if a sample "
+            "has no value"),
            ("volumetric_strain", "volumetric strain", "running mean, averaged over the samples, one row per point; dilation "
             "negative; nan beyond the end of a history"))
 
@@ -66,8 +66,8 @@ def study_csv(study: Study, points: Sequence[Point], results: Results, records: 
             cpu = {phase["name"]: phase["cpu_s"] for phase in run.phases}
             memory = max((phase["peak_memory_mb"] for phase in run.phases), default=math.nan)
             row = [k, record["family"], "; ".join(point.settings), study.seeds[sample] if study.seeds else "", record["class"],
-                   run.exit_code if run.known else "", run.halved_steps, run.cut_backs, run.sweeps, run.newton_iterations, memory,
-                   record["folders"][sample]]
+                   run.exit_code if run.known else "", run.halved_steps, run.cut_backs, run.sweeps, run.newton_iterations,
+                   memory, record["folders"][sample]]
             for quantity, value, of_reference in zip(study.quantities, run.values, reference):
                 row += [value, _difference(quantity, value, of_reference)]
             row += [cpu.get(name, "") for name in phases]
@@ -98,23 +98,27 @@ def write_curves(directory: str, study: Study, points: Sequence[Point], results:
     write_arrays(os.path.join(directory, "study.h5"), arrays, attributes)
 
 
-def _conclude(study: Study, points: Sequence[Point], records: Sequence[dict[str, Any]], outcomes: Sequence[Outcome],
-              directory: str, options: Options) -> int:
-    first = records[0]
-    for quantity, found in zip(study.quantities, first["quantities"]):
-        if first["class"] not in UNFINISHED and not np.isfinite(found["values"]).any():
+def _warn_of_missing(study: Study, reference: dict[str, Any]) -> None:
+    for quantity, found in zip(study.quantities, reference["quantities"]):
+        if reference["class"] not in UNFINISHED and not np.isfinite(found["values"]).any():
             complain(f"diptych: warning: the reference has no value of '{quantity['name']}': a window beyond the end of the "
                      "loading, or a number that no comparison has")
+
+
+def _summary(points: Sequence[Point], records: Sequence[dict[str, Any]]) -> str:
+    """ "12 points: 7 right, 3 silently wrong, 2 stopped" """
     counts = Counter(record["class"] for point, record in zip(points, records) if point.family >= 0)
-    classes = ", ".join(f"{counts[name]} {name}" for name in CLASSES if counts[name])
-    say(options, f"{sum(counts.values())} points: {classes}; tables: {directory}/study.json, study.csv")
+    return f"{sum(counts.values())} points: " + ", ".join(f"{counts[name]} {name}" for name in CLASSES if counts[name])
+
+
+def _conclude(study: Study, records: Sequence[dict[str, Any]], outcomes: Sequence[Outcome], directory: str) -> int:
     left = sum(outcome.interrupted for outcome in outcomes)
     lost = sum(record["class"] == "not run" for record in records)
     if not left and not lost:
         return DONE
     why = f"stopped on request; {left} runs are left" if left else f"{lost} points have runs that the system ended"
-    complain(f"{why}, the rest is kept in {directory}; to go on: diptych study {study.file} --output {directory} --resume (with "
-             "the same --set)")
+    complain(f"{why}, the rest is kept in {directory}; to go on: diptych study {study.file} --output {directory} --resume "
+             "(with the same --set)")
     return NOT_CONVERGED
 
 
@@ -141,7 +145,9 @@ def run_study(file: str, output: str, settings: Sequence[Setting], options: Opti
         write_curves(directory, study, points, results)
         if not _diptych.stop_requested():
             draw(options, "study", directory)
-        return _conclude(study, points, records, outcomes, directory, options)
+        _warn_of_missing(study, records[0])
+        say(options, f"{_summary(points, records)}; tables: {directory}/study.json, study.csv")
+        return _conclude(study, records, outcomes, directory)
 
 
 def _results(runs: Runs, points: Sequence[Point], quantities: Sequence[dict[str, Any]]) -> Results:

@@ -53,8 +53,8 @@ class Family:
 
 def quantity(name: str = "", **changes: Any) -> dict[str, Any]:
     """A quantity with the entries that study.json has. `line`: an angle that repeats after 180 degrees."""
-    return {"name": name, "unit": "-", "source": "discrete", "reduction": "last", "column": "", "from": math.nan, "to": math.nan,
-            "relative": True, "limit": None, "line": False, **changes}
+    return {"name": name, "unit": "-", "source": "discrete", "reduction": "last", "column": "", "from": math.nan,
+            "to": math.nan, "relative": True, "limit": None, "line": False, **changes}
 
 
 @dataclass
@@ -165,8 +165,8 @@ def _describe_number(part: Part, name: str) -> dict[str, Any]:
     keys = [place.rpartition("/")[2] for place, (_, kind) in numbers.items() if kind in ("number", "line")]
     longer = sorted((other for other in keys if key and other.startswith(key)), key=len)
     nearest = longer[0] if longer else _diptych.nearest_name(key, keys)
-    part.refuse(f" = '{name}': no number of a comparison ends with '{key}'; the nearest is '{nearest}'. Use a name from the first "
-                "column of ensemble.csv, such as 'window 0.01-0.03 discrete band angle_deg'", "number")
+    part.refuse(f" = '{name}': no number of a comparison ends with '{key}'; the nearest is '{nearest}'. Use a name from the "
+                "first column of ensemble.csv, such as 'window 0.01-0.03 discrete band angle_deg'", "number")
 
 
 def _default_name(q: dict[str, Any]) -> str:
@@ -241,8 +241,8 @@ def _name_of(file: str) -> str:
 def read_study(file: str, overrides: Sequence[Setting] = ()) -> Study:
     """Reads a study file. `overrides` are settings of all points.
 
-    Paths are relative to the folder of the study; those of overrides to the working directory. Every key and value is checked by
-    itself; the combinations are checked with the points. Raises SceneError with file, line, key, value and the allowed values.
+    Paths are relative to the folder of the study; those of overrides to the working directory. Keys and values are checked one
+    by one; the combinations are checked with the points. Raises SceneError with file, line, key, value and the allowed values.
     """
     root = Part.read(file)
     root.allow("title", "scene", "command", "set", "seeds", "reference", "families", "axes", "combine", "quantities", "cost",
