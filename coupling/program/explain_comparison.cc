@@ -12,8 +12,6 @@
 #include "coupling/comparison/comparison_schema.h"
 #include "coupling/program/python_package.h"
 #include "coupling/program/result_entries.h"
-#include "coupling/calibration/calibration_numbers.h"
-#include "coupling/plans/plan_numbers.h"
 
 namespace diptych::coupling
 {
@@ -75,17 +73,6 @@ namespace diptych::coupling
           result.push_back(entry);
         }
     }
-
-    void add_plan(ResultList &result)
-    {
-      add_record("plan.json", Plan(), result);
-    }
-
-    void add_calibration(ResultList &result)
-    {
-      add_record("calibration.json", CalibrationRecord(), result);
-      add_record("calibration_cost.json", CalibrationCost(), result);
-    }
   } // namespace
 
   ResultList comparison_result_entries()
@@ -98,8 +85,6 @@ namespace diptych::coupling
     add_table("comparison.csv", comparison_columns(), result);
     add_comparison_arrays(result);
     add_campaigns(result);
-    add_plan(result);
-    add_calibration(result);
     return result;
   }
 } // namespace diptych::coupling

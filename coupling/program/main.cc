@@ -88,7 +88,8 @@ namespace
   // Commands of many runs are those of the Python package, beside this program or in PREFIX/lib/python3/dist-packages.
   bool is_campaign(const CommandLine &line)
   {
-    return line.command == Command::study || (line.command == Command::run && !line.seeds.empty() && !line.checks_only) ||
+    return line.command == Command::study || line.command == Command::plan || line.command == Command::calibrate ||
+           (line.command == Command::run && !line.seeds.empty() && !line.checks_only) ||
            (line.command == Command::compare && is_ensemble_folder(line.target));
   }
 
@@ -158,8 +159,6 @@ namespace
     switch (line.command)
       {
       case Command::run:
-      case Command::plan:
-      case Command::calibrate:
       case Command::continuum:
       case Command::material_point:
         start_the_panels(argv);

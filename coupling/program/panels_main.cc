@@ -8,12 +8,10 @@
 
 #include "coupling/processes/processes.h"
 #include "coupling/processes/stop_signal.h"
-#include "coupling/program/calibrate_command.h"
 #include "coupling/program/check_command.h"
 #include "coupling/program/continuum_command.h"
 #include "coupling/program/discrete_command.h"
 #include "coupling/program/material_point_command.h"
-#include "coupling/program/plan_command.h"
 #include "coupling/program/run_command.h"
 #include "coupling/program/worker_command.h"
 #include "coupling/scene/scene_error.h"
@@ -24,7 +22,7 @@ namespace
 
   int execute(const CommandLine &line)
   {
-    if (n_processes() > 1 && line.command != Command::continuum && line.command != Command::calibrate)
+    if (n_processes() > 1 && line.command != Command::continuum)
       throw SceneError(
         "mpirun: diptych " + name_of(line.command) +
         " runs on one process; several may run `diptych continuum` alone, `diptych run` with --seeds, `diptych study` or "
@@ -35,10 +33,6 @@ namespace
       {
       case Command::run:
         return line.checks_only ? check_run(line) : run_both(line);
-      case Command::plan:
-        return make_plan(line);
-      case Command::calibrate:
-        return run_calibration(line);
       case Command::discrete: // as a task of a study
         return run_discrete(line);
       case Command::continuum:

@@ -167,5 +167,12 @@ PYBIND11_MODULE(_continuum, m)
   translate_errors();
   bind_panel(m);
   bind_laws(m);
+  m.def("require_continuum", &diptych::coupling::require_continuum);
+  m.def("write_mesh", [](const diptych::coupling::Scene &scene, const diptych::discrete::Snapshot &grains, const std::string &file) {
+    const auto                    turn = own_turn();
+    const py::gil_scoped_release release;
+    diptych::continuum::write_mesh(
+      diptych::coupling::mesh_of(scene, diptych::coupling::continuum_parts(scene).front(), &grains), file);
+  });
   py::module_::import("atexit").attr("register")(py::cpp_function(&ContinuumPanel::close_all));
 }

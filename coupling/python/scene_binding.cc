@@ -113,6 +113,13 @@ namespace diptych::python
            [](const coupling::Scene &scene) { return std::string(discrete::name_of(discrete::walk_of(scene.loading.mode))); })
       .def("in_folder", in_folder)
       .def_property_readonly("directory", [](const coupling::Scene &scene) { return scene.output.directory; })
+      .def("unused_keys",
+           [](const coupling::Scene &scene) {
+             py::dict keys; // of the section continuum, with the key because of which no law reads them
+             for (const auto &[key, because] : unused_keys(scene.continuum))
+               keys[py::str(key)] = because;
+             return keys;
+           })
       .def("stages", [](const coupling::Scene &scene) { return coupling::stages(scene.loading); });
     m.def("read_scene", read, py::arg("file"), py::arg("changes"), py::arg("compares"));
     m.def("described_keys", described);

@@ -67,7 +67,7 @@ namespace diptych::coupling
   bool is_result_folder(const std::string &directory)
   {
     for (const char *name :
-         {"provenance.json", "ensemble.prm", "study_input.json", "calibration_input.json", "plan_input", "import.json"})
+         {"provenance.json", "ensemble.prm", "study_input.json", "calibration_input.json", "plan_input.prm", "plan_input.json", "import.json"})
       if (fs::is_regular_file(fs::path(directory) / name))
         return true;
     return false;

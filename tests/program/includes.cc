@@ -29,7 +29,7 @@ namespace
     {"continuum", {"laws", "mesh", "elements", "equilibrium", "panel"}},
     {"coupling",
      {"cells", "statistics", "numbers", "processes", "averaging", "fields", "bands", "probes", "scene", "store", "import",
-      "comparison", "panels", "ensembles", "studies", "plans", "calibration", "program", "python"}}};
+      "comparison", "panels", "ensembles", "studies", "program", "python"}}};
 
   std::vector<std::string> includes_of(const fs::path &file)
   {

@@ -25,8 +25,8 @@ from .shipped import benchmarks_dir, notebooks_dir
 
 
 def __getattr__(name: str) -> object:
-    """study() and ensemble() need pandas and SciPy, which load only with them."""
-    if name in ("Campaign", "ensemble", "study"):
+    """Campaigns need pandas and SciPy, which load only with them."""
+    if name in ("CalibrationResult", "Campaign", "PlanResult", "calibrate", "ensemble", "plan", "study"):
         from .campaigns import api
 
         return getattr(api, name)
@@ -34,8 +34,8 @@ def __getattr__(name: str) -> object:
 
 
 __all__ = [
-    "Band", "BandReport", "Campaign", "Comparison", "Contacts", "ContinuumPanel", "ContinuumSnapshot", "DiscretePanel",
-    "DiscreteSnapshot", "History", "Interval", "Mesh", "NotConverged", "PanelResults", "Record", "Results", "SceneError", "SceneWarning", "StressMap",
-    "__version__", "benchmarks_dir", "biaxial", "compare", "contacts", "ensemble", "find_bands", "grid", "increment", "integrate",
-    "keys", "load", "map_stress", "notebooks_dir", "principal", "probe", "scene", "shear_strain", "solve", "strips", "study", "theory_lines",
+    "Band", "BandReport", "CalibrationResult", "Campaign", "Comparison", "Contacts", "ContinuumPanel", "ContinuumSnapshot", "DiscretePanel",
+    "DiscreteSnapshot", "History", "Interval", "Mesh", "NotConverged", "PanelResults", "PlanResult", "Record", "Results", "SceneError", "SceneWarning", "StressMap",
+    "__version__", "benchmarks_dir", "biaxial", "calibrate", "compare", "contacts", "ensemble", "find_bands", "grid", "increment", "integrate",
+    "keys", "load", "map_stress", "notebooks_dir", "plan", "principal", "probe", "scene", "shear_strain", "solve", "strips", "study", "theory_lines",
 ]

@@ -26,7 +26,13 @@ def parsed(words: Sequence[str]) -> argparse.Namespace:
         parser.add_argument(option, type=int, default=default)
     for option in ("--resume", "--overwrite", "--quiet", "--run"):
         parser.add_argument(option, action="store_true")
-    return parser.parse_args(words)
+    joined: list[str] = []
+    for word in words:  # --accuracy 2 % is two words
+        if word == "%" and joined:
+            joined[-1] += " %"
+        else:
+            joined.append(word)
+    return parser.parse_args(joined)
 
 
 def execute(words: Sequence[str]) -> int:
@@ -39,6 +45,14 @@ def execute(words: Sequence[str]) -> int:
         from .study import run_study
 
         return run_study(line.target, line.output, settings_of(*changes), options, line.set_file)
+    if line.command == "plan":
+        from .plan import main_plan
+
+        return main_plan(line, options)
+    if line.command == "calibrate":
+        from .calibration import main_calibrate
+
+        return main_calibrate(line, options)
     from .ensemble import compare_again, run_ensemble
 
     if line.command == "compare":

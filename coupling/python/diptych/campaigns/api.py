@@ -1,6 +1,6 @@
-# diptych: studies and ensembles from Python scripts
+# diptych: studies, ensembles, plans and calibrations from Python scripts
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""study() and ensemble() run the program and return its tables as DataFrames."""
+"""study(), ensemble(), plan() and calibrate() run the program and return its tables as DataFrames."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class Campaign:
         return f"Campaign({self.folder!r}: {len(self.table)} rows)"
 
 
-def _run(words: Sequence[str], output: str, options: Mapping[str, Any]) -> Campaign:
+def _call(words: Sequence[str], output: str, options: Mapping[str, Any]) -> None:
     for name, value in options.items():
         if name == "set":
             words = [*words, *(word for key, to in value.items() for word in ("--set", f"{key}={text_of(to)}"))]
@@ -74,7 +74,11 @@ def _run(words: Sequence[str], output: str, options: Mapping[str, Any]) -> Campa
     if done.returncode not in (DONE, NOT_CONVERGED) or not os.path.isdir(output):
         raise (SceneError if done.returncode == WRONG_INPUT else RuntimeError)(done.stderr.strip())
     if done.returncode == NOT_CONVERGED:
-        raise NotConverged(f"{done.stderr.strip()}; Campaign.load('{output}') reads what is there")
+        raise NotConverged(f"{done.stderr.strip()}; load('{output}') of the result's class reads what is there")
+
+
+def _run(words: Sequence[str], output: str, options: Mapping[str, Any]) -> Campaign:
+    _call(words, output, options)
     return Campaign.load(output)
 
 
@@ -99,3 +103,80 @@ def study(contents: Mapping[str, Any] | str | os.PathLike[str], output: str | os
 def ensemble(scene: str | os.PathLike[str], seeds: str, output: str | os.PathLike[str], **options: Any) -> Campaign:
     """Runs a scene file with several seeds ("1-8") and returns the statistics. Options and errors are as in study()."""
     return _run(["run", os.fspath(scene), "--seeds", seeds], os.fspath(output), options)
+
+
+@dataclass(repr=False)
+class CalibrationResult:
+    """Results of a calibration. numbers: calibration.json, whose keys `diptych explain results` describes."""
+
+    folder: str
+    numbers: dict[str, Any]
+
+    @staticmethod
+    def load(folder: str | os.PathLike[str]) -> CalibrationResult:
+        """Reads the folder of a calibration. Raises ValueError if there is none."""
+        return CalibrationResult(os.fspath(folder), read_json(os.path.join(folder, "calibration.json")))
+
+    def _of_paths(self, name: str) -> pd.DataFrame:
+        return pd.DataFrame([{"path": path["name"], "use": path["use"], **one} for path in self.numbers["paths"]
+                             for one in path[name]])
+
+    @property
+    def parameters(self) -> pd.DataFrame:
+        """A row per parameter: key, value, number with its 95 % interval, share_known, is_identified, ..."""
+        return pd.DataFrame(self.numbers["parameters"])
+
+    @property
+    def observables(self) -> pd.DataFrame:
+        """A row per path and observable: mean of the grains, before, after, deviations."""
+        return self._of_paths("observables")
+
+    @property
+    def predictions(self) -> pd.DataFrame:
+        """A row per path and quantity, with the verdict."""
+        return self._of_paths("predictions")
+
+    def __repr__(self) -> str:
+        return f"CalibrationResult({self.folder!r}: {self.numbers['status']}, chi2 = {self.numbers['chi2']})"
+
+
+def calibrate(file: str | os.PathLike[str], output: str | os.PathLike[str], **options: Any) -> CalibrationResult:
+    """Runs a calibration file and returns its results. Options and errors are as in study()."""
+    _call(["calibrate", os.fspath(file)], os.fspath(output), options)
+    return CalibrationResult.load(output)
+
+
+@dataclass(repr=False)
+class PlanResult:
+    """A plan. numbers: plan.json, whose keys `diptych explain results` describes. The folder also holds planned.prm."""
+
+    folder: str
+    numbers: dict[str, Any]
+
+    @staticmethod
+    def load(folder: str | os.PathLike[str]) -> PlanResult:
+        """Reads the folder of a plan. Raises ValueError if there is none."""
+        return PlanResult(os.fspath(folder), read_json(os.path.join(folder, "plan.json")))
+
+    @property
+    def panels(self) -> pd.DataFrame:
+        """A row per panel: command, seeds, CPU time of one sample [s], settings, whether it reaches the accuracy."""
+        return pd.DataFrame(self.numbers["panels"])
+
+    @property
+    def errors(self) -> pd.DataFrame:
+        """A row per panel, quantity and cause: error, bias and deviation, relative to the mean."""
+        return pd.DataFrame([{"panel": panel["panel"], "quantity": q["name"], **part}
+                             for panel in self.numbers["panels"] for q in panel["quantities"] for part in q["parts"]])
+
+    def __repr__(self) -> str:
+        return f"PlanResult({self.folder!r}: {len(self.numbers['panels'])} panels, accuracy {self.numbers['accuracy']:g})"
+
+
+def plan(scene: str | os.PathLike[str], accuracy: float, output: str | os.PathLike[str], **options: Any) -> PlanResult:
+    """Plans a scene file for a relative accuracy of the mean, 0.001 to 0.5.
+
+    Options and errors are as in study(), with run=True for the planned samples and **{"for": "strength,angle"} for the
+    quantities. Raises NotConverged if the accuracy is not reached; PlanResult.load() then reads the plan."""
+    _call(["plan", os.fspath(scene), "--accuracy", repr(float(accuracy))], os.fspath(output), options)
+    return PlanResult.load(output)

@@ -1,0 +1,334 @@
+# diptych: the command calibrate: parameters of the continuum from the curves of the grains
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Searches from several starts on coarse meshes, then continues on the samples' own meshes with the coarse Jacobian. Afterwards
+it computes deviations of the parameters, the effect of load steps half as long, and predictions on paths that were not
+fitted."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+from collections.abc import Callable, Sequence
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from ..arrays import Array
+from ..errors import NotConverged, SceneError, Stopped
+from .calibration_coordinates import Coordinates
+from .calibration_file import Calibration, Target, read_calibration
+from .calibration_findings import (parameter_records, parameter_words, path_record, summary, widen_predictions,
+                                   write_calibration)
+from .calibration_noise import Data, FittedData, noise_of
+from .calibration_runs import CalibrationRuns, Observation, Path, read_target, without_frames
+from .calibration_search import (PRIOR, Fit, Knowledge, difference_jacobian, expected_chi2, identify, least_squares,
+                                 spread_point)
+from .engine import DONE, NOT_CONVERGED, Options, complain, say
+from .folders import Folder, draw
+from .input_file import Setting
+
+SAME_MINIMUM = 0.05  # in every coordinate; they run over [0, 1]
+FIRST_JACOBIANS = 4  # most of the first search
+HARDLY_WORSE = 4  # in chi^2: two deviations
+REACH = 1.5  # deviations to either side in a profile
+
+RunModel = Callable[[Sequence[Path], Sequence[Sequence[Sequence[Setting]]], bool, float], "list[list[Observation]]"]
+
+
+def empty_record(title: str) -> dict[str, Any]:
+    """calibration.json before the search."""
+    return {"format": 1, "title": title, "status": "started", "settings": [], "own": [], "chi2_before": np.nan,
+            "chi2_coarse": np.nan, "chi2": np.nan, "misfit": np.nan, "n_observables": 0, "coarse_runs": 0, "fine_runs": 0,
+            "other_runs": 0, "noise": {}, "words": [], "parameters": [], "correlation": [], "minima": [], "paths": []}
+
+
+class Calibrator:
+    """`record` always holds the best point so far. Raises NotConverged if no start has a run, ValueError without data."""
+
+    def __init__(self, calibration: Calibration, coordinates: Coordinates, paths: Sequence[Path], run: RunModel,
+                 record: dict[str, Any]) -> None:
+        self.calibration, self.coordinates, self.paths, self.run, self.record = calibration, coordinates, paths, run, record
+        self.fitted = [path for path in paths if path.target.is_fitted]
+        alone = len(self.fitted) == 1 and len(self.fitted[0].samples) == 1
+        self.noise = noise_of([path.data for path in (paths if alone else self.fitted)], calibration.noise)
+        record["noise"] = asdict(self.noise)
+        self.data = FittedData(self.noise, calibration.noise, [path.data for path in self.fitted],
+                               [path.left_out for path in self.fitted])
+        record["n_observables"] = int((self.data.weights > 0).sum())
+        if record["n_observables"] == 0:
+            raise NotConverged("no observable is left to fit; check targets, quantities and bins")
+        self.best = (np.inf, False)  # chi^2 with the prior, on the samples' own mesh
+
+    def _settings(self, point: Array, target: str) -> list[Setting]:
+        return [*self.calibration.fixed, *self.coordinates.settings(point, target)]
+
+    def _runs(self, points: Sequence[Array], paths: Sequence[Path], fine: bool, count: str) -> list[list[Observation]]:
+        self.record[count] += len(points) * len(paths)
+        settings = [[self._settings(point, path.target.name) for path in paths] for point in points]
+        return self.run(paths, settings, fine, self.calibration.load_step)
+
+    def _keep(self, point: Array) -> None:
+        """Records the settings that all targets share, and the values of single targets."""
+        self.record["settings"] = [one.text() for one in self._settings(point, "")]
+        self.record["own"] = [{"target": path.target.name, "key": p.key, "value": value} for path in self.paths
+                              for p, value in zip(self.coordinates.parameters, self.coordinates.values(point))
+                              if path.target.name in p.targets]
+
+    def _chi2(self, residual: Array) -> float:
+        """chi^2 of the data, without the prior."""
+        return float((residual[:len(self.data.mean)] ** 2).sum())
+
+    def _residuals(self, fine: bool) -> Callable[[Sequence[Array]], list[Array]]:
+        def residuals(points: Sequence[Array]) -> list[Array]:
+            found = []
+            for point, runs in zip(points, self._runs(points, self.fitted, fine, "fine_runs" if fine else "coarse_runs")):
+                data = self.data.residual(np.concatenate([one.values for one in runs]))
+                found.append(np.concatenate([data, (point - self.coordinates.start) / PRIOR]))
+                total = found[-1] @ found[-1]
+                if np.isfinite(total) and (total < self.best[0] or fine > self.best[1]):
+                    self.best = (total, fine)
+                    self._keep(point)
+                    self.record["chi2"] = self._chi2(found[-1])
+            return found
+
+        return residuals
+
+    def calibrate(self) -> None:
+        coarse = self._fit_coarse()
+        fine = least_squares(self._residuals(True), coarse.point, 1, coarse.jacobian)
+        if not np.isfinite(fine.chi2):
+            raise NotConverged("the continuum did not finish on the samples' own mesh: " + fine.note)
+        self.record["chi2"] = self._chi2(fine.residual)
+        self._keep(fine.point)
+        knowledge, jacobian = self._report(fine, coarse)
+        self._profile(coarse, knowledge)
+        self._predict(fine.point, knowledge, jacobian)
+        self.record["status"] = "finished"
+
+    def _fit_coarse(self) -> Fit:
+        c, residuals, fits = self.calibration, self._residuals(False), []
+        starts = [self.coordinates.start, *(spread_point(c.seed + k, len(self.coordinates)) for k in range(1, c.starts))]
+        for k, start in enumerate(starts):
+            fit = least_squares(residuals, start, c.start_jacobians if k else max(FIRST_JACOBIANS, c.start_jacobians))
+            fits.append(fit)
+            self.record["minima"].append({"start": self.coordinates.numbers(start), "runs": fit.evaluations, "is_best": False,
+                                          "words": fit.note, **self._minimum(fit)})
+        found = int(np.argmin([fit.chi2 for fit in fits]))
+        if not np.isfinite(fits[found].chi2):
+            raise NotConverged("the continuum did not finish at any start; change start, low and high")
+        best = fits[found]
+        if found > 0:  # so far with few Jacobians
+            best = least_squares(residuals, best.point, FIRST_JACOBIANS)
+        self.record["minima"][found] |= {"is_best": True, **self._minimum(best)}
+        for k, fit in enumerate(fits):
+            if k != found and np.isfinite(fit.chi2) and np.abs(fit.point - best.point).max() > SAME_MINIMUM:
+                why = ("the data hardly distinguish the two" if fit.chi2 < best.chi2 + HARDLY_WORSE
+                       else "a second minimum, or a valley that the search did not leave")
+                self.record["words"].append(f"start {k + 1} ended at another point, with chi^2 (prior included) {fit.chi2:.3g} "
+                                            f"instead of {best.chi2:.3g}: {why}")
+        self.record["chi2_coarse"] = self._chi2(best.residual)
+        return best
+
+    def _minimum(self, fit: Fit) -> dict[str, Any]:
+        return {"numbers": self.coordinates.numbers(fit.point), "total": fit.chi2,
+                "chi2": self._chi2(fit.residual) if np.isfinite(fit.chi2) else np.nan}
+
+    def _report(self, fine: Fit, coarse: Fit) -> tuple[Knowledge, Array]:
+        """A misfit beyond noise and model tolerance counts as noise, too."""
+        data, record = self.data, self.record
+        jacobian = data.unweighted(fine.jacobian[:len(data.mean)])
+        record["misfit"] = np.sqrt(record["chi2"] / expected_chi2(jacobian, data.weights, data.of_means(True)))
+        if record["n_observables"] <= len(self.coordinates):
+            record["misfit"] = np.nan  # nothing is left over to estimate it
+        wider = max(1.0, np.nan_to_num(record["misfit"])) ** 2
+        knowledge = identify(jacobian, data.weights, wider * data.of_means(True), wider * data.of_means(False),
+                             self.noise.degrees_of_freedom)
+        if record["misfit"] > 1:
+            record["words"].append(f"chi^2 is {record['chi2']:.3g}, {record['misfit'] ** 2:.3g} times the expected value: "
+                                   "this law "
+                                   "cannot reproduce the data within noise and model tolerance; deviations of the parameters "
+                                   "are "
+                                   f"multiplied by {record['misfit']:.3g}")
+        record["parameters"] = parameter_records(self.coordinates, knowledge, fine.point)
+        record["correlation"] = knowledge.correlation
+        record["words"] += parameter_words(record["parameters"])
+        record["words"] += [f"on {mesh} mesh {fit.note}" for mesh, fit in (("the samples' own", fine), ("the coarse", coarse))
+                            if fit.note]
+        return knowledge, jacobian
+
+    def _profile(self, coarse: Fit, knowledge: Knowledge) -> None:
+        """chi^2 on both sides of the minimum; the linear model gives the other parameters."""
+        points = []
+        for k, deviation in enumerate(knowledge.deviation):
+            along = knowledge.covariance[:, k] / knowledge.covariance[k, k]
+            for side in (-REACH, REACH):
+                to = np.clip(coarse.point[k] + side * deviation, 0, 1)
+                points.append(np.clip(coarse.point + (to - coarse.point[k]) * along, 0, 1))
+        runs = self._runs(points, self.fitted, False, "coarse_runs")
+        residuals = [self.data.residual(np.concatenate([one.values for one in of_point])) for of_point in runs]
+        for k, p in enumerate(self.record["parameters"]):
+            for point, residual in ((points[2 * k], residuals[2 * k]), (coarse.point, coarse.residual),
+                                    (points[2 * k + 1], residuals[2 * k + 1])):
+                p["profile_number"].append(self.coordinates.numbers(point)[k])
+                p["profile_chi2"].append(self._chi2(residual))
+                p["profile_expected"].append(self._chi2(coarse.residual + coarse.jacobian @ (point - coarse.point)))
+
+    def _predict(self, best: Array, knowledge: Knowledge, jacobian: Array) -> None:
+        """All paths on their own meshes: before, calibrated, and calibrated with half the load step."""
+        self.record["other_runs"] += 3 * len(self.paths)
+        calibrated = [self._settings(best, path.target.name) for path in self.paths]
+        before, after = self.run(self.paths, [[path.target.before for path in self.paths], calibrated], True,
+                                 self.calibration.load_step)
+        halved = self.run(self.paths, [calibrated], True, 0.5 * self.calibration.load_step)[0]
+        at = 0
+        for path, *runs in zip(self.paths, before, after, halved):
+            here = self._jacobian_on(path, best, jacobian)
+            record = path_record(path, self.noise, runs, np.sqrt(np.diag(here @ knowledge.covariance @ here.T)))
+            if path.target.is_fitted:
+                for one in record["observables"]:
+                    one["counts"], at = bool(self.data.weights[at] > 0), at + 1
+            else:
+                widen_predictions(record, float(knowledge.quantile.max()))
+            self.record["paths"].append(record)
+        formerly = [one for path, one in zip(self.paths, before) if path.target.is_fitted]
+        self.record["chi2_before"] = self._chi2(self.data.residual(np.concatenate([one.values for one in formerly])))
+
+    def _jacobian_on(self, path: Path, best: Array, jacobian: Array) -> Array:
+        """(observables, parameters) of one path: the fit's if the path was fitted, on these or other samples; else differences
+        on the coarse mesh."""
+        n, at = len(path.data.observables), 0
+        for other in self.fitted:
+            same = all(p.is_of(path.target.name) == p.is_of(other.target.name) for p in self.coordinates.parameters)
+            if same and path.target.is_same_path(other.target):
+                return jacobian[at:at + n]
+            at += len(other.data.observables)
+
+        def values(points: Sequence[Array]) -> list[Array]:
+            return [runs[0].values for runs in self._runs(points, [path], False, "other_runs")]
+
+        here = values([best])[0]
+        measured = np.isfinite(here)
+        result = np.full((n, len(best)), np.nan)
+        if measured.any():
+            result[measured] = difference_jacobian(lambda points: [one[measured] for one in values(points)], best,
+                                                   here[measured])
+        return result
+
+
+def _coordinates_of(calibration: Calibration) -> Coordinates:
+    """Shares and drops refer to fixed keys, else to those of the first fitted scene."""
+    others: dict[str, float] = {}
+    first = next(target for target in calibration.targets if target.is_fitted)
+    values = [*read_target(first).dict()["continuum"].items(), *((one.key, one.value) for one in calibration.fixed)]
+    for key, value in values:
+        try:
+            others[key] = float(value)
+        except (TypeError, ValueError):
+            continue
+    try:
+        return Coordinates(calibration.parameters, others)
+    except ValueError as error:
+        raise SceneError(f"{calibration.file}: parameters: {error}") from error
+
+
+def _check_target(calibration: Calibration, coordinates: Coordinates, target: Target) -> Data:
+    """The start must be a scene for every target. Returns data of the same shape as the samples will give."""
+    scene = read_target(target, [*calibration.fixed, *coordinates.settings(coordinates.start, target.name)])
+    importlib.import_module("diptych._continuum").require_continuum(scene)
+    if scene.dict()["continuum"]["initial_stress"] == "mapped":
+        raise SceneError(f"{target.scene}: continuum/initial_stress = mapped has no place in a calibration: one mesh serves "
+                         "all samples")
+    place = f"{calibration.file}: target '{target.name}': "
+    try:
+        observables = calibration.observables_of(scene, bool(target.curve))
+    except ValueError as error:
+        raise SceneError(place + str(error)) from error
+    for kind in calibration.kinds:
+        if target.is_fitted and not target.curve and kind not in [one.kind for one in observables]:
+            raise SceneError(f"{place}no bin or window of {kind} lies within its loading")
+    for p in coordinates.parameters:
+        if p.is_of(target.name) and p.key in (unused := scene.unused_keys()):
+            raise SceneError(f"{calibration.file}: parameters: {p.key} is read by no law of target '{target.name}': "
+                             f"continuum/{unused[p.key]}")
+    read_target(target, target.before)
+    if target.curve:
+        from .calibration_runs import observe_curve
+
+        sample, deviations = observe_curve(scene, observables, target.curve)
+        return Data(observables, sample.values, deviations)
+    return Data(observables, np.zeros((len(target.seeds), len(observables))))
+
+
+def _checked(file: str) -> tuple[Calibration, Coordinates]:
+    """Reads a calibration and checks it before anything is changed. Whether the scatter can be estimated follows from the
+    number of samples alone."""
+    calibration = read_calibration(file)
+    coordinates = _coordinates_of(calibration)
+    shapes = [_check_target(calibration, coordinates, target) for target in calibration.targets]
+    try:
+        noise_of(shapes, calibration.noise)
+    except ValueError as error:
+        raise SceneError(f"{calibration.file}: {error}") from error
+    return calibration, coordinates
+
+
+def _check_data(calibration: Calibration, paths: Sequence[Path], runs: CalibrationRuns, record: dict[str, Any]) -> None:
+    """With coarser steps of the grains the fit would describe the step and not the material."""
+    noise = noise_of([path.data for path in paths], calibration.noise)
+    for path in paths:
+        target = path.target
+        if not target.is_fitted:
+            continue
+        if target.curve:
+            record["words"].append(f"target '{target.name}' is a measured curve: nothing was run again")
+        elif path.scene.dict()["discrete"]["method"] == "imported":
+            path.left_out = without_frames(path.scene, path.data.observables)
+            record["words"].append(f"target '{target.name}' is imported: nothing was run again, and only bins that hold a "
+                                   "frame count")
+        elif calibration.check_samples == 0 or target.results:
+            record["words"].append(f"target '{target.name}' was not checked for the step of its grains")
+        else:
+            path.left_out = runs.unsteady(path, noise)
+            record["words"] += [f"left out: {target.name}, {one.kind} from {one.low:.3g} to {one.high:.3g}: {why}"
+                                for one, why in zip(path.data.observables, path.left_out) if why]
+
+
+def _inputs(calibration: Calibration) -> list[tuple[str, str]]:
+    inputs = [("the calibration", calibration.file)]
+    for target in calibration.targets:
+        name = f"targets: '{target.name}': "
+        inputs += [(name + "the scene", target.scene), *((name + "results", folder) for folder in target.results)]
+        inputs += [(name + "curve", target.curve)] if target.curve else []
+        inputs += read_target(target).input_files()
+    return inputs
+
+
+def run_calibration(file: str, output: str, options: Options) -> int:
+    """Does the command and returns its exit code; 3: stopped, or no convergence, with the best point so far in the folder."""
+    calibration, coordinates = _checked(file)
+    directory = output or f"results/{calibration.name}_calibration"
+    record = empty_record(calibration.title)
+    with Folder(directory) as folder:
+        folder.open_runs("calibration", file, options, lambda: _inputs(calibration))
+        runs = CalibrationRuns(calibration, directory, options)
+        try:
+            paths = runs.paths()
+            _check_data(calibration, paths, runs, record)
+            Calibrator(calibration, coordinates, paths, runs.continuum, record).calibrate()
+        except (Stopped, NotConverged) as error:
+            record["status"] = str(error)
+        write_calibration(directory, record, runs.cpu_s)
+        if record["status"] != "finished":
+            complain(f"diptych: {record['status']}; what was found is kept in {directory}; to go on: diptych calibrate {file} "
+                     f"--output {directory} --resume")
+            return NOT_CONVERGED
+        print(summary(record, runs.cpu_s["continuum"]), flush=True)
+        draw(options, "calibration", directory)
+        say(options, f"{directory}/calibrated.prm, calibration.json, calibration.csv")
+    return DONE
+
+
+def main_calibrate(args: argparse.Namespace, options: Options) -> int:
+    """The command `diptych calibrate FILE`. args: target and output."""
+    return run_calibration(args.target, args.output, options)

@@ -1,0 +1,299 @@
+# diptych: reads and checks calibration files
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A calibration file names targets, quantities and parameters. Paths in it are relative to its folder."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass, field, fields
+
+import numpy as np
+import pandas as pd
+
+from .. import _diptych
+from ..errors import SceneError
+from .calibration_coordinates import COORDINATES, Parameter, usual_coordinate
+from .calibration_noise import KINDS, NoiseOptions, Observable
+from .histories import is_beyond
+from .input_file import Part, Setting, is_number, listed, value_text
+
+FAR = 1e12
+MOST_PARAMETERS = 12  # the starts are spread over at most so many directions
+KEYS_OF_THE_SEARCH = ("mesh", "element_size", "rectangle_width", "rectangle_height", "initial_step", "max_step")
+ROOT_KEYS = ("title", "targets", "quantities", "bins", "set", "parameters", "noise", "starts", "start_jacobians", "load_step",
+             "coarse_element_size", "check_samples", "seed")
+CURVE_COLUMNS = {"stress_ratio": "stress_ratio_deviation", "volumetric_strain": "volumetric_strain_deviation"}
+
+
+@dataclass
+class Target:
+    """A loading path: one scene on several samples, on finished result folders, or with a measured curve instead of grains."""
+
+    name: str
+    scene: str
+    settings: list[Setting]
+    seeds: list[int] = field(default_factory=list)
+    results: list[str] = field(default_factory=list)  # result folders, one per seed, instead of runs
+    curve: str = ""  # .csv file
+    is_fitted: bool = True  # False: predicted
+    before: list[Setting] = field(default_factory=list)  # parameters to compare with; empty: those of the scene
+
+    def is_same_path(self, other: Target) -> bool:
+        """True if the paths differ in their samples only."""
+        here, there = ([one.text() for one in target.settings] for target in (self, other))
+        return (self.scene, self.curve) == (other.scene, other.curve) and here == there
+
+
+@dataclass
+class Calibration:
+    """The contents of a calibration file; keys as in the README."""
+
+    name: str
+    file: str
+    title: str
+    targets: list[Target]
+    kinds: list[str]
+    bins: list[float]
+    parameters: list[Parameter]
+    fixed: list[Setting]
+    noise: NoiseOptions
+    starts: int = 2
+    start_jacobians: int = 1
+    load_step: float = 0.001
+    coarse_element_size: float = 4.0
+    check_samples: int = 2
+    seed: int = 1
+
+    def observables_of(self, scene: _diptych.Scene, is_curve: bool = False) -> list[Observable]:
+        """Bins up to the end of the scene's loading, and windows of its comparison; a measured curve has no windows."""
+        keys, found = scene.dict(), []
+        for kind in self.kinds:
+            edges = keys["comparison"]["window_edges"] if kind == "ln_width" else self.bins
+            edges = [float(edge) for edge in (edges.split(",") if isinstance(edges, str) else edges)]
+            found += [Observable(kind, low, high) for low, high in zip(edges, edges[1:])
+                      if not is_beyond(high, keys["loading"]["axial_strain"]) and not (is_curve and kind == "ln_width")]
+        if not found:
+            raise ValueError("no bin and no window lies within the loading; check bins and comparison/window_edges")
+        return found
+
+
+def _existing(part: Part, key: str) -> str:
+    path = os.path.join(os.path.dirname(part.file), part.at(key).value if part.word(key) else "")
+    if not os.path.isfile(path):
+        part.refuse(f" = '{path}': there is no such file", key)
+    return path
+
+
+def read_curve(file: str) -> pd.DataFrame:
+    """A measured curve: axial_strain, stress_ratio (t/s), volumetric_strain and, where given, their deviations; compression
+    positive. Raises SceneError with file and column."""
+    try:
+        table = pd.read_csv(file, comment="#", skipinitialspace=True)
+    except (ValueError, pd.errors.ParserError) as error:
+        raise SceneError(f"{file}: {error}") from error
+    allowed = ["axial_strain", *CURVE_COLUMNS, *CURVE_COLUMNS.values()]
+    unknown = [name for name in table if name not in allowed]
+    if unknown or not {"axial_strain", *CURVE_COLUMNS} & set(table) > {"axial_strain"}:
+        raise SceneError(f"{file}: {f'unknown column {unknown[0]!r}; ' if unknown else ''}the first line must name "
+                         "axial_strain and "
+                         f"stress_ratio or volumetric_strain; allowed are {', '.join(allowed)}")
+    for name in table:
+        values = pd.to_numeric(table[name], errors="coerce")
+        wrong = np.flatnonzero(~np.isfinite(values) | ((values <= 0) if name.endswith("deviation") else False))
+        if len(wrong):
+            raise SceneError(f"{file}, row {wrong[0] + 1}: {name} = {table[name].iloc[wrong[0]]} is not allowed; give a "
+                             f"{'positive ' if name.endswith('deviation') else ''}number")
+        table[name] = values.astype(float)
+    if len(table) < 2 or not np.all(np.diff(table["axial_strain"]) > 0):
+        raise SceneError(f"{file}: axial_strain must ascend over at least two rows")
+    return table.rename(columns={"axial_strain": "progress"})
+
+
+def _result_folder(one: Part) -> str:
+    folder = os.path.join(os.path.dirname(one.file), value_text(one.value))
+    if _diptych.resolved_scene(folder + "/scene.prm") is None or not all(
+            os.path.exists(f"{folder}/discrete.{ending}") for ending in ("csv", "h5")):
+        one.refuse(f"results: '{folder}' is not a result folder; scene.prm, discrete.csv and discrete.h5 are needed")
+    try:
+        _diptych.check_part(folder, "discrete")  # a file that changed since its run would be fitted as if it were measured
+    except ValueError as error:
+        one.refuse(f"results: {error}")
+    return folder
+
+
+def _sample_of(folder: str) -> tuple[str, int, dict[str, str]]:
+    """The mark of a sample (its seed, or for imported samples its file), its seed, and what all samples must share."""
+    scene = _diptych.resolved_scene(folder + "/scene.prm")
+    keys, identity = scene.dict(), dict(scene.identity("sample"))
+    imported = keys["discrete"]["method"] == "imported"
+    for key in ("sample/seed", *(("discrete/file", "loading/pressure") if imported else ())):
+        identity.pop(key)
+    seed = keys["sample"]["seed"]
+    return str(keys["discrete"]["file"] if imported else seed), seed, identity
+
+
+def _results(part: Part) -> tuple[list[str], list[int]]:
+    """Finished result folders and their seeds. They must come from one scene and differ in their samples only."""
+    if part.has("scene") or part.has("seeds"):
+        part.refuse(" replaces scene and seeds; give one or the other", "results")
+    folders = [_result_folder(one) for one in part.list("results")]
+    if not folders:
+        part.refuse(" is empty; name at least one result folder", "results")
+    samples = [_sample_of(folder) for folder in folders]
+    for k, (mark, _, identity) in enumerate(samples):
+        for j, (other_mark, _, other) in enumerate(samples[:k]):
+            pair = f": '{folders[k]}' and '{folders[j]}' "
+            if mark == other_mark:
+                part.refuse(f"{pair}are the same sample ({mark})", "results")
+            for key in identity:
+                if identity[key] != other.get(key):
+                    part.refuse(f"{pair}come from different scenes: {key} = '{identity[key]}' and '{other.get(key)}'",
+                                "results")
+    return folders, [seed for _, seed, _ in samples]
+
+
+def _target(part: Part) -> Target:
+    part.allow("name", "scene", "set", "seeds", "results", "curve", "use", "before")
+    part.at("name")
+    target = Target(part.word("name"), "", part.settings("set"),
+                    is_fitted=part.choice("use", ("fit", "predict"), "fit") == "fit")
+    if part.has("results"):
+        target.results, target.seeds = _results(part)
+        target.scene = target.results[0] + "/scene.prm"
+    else:
+        target.scene = _existing(part, "scene")
+        if not part.has("curve"):
+            part.at("seeds")
+        target.seeds = part.seeds("seeds")
+    if part.has("curve"):
+        if part.has("results") or part.has("seeds"):
+            part.refuse(" stands instead of grains; leave out seeds and results", "curve")
+        target.curve = _existing(part, "curve")
+        read_curve(target.curve)
+    if part.has("before"):
+        fragment = _existing(part, "before")
+        target.before = [Setting(*entry) for entry in _diptych.read_fragment(fragment)]
+        for entry in target.before:
+            if entry.section != "continuum":
+                part.refuse(f" = '{fragment}' sets {entry.section}/{entry.key}, which is not a key of the continuum", "before")
+    return target
+
+
+def _check_numbers(part: Part, p: Parameter) -> None:
+    if not p.low < p.high:
+        part.refuse(f" = {p.low:g} and high = {p.high:g}: bounds must ascend", "low")
+    if not p.low <= p.start <= p.high:
+        part.refuse(f" = {p.start:g} lies outside its bounds [{p.low:g}, {p.high:g}]", "start")
+    if p.is_ratio and not (p.low >= 0 and p.high <= 1):
+        part.refuse(f" = {p.low:g} and high = {p.high:g}: shares and drops lie between 0 and 1", "low")
+    if p.coordinate == "logarithm" and not p.low > 0:
+        part.refuse(f" = {p.low:g}: a logarithm needs bounds above 0", "low")
+    for name in () if p.is_ratio else ("low", "high"):  # both must lie in the range of the key
+        part.setting(name, "continuum/" + p.key, part.value[name])
+
+
+def _parameter(part: Part, targets: Sequence[Target]) -> Parameter:
+    part.allow("key", "coordinate", "of", "start", "low", "high", "targets")
+    for name in ("key", "start", "low", "high"):
+        part.at(name)
+    key, fitted = part.word("key"), {target.name: target.is_fitted for target in targets}
+    names = [value_text(one.value) for one in part.list("targets")]
+    for one, name in zip(part.list("targets"), names):
+        if name not in fitted:
+            one.refuse(f"targets: there is no target '{name}'")
+    if part.has("targets") and not any(fitted[name] for name in names):
+        part.refuse(": none of these targets is fitted", "targets")
+    coordinate = part.choice("coordinate", COORDINATES, usual_coordinate(key))
+    is_ratio = coordinate in ("share_of", "drop_from")
+    if not is_ratio and part.has("of"):
+        part.refuse(" is only allowed with coordinate = share_of or drop_from", "of")
+    part.setting("key", "continuum/" + key, 0.3)  # checks that the key exists
+    if key in KEYS_OF_THE_SEARCH:
+        part.refuse(f" = {key} is set by the calibration itself and cannot be a parameter", "key")
+    p = Parameter(key, coordinate, *(part.number(name, -FAR, FAR) for name in ("start", "low", "high")),
+                  part.word("of", "friction_angle_peak") if is_ratio else "", tuple(names))
+    _check_numbers(part, p)
+    return p
+
+
+def _demand_distinct(root: Part, key: str, names: Sequence[str]) -> None:
+    for k, name in enumerate(names):
+        if name in names[:k]:
+            root.refuse(f": two entries have the name '{name}'", key)
+
+
+def _noise(root: Part) -> NoiseOptions:
+    options = NoiseOptions()
+    if root.has("noise"):
+        part, names = root.at("noise"), [one.name for one in fields(NoiseOptions)]
+        part.allow(*names)
+        for name in filter(part.has, names):
+            setattr(options, name, part.number(name, 1e-9 if name in ("correlation_strain", "early_strain") else 0, FAR))
+    return options
+
+
+def _kinds(root: Part) -> list[str]:
+    kinds: list[str] = []
+    for part in root.list("quantities"):
+        word = value_text(part.value)
+        if word not in KINDS or word in kinds:
+            part.refuse(f"quantities: '{word}' is "
+                        f"{'given twice' if word in kinds else f'not allowed; use some of {listed(KINDS)}'}")
+        kinds.append(word)
+    if not kinds:
+        root.refuse(f" is missing or empty; use some of {listed(KINDS)}", "quantities")
+    return kinds
+
+
+def _bins(root: Part) -> list[float]:
+    bins: list[float] = []
+    for part in root.list("bins"):
+        if not is_number(part.value) or part.value < 0 or (bins and part.value <= bins[-1]):
+            part.refuse(f"bins: {value_text(part.value)} is not allowed; edges must ascend and begin at 0 or above")
+        bins.append(float(part.value))
+    if len(bins) < 2:
+        root.refuse(" needs at least two edges", "bins")
+    return bins
+
+
+def _fixed(root: Part, parameters: Sequence[Parameter]) -> list[Setting]:
+    fixed = root.settings("set")
+    for entry in fixed:
+        if entry.section != "continuum":
+            root.refuse(f": {entry.section}/{entry.key} is not a key of the continuum; set keys of the grains in the targets",
+                        "set")
+        if entry.key in KEYS_OF_THE_SEARCH:
+            root.refuse(f": continuum/{entry.key} is set by the calibration itself; set it in a target, or use load_step and "
+                        "coarse_element_size", "set")
+        if any(p.key == entry.key for p in parameters):
+            root.refuse(f": continuum/{entry.key} is already one of the parameters", "set")
+    return fixed
+
+
+def read_calibration(file: str) -> Calibration:
+    """Reads a .json file. Raises SceneError naming file, line, key, value and the allowed values."""
+    root = Part.read(file)
+    root.allow(*ROOT_KEYS)
+    stem = os.path.splitext(os.path.basename(file))[0]
+    name = os.path.basename(os.path.dirname(os.path.abspath(file))) if stem == "calibration" else stem
+    targets = [_target(part) for part in root.list("targets")]
+    if not any(target.is_fitted for target in targets):
+        root.refuse(" is missing, or none of the targets is fitted", "targets")
+    _demand_distinct(root, "targets", [target.name for target in targets])
+    kinds = _kinds(root)
+    bins = _bins(root) if kinds != ["ln_width"] else []
+    parameters = [_parameter(part, targets) for part in root.list("parameters")]
+    if not 0 < len(parameters) <= MOST_PARAMETERS:
+        root.refuse(f" is missing or empty; name 1 to {MOST_PARAMETERS} keys to be fitted", "parameters")
+    for target in targets:  # each target uses a key once
+        _demand_distinct(root, "parameters", [p.key for p in parameters if p.is_of(target.name)])
+    c = Calibration(name, file, root.word("title", name), targets, kinds, bins, parameters, _fixed(root, parameters),
+                    _noise(root))
+    for key, low, high in (("starts", 1, 20), ("start_jacobians", 1, 20), ("check_samples", 0, 1000), ("seed", 0, 1_000_000)):
+        if root.has(key):
+            setattr(c, key, root.whole(key, low, high))
+    for key, smallest, largest in (("load_step", 1e-9, 1), ("coarse_element_size", 0.01, 1e3)):
+        if root.has(key):
+            setattr(c, key, root.number(key, smallest, largest))
+    return c

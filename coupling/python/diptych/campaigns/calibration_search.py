@@ -1,0 +1,204 @@
+# diptych: least squares of a calibration, and the deviations of its parameters
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The search works in the unit cube, where every residual needs a run. scipy's dogleg with bounds ("dogbox") does Gauss-Newton
+steps in a trust region. The Jacobian comes from forward differences, which run in parallel, and Broyden's rank-one update
+follows the accepted steps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+import scipy.optimize
+import scipy.stats
+
+from ..arrays import Array
+
+Residuals = Callable[[Sequence[Array]], "list[Array]"]  # of several points at once; NaN: the run failed
+DIFFERENCE = 0.005  # step of the forward differences; backward at the upper bound
+LEAST_GAIN, LEAST_DECREASE = 0.05, 1e-3  # of chi^2, absolute and relative: below either, a search has converged
+RADIUS_OF_FRESH, RADIUS_OF_GIVEN = 0.25, 0.1  # of the first trust region, with a Jacobian computed here or given
+EXACT = 1e-6  # mean square of the residuals below which the fit is exact
+MOST_STEPS = 6  # of a search with one Jacobian and its updates
+PRIOR = 0.25  # deviation of every coordinate before the data
+LARGEST_SHARE = 2 / 3  # of the prior deviation that an identified parameter keeps
+NORMAL = float(scipy.stats.norm.ppf(0.975))
+
+
+def difference_jacobian(residuals: Residuals, point: Array, residual: Array) -> Array:
+    """(residuals, parameters): differences around a point. If a run fails, the column uses the other side; it is zero if both
+    fail."""
+    def columns(numbers: Sequence[int], steps: Array) -> Array:
+        return np.array([(value - residual) / steps[k] for k, value in
+                         zip(numbers, residuals([point + steps[k] * np.eye(len(point))[k] for k in numbers]))])
+
+    steps = np.where(point + DIFFERENCE <= 1, DIFFERENCE, -DIFFERENCE)
+    jacobian = columns(range(len(point)), steps)
+    failed = [k for k in range(len(point)) if not np.isfinite(jacobian[k]).all() and 0 <= point[k] - steps[k] <= 1]
+    if failed:
+        jacobian[failed] = columns(failed, -steps)
+    jacobian[~np.isfinite(jacobian).all(1)] = 0
+    return jacobian.T
+
+
+class _Ended(Exception):
+    """Ends a search with one Jacobian."""
+
+
+@dataclass
+class Fit:
+    """Best point, its residuals and d residual / d point. note: the reason if the search did not converge."""
+
+    point: Array
+    residual: Array = field(default_factory=lambda: np.array([np.nan]))
+    jacobian: Array | None = None
+    evaluations: int = 0
+    jacobians: int = 0  # computed by differences
+    arrived: bool = False
+    note: str = ""
+
+    @property
+    def chi2(self) -> float:
+        """Sum of squares; infinite if the start has no run."""
+        return float(self.residual @ self.residual) if np.isfinite(self.residual).all() else np.inf
+
+    @property
+    def is_exact(self) -> bool:
+        return self.chi2 < EXACT * len(self.residual)
+
+
+class _Search:
+    """Steps with one Jacobian, fresh or old, and its updates."""
+
+    def __init__(self, residuals: Residuals, fit: Fit) -> None:
+        self.residuals, self.fit, self.trial, self.failed, self.fresh = residuals, fit, (fit.point, fit.residual), False, False
+
+    def value(self, x: Array) -> Array:
+        if np.array_equal(x, self.fit.point):
+            return self.fit.residual
+        if self.trial[0] is not self.fit.point:  # scipy rejected the step before
+            self.failed = True
+            if not self.fresh:
+                raise _Ended
+        self.trial = (x.copy(), self.residuals([x])[0])
+        self.fit.evaluations += 1
+        return self.trial[1]
+
+    def jacobian(self, x: Array) -> Array:
+        """scipy asks for it at the start and at every accepted step."""
+        fit = self.fit
+        if not np.array_equal(x, fit.point):
+            step, change = self.trial[0] - fit.point, self.trial[1] - fit.residual
+            gain, before = fit.chi2 - self.trial[1] @ self.trial[1], fit.chi2
+            fit.jacobian = fit.jacobian + np.outer(change - fit.jacobian @ step, step) / (step @ step)
+            fit.point, fit.residual = self.trial
+            self.fresh = False
+            if gain < max(LEAST_GAIN, LEAST_DECREASE * before) or fit.is_exact:
+                raise _Ended
+        self.trial = (fit.point, fit.residual)
+        return fit.jacobian
+
+    def run(self, fresh: bool) -> bool:
+        """True if no step was rejected."""
+        self.fresh = fresh
+        start, radius = self.fit.point, RADIUS_OF_FRESH if fresh else RADIUS_OF_GIVEN
+
+        def point(y: Array) -> Array:  # from 0 on, scipy's first trust region is 1
+            return np.clip(start + radius * y, 0, 1)
+
+        try:
+            scipy.optimize.least_squares(lambda y: self.value(point(y)), np.zeros_like(start),
+                                         lambda y: radius * self.jacobian(point(y)),
+                                         bounds=(-start / radius, (1 - start) / radius), method="dogbox", x_scale=1.0,
+                                         ftol=None,
+                                         gtol=1e-10, xtol=None, max_nfev=MOST_STEPS + 1)
+        except _Ended:
+            pass
+        if self.trial[0] is not self.fit.point:
+            self.failed = True
+        return not self.failed
+
+
+def least_squares(residuals: Residuals, start: Array, most_jacobians: int = 4, jacobian: Array | None = None) -> Fit:
+    """Minimises the sum of squares within [0, 1]^n. A given Jacobian is trusted: the search with it has converged if no step
+    fails. It is recomputed if a step fails or the search with it ends. A point without a run counts as a failed step. If
+    `start` has no run, `note` says so. Exceptions of `residuals` pass through."""
+    fit = Fit(np.clip(np.asarray(start, dtype=float), 0, 1), evaluations=1)
+    fit.residual = residuals([fit.point])[0]
+    if not np.isfinite(fit.residual).all():
+        fit.note = "the run at the start failed"
+        return fit
+    fit.jacobian = jacobian
+    while True:
+        fresh = fit.jacobian is None or fit.jacobians > 0
+        if fresh:
+            if fit.jacobians >= most_jacobians:
+                fit.note = f"the last of {fit.jacobians} Jacobians still lowered chi^2; the search has not converged"
+                return fit
+            fit.jacobian = difference_jacobian(residuals, fit.point, fit.residual)
+            fit.evaluations, fit.jacobians = fit.evaluations + len(fit.point), fit.jacobians + 1
+        before = fit.chi2
+        went_well = fit.is_exact or _Search(residuals, fit).run(fresh)
+        if (fresh and before - fit.chi2 < max(LEAST_GAIN, LEAST_DECREASE * before)) or (not fresh and went_well):
+            fit.arrived = True
+            return fit
+        if not fresh:
+            fit.jacobian = None
+
+
+@dataclass
+class Knowledge:
+    """All in the coordinates of the fit. covariance: of the estimate, with the covariance of the samples ("sandwich") and the
+    prior. quantile: 97.5 % quantile of estimate / deviation, Student's if few samples gave the scatter."""
+
+    covariance: Array
+    quantile: Array
+
+    @property
+    def deviation(self) -> Array:
+        return np.sqrt(np.diag(self.covariance))
+
+    @property
+    def correlation(self) -> Array:
+        return self.covariance / np.outer(self.deviation, self.deviation)
+
+    @property
+    def share_known(self) -> Array:
+        """Deviation after the fit / prior deviation."""
+        return self.deviation / PRIOR
+
+
+def _inverse(jacobian: Array, weights: Array) -> Array:
+    return np.linalg.inv(jacobian.T @ (weights[:, None] * jacobian) + np.eye(jacobian.shape[1]) / PRIOR**2)
+
+
+def identify(jacobian: Array, weights: Array, noise: Array, scatter: Array | None = None, freedom: int = 0) -> Knowledge:
+    """With H = J'WJ + 1/prior^2 the estimate has the covariance H^-1 (J'W C W J + 1/prior^2) H^-1.
+
+    jacobian  (n, parameters): of the unweighted observables
+    weights   (n): of the fit
+    noise     (n, n): covariance C of the means with the model tolerance
+    scatter   (n, n): the part of C that was estimated with `freedom` degrees of freedom nu. If it contributes v to a variance
+              V, nu (V / v)^2 degrees count (Satterthwaite, Biometrics Bull. 2 (1946) 110)."""
+    weighted, inverse = weights[:, None] * jacobian, _inverse(jacobian, weights)
+    result = inverse @ (weighted.T @ noise @ weighted + np.eye(len(inverse)) / PRIOR**2) @ inverse
+    result = 0.5 * (result + result.T)
+    quantile = np.full(len(inverse), NORMAL)
+    if freedom > 0 and scatter is not None:
+        estimated = np.diag(inverse @ weighted.T @ scatter @ weighted @ inverse)
+        some = estimated > 0
+        quantile[some] = scipy.stats.t.ppf(0.975, freedom * np.maximum(1, np.diag(result)[some] / estimated[some]) ** 2)
+    return Knowledge(result, quantile)
+
+
+def expected_chi2(jacobian: Array, weights: Array, noise: Array) -> float:
+    """Expected chi^2 of a fit with these weights if the law is right and the noise has this covariance. It differs from the
+    number of observables minus parameters, because the weights omit the scatter common to all bins."""
+    left = np.eye(len(jacobian)) - jacobian @ _inverse(jacobian, weights) @ (weights[:, None] * jacobian).T
+    return float(np.diag(left @ noise @ left.T) @ weights)
+
+
+def spread_point(k: int, n: int) -> Array:
+    """(n): the k-th point of the Halton sequence, in the middle four fifths of the cube."""
+    return 0.1 + 0.8 * scipy.stats.qmc.Halton(n, scramble=False).fast_forward(k).random(1)[0]

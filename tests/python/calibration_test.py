@@ -1,0 +1,268 @@
+# diptych: a calibration finds known parameters again, and its intervals hold
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A material point stands instead of the boundary problem, so the program does not run."""
+
+import math
+import os
+
+import numpy as np
+import pytest
+from conftest import QUICK
+
+import diptych
+from diptych import scenes
+from diptych.campaigns import calibration_noise as noise
+from diptych.campaigns.calibration import Calibrator, empty_record
+from diptych.campaigns.calibration_coordinates import Coordinates, Parameter
+from diptych.campaigns.calibration_file import Calibration, Target, read_calibration, read_curve
+from diptych.campaigns.calibration_noise import Data, NoiseModel, NoiseOptions, Observable
+from diptych.campaigns.calibration_runs import Observation, Path, observe_curve
+from diptych.campaigns.calibration_search import identify, least_squares
+from diptych.campaigns.histories import mean_over
+from diptych.campaigns.input_file import Setting
+
+BINS = [0, 0.001, 0.002, 0.004, 0.006, 0.008, 0.01, 0.0125, 0.015, 0.02, 0.025, 0.03]
+SIX = [Parameter("friction_angle_peak", "logarithm", 30, 12, 45),
+       Parameter("friction_angle_residual", "drop_from", 0.6, 0.02, 0.9, "friction_angle_peak"),
+       Parameter("friction_angle_start", "share_of", 0.9, 0.3, 1, "friction_angle_peak"),
+       Parameter("mobilisation_strain", "logarithm", 0.01, 5e-4, 0.05),
+       Parameter("dilatancy_angle_peak", "share_of", 0.3, 0.05, 1, "friction_angle_start"),
+       Parameter("youngs_modulus", "logarithm", 4000, 100, 20000)]
+TRUTHS = [23, 0.35, 0.6, 0.004, 0.7, 900]  # numbers of the coordinates
+USUAL = NoiseModel(0.02, 0.0045, 1e-4, 0.04, 0.3)
+SCENE = scenes.read({"loading": {"axial_strain": 0.03}, "comparison": {"window_edges": [0, 0.03]}})
+
+
+def with_starts(parameters, numbers):
+    return [Parameter(p.key, p.coordinate, number, p.low, p.high, p.other, p.targets) for p, number in zip(parameters, numbers)]
+
+
+def response(settings, observables):
+    """The material point, NaN if it does not converge."""
+    values = {one.key: float(one.value) for one in settings}
+    try:
+        table = diptych.biaxial({"continuum": {"law": "mohr_coulomb", "hardening": "mobilisation", "softening_strain": 0.05,
+                                               **values}},
+                                axial_strain=0.03, step=2.5e-4)
+    except (diptych.NotConverged, diptych.SceneError):
+        return np.full(len(observables), np.nan)
+    x = table["axial_strain"]
+    return np.array([mean_over(x, table[one.kind], one.low, one.high) for one in observables])
+
+
+def calibration(parameters=SIX, targets=("only",), fixed=(), **options):
+    """Synthetic data need no model tolerance."""
+    own = NoiseOptions(stress_discrepancy=1e-5, early_stress_discrepancy=0, volume_discrepancy=1e-6, **options)
+    return Calibration("c", "c.json", "c", [Target(name, "", [], [1, 2]) for name in targets],
+                       ["stress_ratio", "volumetric_strain"], BINS,
+                       list(parameters), [Setting("continuum", *one, "") for one in fixed], own, starts=1)
+
+
+EXACT = {"stress_level": 1e-5, "stress_shape": 1e-5, "volume_start": 1e-6, "volume_growth": 1e-6}
+
+
+def path_of(target, data):
+    return Path(target, SCENE, data, [Observation(values) for values in data.values], [""] * len(data.observables))
+
+
+def calibrated(c, paths):
+    record = empty_record("c")
+    Calibrator(c, Coordinates(c.parameters, {}), paths,
+               lambda on, points, fine, step: [[Observation(response(s, path.data.observables)) for path, s in zip(on, point)]
+                                               for point in points], record).calibrate()
+    return record
+
+
+def truth_of(c, target, numbers):
+    there = Coordinates(with_starts(c.parameters, numbers), {})
+    return response([*c.fixed, *there.settings(there.start, target)], c.observables_of(SCENE))
+
+
+def drawn(model, observables, truth, n, seed):
+    root = np.linalg.cholesky(noise.covariance(model, Data(observables, truth)))
+    return Data(observables, truth + np.random.default_rng(seed).normal(size=(n, len(truth))) @ root.T)
+
+
+def usual_observables():
+    edges = np.linspace(0, 0.03, 14)
+    found = [Observable(kind, a, b) for kind in noise.KINDS[:2] for a, b in zip(edges, edges[1:])]
+    return found + [Observable("ln_width", 0.01 * k, 0.01 * (k + 1)) for k in range(3)]
+
+
+def test_shares_and_drops_refer_to_other_keys():
+    there = Coordinates(with_starts(SIX, TRUTHS), {})
+    assert there.values(there.start) == pytest.approx([23, 23 * 0.65, 23 * 0.6, 0.004, 23 * 0.6 * 0.7, 900])
+    alone = [Parameter("dilatancy_angle_peak", "share_of", 0.5, 0, 1, "friction_angle_peak")]
+    fixed = Coordinates(alone, {"friction_angle_peak": 30})
+    assert fixed.values(fixed.start) == pytest.approx([15])
+    for wrong in (alone, [Parameter("cohesion", "share_of", 0.5, 0, 1, "cohesion")]):
+        with pytest.raises(ValueError):
+            Coordinates(wrong, {})
+
+
+def test_a_parameter_may_belong_to_some_targets():
+    own = [Parameter("friction_angle_start", "share_of", share, 0, 1, "friction_angle_peak", (name,))
+           for name, share in (("dense", 0.8), ("loose", 0.2))]
+    there = Coordinates([Parameter("friction_angle_peak", "value", 30, 10, 40), *own], {})
+    found = {name: [float(one.value) for one in there.settings(there.start, name)] for name in ("dense", "loose", "medium", "")}
+    assert found == {"dense": pytest.approx([30, 24]), "loose": pytest.approx([30, 6]), "medium": [30], "": [30]}
+    with pytest.raises(ValueError, match="other targets"):  # a common parameter has no value
+        Coordinates([*own, Parameter("dilatancy_angle_peak", "share_of", 0.5, 0, 1, "friction_angle_start")],
+                    {"friction_angle_peak": 30})
+
+
+def decays(wall, scale=1.0):
+    """r = 100 (data - a exp(-b t)) in scaled coordinates; beyond the wall the run fails. Returns the function and its count."""
+    t, runs = 0.1 * np.arange(20), []
+
+    def residuals(points):
+        runs.extend(points)
+        return [np.full(20, np.nan) if scale * p[0] > wall
+                else 100 * ((0.2 + scale * p[0]) * np.exp(-3 * p[1] * t) - 0.7 * np.exp(-1.2 * t)) for p in points]
+
+    return residuals, runs
+
+
+@pytest.mark.parametrize("start", [(0.9, 0.9), (0.05, 0.05), (1, 0)])
+def test_the_search_finds_the_minimum_with_few_runs(start):
+    residuals, runs = decays(2)
+    fit = least_squares(residuals, start)
+    assert fit.arrived, fit.note
+    assert fit.point == pytest.approx([0.5, 0.4], abs=1e-3)
+    assert fit.evaluations == len(runs) <= 25
+
+
+def test_the_search_keeps_to_bounds_and_avoids_failed_runs():
+    walled = least_squares(decays(0.45)[0], (0.1, 0.6))
+    assert 0.35 < walled.point[0] <= 0.45
+    assert least_squares(decays(2, 0.3)[0], (0.5, 0.5)).point[0] == pytest.approx(1, abs=1e-6)  # the minimum lies at 1.67
+    nothing = least_squares(decays(-1)[0], (0.5, 0.5))
+    assert not nothing.arrived and nothing.note
+
+
+def test_noise_is_found_again():
+    data = drawn(USUAL, usual_observables(), np.full(29, 0.3), 200, 3)
+    found = noise.noise_of([data], NoiseOptions())
+    assert found.stress_level == pytest.approx(0.02, abs=0.003)
+    assert found.stress_shape == pytest.approx(0.0045, abs=0.0006)
+    assert found.volume_growth == pytest.approx(0.04, abs=0.006)
+    assert found.ln_width == pytest.approx(0.3, abs=0.03)
+    assert found.degrees_of_freedom == 199
+    assert noise.noise_of([data], NoiseOptions(stress_level=0.5)).stress_level == 0.5
+    with pytest.raises(ValueError, match="stress_level must be given"):
+        noise.noise_of([drawn(USUAL, usual_observables(), np.full(29, 0.3), 1, 3)], NoiseOptions())
+
+
+def test_weights_leave_the_common_level_out():
+    weights = noise.working_weights(USUAL, NoiseOptions(), drawn(USUAL, usual_observables(), np.full(29, 0.3), 4, 3))
+    assert weights[12] ** -0.5 == pytest.approx(math.hypot(0.008, 0.0045 / 2),
+                                                abs=1e-4)  # model tolerance, shape on four samples
+
+
+def test_parameters_that_the_data_do_not_determine_are_reported():
+    jacobian = np.array([[1.0, 0, 0], [0, 1, 1], [0, 0, 0]])  # only the sum of the second and third is determined
+    known = identify(jacobian, np.full(3, 1e4), 1e-4 * np.eye(3))
+    assert list(known.share_known < 2 / 3) == [True, False, False]
+    assert known.deviation[0] == pytest.approx(0.01, abs=1e-4)
+    assert known.correlation[1, 2] == pytest.approx(-1, abs=0.01)
+
+
+def test_a_calibration_finds_the_parameters_of_its_own_data():
+    c = calibration(**EXACT)
+    truth = truth_of(c, "", TRUTHS)
+    record = calibrated(c, [path_of(c.targets[0], Data(c.observables_of(SCENE), [truth, truth]))])
+    assert record["status"] == "finished"
+    assert [p["number"] for p in record["parameters"]] == pytest.approx(TRUTHS, rel=1e-3)
+    assert record["coarse_runs"] <= 60 and record["fine_runs"] <= 10
+
+
+def test_a_calibration_finds_values_of_single_targets():
+    parameters = [Parameter("friction_angle_peak", "logarithm", 28, 12, 45),
+                  Parameter("mobilisation_strain", "logarithm", 0.01, 5e-4, 0.05),
+                  *(Parameter("friction_angle_start", "value", start, 1, 20, "", (name,)) for name,
+                    start in (("dense", 15), ("loose", 10)))]
+    c = calibration(parameters, ("dense", "loose", "other"),
+                    [("dilatancy_angle_peak", "3"), ("friction_angle_residual", "12"), ("youngs_modulus", "900")], **EXACT)
+    c.targets[2].is_fitted, truths = False, [24, 0.004, 18, 5]
+    paths = [path_of(target, Data(c.observables_of(SCENE), [truth_of(c, target.name, truths)] * 2)) for target in c.targets[:2]]
+    record = calibrated(c, paths)
+    assert [p["number"] for p in record["parameters"]] == pytest.approx(truths, rel=1e-3)
+    assert [(one["target"], round(one["value"], 2)) for one in record["own"]] == [("dense", 18), ("loose", 5)]
+    assert len(record["settings"]) == 5  # a value of one target is no setting of all
+
+
+@pytest.mark.parametrize("known", [True, False])
+def test_intervals_hold(known):
+    """Twenty data sets of four samples; the noise is known, or estimated from the four, where Student's quantile keeps the
+    coverage."""
+    names = ("stress_level", "stress_shape", "volume_start", "volume_growth")
+    c = calibration(**({name: getattr(USUAL, name) for name in names} if known else {}))
+    truth, z = truth_of(c, "", TRUTHS), []
+    for seed in range(20):
+        record = calibrated(c, [path_of(c.targets[0], drawn(USUAL, c.observables_of(SCENE), truth, 4, seed))])
+        for p, number in zip(record["parameters"], TRUTHS):
+            if p["is_identified"] and not p["at_bound"]:
+                low, at, high, right = (math.log(x) if p["coordinate"] == "logarithm" else x
+                                        for x in (p["number_low"], p["number"], p["number_high"], number))
+                z.append((at - right) / ((high - low) / (2 * 1.96)))
+    assert len(z) >= 60
+    assert np.mean(np.abs(z) < 1.96) >= 0.88
+    assert (0.7 if known else 0.4) < np.sqrt(np.mean(np.square(z))) < 1.3
+
+
+CURVE = """# drained biaxial test
+axial_strain,stress_ratio,stress_ratio_deviation,volumetric_strain
+0,0,0.01,0
+0.01,0.3,0.01,-0.002
+0.02,0.4,0.02,-0.004
+"""
+
+
+def test_a_measured_curve_gives_means_over_bins_and_its_own_deviations(tmp_path):
+    file = tmp_path / "lab.csv"
+    file.write_text(CURVE)
+    observables = [Observable("stress_ratio", 0, 0.01), Observable("stress_ratio", 0.01, 0.02),
+                   Observable("stress_ratio", 0.02, 0.03),
+                   Observable("volumetric_strain", 0.01, 0.02)]
+    o, deviations = observe_curve(SCENE, observables, str(file))
+    assert o.values == pytest.approx([0.15, 0.35, np.nan, -0.003], nan_ok=True)  # beyond its end nothing is measured
+    assert deviations == pytest.approx([0.01, 0.015, np.nan, np.nan], nan_ok=True)
+    data = Data(observables[:2], o.values[:2], deviations[:2])
+    assert noise.noise_of([data], NoiseOptions()) == NoiseModel()  # no scatter is needed: all deviations are measured
+    assert np.sqrt(np.diag(noise.covariance(NoiseModel(), data))) == pytest.approx([0.01, 0.015])
+    with pytest.raises(ValueError, match="stress_level must be given"):
+        noise.noise_of([Data(observables[:2], o.values[:2])], NoiseOptions())
+
+
+def test_a_law_is_fitted_to_a_measured_curve():
+    c = calibration()
+    c.targets[0].curve, c.targets[0].seeds = "lab.csv", []
+    truth, observables = truth_of(c, "", TRUTHS), c.observables_of(SCENE)
+    given = np.where([one.kind == "stress_ratio" for one in observables], 1e-5, 1e-6)
+    record = calibrated(c, [path_of(c.targets[0], Data(observables, truth, given))])
+    assert [p["number"] for p in record["parameters"]] == pytest.approx(TRUTHS, rel=1e-3)
+    assert all(p["number_low"] < truth < p["number_high"] for p, truth in zip(record["parameters"], TRUTHS))
+
+
+@pytest.mark.parametrize("text, words", [
+    ("strain,stress_ratio\n0,0\n1,1\n", "unknown column 'strain'"),
+                                         ("axial_strain\n0\n1\n", "stress_ratio or volumetric_strain"),
+    ("axial_strain,stress_ratio\n0,0\n0.01,x\n", "row 2: stress_ratio = x"),
+                                         ("axial_strain,stress_ratio\n0.01,0\n0,1\n", "ascend"),
+    ("axial_strain,stress_ratio,stress_ratio_deviation\n0,0,0\n1,1,1\n", "row 1: stress_ratio_deviation = 0")])
+def test_a_wrong_curve_is_refused(tmp_path, text, words):
+    (tmp_path / "lab.csv").write_text(text)
+    with pytest.raises(diptych.SceneError, match=words):
+        read_curve(str(tmp_path / "lab.csv"))
+
+
+def test_a_file_with_a_curve_is_read(tmp_path):
+    (tmp_path / "lab.csv").write_text(CURVE)
+    text = ('{"targets": [{"name": "lab", "scene": "%s", "curve": "lab.csv"%s}], "quantities": ["stress_ratio"], '
+            '"bins": [0, 0.01], "parameters": [{"key": "friction_angle_peak", "start": 25, "low": 12, "high": 40}]}')
+    (tmp_path / "c.json").write_text(text % (QUICK, ""))
+    c = read_calibration(str(tmp_path / "c.json"))
+    assert os.path.samefile(c.targets[0].curve, tmp_path / "lab.csv") and c.targets[0].seeds == []
+    (tmp_path / "c.json").write_text(text % (QUICK, ', "seeds": "1"'))
+    with pytest.raises(diptych.SceneError, match="instead of grains"):
+        read_calibration(str(tmp_path / "c.json"))
