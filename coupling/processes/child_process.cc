@@ -12,9 +12,7 @@
 #include <thread>
 
 #include <fcntl.h>
-#include <sched.h>
 #include <sys/prctl.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -44,12 +42,6 @@ namespace diptych::coupling
       return result;
     }
 
-    // Replaces standard streams. -1: no input; output and errors of this process.
-    struct Streams
-    {
-      int in = -1, out = -1, errors = -1;
-    };
-
     std::set<int> &held()
     {
       static std::set<int> descriptors;
@@ -71,29 +63,21 @@ namespace diptych::coupling
       close_range(next, ~0U, 0); // includes sockets of an MPI job
     }
 
-    [[noreturn]] void become(char *const            *words,
-                             char *const            *environment,
-                             const Streams          &streams,
-                             const std::vector<int> &kept,
-                             const pid_t             parent)
+    [[noreturn]] void become(char *const *words, char *const *environment, const std::vector<int> &kept, const pid_t parent)
     {
-      const int input = streams.in >= 0 ? streams.in : open("/dev/null", O_RDONLY);
+      const int input = open("/dev/null", O_RDONLY);
       setpgid(0, 0);
       prctl(PR_SET_PDEATHSIG, SIGTERM);
       if (getppid() != parent) // the parent ended before the line above
         _exit(127);
       dup2(input, STDIN_FILENO);
-      if (streams.out >= 0)
-        dup2(streams.out, STDOUT_FILENO);
-      if (streams.errors >= 0)
-        dup2(streams.errors, STDERR_FILENO);
       close_all_but(kept.data(), kept.size());
       unblock_stop_signals();
       execve(words[0], words, environment);
       _exit(127);
     }
 
-    pid_t launched(const std::vector<std::string> &words, const Streams &streams)
+    pid_t launched(const std::vector<std::string> &words)
     {
       std::vector<std::string> arguments = words, variables;
       for (char **variable = environ; *variable != nullptr; ++variable)
@@ -103,7 +87,7 @@ namespace diptych::coupling
       const std::vector<int>    kept(held().begin(), held().end());
       const pid_t               parent = getpid(), child = fork();
       if (child == 0)
-        become(argument_pointers.data(), variable_pointers.data(), streams, kept, parent);
+        become(argument_pointers.data(), variable_pointers.data(), kept, parent);
       if (child < 0)
         throw std::runtime_error("cannot start " + words[0] + ": " + std::strerror(errno));
       return child;
@@ -125,28 +109,9 @@ namespace diptych::coupling
     held().erase(descriptor);
   }
 
-  PipedProgram start_piped_program(const std::vector<std::string> &words)
-  {
-    int ends[2];
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
-      throw std::runtime_error("cannot start " + words[0] + ": " + std::strerror(errno));
-    try
-      {
-        const pid_t child = launched(words, {ends[1], ends[1]});
-        close(ends[1]);
-        return {child, ends[0]};
-      }
-    catch (const std::exception &)
-      {
-        close(ends[0]);
-        close(ends[1]);
-        throw;
-      }
-  }
-
   int run_program(const std::vector<std::string> &words)
   {
-    const pid_t program = launched(words, {});
+    const pid_t program = launched(words);
     int         status  = 0;
     for (;;)
       {
@@ -163,32 +128,8 @@ namespace diptych::coupling
       }
   }
 
-  int wait_for(const pid_t program)
-  {
-    int status = 0;
-    while (waitpid(program, &status, 0) < 0)
-      if (errno != EINTR)
-        throw std::runtime_error("process " + std::to_string(program) + " is lost: " + std::strerror(errno));
-    return code_of_status(status);
-  }
-
-  void ask_to_stop(const pid_t program)
-  {
-    // The handler in stop_signal.cc resets the received signal to its default action.
-    struct sigaction action = {};
-    sigaction(SIGTERM, nullptr, &action);
-    kill(program, action.sa_handler == SIG_DFL ? SIGINT : SIGTERM);
-  }
-
   std::string own_path()
   {
     return std::filesystem::read_symlink("/proc/self/exe").string();
-  }
-
-  int n_usable_cores()
-  {
-    cpu_set_t cores;
-    CPU_ZERO(&cores);
-    return sched_getaffinity(0, sizeof cores, &cores) == 0 ? CPU_COUNT(&cores) : 1;
   }
 } // namespace diptych::coupling

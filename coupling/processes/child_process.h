@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include <sys/types.h>
-
 namespace diptych::coupling
 {
   // Programs are started with words[0] (a path) and the other words as arguments. Each has its own process group, so that
@@ -16,28 +14,10 @@ namespace diptych::coupling
   void keep_open_in_programs(int descriptor);
   void close_in_programs(int descriptor);
 
-  // A program that reads lines and answers them. Its standard input and output are the other end of `socket`.
-  struct PipedProgram
-  {
-    pid_t program = 0;
-    int   socket  = -1;
-  };
-  [[nodiscard]] PipedProgram start_piped_program(const std::vector<std::string> &words);
-
   // Runs a program with this process's output and errors and waits for its end. Returns its exit code, or 128 + signal. On a
   // stop request it kills the program and throws StoppedOnRequest.
   [[nodiscard]] int run_program(const std::vector<std::string> &words);
 
-  // Waits for the end of a program. Returns its exit code as above.
-  int wait_for(pid_t program);
-
-  // Asks a program to stop. Uses the one of SIGINT and SIGTERM that did not stop this process: a signal that the user sent to
-  // all processes must not count twice, because a second SIGINT kills.
-  void ask_to_stop(pid_t program);
-
   // Path of this program.
   std::string own_path();
-
-  // Number of processors that this process may use.
-  [[nodiscard]] int n_usable_cores();
 } // namespace diptych::coupling

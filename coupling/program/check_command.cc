@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "coupling/comparison/prepared_sample.h"
-#include "coupling/ensembles/seed_list.h"
 #include "coupling/import/imported_folder.h"
 #include "coupling/panels/continuum_loading.h"
 #include "coupling/panels/continuum_mesh.h"
@@ -13,6 +12,7 @@
 #include "coupling/program/compare_command.h"
 #include "coupling/program/resource_estimate.h"
 #include "coupling/scene/scene_error.h"
+#include "coupling/scene/seed_list.h"
 
 namespace diptych::coupling
 {
@@ -54,7 +54,7 @@ namespace diptych::coupling
       if (!sample)
         return;
       require_elements_fit(scene, height_of(sample->outline));
-      require_comparable_sample(scene, *sample);
+      require_comparable_sample(scene.comparison.probes, *sample);
     }
   } // namespace
 

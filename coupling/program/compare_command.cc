@@ -14,7 +14,6 @@
 #include "coupling/store/file_names.h"
 #include "coupling/store/provenance.h"
 #include "coupling/store/result_folder.h"
-#include "coupling/studies/study_folder.h"
 #include "discrete/files/text_file.h"
 
 namespace diptych::coupling

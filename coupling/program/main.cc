@@ -17,14 +17,13 @@
 #include "coupling/program/command_line.h"
 #include "coupling/program/discrete_command.h"
 #include "coupling/program/export_command.h"
-#include "coupling/program/import_command.h"
 #include "coupling/program/explain_command.h"
 #include "coupling/program/report_command.h"
 #include "coupling/program/solve_command.h"
 #include "coupling/scene/scene_error.h"
+#include "coupling/store/result_folder.h"
 #include "discrete/files/out_of_memory.h"
 #ifdef DIPTYCH_CONTINUUM
-#include "coupling/ensembles/ensemble_folder.h"
 #include "coupling/program/compare_command.h"
 #include "coupling/program/python_package.h"
 #include "coupling/version.h"
@@ -60,16 +59,6 @@ namespace
                                "' (TMPDIR): " + (none ? none.message() : std::strerror(error)));
   }
 
-  // The process becomes another program.
-  [[noreturn]] void become(const char *command, const std::string &program, char *const *words)
-  {
-    block_stop_signals(); // until the other program takes them
-    leave_if_stopped(command);
-    execv(program.c_str(), words);
-    unblock_stop_signals();
-    throw std::runtime_error("cannot start " + program + ": " + std::strerror(errno));
-  }
-
   // diptych-panels beside this program, or in PREFIX/libexec where it is installed.
   [[noreturn]] void start_the_panels(char **argv)
   {
@@ -85,28 +74,13 @@ namespace
         }
     throw std::runtime_error(name + " is not beside " + own_path() + "; the installation is broken");
   }
-  // Commands of many runs are those of the Python package, beside this program or in PREFIX/lib/python3/dist-packages.
+
+  // Commands of many runs are written in Python.
   bool is_campaign(const CommandLine &line)
   {
     return line.command == Command::study || line.command == Command::plan || line.command == Command::calibrate ||
            (line.command == Command::run && !line.seeds.empty() && !line.checks_only) ||
            (line.command == Command::compare && is_ensemble_folder(line.target));
-  }
-
-  [[noreturn]] void start_the_campaign(char **argv)
-  {
-    require_temporary_folder();
-    const char *others = std::getenv("PYTHONPATH");
-    setenv("PYTHONPATH", (python_package() + (others != nullptr ? ":" + std::string(others) : "")).c_str(), 1);
-    setenv("DIPTYCH_PROGRAM", own_path().c_str(), 1);
-    std::vector<std::string> words = {python, "-m", "diptych.campaigns"};
-    std::vector<char *>      pointers;
-    for (std::string &word : words)
-      pointers.push_back(word.data());
-    for (char **word = argv + 1; *word != nullptr; ++word)
-      pointers.push_back(*word);
-    pointers.push_back(nullptr);
-    become(argv[1], python, pointers.data());
   }
 #else
   const std::vector<std::function<ResultList()>> result_lists = {discrete_result_entries};
@@ -114,11 +88,6 @@ namespace
   bool is_campaign(const CommandLine &)
   {
     return false;
-  }
-
-  [[noreturn]] void start_the_campaign(char **)
-  {
-    std::abort();
   }
 
   int compare(const CommandLine &)
@@ -155,7 +124,7 @@ namespace
   int execute_command(const CommandLine &line, char **argv)
   {
     if (is_campaign(line))
-      start_the_campaign(argv);
+      become_python(argv[1], "diptych.campaigns", argv + 1);
     switch (line.command)
       {
       case Command::run:
@@ -182,7 +151,7 @@ namespace
       case Command::report:
         return report_again(line);
       case Command::import_sample:
-        start_importers(argv);
+        become_python(argv[1], "diptych.importers", argv + 2);
       case Command::export_sample:
         return export_sample(line);
       default:

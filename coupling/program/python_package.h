@@ -1,19 +1,19 @@
-// diptych: the place of the Python package
+// diptych: starts the parts of the program that are written in Python
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <filesystem>
 #include <string>
-
-#include "coupling/processes/child_process.h"
 
 namespace diptych::coupling
 {
+  // This process becomes `program`. Stop signals that arrive meanwhile are kept for it. Throws std::runtime_error if it cannot be
+  // started, StoppedOnRequest if a signal came before.
+  [[noreturn]] void become(const char *command, const std::string &program, char *const *words);
+
   // The folder that holds the package `diptych`: beside this program where it was built, else PREFIX/lib/python3/dist-packages.
-  inline std::string python_package()
-  {
-    namespace fs          = std::filesystem;
-    const fs::path folder = fs::path(own_path()).parent_path(), built = folder / "python";
-    return (fs::exists(built / "diptych/campaigns") ? built : folder.parent_path() / "lib/python3/dist-packages").string();
-  }
+  std::string python_package();
+
+  // This process becomes `python3 -m MODULE WORDS...` with this package. Throws as become(), and SceneError if the program was
+  // built without it.
+  [[noreturn]] void become_python(const char *command, const std::string &module, char *const *words);
 } // namespace diptych::coupling

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "coupling/ensembles/ensemble_folder.h"
 #include "coupling/processes/child_process.h"
 #include "coupling/processes/progress.h"
 #include "coupling/processes/stop_signal.h"
@@ -13,7 +12,6 @@
 #include "coupling/store/file_names.h"
 #include "coupling/store/provenance.h"
 #include "coupling/store/result_folder.h"
-#include "coupling/studies/study_folder.h"
 #include "coupling/version.h"
 
 namespace diptych::coupling

@@ -2,19 +2,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/program/worker_command.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <iostream>
 #include <stdexcept>
 
+#include <nlohmann/json.hpp>
+
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "coupling/processes/child_process.h"
 #include "coupling/processes/processes.h"
-#include "coupling/processes/worker.h"
 
 namespace diptych::coupling
 {
@@ -58,10 +57,10 @@ namespace diptych::coupling
       std::ofstream("/proc/self/clear_refs") << 5;
     }
 
-    int do_task(const WorkerTask &task, const std::function<int(const CommandLine &)> &execute)
+    int do_task(const nlohmann::json &task, const std::function<int(const CommandLine &)> &execute)
     {
-      const IntoLog    log(task.log);
-      const ParsedLine parsed = parse_command_line(task.words);
+      const IntoLog    log(task.at("log"));
+      const ParsedLine parsed = parse_command_line(task.at("words"));
       return parsed.exit_code ? *parsed.exit_code : run_and_report([&] { return execute(parsed.line); }, code_of, text_of_end);
     }
   } // namespace
@@ -71,21 +70,9 @@ namespace diptych::coupling
     for (std::string line; std::getline(std::cin, line);)
       {
         forget_peak_memory();
-        const int code = do_task(read_worker_task(line), execute);
+        const int code = do_task(nlohmann::json::parse(line), execute);
         std::cout << code << std::endl;
       }
     return done;
-  }
-
-  TaskQueue workers_for(const CommandLine &line, const std::string &noun)
-  {
-    // mpirun starts a process for every core that is to work.
-    const int fitting = n_processes() > 1 ? 1 : std::max(1, n_usable_cores() / line.threads);
-    TaskQueue queue;
-    queue.worker = {own_path(), worker_word};
-    queue.noun   = noun;
-    queue.jobs   = line.jobs > 0 ? line.jobs : fitting;
-    queue.quiet  = line.quiet;
-    return queue;
   }
 } // namespace diptych::coupling

@@ -5,7 +5,6 @@
 #include <functional>
 #include <string>
 
-#include "coupling/processes/task_queue.h"
 #include "coupling/program/command_line.h"
 
 namespace diptych::coupling
@@ -13,10 +12,7 @@ namespace diptych::coupling
   // The only word of a worker's command line.
   inline constexpr char worker_word[] = "--worker";
 
-  // Reads tasks from standard input (worker.h) until it ends, does each with its output and errors in the task's log, and answers
-  // with its exit code on standard output. `execute` is what the program does with a command line.
+  // Reads tasks from standard input until it ends: lines of JSON, {"words": the command line, "log": a file}. Appends the output
+  // and the errors of each task to its log and answers with its exit code on a line. `execute` carries a command line out.
   int work_for_parent(const std::function<int(const CommandLine &)> &execute);
-
-  // Of this program: --jobs of them on each process, or as many as fit beside each other.
-  TaskQueue workers_for(const CommandLine &line, const std::string &noun);
 } // namespace diptych::coupling

@@ -130,10 +130,11 @@ namespace diptych::python
         require_usable(directory, opening);
       });
       m.def("kept_in", &kept_in);
-      m.def("holds_finished_run", &holds_finished_run);
+      m.def("holds_finished_run", [](const Scene &scene) { return ResultFolder(scene).holds_finished_run(); });
       // the keys by which the scene differs from that of the folder: (sample, continuum, comparison)
-      m.def("changes_since", [](const Scene &scene, const std::string &directory) {
-        const SceneChanges changes = changes_since(scene, directory);
+      m.def("changes_since", [](Scene scene, const std::string &directory) {
+        scene.output.directory     = directory;
+        const SceneChanges changes = ResultFolder(scene).changes();
         return py::make_tuple(changes.sample, changes.continuum, changes.comparison);
       });
       m.def("check_part", &check_files);
@@ -143,7 +144,7 @@ namespace diptych::python
       m.def("record_phase", [](const std::string &directory, const Scene &scene, const std::string &command,
                                const std::tuple<std::string, double, double, double> &phase, const std::vector<int> &seeds) {
         const auto &[name, wall_s, cpu_s, peak_memory_mb] = phase;
-        record_phases(directory, scene, command, {{name, wall_s, cpu_s, peak_memory_mb}}, seeds);
+        record_phases(directory, {scene.name, seeds, command}, {{name, wall_s, cpu_s, peak_memory_mb}});
       });
     }
   } // namespace

@@ -168,11 +168,12 @@ PYBIND11_MODULE(_continuum, m)
   bind_panel(m);
   bind_laws(m);
   m.def("require_continuum", &diptych::coupling::require_continuum);
-  m.def("write_mesh", [](const diptych::coupling::Scene &scene, const diptych::discrete::Snapshot &grains, const std::string &file) {
-    const auto                    turn = own_turn();
-    const py::gil_scoped_release release;
-    diptych::continuum::write_mesh(
-      diptych::coupling::mesh_of(scene, diptych::coupling::continuum_parts(scene).front(), &grains), file);
-  });
+  m.def("write_mesh",
+        [](const diptych::coupling::Scene &scene, const diptych::discrete::Snapshot &grains, const std::string &file) {
+          const auto                   turn = own_turn();
+          const py::gil_scoped_release release;
+          const double                 edge = diptych::coupling::continuum_parts(scene).front().edge;
+          diptych::continuum::write_mesh(diptych::coupling::mesh_of(scene.continuum, edge, &grains), file);
+        });
   py::module_::import("atexit").attr("register")(py::cpp_function(&ContinuumPanel::close_all));
 }

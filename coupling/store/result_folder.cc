@@ -64,10 +64,25 @@ namespace diptych::coupling
     }
   } // namespace
 
+  bool is_ensemble_folder(const std::string &directory)
+  {
+    return fs::exists(directory + "/ensemble.prm");
+  }
+
+  bool is_study_folder(const std::string &directory)
+  {
+    return fs::exists(directory + "/study_input.json");
+  }
+
+  bool is_calibration_folder(const std::string &directory)
+  {
+    return fs::exists(directory + "/calibration_input.json");
+  }
+
   bool is_result_folder(const std::string &directory)
   {
-    for (const char *name :
-         {"provenance.json", "ensemble.prm", "study_input.json", "calibration_input.json", "plan_input.prm", "plan_input.json", "import.json"})
+    for (const char *name : {"provenance.json", "ensemble.prm", "study_input.json", "calibration_input.json", "plan_input.prm",
+                             "plan_input.json", "import.json"})
       if (fs::is_regular_file(fs::path(directory) / name))
         return true;
     return false;

@@ -33,6 +33,11 @@ namespace diptych::coupling
     std::string sample, continuum, comparison;
   };
 
+  // Results of campaigns, which consist of many runs.
+  bool is_ensemble_folder(const std::string &directory);
+  bool is_study_folder(const std::string &directory);
+  bool is_calibration_folder(const std::string &directory);
+
   // Results of any command: of a run, an import, an ensemble, a study, a plan or a calibration.
   bool is_result_folder(const std::string &directory);
 

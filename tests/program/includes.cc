@@ -29,7 +29,7 @@ namespace
     {"continuum", {"laws", "mesh", "elements", "equilibrium", "panel"}},
     {"coupling",
      {"cells", "statistics", "numbers", "processes", "averaging", "fields", "bands", "probes", "scene", "store", "import",
-      "comparison", "panels", "ensembles", "studies", "program", "python"}}};
+      "comparison", "panels", "program", "python"}}};
 
   std::vector<std::string> includes_of(const fs::path &file)
   {
@@ -218,6 +218,29 @@ namespace
       }
   }
 
+  // Lines below `root` that match `pattern`, outside the rooms of coupling/ that may hold them.
+  std::vector<std::string> lines_outside(const fs::path &root, const std::set<std::string> &may, const std::string &pattern)
+  {
+    std::vector<std::string> found;
+    const std::regex         searched(pattern);
+    for (const auto &[file, includes] : sources(root, "coupling"))
+      {
+        std::ifstream in(root / file);
+        for (std::string line; may.count(room_of(file)) == 0 && std::getline(in, line);)
+          if (std::regex_search(line, searched))
+            found.push_back(file + ": " + line);
+      }
+    return found;
+  }
+
+  // Only store/ knows where a result folder has which file.
+  const std::string path_in_a_folder = R"x("/[a-z_]+\.(h5|csv|json|prm|vtu|xdmf|html|msh|png)")x";
+
+  TEST(House, OnlyTheStoreNamesFilesOfAResultFolder)
+  {
+    EXPECT_EQ(lines_outside(DIPTYCH_SOURCE_DIR, {"store"}, path_in_a_folder), std::vector<std::string>());
+  }
+
   // The tests themselves must be able to fail: a house with one wrong arrow of each kind and one wrong library.
   TEST(House, AWrongArrowIsSeen)
   {
@@ -241,6 +264,10 @@ namespace
     EXPECT_EQ(upward_arrows(root).size(), 1u) << "through a header beside the rooms";
     std::ofstream(root / "discrete" / "README.md") << "`x.h`\n## Public headers\n`panel/c.h`, `files/d.h`\n## More\n`y.h`\n";
     EXPECT_EQ(public_headers(root, "discrete"), (std::set<std::string>{"discrete/files/d.h", "discrete/panel/c.h"}));
+    fs::create_directories(root / "coupling" / "panels");
+    std::ofstream(root / "coupling" / "panels" / "e.cc") << "read(folder + \"/scene.prm\");\nread(folder + \"/a/b\");\n";
+    EXPECT_EQ(lines_outside(root, {"store"}, path_in_a_folder).size(), 1u);
+    EXPECT_EQ(lines_outside(root, {"panels"}, path_in_a_folder).size(), 0u);
     fs::remove_all(root);
   }
 } // namespace

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/store/folder_lock.h"
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -107,10 +109,13 @@ namespace
     if (killed == 0)
       {
         const FolderLock  lock(out);
-        const std::string program = "trap '' TERM; echo; sleep 1; touch '" + end.string() + "'; exec sleep 0.2";
-        const int         socket  = diptych::coupling::start_piped_program({"/bin/sh", "-c", program}).socket;
-        char              line    = 0;
-        _exit(read(socket, &line, 1) == 1 ? kill(getpid(), SIGKILL) : 1);
+        const fs::path    begun   = top / "begun";
+        const std::string program = "trap '' TERM; touch '" + begun.string() + "'; sleep 1; touch '" + end.string() +
+                                    "'; exec sleep 0.2";
+        std::thread([&] { (void)diptych::coupling::run_program({"/bin/sh", "-c", program}); }).detach();
+        while (!fs::exists(begun))
+          std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        kill(getpid(), SIGKILL);
       }
     siginfo_t how; // nobody has asked it yet how it ended: it is not gone from the system's list
     ASSERT_EQ(waitid(P_PID, id_t(killed), &how, WEXITED | WNOWAIT), 0);

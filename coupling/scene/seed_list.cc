@@ -1,6 +1,6 @@
 // diptych: reads a list of seeds from the command line
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupling/ensembles/seed_list.h"
+#include "coupling/scene/seed_list.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,0 +1,54 @@
+// diptych: starts the parts of the program that are written in Python
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/program/python_package.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+#include <vector>
+
+#include <unistd.h>
+
+#include "coupling/processes/child_process.h"
+#include "coupling/processes/stop_signal.h"
+#include "coupling/scene/scene_error.h"
+#include "coupling/version.h"
+
+namespace diptych::coupling
+{
+  namespace fs = std::filesystem;
+
+  void become(const char *command, const std::string &program, char *const *words)
+  {
+    block_stop_signals(); // until the other program takes them
+    leave_if_stopped(command);
+    execv(program.c_str(), words);
+    unblock_stop_signals();
+    throw std::runtime_error("cannot start " + program + ": " + std::strerror(errno));
+  }
+
+  std::string python_package()
+  {
+    const fs::path folder = fs::path(own_path()).parent_path(), built = folder / "python";
+    return (fs::exists(built / "diptych") ? built : folder.parent_path() / "lib/python3/dist-packages").string();
+  }
+
+  void become_python(const char *command, const std::string &module, char *const *words)
+  {
+    const std::string package = python_package();
+    if (!fs::exists(package + "/diptych"))
+      throw SceneError(std::string("diptych ") + command +
+                       ": this program was built without its Python package; build all targets");
+    const char *others = std::getenv("PYTHONPATH");
+    setenv("PYTHONPATH", (package + (others != nullptr ? ":" + std::string(others) : "")).c_str(), 1);
+    setenv("PYTHONSAFEPATH", "1", 1); // no modules of the working directory
+    setenv("DIPTYCH_PROGRAM", own_path().c_str(), 1);
+    std::vector<const char *> all = {python, "-m", module.c_str()};
+    for (; *words != nullptr; ++words)
+      all.push_back(*words);
+    all.push_back(nullptr);
+    become(command, python, const_cast<char *const *>(all.data()));
+  }
+} // namespace diptych::coupling
