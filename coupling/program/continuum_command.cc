@@ -217,7 +217,8 @@ namespace diptych::coupling
     if (!replaces)
       return continuum_panel(line, scene, task);
     on_first_process([&] {
-      say(line, "another " + changes.continuum + ": the continuum in " + directory + " is computed again and then replaced");
+      say(line, "the continuum in " + directory + " belongs to other keys (" + changes.continuum +
+                  "): it is computed again and replaced");
       return 0;
     });
     Scene next            = scene;
@@ -227,7 +228,7 @@ namespace diptych::coupling
     if (code == done)
       on_first_process([&] {
         replace_continuum(directory);
-        say(line, "the new continuum has replaced the earlier one in " + directory + ", of " + changes.continuum);
+        say(line, "the new continuum has replaced the earlier one in " + directory + " (" + changes.continuum + ")");
         return 0;
       });
     return code;
