@@ -289,8 +289,12 @@ namespace diptych::coupling
       for (const auto &[key, size] : {std::pair{"continuum/element_size", scene.continuum.element_size},
                                       {"comparison/coarse_element_size", scene.comparison.coarse_element_size}})
         if (const double edge = first_edge(scene.continuum, size, scene.sample.mean_diameter); edge > height)
-          throw SceneError(std::string(key) + " = " + text_of(size) + ": elements of " + text_of(edge) +
-                           " [length] before refinement do not fit into a sample of at most " + text_of(height) + " in height");
+          {
+            char sizes[160];
+            std::snprintf(sizes, sizeof sizes, ": elements of %.4g [length] before refinement do not fit into the height of %.4g",
+                          edge, height);
+            throw SceneError(std::string(key) + " = " + text_of(size) + sizes + " [length] that the sample can have at most");
+          }
   }
 
   void require_continuum(const Scene &scene)

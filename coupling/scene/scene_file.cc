@@ -1,4 +1,4 @@
-// diptych: scenes are read, written in full and explained
+// diptych: reads, resolves and explains scenes
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/scene/scene_file.h"
 
@@ -11,6 +11,7 @@
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_check.h"
 #include "discrete/files/nearest_name.h"
+#include "discrete/files/words.h"
 
 namespace diptych::coupling
 {
@@ -31,8 +32,10 @@ namespace diptych::coupling
                                      const std::string              &section,
                                      const std::vector<std::string> &known = section_names())
     {
-      throw SceneError({place, section, "", "", "the nearest is '" + discrete::nearest_name(section, known) + "'"},
-                       "is an unknown section");
+      const std::string keys = keys_with(section);
+      throw SceneError(
+        {place, section, "", "", keys.empty() ? "the nearest is '" + discrete::nearest_name(section, known) + "'" : keys},
+        "is an unknown section");
     }
 
     [[noreturn]] void refuse_key(const Entry &entry)
@@ -106,7 +109,7 @@ namespace diptych::coupling
     std::vector<Entry> entries_with(const std::string &file, const std::vector<Entry> &changes)
     {
       if (std::error_code none; std::filesystem::is_directory(file, none))
-        throw SceneError(file + ": is a folder; a scene file, .prm or .json, is needed");
+        throw SceneError(file + ": is a folder; give a scene file, .prm or .json");
       std::istringstream in      = scene_input(file);
       std::vector<Entry> entries = entries_of(file, in);
       if (sets_every_key(entries))
@@ -141,6 +144,15 @@ namespace diptych::coupling
       return scene;
     }
   } // namespace
+
+  std::string keys_with(const std::string &word)
+  {
+    std::vector<std::string> names;
+    for (const KeyDescription &key : word.size() < 3 ? std::vector<KeyDescription>() : describe(""))
+      if (key.name.find(word) != std::string::npos)
+        names.insert(key.name == word ? names.begin() : names.end(), key.section + "/" + key.name);
+    return names.empty() ? "" : "keys with '" + word + "': " + discrete::listed(names);
+  }
 
   void demand_section(const Place &place, const std::string &section)
   {
@@ -227,7 +239,7 @@ namespace diptych::coupling
           set(scene, entry);
         return scene;
       }
-    catch (const SceneError &) // of another version
+    catch (const SceneError &) // the file is from another version
       {
         return std::nullopt;
       }
@@ -255,7 +267,7 @@ namespace diptych::coupling
     std::vector<std::string> known = section_names();
     if (!section.empty() && std::find(known.begin(), known.end(), section) == known.end())
       {
-        known.push_back("results"); // which the command explains itself
+        known.push_back("results"); // the command explains this word
         refuse_section({}, section, known);
       }
     std::ostringstream out;

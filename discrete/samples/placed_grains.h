@@ -22,7 +22,7 @@ namespace diptych::discrete
   // Sets up side walls or cell for the lateral condition during the preparation.
   void set_sides(State &state, const PreparationSetting &setting);
 
-  // A fault of the file of a key, and a lack of memory, is reported together with the key. Other exceptions pass.
+  // Reads the file of a key. Wrong input and a lack of memory are reported with file and key. Other exceptions pass.
   template <class Read> auto read_for(const std::string &key, const std::string &file, Read &&read)
   {
     try
@@ -33,7 +33,7 @@ namespace diptych::discrete
       {
         if (dynamic_cast<const std::invalid_argument *>(&error) == nullptr && !is_out_of_memory(error))
           throw;
-        throw_wrong_input("sample/" + key + " = '" + file + "'", error);
+        throw_wrong_input("sample/" + key, file, error);
       }
   }
 

@@ -138,6 +138,7 @@ namespace
     expect_words(error_of("end\n"), {"line 1", "without a subsection"});
     expect_words(error_of("{\"sample\": {\"grains\": 500}\n", {}, ".json"), {"line 2", "JSON"});
     expect_words(error_of("", {"sample.grains=3"}), {"--set sample.grains=3", "section/key=value"});
+    expect_words(error_of("", {"friction=0.3"}), {"--set friction=0.3", "discrete/friction"});
   }
 
   TEST(Scene, WhatIsNoTextIsRefusedWithItsLine)
@@ -197,7 +198,7 @@ namespace
                  {"loading/axial_strain", "loading/stage_strain"});
     expect_words(error_of("subsection comparison\n  set window_edges = 0, 0.013\nend\n"), {"window_edges", "0.013"});
     expect_words(error_of("subsection continuum\n  set friction_angle_peak = 10\nend\n"),
-                 {"friction_angle_peak", "line 2", "continuum/friction_angle_peak = '10'"});
+                 {"friction_angle_peak", "line 2", "section continuum"});
     expect_words(error_of("", {"continuum/element=q1_bbar"}), {"continuum", "element = q1_bbar", "--set"});
     expect_words(error_of("", {"continuum/mesh=rectangle", "continuum/rectangle_width=3"}), {"rectangle_height = 0"});
     expect_words(error_of("", {"loading/mode=time", "comparison/window_edges=0, 5.5"}),
