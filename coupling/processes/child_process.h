@@ -31,8 +31,8 @@ namespace diptych::coupling
   // Waits for the end of a program. Returns its exit code as above.
   int wait_for(pid_t program);
 
-  // Asks a program to stop. Uses the one of SIGINT and SIGTERM that did not stop this process: a signal that the user sent to
-  // all processes must not count twice, because a second SIGINT kills.
+  // Asks a program to stop. If SIGINT stopped this process, it sends SIGTERM, and vice versa. The user may have sent the first
+  // signal to all processes, and a second SIGINT would kill the program.
   void ask_to_stop(pid_t program);
 
   // Path of this program.

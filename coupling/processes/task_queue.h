@@ -12,7 +12,7 @@ namespace diptych::coupling
   // A command of the program, and the log to which its output and errors are appended.
   struct Task
   {
-    std::string              name; // "seed 3": its name in messages
+    std::string              name; // name in messages, for example "seed 3"
     std::vector<std::string> words;
     std::string              log;
   };
@@ -26,7 +26,7 @@ namespace diptych::coupling
 
   struct TaskQueue
   {
-    std::vector<std::string> worker; // command that starts one; for its answers see worker_command.h
+    std::vector<std::string> worker; // command that starts a worker; for its answers see worker_command.h
     std::vector<Task>        tasks;
     std::string              noun              = "tasks";
     int                      n_finished_before = 0;

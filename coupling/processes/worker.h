@@ -18,7 +18,7 @@ namespace diptych::coupling
   // Protocol: a worker receives its task as one line of JSON and answers with the exit code on a line.
   struct WorkerTask
   {
-    std::vector<std::string> words; // of the command line, without the program
+    std::vector<std::string> words; // command line without the program
     std::string              log;   // output and errors are appended to this file
   };
   std::string text_of(const WorkerTask &task);
@@ -27,7 +27,7 @@ namespace diptych::coupling
   // Last line of a log that is not blank.
   std::string last_words(const std::string &log);
 
-  // The process starts with its first task, and again if it died.
+  // Starts the process with its first task, and again if it has died.
   class Worker
   {
   public:
@@ -43,7 +43,7 @@ namespace diptych::coupling
           since(other.since)
     {}
     Worker &operator=(const Worker &) = delete;
-    ~Worker(); // ends the process when its task is done
+    ~Worker(); // waits for the end of the task, then ends the process
 
     bool   is_free() const { return !works; }
     double seconds() const; // since the task began
