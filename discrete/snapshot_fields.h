@@ -78,7 +78,7 @@ namespace diptych::discrete
   template <class AnySnapshot, class Visit> void visit_attributes(AnySnapshot &s, Visit &&visit)
   {
     visit("walk", s.walk, "-", "which attribute progress equals: axial_strain, shear_strain or time");
-    visit("progress", s.progress, "as walk says", "value of the loading variable that walk names");
+    visit("progress", s.progress, "strain or time", "loading variable: axial strain, shear strain or time");
     visit("axial_strain", s.axial_strain, "-", "descent of the upper platen / initial height");
     visit("shear_strain", s.shear_strain, "-", "travel of the upper platen to the right / initial height");
     visit("time", s.time, "time", "time since the start of the loading");

@@ -89,7 +89,7 @@ namespace diptych::discrete
     visit("right_fy", r.right_force.y(), "pressure length", "force of the right wall on the sample, upwards");
     visit("platen_sliding", r.platen_sliding, "-", "share of the force-carrying platen contacts at their Coulomb bound");
     visit("skew_moment", r.skew_moment, "-", "norm of the grains' skew moments / norm of the symmetric ones");
-    visit("progress", r.progress, "as walk says", "value of the loading variable that walk names");
+    visit("progress", r.progress, "strain or time", "loading variable: axial strain, shear strain or time");
     visit("walk", r.walk, "-", "which column progress equals: axial_strain, shear_strain or time");
   }
 
