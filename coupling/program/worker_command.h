@@ -1,4 +1,4 @@
-// diptych: a process of the program that does one command after the other, as its parent asks
+// diptych: a process that runs one command after another for its parent
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -13,10 +13,11 @@ namespace diptych::coupling
   // The only word of a worker's command line.
   inline constexpr char worker_word[] = "--worker";
 
-  // Reads tasks from standard input (worker.h) until it ends, does each with its output and errors in the task's log, and answers
-  // with its exit code on standard output. `execute` is what the program does with a command line.
+  // Reads tasks (worker.h) from standard input until its end. Runs each task with output and errors in the task's log, and writes
+  // its exit code to standard output. `execute` runs a command line.
   int work_for_parent(const std::function<int(const CommandLine &)> &execute);
 
-  // Of this program: --jobs of them on each process, or as many as fit beside each other.
+  // Queue of workers of this program. Each MPI process starts --jobs workers, or without --jobs as many as its cores allow (under
+  // mpirun one).
   TaskQueue workers_for(const CommandLine &line, const std::string &noun);
 } // namespace diptych::coupling
