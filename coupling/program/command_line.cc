@@ -27,8 +27,8 @@ namespace diptych::coupling
   namespace
   {
     constexpr char footer[] =
-      "Exit codes: 0 done, 1 a stated invariant failed, 2 wrong input, 3 did not converge or was stopped (what was "
-      "reached is kept),\n4 the system failed: disk, folder, library, script (what was kept is said)";
+      "Exit codes: 0 done; 1 an internal check failed (please report it); 2 wrong input; 3 not converged, or stopped (results\n"
+      "are kept); 4 the system failed: disk, folder, library, script (the message lists the kept files)";
 
     // The commands with the options that each of them uses, and no others.
     class Commands

@@ -89,7 +89,8 @@ namespace diptych::coupling
     v({"unknowns", "-", "unknowns"}, f.unknowns);
     v({"steps", "-", "steps"}, f.steps);
     v({"processes", "-", "processes"}, f.processes);
-    v({"localisation_strain", "strain or time", "progress at the first loss of ellipticity"}, f.localisation_strain);
+    v({"localisation_strain", "strain or time", "progress at which localisation is first possible (singular acoustic tensor)"},
+      f.localisation_strain);
     v({"localisation_angle_deg", "degrees", "angle of the band that could form at that point", Kind::line}, f.localisation_angle);
     v({"finished", "-", "ran to its end"}, f.finished);
     v({"reached_progress", "strain or time", "progress reached"}, f.reached_progress);

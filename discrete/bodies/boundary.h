@@ -77,7 +77,7 @@ namespace diptych::discrete
       "sides, or nothing");
     visitor(
       "band_height", o.band_height, "mean diameters", {0.5, 100.},
-      "end_grains: height of a horizontal layer; 1 to 5 are equivalent, and from 8 on grains escape between five end grains");
+      "end_grains: height of a horizontal layer; 1.5 to 3 are equivalent, and from 8 on grains escape between five end grains");
     visitor("end_grains", o.end_grains, "-", {1, 100},
             "grains at each end of a layer that share the force (height of the layer) x pressure");
     visitor("side_motion", o.side_motion, "-",
