@@ -302,7 +302,7 @@ namespace diptych::coupling
       std::vector<std::string> overrides;
       for (const std::string &file : line.set_files)
         {
-          if (std::error_code none; !std::filesystem::exists(file, none))
+          if (std::error_code none; !std::filesystem::is_regular_file(file, none))
             throw SceneError("--set-file " + file + ": there is no such file");
           for (const Entry &entry : read_fragment(file))
             overrides.push_back(entry.section + "/" + entry.key + "=" + entry.value);
