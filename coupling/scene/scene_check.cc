@@ -77,7 +77,7 @@ namespace diptych::coupling
                                     " stages; at most 100000");
       const std::vector<double> &edges = scene.comparison.window_edges;
       if (edges.size() < 2 || std::adjacent_find(edges.begin(), edges.end(), std::greater_equal<double>()) != edges.end())
-        throw std::invalid_argument("comparison/window_edges = " + text_of(edges) + " are not at least two ascending " +
+        throw std::invalid_argument("comparison/window_edges = " + text_of(edges) + ": give at least two ascending " +
                                     (time ? "times" : "strains"));
       if (compares)
         check_windows(scene, last);
@@ -141,13 +141,14 @@ namespace diptych::coupling
     // The last assignment of each key that a message names, with its section or, in a check of one section, without.
     std::vector<Entry> assignments_in(const std::string &message, const std::string &section, const std::vector<Entry> &entries)
     {
-      std::map<std::string, Entry> last;
-      for (const Entry &entry : entries)
-        last[entry.name()] = entry;
       std::vector<Entry> found;
-      for (const auto &[key, entry] : last)
-        if (speaks_of(message, key) || (entry.section == section && speaks_of(message, entry.key)))
-          found.push_back(entry);
+      for (const Entry &entry : entries)
+        {
+          const auto is_same = [&](const Entry &earlier) { return earlier.name() == entry.name(); };
+          found.erase(std::remove_if(found.begin(), found.end(), is_same), found.end());
+          if (speaks_of(message, entry.name()) || (entry.section == section && speaks_of(message, entry.key)))
+            found.push_back(entry);
+        }
       return found;
     }
 
@@ -173,19 +174,19 @@ namespace diptych::coupling
         {
           const std::string  text  = error.what();
           std::vector<Entry> about = assignments_in(text, section, entries);
+          Place              place(file);
           Refusal            refusal;
           refusal.key = first_key(text);
-          if (refusal.key.empty() && !about.empty())
-            refusal.key = about.front().name();
-          Place      place = about.empty() ? Place(file) : about.front().place;
-          const auto first = std::find_if(about.begin(), about.end(), [&](const Entry &e) { return e.name() == refusal.key; });
-          if (first != about.end())
-            {
-              refusal = {first->place, first->name(), first->value, "", ""};
-              place   = first->place;
-            }
           if (!about.empty())
-            about.erase(first == about.end() ? about.begin() : first);
+            {
+              auto first = std::find_if(about.begin(), about.end(), [&](const Entry &e) { return e.name() == refusal.key; });
+              if (first == about.end())
+                --first; // the latest assignment is probably the wrong one
+              place = first->place;
+              if (refusal.key.empty() || refusal.key == first->name())
+                refusal = {first->place, first->name(), first->value, "", ""};
+              about.erase(first);
+            }
           const bool is_of_file = text.rfind('/', 0) == 0; // paths in a scene are absolute
           SceneError whole(is_of_file ? text
                                       : text_of(place) + ": " + (section.empty() ? "" : "section " + section + ": ") + text +

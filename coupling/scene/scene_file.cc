@@ -32,10 +32,16 @@ namespace diptych::coupling
                                      const std::string              &section,
                                      const std::vector<std::string> &known = section_names())
     {
-      const std::string keys = keys_with(section);
-      throw SceneError(
-        {place, section, "", "", keys.empty() ? "the nearest is '" + discrete::nearest_name(section, known) + "'" : keys},
-        "is an unknown section");
+      std::vector<std::string> names = known;
+      for (const KeyDescription &key : describe(""))
+        names.push_back(key.name);
+      const std::string nearest = discrete::nearest_name(section, names), keys = keys_with(section);
+      const bool        is_key = std::find(known.begin(), known.end(), nearest) == known.end();
+      throw SceneError({place, section, "", "",
+                        !is_key        ? "the nearest is '" + nearest + "'"
+                        : keys.empty() ? keys_with(nearest)
+                                       : keys},
+                       "is an unknown section");
     }
 
     [[noreturn]] void refuse_key(const Entry &entry)
