@@ -174,7 +174,7 @@ namespace diptych::coupling
         {
           const std::string  text  = error.what();
           std::vector<Entry> about = assignments_in(text, section, entries);
-          Place              place(file);
+          std::string        lead  = file + ": " + (section.empty() ? "" : "section " + section + ": ");
           Refusal            refusal;
           refusal.key = first_key(text);
           if (!about.empty())
@@ -182,15 +182,13 @@ namespace diptych::coupling
               auto first = std::find_if(about.begin(), about.end(), [&](const Entry &e) { return e.name() == refusal.key; });
               if (first == about.end())
                 --first; // the latest assignment is probably the wrong one
-              place = first->place;
+              lead = text_of(first->place) + ": " + (section.empty() ? "" : first->name() + " = '" + first->value + "': ");
               if (refusal.key.empty() || refusal.key == first->name())
                 refusal = {first->place, first->name(), first->value, "", ""};
               about.erase(first);
             }
           const bool is_of_file = text.rfind('/', 0) == 0; // paths in a scene are absolute
-          SceneError whole(is_of_file ? text
-                                      : text_of(place) + ": " + (section.empty() ? "" : "section " + section + ": ") + text +
-                                          places_of(about));
+          SceneError whole(is_of_file ? text : lead + text + places_of(about));
           whole.refusal = refusal;
           throw whole;
         }
