@@ -36,7 +36,7 @@ namespace diptych::coupling
   double outside_share(const MappedMoment &mapped);
 
   // Adds the dynamic part of the internal moments, -spin_term * 1 at each grain's centre, to the triangles and to the total. Here
-  // spin_term = mean of (1/2) omega^2 I >= 0 [pressure * length^2].
+  // spin_term = mean of (1/2) J omega^2 >= 0 [pressure * length^2].
   void add_spin_term(const TriangleSearch               &search,
                      const std::vector<Eigen::Vector2d> &position,
                      const std::vector<double>          &mean_spin_term,

@@ -1,4 +1,4 @@
-// diptych: what a scene must not be, and what should be pointed out of it
+// diptych: checks of a scene: contradictions are errors, doubtful values are warnings
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/scene/scene_check.h"
 
