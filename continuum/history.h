@@ -89,7 +89,7 @@ namespace diptych::continuum
           "CPU time for updating the geometry after accepted steps, on the first process so far");
     visit("time", r.time, "time", "since the start of the loading");
     visit("shear_strain", r.shear_strain, "-", "travel of the upper platen to the right / initial height");
-    visit("progress", r.progress, "as walk says", "loading variable: axial strain, shear strain or time");
+    visit("progress", r.progress, "strain or time", "loading variable: axial strain, shear strain or time");
     visit("unstable_share", r.unstable_share, "-",
           "share of the area where the second-order work of the step is negative and plastic flow contracts");
     visit("walk", r.walk, "-", "column that progress equals: axial_strain, shear_strain or time");

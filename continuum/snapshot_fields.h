@@ -54,7 +54,7 @@ namespace diptych::continuum
     visit("upper_platen_force", s.upper_platen_force, "pressure length", "force of the upper platen on the sample");
     visit("mean_stress", s.mean_stress, "pressure", "mean stress over the area");
     visit("shear_strain", s.shear_strain, "-", "travel of the upper platen to the right / initial height");
-    visit("progress", s.progress, "as walk says", "loading variable: axial strain, shear strain or time");
+    visit("progress", s.progress, "strain or time", "loading variable: axial strain, shear strain or time");
     visit("walk", s.walk, "-", "attribute that progress equals: axial_strain, shear_strain or time");
   }
 

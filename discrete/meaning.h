@@ -1,10 +1,10 @@
-// diptych: what is said of a number, and whether it may be other than finite
+// diptych: description of a number, and whether it may be NaN or infinite
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
 namespace diptych::discrete
 {
-  // The meaning of a column or attribute. A plain text stands for one whose numbers are finite.
+  // Description of a column or attribute. A plain text means that all numbers are finite.
   struct Meaning
   {
     Meaning(const char *text, const bool may_be_nan = false, const bool may_be_infinite = false)

@@ -60,7 +60,7 @@ namespace diptych::discrete
     std::vector<double>          rotation, spin, radius, mass;
     std::vector<Eigen::Matrix2d> internal_moment;      // last step, spin term included [pressure * length^2]
     std::vector<Eigen::Matrix2d> mean_internal_moment; // of the mean contact forces of the window, mean spin term included
-    std::vector<double>       mean_spin_term; // mean over the window of (1/2) omega^2 I >= 0, which M contains with a minus sign
+    std::vector<double>       mean_spin_term; // mean over the window of (1/2) J omega^2 >= 0, which M contains with a minus sign
     std::vector<std::uint8_t> rattler;        // 1 where the grain carries no contact force
     std::vector<std::uint8_t> fixed;          // 1: held at its velocity; 2 and 3: part of the lower and upper platen
 

@@ -28,7 +28,7 @@ namespace diptych::discrete
     visit("grains/mean_internal_moment", s.mean_internal_moment, "pressure length^2",
           "internal moment of the mean contact forces of the stage, mean spin term included");
     visit("grains/mean_spin_term", s.mean_spin_term, "pressure length^2",
-          "mean over the stage of (1/2) omega^2 I, which the internal moment contains with a minus sign");
+          "mean over the stage of (1/2) J omega^2 (J: moment of inertia), which the internal moment contains with a minus sign");
     visit("grains/rattler", s.rattler, "-", "1 if the grain carries no contact force");
     visit("grains/fixed", s.fixed, "-",
           "1 if the grain is held at its velocity, 2 or 3 if it is part of the lower or upper platen");
@@ -78,7 +78,7 @@ namespace diptych::discrete
   template <class AnySnapshot, class Visit> void visit_attributes(AnySnapshot &s, Visit &&visit)
   {
     visit("walk", s.walk, "-", "which attribute progress equals: axial_strain, shear_strain or time");
-    visit("progress", s.progress, "as walk says", "value of the loading variable that walk names");
+    visit("progress", s.progress, "strain or time", "loading variable: axial strain, shear strain or time");
     visit("axial_strain", s.axial_strain, "-", "descent of the upper platen / initial height");
     visit("shear_strain", s.shear_strain, "-", "travel of the upper platen to the right / initial height");
     visit("time", s.time, "time", "time since the start of the loading");

@@ -47,12 +47,12 @@ namespace diptych::continuum
   class Discretisation
   {
   public:
-    // Of a mesh that check() has accepted, spread over the processes of `communicator`. Calls `check_stop` between its phases.
+    // Distributes a mesh that check() has accepted over the processes of `communicator`. Calls `check_stop` between its phases.
     Discretisation(const QuadMesh &mesh, ElementKind kind, MPI_Comm communicator, const CheckStop &check_stop = {});
 
     MPI_Comm communicator() const { return triangulation.get_communicator(); }
 
-    // New unknowns, nodes and edges for the mesh as it now is: after a refinement.
+    // Makes new unknowns, nodes and edges for the present mesh, after a refinement.
     void distribute(const CheckStop &check_stop = {});
 
     // Adds dofs of other processes that this one reads. Local indices change.

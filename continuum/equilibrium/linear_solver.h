@@ -60,14 +60,15 @@ namespace diptych::continuum
 
     KeptPreconditioner kept() const;
 
-    // A step that is stopped on request must leave no trace. put_back() restores the preconditioner and the counts of the last
-    // remember(); forget_memory() ends that. A matrix is copied only when it is replaced. The preconditioner is rebuilt from
-    // these copies when it is next needed.
+    // A step that is stopped on request must change nothing. remember() saves the preconditioner and the counts before a step,
+    // put_back() restores them, and forget_memory() drops the saved state. A matrix is copied only when it is replaced. The
+    // preconditioner is rebuilt from the copies when it is next needed.
     void remember();
     void put_back();
     void forget_memory() { memory.reset(); }
 
-    // To be called after restart(). `pattern` is a matrix of the present structure. False: the kept matrices do not fit it.
+    // Restores the state from a checkpoint; to be called after restart(). `pattern` is a matrix with the present sparsity. False:
+    // the kept matrices do not fit it.
     [[nodiscard]] bool take_up(const KeptPreconditioner &kept, const dealii::TrilinosWrappers::SparseMatrix &pattern);
 
     // Continues the counts of an interrupted run.

@@ -23,15 +23,16 @@ namespace diptych::continuum
     [[nodiscard]] bool factorise(const dealii::TrilinosWrappers::SparseMatrix &matrix);
     void               solve(Vector &x, const Vector &b) const;
 
-    // Values of the matrices behind the analysis and the factors, empty if there are none. An analysis and factors rebuilt from
-    // them have the same bits.
+    // Entries of the matrix of the last symbolic analysis, and of the matrix of the last factorisation; empty if there is none.
+    // take_up() repeats both from these entries, with the same bits. False: the entries do not fit the pattern, or a
+    // factorisation failed.
     const std::vector<double> &analysed() const { return analysed_values; }
     const std::vector<double> &factorised() const { return values; }
     [[nodiscard]] bool         take_up(const dealii::TrilinosWrappers::SparseMatrix &pattern,
                                        const std::vector<double>                    &analysed,
                                        const std::vector<double>                    &factorised);
 
-    void forget_pattern(); // the next matrix has a new one
+    void forget_pattern(); // the next matrix has a new pattern
     void forget_factors();
     bool has_factors() const { return numeric != nullptr; }
 

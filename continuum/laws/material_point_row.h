@@ -43,6 +43,6 @@ namespace diptych::continuum
     visit("equivalent_plastic_strain", r.equivalent_plastic_strain, "-", "hardening variable");
     visit("overstress_share", r.overstress_share, "-", "viscous overstress / shear strength");
     visit("dissipation", r.dissipation, "pressure", "plastic work per initial area since the start");
-    visit("verdict", r.verdict, "-", "what the law says of its answer: reliable, unreliable or failed");
+    visit("verdict", r.verdict, "-", "quality of the law's answer: reliable, unreliable or failed");
   }
 } // namespace diptych::continuum

@@ -67,8 +67,8 @@ namespace diptych::continuum
                       std::pair{HardeningKind::critical_state, "critical_state"}, std::pair{HardeningKind::constant, "constant"}};
   }
 
-  // Units of a law's parameters. Stresses and moduli count in the lateral pressure of the loading, lengths in the mean grain
-  // diameter. in_units() below converts them.
+  // Units of a law's parameters. Stresses and moduli are multiples of the lateral pressure of the loading, lengths of the mean
+  // grain diameter. in_units() below converts them.
   struct Units
   {
     double stress = 1; // [pressure]

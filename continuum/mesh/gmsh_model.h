@@ -50,6 +50,6 @@ namespace diptych::continuum
   // two lines of one name, and for vertices that are not finite or not in the plane z = 0.
   QuadMesh mesh_of_open_model();
 
-  // All two-dimensional elements of gmsh's open model are four-node quadrilaterals, and there is one.
+  // True if gmsh's open model has at least one two-dimensional element, and all are four-node quadrilaterals.
   bool all_quadrilaterals();
 } // namespace diptych::continuum

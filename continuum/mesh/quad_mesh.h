@@ -39,7 +39,7 @@ namespace diptych::continuum
     std::vector<Edge>                        boundary; // in any order and direction
   };
 
-  // How the corners of a quadrilateral run: counter-clockwise, clockwise, or neither, where it is folded, concave or flat.
+  // Order of the corners of a quadrilateral. `folded` also stands for concave and flat ones.
   enum class Turn
   {
     counter_clockwise,
@@ -48,9 +48,9 @@ namespace diptych::continuum
   };
   Turn turn_of(const std::array<Eigen::Vector2d, 4> &corners);
 
-  // Throws std::invalid_argument saying what is wrong and where: no cell; a clockwise, folded or flat cell; overlapping cells;
-  // more than one piece (two cells that share a corner only are not connected); a vertex of no cell; a line inside the
-  // mesh; an edge on two lines; a line missing (all but free_edge); a boundary edge on no line.
+  // Throws std::invalid_argument with fault and place for: no cell; a clockwise, folded or flat cell; overlapping cells; more
+  // than one piece (cells that share only a corner are not connected); a vertex without a cell; a line inside the mesh; an edge
+  // on two lines; a missing line (except free_edge); a boundary edge without a line.
   void check(const QuadMesh &mesh);
 
   struct MeshSummary

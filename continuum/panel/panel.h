@@ -44,7 +44,7 @@ namespace diptych::continuum
   {
     CheckStop             check_stop;     // called between phases of the constructor; throws on all processes or on none
     std::function<bool()> stop_requested; // asked before every step and linear solve
-    std::function<void()> before_step;    // where a checkpoint may be taken
+    std::function<void()> before_step;    // called when a checkpoint may be written
     std::function<void(const std::string &phase, double fraction)> on_progress;
     std::function<void(const HistoryRow &)> on_row; // for every accepted step and the state at rest (step 0)
   };
@@ -54,8 +54,8 @@ namespace diptych::continuum
   class Panel
   {
   public:
-    // `units`: what keys of `options` count in. Throws std::invalid_argument on a mesh, a loading or options that are wrong or
-    // contradict each other, and what hooks.check_stop throws.
+    // `units`: pressure and length by which the values of `options` are multiplied. Throws std::invalid_argument if mesh, loading
+    // or options are wrong or contradict each other. Passes on exceptions of hooks.check_stop.
     Panel(const QuadMesh &mesh,
           const Units    &units,
           const Loading  &loading,
@@ -70,7 +70,7 @@ namespace diptych::continuum
     // compression [pressure]. The panel uses the tensors of the first process.
     void set_initial_stress(const std::vector<Eigen::Matrix2d> &stress);
 
-    // The same for solid_fraction_start = auto, with one number per cell [-].
+    // As set_initial_stress(), for solid_fraction_start = auto, with one number per cell [-].
     void set_initial_solid_fraction(const std::vector<double> &solid_fraction);
 
     // To be called once. prepare() finds equilibrium at rest. resume() continues from a checkpoint on any number of processes:

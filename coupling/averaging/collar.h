@@ -26,9 +26,10 @@ namespace diptych::coupling
   // that all `points` lie inside. Empty if the boundary is not star-shaped, that is, if no place inside sees every boundary edge.
   std::optional<CollaredMesh> with_collar(const QuadMesh &mesh, const std::vector<Eigen::Vector2d> &points);
 
-  // Joins the edges of the lower and upper boundary to their images below and above. The nodes of the left and right side are the
-  // same unknowns; the sides must be one period apart, within 1e-6 of it. Empty if they are not, or if the lower or upper
-  // boundary is not a function of x. points: as the grains store them, possibly whole periods left or right of the mesh.
+  // Joins the edges of the lower and upper boundary to their images below and above. Nodes at the same height on the left and
+  // right side are one unknown. The distance of the sides must be the period, with a relative tolerance of 1e-6. Empty if it is
+  // not, or if the lower or upper boundary is not a function of x. points: as the grains store them, possibly whole periods left
+  // or right of the mesh.
   std::optional<CollaredMesh> with_periodic_collar(const QuadMesh                     &mesh,
                                                    double                              period,
                                                    const std::vector<Eigen::Vector2d> &points);

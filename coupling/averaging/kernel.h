@@ -65,7 +65,8 @@ namespace diptych::coupling
   };
 
   // Points and weights along a segment with the parameter t from 0 to 1. The segment is divided into parts no longer than w, with
-  // two Gauss points in each. The weights add up to one, also when multiplied by 2 (1 - t), the density of tapered quantities.
+  // two Gauss points in each. The weights add up to one, also if multiplied by 2 (1 - t). This is the density of a quantity that
+  // decreases linearly along the segment.
   struct SegmentRule
   {
     std::vector<double> t, weight;

@@ -36,7 +36,7 @@ namespace diptych::coupling
   double outside_share(const MappedMoment &mapped);
 
   // Adds the dynamic part of the internal moments, -spin_term * 1 at each grain's centre, to the triangles and to the total. Here
-  // spin_term = mean of (1/2) omega^2 I >= 0 [pressure * length^2].
+  // spin_term = mean of (1/2) J omega^2 >= 0 [pressure * length^2].
   void add_spin_term(const TriangleSearch               &search,
                      const std::vector<Eigen::Vector2d> &position,
                      const std::vector<double>          &mean_spin_term,
@@ -68,9 +68,9 @@ namespace diptych::coupling
                                                     const std::vector<discrete::ContactForce> &contacts);
 
   // The same from the accelerations and the applied forces of the last step: sum_i N_a(x_i) (m_i a_i - F_i) - sum_platens
-  // N_a(x_c) f, with F_i the containing action and gravity. f is a force of `contacts`, not of the window. Both results agree by
-  // the balance of momentum. acceleration: a_i = (velocity - velocity before the step) / step [length/time^2]. A fixed grain
-  // enters with its contact forces.
+  // N_a(x_c) f, with F_i the containing action and gravity. f is the force of the last step (Snapshot::contacts), not a mean
+  // since the preceding snapshot. Both results agree by the balance of momentum. acceleration: a_i = (velocity - velocity before
+  // the step) / step [length/time^2]. A fixed grain enters with its contact forces.
   std::vector<Eigen::Vector2d> nodal_applied_forces(const QuadMesh                     &mesh,
                                                     const TriangleSearch               &search,
                                                     const discrete::Snapshot           &grains,

@@ -14,7 +14,7 @@ namespace diptych::coupling
   // The reference values for lengths and displacements.
   struct SampleFrame
   {
-    Eigen::Vector2d centre = Eigen::Vector2d::Zero();           // centre of the sample's bounding box, or of its outline [length]
+    Eigen::Vector2d centre = Eigen::Vector2d::Zero();           // centre of the sample's bounding box or outline [length]
     double          width = 0, height = 0;                      // size of the sample [length]
     double          mean_diameter    = 1;                       // [length]
     Eigen::Vector2d platen_increment = Eigen::Vector2d::Zero(); // displacement increment of the upper platen [length]
@@ -41,7 +41,7 @@ namespace diptych::coupling
     double jump             = 0; // |J| / |platen increment|, with the sign of J.s: positive if the side of n moves along +s
     double dilation_deg     = 0; // atan2(J.n, |J.s|): positive if the band opens
     double r_squared        = 0; // weighted 1 - SS_res/SS_tot of the longitudinal component u.s at the raw points
-    double r_squared_strips = 0; // the same for the means over 16 strips parallel to the band
+    double r_squared_strips = 0; // r_squared of the means over 16 strips parallel to the band
 
     std::string no_packs_because = "not judged"; // why it is not a band between two packs (packs.h); empty: it is one
 

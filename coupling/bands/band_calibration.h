@@ -19,10 +19,10 @@ namespace diptych::coupling
   // Factors for the deviations of a block bootstrap over the tiles, one set per band.
   // Block deviations are too small for three reasons. Blocks as small as the correlation length miss correlations between
   // neighbouring blocks. Residuals are smaller than errors. A small number of blocks makes the variance itself uncertain. All
-  // three effects are known if the fit is linear around the solution and the correlation of the errors is known. Errors with one
-  // independent sample per square of bootstrap.block = L, correlation exp(-pi r^2/L^2), are put through the fit. The factor is
-  // the 95 % quantile of |error of a number| / (deviation from the blocks of the residuals), divided by 1.96. This is the
-  // calibration of an interval by simulation (Loh 1987). No factor is below 1.
+  // three effects are known if the fit is linear around the solution and the correlation of the errors is known. Simulated errors
+  // are put through the fit. Their correlation is exp(-pi r^2/L^2), with L = bootstrap.block, which gives one independent sample
+  // per square of side L. The factor is the 95 % quantile of |error of a number| / (deviation from the blocks of the residuals),
+  // divided by 1.96. This is the calibration of an interval by simulation (Loh 1987). No factor is below 1.
   [[nodiscard]] std::vector<BandNumbers> bootstrap_factors(const BandData         &data,
                                                            const BandFit          &fit,
                                                            const Tiles            &tiles,

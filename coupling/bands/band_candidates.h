@@ -11,7 +11,7 @@
 
 namespace diptych::coupling
 {
-  // Means over square blocks of the given size [mean diameters], which are fine enough for scans.
+  // Means over square blocks of the given size [mean diameters]; they are fine enough for scans.
   BandData block_means(const BandData &data, double size);
 
   // True if two lines differ by at least the angle [radians], or else by at least the separation of their offsets [mean

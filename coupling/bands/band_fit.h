@@ -39,8 +39,8 @@ namespace diptych::coupling
   // shapes; without shapes the fit is affine.
   [[nodiscard]] BandFit fit_bands(const BandData &data, const std::vector<BandShape> &start, const BandFitOptions &options);
 
-  // Plain least squares with the given weights, starting from a nearby fit. It ends if angles, offsets / half widths and log half
-  // widths change by less than the tolerance. Robust variance and misfit remain those of the start.
+  // Plain least squares with the given weights, starting from a nearby fit. It ends when angles, offsets / half widths and log
+  // half widths change by less than the tolerance. Robust variance and misfit remain those of the start.
   [[nodiscard]] BandFit refit_bands(const BandData       &data,
                                     const BandFit        &start,
                                     const BandFitOptions &options,

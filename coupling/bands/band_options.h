@@ -11,7 +11,7 @@ namespace diptych::coupling
     double correlation_length = 10.0; // in mean diameters; points closer than this count as one independent sample
     double minimum_jump       = 0.1;  // in platen increments; weaker bands are not reported
     double residual_floor     = 0.01; // in platen increments; smaller misfits do not count
-    int    resamples          = 200;  // of the block bootstrap; 0: no intervals, which saves their time
+    int    resamples          = 200;  // resamples of the block bootstrap; 0: no intervals, which saves time
   };
 
   template <class Visitor> void visit_parameters(BandOptions &o, Visitor &&visitor)

@@ -15,7 +15,7 @@ namespace diptych::coupling
   struct BandZone
   {
     Eigen::Vector2d on_band;            // a point of the band's centre line [length]
-    double          angle_deg      = 0; // of the band, from the horizontal
+    double          angle_deg      = 0; // angle of the band from the horizontal
     double          half_thickness = 0; // half the 10-90 % width [length]
 
     Eigen::Vector2d along() const { return {std::cos(angle_deg * M_PI / 180), std::sin(angle_deg * M_PI / 180)}; }

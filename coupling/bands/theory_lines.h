@@ -8,8 +8,9 @@
 
 namespace diptych::coupling
 {
-  // Angle between a band and the direction of the minor principal stress (smallest compression) [degrees], equal to either side.
-  // Observed bands lie between Roscoe's and Coulomb's line (Vardoulakis & Sulem 1995), so the theories give a range.
+  // Angle between a band and the direction of the minor principal stress (smallest compression) [degrees]; the two conjugate
+  // bands lie at the same angle on both sides of it. Observed bands lie between Roscoe's and Coulomb's line (Vardoulakis & Sulem
+  // 1995), so the theories give a range.
   struct TheoryLines
   {
     double coulomb_deg = 45; // 45 + phi/2: plane of greatest stress obliquity

@@ -239,8 +239,8 @@ namespace diptych::coupling
   template <class Visit> void list_increment_attributes(const Increment &i, Visit &&visit)
   {
     const MotionUnits unit = motion_units(i);
-    visit(NumberEntry{"from", "as walk says", "progress at the beginning of the increment"}, i.from);
-    visit(NumberEntry{"to", "as walk says", "progress at the end of the increment"}, i.to);
+    visit(NumberEntry{"from", "strain or time", "progress at the beginning of the increment"}, i.from);
+    visit(NumberEntry{"to", "strain or time", "progress at the end of the increment"}, i.to);
     visit(NumberEntry{"displacement_unit", "length", "unit of displacements: the displacement of the upper platen"},
           unit.displacement);
     visit(NumberEntry{"velocity_unit", "length/time", "unit of velocities: the velocity of the upper platen"}, unit.velocity);
@@ -264,7 +264,7 @@ namespace diptych::coupling
   // Lists the arrays of a panel's whole history, one entry per row of its .csv.
   template <class Visit> void list_history_arrays(const HistoryTable &history, const double width, Visit &&visit)
   {
-    visit(ArrayEntry{"progress", "progress", "as walk says", "progress of the loading"}, column(history, "progress"));
+    visit(ArrayEntry{"progress", "progress", "strain or time", "progress of the loading"}, column(history, "progress"));
     visit(ArrayEntry{"stress_ratio_mean", "stress ratio t/s", "-", "running mean of the stress ratio"},
           running_mean(history, "stress_ratio", width));
     visit(ArrayEntry{"lower_fy_mean", "force of the lower platen", "pressure length",

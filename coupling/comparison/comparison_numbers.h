@@ -19,8 +19,8 @@ namespace diptych::coupling
   };
   template <class Visitor> void list_numbers(const CoarseWindow &w, Visitor &v)
   {
-    v({"from", "as walk says", "progress at the beginning of the window", Kind::setting}, w.from);
-    v({"to", "as walk says", "progress at the end of the window", Kind::setting}, w.to);
+    v({"from", "strain or time", "progress at the beginning of the window", Kind::setting}, w.from);
+    v({"to", "strain or time", "progress at the end of the window", Kind::setting}, w.to);
     v.list("bands", "shear bands of the continuum on the coarse mesh, the strongest first", w.bands);
   }
 
@@ -104,7 +104,7 @@ namespace diptych::coupling
     v({"solver_noise", "-", "solver noise: contact residual × step / mean inertial number"}, s.solver_noise);
     v({"grain_stress_error", "-", "error of the stress of single grains"}, s.grain_stress_error);
     v({"peak_stress_ratio", "-", "largest running mean of the stress ratio t/s"}, s.peak.value);
-    v({"strain_at_peak", "as walk says", "progress at the peak of the stress ratio"}, s.peak.progress);
+    v({"strain_at_peak", "strain or time", "progress at the peak of the stress ratio"}, s.peak.progress);
     v({"early_strength", "-", "strength T/S up to 0.3 % strain: mean of t over mean of s"}, s.strength.early);
     v({"strength", "-", "strength T/S from 0.3 % strain to the end"}, s.strength.later);
     v({"final_volumetric_strain", "-", "volumetric strain at the end, positive in compression"}, s.final_volumetric_strain);
@@ -129,7 +129,7 @@ namespace diptych::coupling
     v({"newton_iterations", "-", "total number of Newton iterations"}, s.newton_iterations);
     v({"cut_backs", "-", "number of load steps that were repeated with a smaller step"}, s.cut_backs);
     v({"peak_stress_ratio", "-", "largest running mean of the stress ratio t/s"}, s.peak.value);
-    v({"strain_at_peak", "as walk says", "progress at the peak of the stress ratio"}, s.peak.progress);
+    v({"strain_at_peak", "strain or time", "progress at the peak of the stress ratio"}, s.peak.progress);
     v({"early_strength", "-", "strength T/S up to 0.3 % strain: mean of t over mean of s"}, s.strength.early);
     v({"strength", "-", "strength T/S from 0.3 % strain to the end"}, s.strength.later);
     v({"final_volumetric_strain", "-", "volumetric strain at the end, positive in compression"}, s.final_volumetric_strain);
@@ -171,7 +171,7 @@ namespace diptych::coupling
       discrete::name_of(discrete::walk_of(d.scene.loading.mode)));
     v({"mean_diameter", "length", "mean diameter d of the grains", Kind::setting}, d.scene.sample.mean_diameter);
     v({"pressure", "pressure", "lateral pressure P on the sample", Kind::setting}, d.scene.loading.pressure);
-    v({"averaging_width", "as walk says", "range of progress over which running means are taken", Kind::setting},
+    v({"averaging_width", "strain or time", "range of progress over which running means are taken", Kind::setting},
       averaging_width(d.scene));
     v.list("stages", "instants at which both panels are compared", c.stages);
     v.list("windows", "windows over which displacement increments are compared", c.windows);

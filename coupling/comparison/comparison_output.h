@@ -13,9 +13,9 @@ namespace diptych::coupling
   // Columns of comparison.csv, one line per number of comparison.json.
   inline std::array<NumberEntry, 8> comparison_columns()
   {
-    return {{{"progress_from", "as walk says",
+    return {{{"progress_from", "strain or time",
               "beginning of the window or stage as the scene gives it; empty for a number of the whole run"},
-             {"progress_to", "as walk says", "progress at the end of the window or stage"},
+             {"progress_to", "strain or time", "progress at the end of the window or stage"},
              {"panel", "-", "discrete, continuum, difference or mapping, or the part of comparison.json that holds the number"},
              {"quantity", "-", "keys on the path to the number; entries of lists are numbered from 1, or have their name"},
              {"value", "as unit says", "value of the number"},

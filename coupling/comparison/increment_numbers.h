@@ -66,8 +66,8 @@ namespace diptych::coupling
 
   template <class Visitor> void list_numbers(const Increment &w, Visitor &v)
   {
-    v({"from", "as walk says", "progress at the beginning of the window", Kind::setting}, w.from);
-    v({"to", "as walk says", "progress at the end of the window", Kind::setting}, w.to);
+    v({"from", "strain or time", "progress at the beginning of the window", Kind::setting}, w.from);
+    v({"to", "strain or time", "progress at the end of the window", Kind::setting}, w.to);
     v({"duration", "time", "duration of the window in the grains' loading", Kind::setting}, w.duration);
     v({"displacement_unit_d", "mean diameters", "unit of displacements: the displacement of the upper platen", Kind::setting,
        true},

@@ -268,7 +268,7 @@ namespace diptych::coupling
 
   template <class Visitor> void list_numbers(const StageRecord &s, Visitor &v)
   {
-    v({"progress", "as walk says", "progress at the end of the stage", Kind::setting}, s.progress);
+    v({"progress", "strain or time", "progress at the end of the stage", Kind::setting}, s.progress);
     v({"axial_strain", "-", "axial strain of the grains at the end of the stage", Kind::setting}, s.axial_strain);
     v({"shear_strain", "-", "shear strain of the grains at the end of the stage", Kind::setting}, s.shear_strain);
     v({"time", "time", "time since the start of the grains' loading", Kind::setting}, s.time);

@@ -113,7 +113,7 @@ namespace diptych::coupling
   {
     std::vector<NumberEntry>   columns{{"step", "time", "requested length of the step of the run"},
                                      {"time", "time", "time since the start of the loading"},
-                                     {"progress", "as walk says", "progress of the loading"},
+                                     {"progress", "strain or time", "progress of the loading"},
                                      {"stress_ratio_mean", "-", "running mean of the stress ratio"}};
     const discrete::HistoryRow row;
     for (const std::string &name : repeated)

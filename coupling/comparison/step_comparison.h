@@ -43,7 +43,7 @@ namespace diptych::coupling
     v({"largest_difference", "-",
        "largest difference of each run from the finest, relative to the finest run's largest stress ratio or external work"},
       q.largest_difference);
-    v({"at_progress", "as walk says", "progress at which the coarsest run differs most"}, q.at_progress);
+    v({"at_progress", "strain or time", "progress at which the coarsest run differs most"}, q.at_progress);
   }
   template <class Visitor> void list_numbers(const StepComparison &c, Visitor &v)
   {

@@ -289,16 +289,20 @@ namespace diptych::coupling
       for (const auto &[key, size] : {std::pair{"continuum/element_size", scene.continuum.element_size},
                                       {"comparison/coarse_element_size", scene.comparison.coarse_element_size}})
         if (const double edge = first_edge(scene.continuum, size, scene.sample.mean_diameter); edge > height)
-          throw SceneError(std::string(key) + " = " + text_of(size) + ": elements of " + text_of(edge) +
-                           " [length] before refinement do not fit into a sample of at most " + text_of(height) + " in height");
+          {
+            char sizes[160];
+            std::snprintf(sizes, sizeof sizes, ": elements of %.4g [length] before refinement do not fit into the height of %.4g",
+                          edge, height);
+            throw SceneError(std::string(key) + " = " + text_of(size) + sizes + " [length] that the sample can have at most");
+          }
   }
 
   void require_continuum(const Scene &scene)
   {
     if (scene.discrete.method.method == discrete::Method::imported)
       (void)load_imported(scene);
-    if (scene.sample.rough_platens)
-      refuse("sample/rough_platens", "true", "the forces on grains that are part of a platen are not mapped");
+    if (scene.sample.glued_platen_grains)
+      refuse("sample/glued_platen_grains", "true", "the forces on grains that are part of a platen are not mapped");
     const WallDrives                drives  = drives_of(scene.discrete.drives);
     const discrete::LateralOptions &lateral = scene.discrete.lateral;
     const bool                      smooth  = scene.continuum.platens == continuum::Platens::smooth;

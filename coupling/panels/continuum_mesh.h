@@ -20,7 +20,7 @@ namespace diptych::coupling
     std::string title;            // text for messages
     std::string directory;        // folder of its files
     double      element_size = 0; // [mean diameters]
-    double      edge         = 0; // of its elements before refinement [length]
+    double      edge         = 0; // edge of its elements before refinement [length]
     bool        is_coarse    = false;
 
     std::string checkpoint() const { return continuum_checkpoint(directory); }
@@ -47,6 +47,6 @@ namespace diptych::coupling
   // The mesh of a part with elements of `edge`. `grains` is used only if continuum/mesh = outline.
   continuum::QuadMesh mesh_of(const continuum::Options &options, double edge, const discrete::Snapshot *grains);
 
-  // Hash of the places and connections of all vertices. A checkpoint must have the same one, bit by bit.
+  // Hash of the positions and connections of all vertices. A checkpoint is valid only for a mesh with the same hash.
   std::string identity_of(const continuum::QuadMesh &mesh);
 } // namespace diptych::coupling

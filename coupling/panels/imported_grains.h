@@ -7,6 +7,6 @@
 
 namespace diptych::coupling
 {
-  // Copies the frames of discrete/file into the scene's folder, which is then complete without the imported one.
+  // Copies the frames of discrete/file into the result folder, which then no longer needs the imported folder.
   void take_imported(const RunOptions &options, const Scene &scene);
 } // namespace diptych::coupling

@@ -27,8 +27,8 @@ namespace diptych::coupling
   constexpr double    solid_fraction_width = 6; // [mean diameters]
   std::vector<double> grain_solid_fraction_on_cells(const discrete::Snapshot &grains, const continuum::Snapshot &nodes);
 
-  // Call before panel.prepare(). Maps the initial stress and solid fraction if the scene asks for it. `grains`: needed on the
-  // first process only, and only if something is mapped. Collective.
+  // Maps the initial stress and the solid fraction, if the scene asks for them. Call it before panel.prepare(). Only the first
+  // process needs `grains`, and only if a field is mapped. Collective.
   void map_initial_state(const continuum::Options &options,
                          double                    pressure,
                          const discrete::Snapshot *grains,

@@ -1,4 +1,4 @@
-// diptych: what --resume finds of an interrupted continuum, looked at before anything is changed
+// diptych: checks the files of an interrupted continuum run before --resume changes anything
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/panels/interrupted_continuum.h"
 

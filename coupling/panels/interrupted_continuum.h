@@ -1,4 +1,4 @@
-// diptych: what --resume finds of an interrupted continuum, looked at before anything is changed
+// diptych: checks the files of an interrupted continuum run before --resume changes anything
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -6,8 +6,8 @@
 
 namespace diptych::coupling
 {
-  // Reads all that --resume goes on from, or takes for finished, of all parts: checkpoint, table, snapshots, provenance.json.
-  // Throws SceneError where a checkpoint belongs to another scene or mesh (that of an outline is known only when it is made),
-  // std::invalid_argument naming the file that is damaged.
+  // Reads the files of all parts that --resume continues or accepts as finished: checkpoint, table, snapshots, provenance.json.
+  // Throws SceneError if a checkpoint belongs to another scene or mesh. A mesh made from an outline is checked later, when it
+  // exists. Throws std::invalid_argument with the name of a damaged file.
   void check_earlier_continuum(const Scene &scene);
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: what --resume finds of interrupted grains, looked at before anything is changed
+// diptych: checks the files of an interrupted run of the grains before --resume changes anything
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/panels/interrupted_grains.h"
 

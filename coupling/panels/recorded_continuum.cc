@@ -1,4 +1,4 @@
-// diptych: the continuum panel with its files
+// diptych: runs the continuum panel and writes its files
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/panels/recorded_continuum.h"
 

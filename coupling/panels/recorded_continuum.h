@@ -1,4 +1,4 @@
-// diptych: the continuum panel with its files
+// diptych: runs the continuum panel and writes its files
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -20,13 +20,13 @@
 
 namespace diptych::coupling
 {
-  // Rows and snapshots go into the part's files as they come, a checkpoint when it is time. Files are the first process's; all
-  // functions are collective.
+  // Runs the continuum panel. It writes rows and snapshots to the part's files at once, and a checkpoint every
+  // checkpoint_minutes. Only the first process writes files. All functions are collective.
   class RecordedContinuum
   {
   public:
-    // `grains`: the first process's, for the mesh and a mapped stress. `resume`: from part.checkpoint(). Throws SceneError where
-    // that belongs to another scene or mesh, StoppedOnRequest between phases of the set-up.
+    // Only the first process needs `grains`, for the mesh and a mapped stress. `resume`: continues from part.checkpoint(). Throws
+    // SceneError if the checkpoint belongs to another scene or mesh, and StoppedOnRequest between phases of the set-up.
     RecordedContinuum(const RunOptions         &options,
                       const Scene              &scene,
                       const ContinuumPart      &part,
@@ -38,7 +38,8 @@ namespace diptych::coupling
 
     const continuum::Report &run();
 
-    // The first process's rows and, if wanted, snapshots, where the run begins in this process.
+    // Rows and, if keeps_snapshots, snapshots that this process computed; on the first process only. After --resume they begin at
+    // the checkpoint.
     ContinuumResults results;
     bool             keeps_snapshots = false;
 
@@ -67,6 +68,6 @@ namespace diptych::coupling
     std::optional<ContinuumSnapshotFile> snapshots;
     Clock::time_point                    saved = Clock::now(), flushed = saved;
     std::unique_ptr<continuum::Panel>    panel;
-    bool                                 is_under_way = false; // at rest or beyond: there is something to go on from
+    bool is_under_way = false; // true once the panel is at rest: from then on it can write a checkpoint
   };
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: the discrete panel with its files
+// diptych: runs the discrete panel and writes its files
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -17,7 +17,8 @@
 
 namespace diptych::coupling
 {
-  // Rows and snapshots go into the folder's files as they come, a checkpoint when it is time.
+  // Runs the discrete panel. It writes rows and snapshots to the result folder at once, and a checkpoint every
+  // checkpoint_minutes.
   class RecordedGrains
   {
   public:
@@ -25,12 +26,14 @@ namespace diptych::coupling
     RecordedGrains(const RecordedGrains &)            = delete; // the panel's hooks call this one
     RecordedGrains &operator=(const RecordedGrains &) = delete;
 
-    std::string     warnings; // of its snapshots, a line each
-    DiscreteResults results;  // rows and, if wanted, snapshots, where the run begins in this process
+    std::string warnings; // about its snapshots, one per line
+
+    // Rows and, if keeps_snapshots, snapshots that this process computed. After --resume they begin at the checkpoint.
+    DiscreteResults results;
     bool            keeps_snapshots = false;
 
-    void                    prepare();                                  // the sample, without any file
-    discrete::Snapshot      sample() const { return panel.snapshot(); } // once it is prepared and not yet loaded
+    void                    prepare();                                  // makes the sample, writes no file
+    discrete::Snapshot      sample() const { return panel.snapshot(); } // after prepare() and before run()
     bool                    is_ready() const { return is_prepared && panel.report().status == discrete::Status::finished; }
     const discrete::Report &run();
 
@@ -51,7 +54,7 @@ namespace diptych::coupling
     const Scene                          &scene;
     const std::string                     identity;
     Progress                              progress;
-    std::optional<discrete::TableFile>    table; // from the prepared sample on
+    std::optional<discrete::TableFile>    table; // opened when the sample is prepared
     std::optional<discrete::SnapshotFile> snapshots;
     Clock::time_point                     saved = Clock::now(), flushed = saved;
     bool                                  announced = false, is_prepared = false;

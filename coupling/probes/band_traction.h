@@ -22,7 +22,7 @@ namespace diptych::coupling
     std::vector<double> from, to;      // n each, along s from the origin [length]; NaN: too short for a value
   };
 
-  // n entries each, NaN in strips without a value. The traction is that of the side behind n on the side to which n points
+  // n entries each, NaN in strips without a value. The traction is exerted by the side behind n on the side to which n points
   // [pressure]. Its normal part is positive in compression, its shear part acts along s.
   struct BandTraction
   {
@@ -35,19 +35,19 @@ namespace diptych::coupling
     double independent_normal = NAN, independent_shear = NAN; // root mean square standard error / the same magnitude
   };
 
-  // The middle `share` of each strip's chord, at least 2 mean diameters away from the outline. The chord is the shortest of those
-  // of the two edges and the middle line. Strips shorter than 8 mean diameters have no value.
+  // The rectangle of a strip is the middle `share` of its chord, at least 2 mean diameters away from the outline. The chord is
+  // the shortest of three: on both edges and on the middle line. Strips shorter than 8 mean diameters have no value.
   TractionStrips traction_strips(const std::vector<Eigen::Vector2d> &outline,
                                  const SampleFrame                  &frame,
                                  double                              angle_deg,
                                  const std::vector<double>          &edges,
                                  double                              share = 0.7);
 
-  // sigma.n of the strip, with sigma = -sum f (x) (branch within the rectangle) / area. This is the mean, over all lines of the
-  // strip, of the force through branches that cross the line / its length. The errors come from at least three blocks of at least
-  // `block` [length] along the strip, taken as independent. In equilibrium one block carries what its neighbour does not, so real
-  // tractions vary less. Equilibrium requires uniform tractions, except for the loads on the sides of the sample within the
-  // strips. Throws std::invalid_argument for a block that is not positive.
+  // sigma.n of each strip, with sigma = -sum f (x) (branch within the rectangle) / area. This equals (force through the branches
+  // that cross a line) / (length of the line), averaged over all lines of the strip. The errors come from at least three blocks
+  // of at least `block` [length] along the strip, which are assumed independent. In equilibrium one block carries what its
+  // neighbour does not, so real tractions vary less. Equilibrium requires uniform tractions, except for the loads on the sides of
+  // the sample within the strips. Throws std::invalid_argument for a block that is not positive.
   BandTraction grain_band_traction(const TractionStrips &strips, const GrainNetwork &network, double block);
 
   // The same for a stress that is constant on cells, n_cells entries [pressure], using the exact part of each triangle. Cells

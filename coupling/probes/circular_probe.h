@@ -23,8 +23,8 @@ namespace diptych::coupling
 
   // A diameter at the angle a runs along s = (cos a, sin a) and has the normal n = (-sin a, cos a). Its traction is the mean
   // force per length that the side behind n exerts on the side to which n points. The normal part acts along n (positive in
-  // compression), the tangential part along s. The mean stress predicts sigma.n (rows of sigma: components of force). All have
-  // n_angles entries [pressure].
+  // compression), the tangential part along s. The mean stress predicts the traction sigma.n (rows of sigma: components of
+  // force). All lists have n_angles entries [pressure].
   struct CircularProbe
   {
     Circle              circle;
@@ -35,7 +35,7 @@ namespace diptych::coupling
     std::vector<double> normal_error, tangential_error; // grains: standard errors from blocks along the diameter; continuum:
                                                         // empty
     Interval relative_l2;                               // sqrt(sum |traction - predicted|^2 / sum |predicted|^2)
-    double   independent_blocks = NAN;                  // the same norm for the standard errors
+    double   independent_blocks = NAN;                  // sqrt(sum |standard error|^2 / sum |predicted|^2)
   };
 
   // The circle of options.probe_circle, reduced where the sample ends. Without it, the largest circle about the middle of the
@@ -46,10 +46,10 @@ namespace diptych::coupling
                       const std::vector<Band>            &bands,
                       const ProbeOptions                 &options);
 
-  // Uses the mean forces over the window of the contacts whose branch crosses the diameter. The mean stress is -sum f (x) (branch
-  // within the circle) / area. It equals the mean of the tractions over all parallel chords, so both sides use the same forces
-  // and no grain is cut.
-  // The interval of relative_l2 comes from blocks of neighbouring angles, wide enough to be options.block apart at the rim.
+  // Uses contacts whose branch crosses the diameter, with their mean forces since the preceding snapshot. The mean stress is -sum
+  // f (x) (branch within the circle) / area. It equals the mean of the tractions over all parallel chords, so both sides use the
+  // same forces and no grain is cut.
+  // The interval of relative_l2 comes from blocks of neighbouring angles, so wide that they are options.block long at the rim.
   // Nearer to the centre all diameters share contacts, so the interval is rather too narrow. The errors treat blocks along the
   // diameter as independent. In equilibrium one block carries what its neighbours do not, so relative_l2 stays below
   // independent_blocks. Throws std::invalid_argument for n_angles < 2.

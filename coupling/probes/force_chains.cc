@@ -157,7 +157,7 @@ namespace diptych::coupling
       const Interval &d = chains.largest_distance;
       char            text[160];
       if (!std::isfinite(d.high))
-        return "too few blocks to tell";
+        return "cannot tell: too few blocks";
       if (d.low > 0)
         std::snprintf(text, sizeof text,
                       "differs: largest distance of the distributions %.2g (%.2g to %.2g), mean inside %.3g times outside",
@@ -165,8 +165,7 @@ namespace diptych::coupling
       else if (d.high <= chain_margin)
         std::snprintf(text, sizeof text, "ignores the zone: the distributions differ by %.2g at most", d.high);
       else
-        std::snprintf(text, sizeof text, "no difference seen: largest distance %.2g; up to %.2g cannot be excluded", d.value,
-                      d.high);
+        std::snprintf(text, sizeof text, "cannot tell: largest distance %.2g; up to %.2g cannot be excluded", d.value, d.high);
       return text;
     }
 

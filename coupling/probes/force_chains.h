@@ -15,7 +15,7 @@
 
 namespace diptych::coupling
 {
-  // Shares at which a distribution is given.
+  // Cumulative shares at which a distribution is listed.
   constexpr std::array<double, 11> chain_quantiles = {{0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95}};
 
   // Values relative to the common mean over inside and outside.
@@ -27,14 +27,14 @@ namespace diptych::coupling
   };
 
   // largest_distance: D = largest difference between the two cumulative distributions (Kolmogorov and Smirnov). Its interval is D
-  // +- c. c is the 95 % quantile of the same distance between the difference for resampled blocks and the sample's own, stretched
-  // for a small number of blocks and for correlated blocks. The true difference lies in D +- c (triangle inequality) in 95 % of
-  // samples. If there is no difference, D stays below c in as many samples.
+  // +- c. c is the 95 % quantile of the same distance between two differences: that of resampled blocks and that of the sample.
+  // It is widened for a small number of blocks and for correlated blocks. In 95 % of samples the true difference lies in D +- c
+  // (triangle inequality). If there is no true difference, D is below c in 95 % of samples.
   struct ForceChains
   {
     ChainDistribution inside, outside;
     Interval          largest_distance;
-    int               blocks = 0; // blocks with a value inside, or with one outside: the smaller number
+    int               blocks = 0; // number of blocks with a value inside, or outside if these are fewer
     std::string       verdict;
   };
 
@@ -44,7 +44,7 @@ namespace diptych::coupling
   // Grains: |major principal stress| of single grains (moment / disc area), each grain once, also those without force. Contacts:
   // magnitude of the force, for contacts that carry one. Inside: the grain's centre or the contact point lies in the band. Only
   // grains and contacts farther than `margin` [length] from the outline's edges count, because chains end at platens and free
-  // sides. The verdict is "differs" (D - c > 0), "ignores the zone" (D + c <= chain_margin) or "no difference seen".
+  // sides. The verdict is "differs" (D - c > 0), "ignores the zone" (D + c <= chain_margin) or "cannot tell".
   ForceChains grain_force_chains(const BandZone                     &zone,
                                  const std::vector<Eigen::Vector2d> &outline,
                                  const GrainNetwork                 &network,

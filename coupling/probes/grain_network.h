@@ -17,13 +17,13 @@ namespace diptych::coupling
     std::vector<double>          radius;   // [length]
     std::vector<Eigen::Matrix2d> moment;   // internal moments, positive in compression [pressure * length^2]
 
-    std::vector<discrete::ContactForce> forces;   // means over the window
+    std::vector<discrete::ContactForce> forces;   // means since the preceding snapshot
     std::vector<discrete::ContactForce> contacts; // at the instant of the snapshot
     double                              period = 0;
   };
 
-  // Moments and forces are means over the window. In a periodic sample, grains and their contact points are moved by whole
-  // periods to within half a period of the outline's middle.
+  // Moments and forces are means since the preceding snapshot. In a periodic sample, grains and their contact points are moved by
+  // whole periods to within half a period of the outline's middle.
   GrainNetwork grain_network(const discrete::Snapshot &snapshot);
 
   // The line along which a contact transmits its force. It runs from the centre of grain i to that of j (or of the image of j

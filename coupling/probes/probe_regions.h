@@ -35,8 +35,8 @@ namespace diptych::coupling
   // horizontal and do not touch the zone's. They are the largest that fit, up to the zone's area, and as far from it as possible.
   // Without bands there are three horizontal rectangles one above another. The polygon is empty if no rectangle of the minimum
   // side fits in a pack.
-  // options.probe_rectangles replaces them all. Each then has the part that lies in the sample, possibly empty. Throws as
-  // check_probe_options() does.
+  // If options.probe_rectangles is given, its rectangles replace all three. Each is cut to the part inside the sample, which may
+  // be empty. Throws as check_probe_options() does.
   std::vector<ProbeRegion> place_probes(const std::vector<Eigen::Vector2d> &outline,
                                         const SampleFrame                  &frame,
                                         const std::vector<Band>            &bands,

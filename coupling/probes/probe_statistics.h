@@ -31,7 +31,7 @@ namespace diptych::coupling
     double                  solid_fraction = 0; // exact solid fraction of the probe
   };
 
-  // The numbers of a probe for one draw of its blocks, defined as in ProbeStress and ProbeFabric.
+  // The numbers of a probe for one resample of its blocks, defined as in ProbeStress and ProbeFabric.
   struct ProbeNumbers
   {
     double s1 = NAN, s2 = NAN, t_over_s = NAN, direction_deg = NAN; // numbers of the stress
@@ -39,7 +39,7 @@ namespace diptych::coupling
     double fabric_to_stress_deg = NAN; // from the stress's major direction anticlockwise to the fabric's, in (-90, 90]
   };
 
-  // 95 % intervals. Directions are unwrapped around the value; at most they reach +-90 degrees from it.
+  // 95 % intervals. Intervals of directions are unwrapped around the value and extend at most 90 degrees to either side.
   struct ProbeIntervals
   {
     Interval s1, s2, t_over_s, direction_deg, anisotropy, fabric_direction_deg, fabric_to_stress_deg;
@@ -50,13 +50,13 @@ namespace diptych::coupling
   // Here each grain counts once, also rattlers. Percentiles are interpolated linearly.
   struct GrainPressure
   {
-    double                mean = NAN, deviation = NAN;               // [pressure]
+    double                mean = NAN, deviation = NAN;               // mean and standard deviation [pressure]
     std::array<double, 5> percentiles = {{NAN, NAN, NAN, NAN, NAN}}; // at percentile_levels [pressure]
     int                   grains      = 0;
   };
   constexpr std::array<int, 5> percentile_levels = {{5, 25, 50, 75, 95}};
 
-  // Differences below these margins count as none.
+  // A difference whose 95 % interval lies within its margin counts as none.
   struct ProbeMargins
   {
     double t_over_s      = 0.05;
@@ -83,8 +83,12 @@ namespace diptych::coupling
   GrainPressure grain_pressure(const ProbeRegion &probe, const GrainNetwork &network);
 
   // The probe in the band (or the first probe) minus each of the others. Each probe is resampled separately. The verdict gives
-  // for each quantity "differs" (the interval does not contain 0), "does not differ" (the interval lies within the margin) or
-  // "cannot tell". It begins with "differ" if one quantity differs, "do not differ" if none does, else "cannot tell".
+  // one of these for each quantity, tested in this order:
+  //   "differs" if the interval does not contain 0, even if it lies within the margin;
+  //   "does not differ" if the interval lies within the margin;
+  //   "cannot tell" otherwise.
+  // It begins with "differ" if one quantity differs, "do not differ" if none does, else "cannot tell". This test is stricter than
+  // Verdict (equivalence.h), where panels are different only beyond the margin.
   std::vector<ProbeDifference> probe_differences(const std::vector<ProbeRegion> &probes,
                                                  const std::vector<ProbeBlocks> &blocks,
                                                  const BootstrapOptions         &options,

@@ -23,7 +23,7 @@ namespace diptych::coupling
     int             count         = 0;   // number of grains or cells in the mean
   };
 
-  // From the contacts that transmit force and have their point in the probe. F = mean of n (x) n.
+  // Fabric of the contacts that transmit force and have their point in the probe. F = mean of n (x) n.
   struct ProbeFabric
   {
     Eigen::Matrix2d     fabric              = Eigen::Matrix2d::Constant(NAN);
@@ -38,7 +38,7 @@ namespace diptych::coupling
 
   ProbeStress probe_stress(const Eigen::Matrix2d &stress, int count);
 
-  // sum of the moments of the grains with their centre inside / sum of their disc areas * solid fraction of the probe.
+  // Stress = (sum of moments) / (sum of disc areas) * (solid fraction of the probe), over the grains with their centre inside.
   ProbeStress grain_probe_stress(const ProbeRegion                  &probe,
                                  const std::vector<Eigen::Vector2d> &position,
                                  const std::vector<double>          &radius,

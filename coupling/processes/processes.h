@@ -26,10 +26,10 @@ namespace diptych::coupling
   double              from_first_process(double value); // all return the value of the first process
   std::vector<double> from_first_process(std::vector<double> values);
 
-  bool any_process(bool value); // true if it is true on one of them
+  bool any_process(bool value); // true if the value is true on any process
 
-  // Runs `work` and returns its exit code. An exception is printed to standard error, and `code_of` gives its code. If all
-  // processes meet it, it is printed once. Otherwise it ends all processes (MPI_Abort), because the others would wait forever.
+  // Runs `work` and returns its exit code. An exception is printed to standard error, and `code_of` gives its exit code. If all
+  // processes throw, the message is printed once. If only some throw, MPI_Abort ends all, because the others would wait forever.
   int run_and_report(const std::function<int()> &work,
                      int (*code_of)(const std::exception &),
                      std::string (*text_of)(const std::exception &));

@@ -19,9 +19,9 @@ namespace diptych::coupling
 
     // A new phase name starts a new clock and completes the phase before. fraction: 0 .. 1, of the phase.
     void update(const std::string &phase, double fraction);
-    void finish(bool is_complete = true); // ends the present phase; one that was stopped on request is never complete
+    void finish(bool is_complete = true); // ends the present phase; after a stop on request it is never complete
 
-    // Completes the phase that is open, if any: a message that follows begins on a line of its own.
+    // Completes an open phase, so that the next message begins on a new line.
     static void make_room();
 
   private:

@@ -11,15 +11,15 @@ namespace diptych::coupling
 {
   struct RunOptions
   {
-    int         threads   = 1;     // --threads, of the contact solver
-    int         jobs      = 0;     // --jobs: runs at once; 0: as many as the cores allow
+    int         threads   = 1;     // --threads: threads of the contact solver
+    int         jobs      = 0;     // --jobs: number of runs at the same time; 0: as many as the cores allow
     bool        resume    = false; // --resume
     bool        overwrite = false; // --overwrite
     bool        quiet     = false; // --quiet: neither progress nor messages
-    std::string text;              // the command line as it was typed
+    std::string text;              // the command line
   };
 
-  // To standard output, unless --quiet.
+  // Writes to standard output, unless --quiet.
   inline void say(const RunOptions &options, const std::string &text)
   {
     if (options.quiet)
@@ -28,7 +28,7 @@ namespace diptych::coupling
     std::cout << text << std::endl;
   }
 
-  // To standard error, quiet or not; nothing where the text is empty.
+  // Writes to standard error, also with --quiet; an empty text is not written.
   inline void warn(const std::string &text)
   {
     if (!text.empty())

@@ -7,21 +7,21 @@
 
 namespace diptych::coupling
 {
-  // Installs handlers for the three signals, and receives those that waited since block_stop_signals(), also in the program
-  // before exec. Call it first in main, and again after libraries that change handlers, such as MPI_Init. A second Ctrl-C
-  // kills. SIGHUP stays ignored if it was (nohup). SIGPIPE and SIGXFSZ are ignored: a closed output pipe must not stop a run,
-  // and a file size limit is reported like a full disk.
+  // Installs handlers for the three signals. They also receive signals that have waited since block_stop_signals(), even if this
+  // was called before exec. Call it first in main, and again after libraries that change handlers, such as MPI_Init. A second
+  // Ctrl-C kills. SIGHUP stays ignored if it was (nohup). SIGPIPE and SIGXFSZ are ignored: a closed output pipe must not stop a
+  // run, and a file size limit is reported like a full disk.
   void install_signals();
   bool stop_requested();
 
-  // Signals wait, also over exec, until install_signals(). Without this a program that has just started would die of them.
+  // Makes signals wait until install_signals(), also across exec. Otherwise they would kill a program that has just started.
   void block_stop_signals();
   void unblock_stop_signals();
 
   // This process receives SIGTERM when its parent dies. It then has `seconds` to end before SIGALRM kills it.
   void end_after_parent(unsigned int seconds);
 
-  // Work was left on request: exit code 3. The hooks of the panels throw it, too.
+  // A stop signal ended the work: exit code 3. The hooks of the panels also throw it.
   struct StoppedOnRequest : std::runtime_error
   {
     using std::runtime_error::runtime_error;

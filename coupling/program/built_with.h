@@ -6,6 +6,6 @@
 
 namespace diptych::coupling
 {
-  // Three lines: program and revision; compiler and kind of build; libraries, in the versions that the build saw.
+  // Three lines: program and revision; compiler and kind of build; libraries with the versions found by the build.
   std::string built_with();
 } // namespace diptych::coupling

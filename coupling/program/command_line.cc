@@ -27,8 +27,8 @@ namespace diptych::coupling
   namespace
   {
     constexpr char footer[] =
-      "Exit codes: 0 done, 1 a stated invariant failed, 2 wrong input, 3 did not converge or was stopped (what was "
-      "reached is kept),\n4 the system failed: disk, folder, library, script (what was kept is said)";
+      "Exit codes: 0 done; 1 an internal check failed (please report it); 2 wrong input; 3 not converged, or stopped (results\n"
+      "are kept); 4 the system failed: disk, folder, library, script (the message lists the kept files)";
 
     // The commands with the options that each of them uses, and no others.
     class Commands
@@ -77,12 +77,12 @@ namespace diptych::coupling
       {
         to->add_option("--set", line.overrides, "section/key=value: change one key of the scene; may be repeated")
           ->allow_extra_args(false)->type_name("KEY=VALUE");
-        to->add_option("--set-file", line.set_files, "file of keys as calibrate writes it (.prm); --set goes before it")
+        to->add_option("--set-file", line.set_files, "file of keys as calibrate writes it (.prm); if a key is in both, --set wins")
           ->allow_extra_args(false)->type_name("FILE");
       }
       void add_scene_output_set(CLI::App *to) { add_scene(to); add_output(to); add_set(to); }
-      void add_threads(CLI::App *to) { to->add_option("--threads", line.threads, "of the contact solver; the same bits for every number")->check(CLI::Range(1, 1024)); }
-      void add_resume(CLI::App *to, const std::string &what) { to->add_flag("--resume", line.resume, "go on from the results in the folder: " + what); }
+      void add_threads(CLI::App *to) { to->add_option("--threads", line.threads, "threads of the contact solver; every number gives the same bits")->check(in_range(1, 1024)); }
+      void add_resume(CLI::App *to, const std::string &what) { to->add_flag("--resume", line.resume, "continue the results in the folder: " + what); }
       void add_overwrite(CLI::App *to) { to->add_flag("--overwrite", line.overwrite, "rename results in the folder to DIR.1 and begin again"); }
       void add_quiet(CLI::App *to) { to->add_flag("--quiet", line.quiet, "no progress"); }
       // clang-format on
@@ -91,8 +91,8 @@ namespace diptych::coupling
       {
         return to
           ->add_option("--jobs", line.jobs,
-                       when + "how many at once (default: cores it may use / threads; under mpirun one for each process)")
-          ->check(CLI::Range(1, 4096));
+                       when + "number of runs at once (default: usable cores / threads; under mpirun one for each process)")
+          ->check(in_range(1, 4096));
       }
 
       // A value of an enum that has a table of names.
@@ -100,7 +100,7 @@ namespace diptych::coupling
       {
         to->add_option_function<std::string>(
             option, [take](const std::string &name) { take(*discrete::value_of<Choice>(name)); }, meaning)
-          ->check(CLI::IsMember(choices_of(Choice())));
+          ->check(one_of(choices_of(Choice())));
       }
 
       void add_run()
@@ -185,7 +185,7 @@ namespace diptych::coupling
           ->add_option_function<std::string>(
             "--study", [this](const std::string &) { line.study_of_step = true; },
             "step: run with step h, h/2 and h/4 and compare energy and stress ratio")
-          ->check(CLI::IsMember({"step"}));
+          ->check(one_of({"step"}));
         add_quiet(grains);
 
         CLI::App *continuum = add(Command::continuum, "the continuum alone (continuum/mesh = outline prepares the grains); also "
@@ -210,8 +210,8 @@ namespace diptych::coupling
         add_choice<discrete::ContactSolver>(solve, "--solver", "default: psor",
                                             [this](const auto chosen) { line.solver = chosen; });
         solve->add_option("--tolerance", line.tolerance, "natural map relative to |r| (default: 1e-8)")
-          ->check(CLI::Range(1e-300, 0.999999));
-        solve->add_option("--max-sweeps", line.max_sweeps, "(default: 1000000)")->check(CLI::Range(1, 2147483647));
+          ->check(in_range(1e-300, 0.999999));
+        solve->add_option("--max-sweeps", line.max_sweeps, "(default: 1000000)")->check(in_range(1, 2147483647));
         add_choice<discrete::ProblemForm>(solve, "--form", "default: body where the file has one",
                                           [this](const auto chosen) { line.form = chosen; });
         add_threads(solve);
@@ -259,10 +259,9 @@ namespace diptych::coupling
 
         CLI::App *out = add(Command::export_sample, "the prepared sample of a result folder as a start for another code");
         out->add_option("FOLDER", line.target, "result folder")->required();
-        out->add_option("--format", line.format, "for whom")->required()->check(CLI::IsMember({"lammps", "csv"}));
+        out->add_option("--format", line.format, "code that will read the files")->required()->check(one_of({"lammps", "csv"}));
         add_output(out, "folder of the exported files (default: FOLDER_for_FORMAT)");
-        out->add_option("--stage", line.stage, "of the snapshots (default: 0, the prepared sample)")
-          ->check(CLI::Range(0, 1000000));
+        out->add_option("--stage", line.stage, "of the snapshots (default: 0, the prepared sample)")->check(in_range(0, 1000000));
         add_quiet(out);
       }
 
@@ -274,7 +273,7 @@ namespace diptych::coupling
         add(Command::completion, "a script that completes command lines: source <(diptych completion bash)")
           ->add_option("SHELL", line.target)
           ->required()
-          ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+          ->check(one_of({"bash", "zsh", "fish"}));
       }
 
       CommandLine                  &line;
@@ -303,7 +302,7 @@ namespace diptych::coupling
       std::vector<std::string> overrides;
       for (const std::string &file : line.set_files)
         {
-          if (std::error_code none; !std::filesystem::exists(file, none))
+          if (std::error_code none; !std::filesystem::is_regular_file(file, none))
             throw SceneError("--set-file " + file + ": there is no such file");
           for (const Entry &entry : read_fragment(file))
             overrides.push_back(entry.section + "/" + entry.key + "=" + entry.value);

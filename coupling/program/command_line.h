@@ -47,17 +47,17 @@ namespace diptych::coupling
     std::string                          accuracy;              // --accuracy, --for, --run of plan
     std::string                          wanted;
     bool                                 runs_the_plan = false;
-    discrete::ContactSolver              solver = discrete::ContactSolver::psor; // --solver, --tolerance, --max-sweeps: of solve
+    discrete::ContactSolver              solver     = discrete::ContactSolver::psor; // solve: --solver, --tolerance, --max-sweeps
     double                               tolerance  = 1e-8;
     int                                  max_sweeps = 1000000;
-    std::optional<discrete::ProblemForm> form;                   // --form; none: the better one that the file has
-    std::string                          format;                 // of export
-    int                                  stage           = 0;    // of export
-    bool                                 prints_warnings = true; // the first of several processes does
+    std::optional<discrete::ProblemForm> form;                   // --form; none: the better form in the file
+    std::string                          format;                 // export: --format
+    int                                  stage           = 0;    // export: number of the stage
+    bool                                 prints_warnings = true; // true on the first of several processes
   };
 
-  // The words after the program's name; or, where they ask for help, the version or a completion script or are wrong, the exit
-  // code after that was told.
+  // The parsed command line, from the words after the program's name. If they are wrong or only ask for help, the version or a
+  // completion script, the answer is already printed, and `exit_code` is set.
   struct ParsedLine
   {
     std::optional<int> exit_code;
@@ -67,7 +67,7 @@ namespace diptych::coupling
 
   std::string name_of(Command command);
 
-  // What the command line says about results in the folder.
+  // Options of the command line for a folder that holds results.
   Opening opening_of(const CommandLine &line, bool adds = false);
 
   // The scene of a command line, with its output folder. Its warnings go to standard error.

@@ -75,8 +75,8 @@ namespace diptych::coupling
     // The scene that a result folder was made with, with overrides for what the comparison may change.
     Scene scene_of_folder(const CommandLine &line)
     {
-      if (std::error_code none; !std::filesystem::is_directory(line.target, none))
-        throw SceneError(line.target + ": no result folder");
+      if (!is_result_folder(line.target) && !std::filesystem::exists(scene_prm(line.target)))
+        throw SceneError(line.target + " is no result folder; diptych run SCENE makes one");
       if (is_study_folder(line.target))
         throw SceneError(line.target + ": holds a study; diptych study with its file and --resume evaluates it again");
       if (is_calibration_folder(line.target))

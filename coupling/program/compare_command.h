@@ -8,12 +8,12 @@
 
 namespace diptych::coupling
 {
-  // Throws SceneError where the panels of a scene cannot be compared, before anything is written.
+  // Throws SceneError if the panels of a scene cannot be compared. Writes nothing.
   void check_comparable(const Scene &scene);
 
   // Compares both panels' results, writes the comparison to scene.output.directory and draws the report if the scene asks for it.
   // Returns an ExitCode.
   int compare_and_report(const CommandLine &line, const Scene &scene, const Results &results);
 
-  int compare_again(const CommandLine &line); // compare DIR: of a result folder or of an ensemble
+  int compare_again(const CommandLine &line); // compare DIR: a result folder or an ensemble
 } // namespace diptych::coupling

@@ -12,9 +12,9 @@ namespace CLI
 
 namespace diptych::coupling
 {
-  // Options of a command as they are typed: --set, --help.
+  // Options of a command in their typed form: --set, --help.
   std::vector<std::string> option_names(CLI::App &command);
 
-  // For bash, zsh or fish: commands, their options, the keys of a scene behind --set, files else.
+  // Script for bash, zsh or fish. It completes commands, options, keys of a scene after --set, and otherwise files.
   std::string completion_script(CLI::App &app, const std::string &shell);
 } // namespace diptych::coupling

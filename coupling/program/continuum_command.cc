@@ -104,12 +104,13 @@ namespace diptych::coupling
       const auto peak    = largest(&continuum::HistoryRow::stress_ratio);
       const auto at      = [](const continuum::HistoryRow &row) { return text_of(row.walk, row.progress); };
       std::ostringstream text;
+      text.precision(4);
       text << part.title << ": t/s " << peak.stress_ratio << " at most, at " << at(peak) << ", " << rows.back().stress_ratio
            << " at " << at(rows.back()) << "; " << report.n_cells << " elements, " << report.n_unknowns << " unknowns, "
            << report.steps << " steps, " << report.cut_backs << " cut-backs";
       if (report.localisation_progress)
-        text << "\n  ellipticity first lost, at one point, at " << text_of(peak.walk, *report.localisation_progress)
-             << ", along a line at " << report.localisation_angle << " degrees";
+        text << "\n  localisation possible at one point from " << text_of(peak.walk, *report.localisation_progress)
+             << " on (singular acoustic tensor), band at " << report.localisation_angle << " degrees";
       if (const double share = largest(&continuum::HistoryRow::viscous_share).viscous_share; share > 0)
         text << "\n  viscosity carries up to " << 100 * share << " % of the shear strength where the sample yields";
       if (const double share = largest(&continuum::HistoryRow::unstable_share).unstable_share; share > 0)
@@ -121,7 +122,7 @@ namespace diptych::coupling
       if (continuum::traits(scene.continuum.law).stays_in_plane && outside > 0)
         text << "\n  sigma_zz is not the intermediate principal stress in up to " << 100 * outside
              << " % of the area, where this law's in-plane form is not exact"
-             << (outside > 0.05 ? ": hold the result against cosserat_drucker_prager" : "");
+             << (outside > 0.05 ? ": check with continuum/law = cosserat_drucker_prager" : "");
       say(line, text.str());
     }
 
@@ -217,7 +218,8 @@ namespace diptych::coupling
     if (!replaces)
       return continuum_panel(line, scene, task);
     on_first_process([&] {
-      say(line, "another " + changes.continuum + ": the continuum in " + directory + " is computed again and then replaced");
+      say(line, "the continuum in " + directory + " belongs to other keys (" + changes.continuum +
+                  "): it is computed again and replaced");
       return 0;
     });
     Scene next            = scene;
@@ -227,7 +229,7 @@ namespace diptych::coupling
     if (code == done)
       on_first_process([&] {
         replace_continuum(directory);
-        say(line, "the new continuum has replaced the earlier one in " + directory + ", of " + changes.continuum);
+        say(line, "the new continuum has replaced the earlier one in " + directory + " (" + changes.continuum + ")");
         return 0;
       });
     return code;

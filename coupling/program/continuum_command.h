@@ -11,7 +11,7 @@
 
 namespace diptych::coupling
 {
-  // Of parts that ran from their beginning in this process.
+  // Results of parts that ran from their beginning in this process.
   struct ContinuumRun
   {
     std::optional<ContinuumResults> fine, coarse;
@@ -20,17 +20,17 @@ namespace diptych::coupling
   struct ContinuumTask
   {
     std::string                       grains_file;       // the sample is stage 0 of this file; empty: it is prepared
-    bool                              resume = true;     // from checkpoints; finished parts are not run again
-    std::optional<discrete::Snapshot> prepared;          // the first process's sample, if it is there already
+    bool                              resume = true;     // continue from checkpoints; finished parts are not run again
+    std::optional<discrete::Snapshot> prepared;          // sample on the first process, if it is already prepared
     ContinuumRun                     *results = nullptr; // filled on the first process, if given
   };
 
   // Runs the continuum panel into scene.output.directory, and once more on the coarse mesh into its folder coarse/ (not for a
-  // mesh of the user's). Collective. Returns an ExitCode.
+  // mesh file). Collective. Returns an ExitCode.
   int continuum_panel(const CommandLine &line, const Scene &scene, const ContinuumTask &task);
 
-  // The same beside the grains in scene.output.directory. Another continuum that stands there is replaced once the new one is
-  // complete. Collective. Returns an ExitCode.
+  // As continuum_panel(), beside the grains in scene.output.directory. A continuum with other keys is replaced once the new one
+  // is complete. Collective. Returns an ExitCode.
   int continuum_beside_grains(const CommandLine &line, const Scene &scene, const SceneChanges &changes, ContinuumTask task = {});
 
   int run_continuum(const CommandLine &line); // continuum SCENE; on all processes together

@@ -10,17 +10,17 @@
 
 namespace diptych::coupling
 {
-  // Runs the discrete panel into scene.output.directory, or goes on from its checkpoint; a finished one is not run again where
-  // the line says --resume. `prepared`: what prepared_early() gave. Returns an ExitCode. `results`, if given, gets those of a run
-  // that began in this process.
+  // Runs the discrete panel into scene.output.directory, or continues from its checkpoint. With --resume finished grains are not
+  // run again. `prepared`: result of prepared_early(). `results`, if given, receives the results of a run that began in this
+  // process. Returns an ExitCode.
   int discrete_panel(const CommandLine              &line,
                      const Scene                    &scene,
                      std::unique_ptr<RecordedGrains> prepared,
                      std::optional<DiscreteResults> *results = nullptr);
 
-  // What is wrong with a sample shows only when it is prepared, and must show before the folder is opened. Nothing where --resume
-  // finds grains, or for imported ones. Throws std::invalid_argument where a wanted solid fraction is out of reach or a file
-  // wrong, StoppedOnRequest.
+  // Prepares the sample before the folder is changed, because some faults of a sample show only during its preparation. Empty if
+  // --resume finds grains, or for imported grains. Throws std::invalid_argument if a wanted solid fraction cannot be reached or a
+  // file is wrong, and StoppedOnRequest.
   std::unique_ptr<RecordedGrains> prepared_early(const CommandLine &line, const Scene &scene);
 
   int run_discrete(const CommandLine &line); // discrete SCENE

@@ -10,15 +10,15 @@ namespace diptych::coupling
   enum ExitCode
   {
     done           = 0,
-    invariant      = 1, // a stated one failed: the program is wrong
+    invariant      = 1, // an internal check failed: a fault of the program
     wrong_input    = 2,
-    not_converged  = 3, // or stopped; what was reached is kept
+    not_converged  = 3, // or stopped; the results so far are kept
     system_failure = 4  // a full disk, a folder that cannot be written to, a library or a script that fails
   };
 
-  // 1 for a broken invariant, 2 for wrong input, 4 for everything else that is thrown.
+  // 1 for a failed internal check, 2 for wrong input, 4 for all other exceptions.
   [[nodiscard]] int code_of(const std::exception &error);
 
-  // The last message on standard error.
+  // The text for the last message on standard error.
   std::string text_of_end(const std::exception &error);
 } // namespace diptych::coupling

@@ -46,9 +46,9 @@ namespace diptych::coupling
     add_record("provenance.json", ProvenanceDocument{Origin(), RunFacts()}, result);
     add_record("import.json", ImportRecord(), result);
     result.push_back({h5, "not_told", "attribute, name", "-",
-                      "arrays that the files of another code did not hold: not in this file (imported)"});
+                      "arrays that are missing here because the files of another code did not hold them (imported)"});
     result.push_back({"checkpoint.h5, continuum_checkpoint.h5", "/", "group", "",
-                      "what --resume goes on from; its arrays are the program's own and change with it"});
+                      "state from which --resume continues; its layout changes with the program"});
     return result;
   }
 

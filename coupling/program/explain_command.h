@@ -10,8 +10,8 @@
 namespace diptych::coupling
 {
   ResultList discrete_result_entries();   // discrete.csv, discrete.h5
-  ResultList comparison_result_entries(); // those of the continuum and of the comparison
+  ResultList comparison_result_entries(); // files of the continuum and of the comparison
 
-  // explain [SECTION]: keys of a scene; SECTION = results: the entries that `lists` give.
+  // explain [SECTION]: prints the keys of a scene, or for SECTION = results the entries in `lists`.
   int explain(const CommandLine &line, const std::vector<std::function<ResultList()>> &lists);
 } // namespace diptych::coupling

@@ -6,6 +6,6 @@
 
 namespace diptych::coupling
 {
-  // Exit code. Throws SceneError where the folder has no such snapshot.
+  // Returns an ExitCode. Throws SceneError if the folder has no such snapshot.
   int export_sample(const CommandLine &line);
 } // namespace diptych::coupling

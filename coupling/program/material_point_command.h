@@ -6,6 +6,6 @@
 
 namespace diptych::coupling
 {
-  // material_point.csv of the result folder. Returns an ExitCode.
+  // Writes material_point.csv to the result folder. Returns an ExitCode.
   int run_material_point(const CommandLine &line);
 } // namespace diptych::coupling

@@ -1,21 +1,51 @@
-// diptych: what an option of the command line may be
+// diptych: allowed values of the options of the command line
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
 #include <algorithm>
 #include <string>
+#include <type_traits>
+#include <vector>
 
 #include <CLI/App.hpp>
 
+#include "coupling/scene/keys.h"
+#include "discrete/files/nearest_name.h"
+#include "discrete/files/words.h"
+
 namespace diptych::coupling
 {
-  // Of an option that names a file or folder: an unset variable of a shell is no wish for the default.
+  // Check of an option that names a file or folder. An empty name comes from an unset shell variable and does not mean the
+  // default.
   inline std::string is_filled(const std::string &text)
   {
     return text.empty() ? "a name is needed" : "";
   }
 
-  // The few values of an option or a word, divided by spaces; empty where they are not few. CLI11 tells them as TEXT:{a,b}.
+  // CLI::Range with a message that names the allowed values.
+  template <class Number> CLI::Validator in_range(const Number low, const Number high)
+  {
+    const std::string kind  = std::is_integral_v<Number> ? "a whole number" : "a number";
+    CLI::Validator    range = CLI::Range(low, high);
+    return range.operation([=, check = range](const std::string &text) {
+      const bool is_good = check(text).empty();
+      return is_good ? "" : "'" + text + "' is not allowed; give " + kind + " from " + text_of(low) + " to " + text_of(high);
+    });
+  }
+
+  // CLI::IsMember with a message that names the nearest choice.
+  inline CLI::Validator one_of(const std::vector<std::string> &names)
+  {
+    CLI::Validator member = CLI::IsMember(names);
+    return member.operation([=](const std::string &text) {
+      const bool is_good = std::count(names.begin(), names.end(), text) > 0;
+      return is_good ? ""
+                     : "'" + text + "' is none of " + discrete::listed(names) + "; the nearest is '" +
+                         discrete::nearest_name(text, names) + "'";
+    });
+  }
+
+  // The choices of an option, separated by spaces; empty if it has none. CLI11 describes them as TEXT:{a,b}.
   inline std::string values_of(const CLI::Option &option)
   {
     const std::string type = option.get_type_name();

@@ -1,4 +1,4 @@
-// diptych: words of the command line that are refused
+// diptych: message for a wrong command line
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/program/refused_line.h"
 
@@ -19,7 +19,7 @@ namespace diptych::coupling
       return names;
     }
 
-    // What is wrong with a line that names no command.
+    // Message for a line that names no command.
     std::string refused_command(CLI::App &app, const std::vector<std::string> &words, const std::string &error)
     {
       const std::vector<std::string> names     = command_names(app);
@@ -31,7 +31,7 @@ namespace diptych::coupling
              "; the commands are " + discrete::joined(names) + "; see diptych --help";
     }
 
-    // "; it is one of diptych run" for an option that only other commands have.
+    // "; it is an option of diptych run" for an option that only other commands have.
     std::string owners_of(CLI::App &app, const std::string &option)
     {
       std::vector<std::string> owners;
@@ -39,7 +39,7 @@ namespace diptych::coupling
         for (const std::string &name : option_names(*command))
           if (name == option)
             owners.push_back("diptych " + command->get_name());
-      return owners.empty() ? "" : "; it is one of " + discrete::listed(owners);
+      return owners.empty() ? "" : "; it is an option of " + discrete::listed(owners);
     }
 
     // "; the nearest option is '--output'" for an option, as --outptu=FOLDER, that no command has.
@@ -63,6 +63,10 @@ namespace diptych::coupling
         const std::string owners = owners_of(app, extra.front());
         text = "'" + discrete::joined(extra) + "' is not used" + (owners.empty() ? nearest_of(asked, extra.front()) : owners);
       }
-    return "diptych " + asked.get_name() + ": " + text + "; it has " + discrete::joined(option_names(asked));
+    else if (error.get_name() == "ValidationError")
+      return "diptych " + asked.get_name() + ": " + text;
+    else if (text.find("At Most 1") != std::string::npos)
+      return "diptych " + asked.get_name() + ": " + text.substr(0, text.find(':')) + " is given more than once";
+    return "diptych " + asked.get_name() + ": " + text + "; options: " + discrete::joined(option_names(asked));
   }
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: words of the command line that are refused
+// diptych: message for a wrong command line
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -9,6 +9,6 @@
 
 namespace diptych::coupling
 {
-  // What is wrong with a line, and what would be right: "diptych compare: ...; it has --help --set --quiet"
+  // Message with the fault and the options of the command: "diptych compare: ...; options: --help --set --quiet"
   std::string refusal(CLI::App &app, const std::vector<std::string> &words, const CLI::ParseError &error);
 } // namespace diptych::coupling

@@ -17,13 +17,13 @@ namespace diptych::coupling
     step_study   // study_step.png
   };
 
-  std::string report_file(const std::string &directory); // the absolute path of its page
+  std::string report_file(const std::string &directory); // absolute path of the page of a folder
 
-  // Runs the package on a folder as a child of its own. Throws std::runtime_error where it fails.
+  // Runs the Python package on a folder in a child process. Throws std::runtime_error if it fails.
   void draw(Drawing drawing, const std::string &directory);
 
-  // The same with progress; then tells where the page is.
+  // As draw(), with progress; then prints the path of the page.
   void draw_page(const CommandLine &line, Drawing drawing, const std::string &directory);
 
-  int report_again(const CommandLine &line); // report DIR: of a comparison, an ensemble or a study
+  int report_again(const CommandLine &line); // report DIR: comparison, ensemble or study
 } // namespace diptych::coupling

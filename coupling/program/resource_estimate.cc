@@ -1,4 +1,4 @@
-// diptych: what a run will take of the machine
+// diptych: estimate of the memory, disk space and CPU time of a run
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/program/resource_estimate.h"
 

@@ -1,4 +1,4 @@
-// diptych: what a run will take of the machine
+// diptych: estimate of the memory, disk space and CPU time of a run
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -12,7 +12,7 @@ namespace diptych::coupling
   struct RunParts
   {
     bool grains = false, continuum = false;
-    int  samples = 1; // of an ensemble: results of all, memory of one
+    int  samples = 1; // of an ensemble: files count for all samples, memory for one
   };
 
   struct CpuRange
@@ -20,24 +20,24 @@ namespace diptych::coupling
     double low = 0, high = 0;
   };
 
-  // What a run is expected to take, by what runs of this program took (resource_estimate.cc). 0 where it is not known beforehand:
-  // of what stands in a file (sample, mesh) and of steps that nothing presses. refinement = adaptive: as if every element were
-  // divided; only the low end of the CPU time is that of the first mesh.
+  // Expected cost of a run, from measured runs (resource_estimate.cc). A number is 0 if it is not known beforehand: for a sample
+  // or mesh from a file, and for steps without pressure. With refinement = adaptive the estimate assumes that every element is
+  // divided; only the low end of the CPU time belongs to the first mesh.
   struct ResourceEstimate
   {
-    double   steps = 0, load_steps = 0; // of the grains and of the continuum, of one sample
+    double   steps = 0, load_steps = 0; // steps of the grains, load steps of the continuum, for one sample
     double   memory = 0, disk = 0;      // [bytes]
-    CpuRange cpu_s;                     // of the panels [s]
+    CpuRange cpu_s;                     // CPU time of the panels [s]
   };
   ResourceEstimate estimate_resources(const Scene &scene, const RunParts &parts);
 
-  // Throws std::runtime_error naming what is asked for and what there is, where the machine has not the memory, or the disk of
-  // the result folder not the room. refinement = adaptive: for the first mesh.
+  // Throws std::runtime_error with the needed and the available size if memory or disk space is too small. With refinement =
+  // adaptive it checks for the first mesh.
   void require_resources(const Scene &scene, const RunParts &parts);
 
-  // "2000 grains, 647 steps; about 10.1 MB of memory, 30.8 MB of files, 3 s to 10 s of CPU time": what is known of it.
+  // The known parts of "2000 grains, 647 steps; about 10.1 MB of memory, 30.8 MB of files, 3 s to 10 s of CPU time".
   std::string resource_text(const Scene &scene, const RunParts &parts);
 
-  // Both, at the beginning of a command; a run that goes on needs less, so no text then.
+  // Prints resource_text() and calls require_resources(). A continued run needs less, so it prints nothing.
   void announce_resources(const CommandLine &line, const Scene &scene, const RunParts &parts);
 } // namespace diptych::coupling

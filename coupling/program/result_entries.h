@@ -20,7 +20,7 @@ namespace diptych::coupling
   };
   using ResultList = std::vector<ResultEntry>;
 
-  template <class T> inline constexpr std::size_t                    row_length = 0; // of arrays whose rows hold whole numbers
+  template <class T> inline constexpr std::size_t row_length = 0; // row length of arrays with rows of whole numbers
   template <class Whole, std::size_t n> inline constexpr std::size_t row_length<std::array<Whole, n>> = n;
 
   template <class Value> std::string array_shape()
@@ -45,7 +45,7 @@ namespace diptych::coupling
       return discrete::n_components<Value> == 1 ? "number" : discrete::n_components<Value> == 3 ? "vector" : "tensor";
   }
 
-  // Columns of a .csv whose rows have a visit_columns.
+  // Adds the columns of a .csv whose row type has a visit_columns.
   template <class Row> void add_columns(const std::string &file, ResultList &result)
   {
     const Row row;
@@ -60,7 +60,7 @@ namespace diptych::coupling
       result.push_back({file, column.key, "column", column.unit, column.meaning});
   }
 
-  // What a function of listed arrays and attributes gives, below a place of a file.
+  // Adds the arrays and attributes that a listing function visits, below a place in a file.
   struct AddArrays
   {
     std::string file, place;
@@ -82,7 +82,7 @@ namespace diptych::coupling
       result.push_back({file, number.place, number.shape, number.unit, number.meaning});
   }
 
-  // Of a record that has a list_numbers.
+  // Adds the entries of a record that has a list_numbers.
   template <class Record> void add_record(const std::string &file, const Record &record, ResultList &result)
   {
     NumberSchema   schema;

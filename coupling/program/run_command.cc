@@ -23,7 +23,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    // Once the grains have run the folder is not as it was: what is wrong then ends the run with what it keeps.
+    // Once the grains have run, the folder has changed: wrong input then ends the run with exit code 3, and the results are kept.
     template <class Part> int after_the_grains(const Scene &scene, const Part &part)
     {
       try
@@ -60,10 +60,10 @@ namespace diptych::coupling
           say(line, "report: " + report_file(scene.output.directory));
         return done;
       }
-    announce_resources(line, scene, {true, true});
     return writing(scene.output.directory, [&](FolderLock &lock) {
       std::unique_ptr<RecordedGrains> prepared;
       const SceneChanges              changes = ResultFolder(scene).open(lock, opening_of(line), [&](const SceneChanges &found) {
+        announce_resources(line, scene, {true, true});
         if (line.resume)
           check_earlier_grains(scene.output.directory, text_of(sample_identity(scene)));
         if (line.resume && found.continuum.empty())

@@ -6,9 +6,8 @@
 
 namespace diptych::coupling
 {
-  // solve PROBLEM.h5: reads a problem in the layout of FCLIB, solves it from r = 0 to line.tolerance (natural map relative to
-  // |r|) and prints what it took, one `name: value` a line. With --output the problem and what was reached, converged or not,
-  // are written. Returns done or not_converged. Throws std::invalid_argument on a malformed file or a form
-  // that the file does not have.
+  // solve PROBLEM.h5: reads a problem in the layout of FCLIB and solves it from r = 0 to line.tolerance (natural map relative to
+  // |r|). Prints the cost, one `name: value` per line. With --output it writes the problem and the reached solution, converged or
+  // not. Returns done or not_converged. Throws std::invalid_argument if the file is malformed or does not have the form.
   int solve_stored_problem(const CommandLine &line);
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: a process of the program that does one command after the other, as its parent asks
+// diptych: a process that runs one command after another for its parent
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 

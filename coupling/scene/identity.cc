@@ -1,4 +1,4 @@
-// diptych: what makes two scenes the same
+// diptych: identity of a scene: all data that decide its results
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/scene/identity.h"
 

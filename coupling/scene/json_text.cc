@@ -1,4 +1,4 @@
-// diptych: JSON that remembers where it was written
+// diptych: JSON with the line of each member
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/scene/json_text.h"
 

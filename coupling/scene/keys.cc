@@ -1,4 +1,4 @@
-// diptych: what may be done with a list of keys: describe them, set one from a text
+// diptych: describes keys and sets a key from a text
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/scene/keys.h"
 

@@ -1,4 +1,4 @@
-// diptych: what may be done with a list of keys: describe them, set one from a text
+// diptych: describes keys and sets a key from a text
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -18,10 +18,10 @@ namespace diptych::coupling
   struct KeyDescription
   {
     std::string              section, name, value, unit, allowed, meaning;
-    std::vector<std::string> choices = {}; // where it is one of a few
+    std::vector<std::string> choices = {}; // the allowed values, if the key has only a few
   };
 
-  // Numbers as they are written everywhere: the shortest text that reads back as the same number.
+  // The shortest text that reads back as the same number. All files and messages use it.
   std::string        text_of(double value);
   std::string        text_of(const std::optional<double> &value); // or auto
   std::string        text_of(const std::vector<double> &values);  // separated by ", "
@@ -42,7 +42,7 @@ namespace diptych::coupling
     return discrete::name_of(value);
   }
 
-  // What a value may be, where that is one of a few.
+  // All allowed values of a choice; empty for other types.
   template <class Value> std::vector<std::string> choices_of(const Value &value)
   {
     std::vector<std::string> names;
@@ -54,7 +54,7 @@ namespace diptych::coupling
     return names;
   }
 
-  // What a value may be, in words. Lists and numbers name their range.
+  // The allowed values as a text. For lists and numbers it gives the range.
   std::string        allowed_number(const Range &range);
   inline std::string allowed_value(const bool)
   {
@@ -108,7 +108,7 @@ namespace diptych::coupling
     }
   };
 
-  // A text as a value; nothing where it is none. Numbers are read as in C whatever the locale.
+  // Reads a text as a value; empty if it is not one. Numbers have a decimal point in every locale.
   std::optional<double>              read_number(const std::string &text, const Range &range);
   std::optional<int>                 read_whole(const std::string &text, const Range &range);
   std::optional<std::vector<double>> read_list(const std::string &text, const Range &range);
@@ -116,8 +116,8 @@ namespace diptych::coupling
   // Absolute path of a file that a key names; empty stays empty.
   std::string resolved(const std::string &path, const std::string &folder);
 
-  // Sets the one key of that name. Files are looked for in `folder`. After a visit: whether the key is there, and whether the
-  // text is a value of it.
+  // Sets the key `name` to `text`. Relative file names refer to `folder`. After a visit, `found` is true if the key exists, and
+  // `good` if the text is an allowed value.
   struct SetKey
   {
     std::string name, text, folder;

@@ -14,7 +14,7 @@
 
 namespace diptych::coupling
 {
-  // What is done to the sample, in both panels alike.
+  // Loading of the sample, the same in both panels.
   struct LoadingOptions
   {
     double pressure                 = 1;
@@ -48,16 +48,17 @@ namespace diptych::coupling
             "grains start with the affine velocity field between the platens, not at rest (an impulsive start)");
     visitor(
       "mode", o.mode, "-",
-      "the upper platen descends and moves sideways; moves sideways at constant height; moves sideways under normal_pressure x "
-      "width; or the walls move as discrete/drive_* say, for `duration`");
-    visitor("strain_rate", o.strain_rate, "1/time", {0., 1e12}, "of the loading, if not 0, in the place of inertial_number's");
+      "descent: the upper platen descends and moves sideways; shear: it moves sideways at constant height; plane_shear: it moves "
+      "sideways under normal_pressure x width; time: the walls move as discrete/drive_* say, for `duration`");
+    visitor("strain_rate", o.strain_rate, "1/time", {0., 1e12},
+            "strain rate of the loading; if not 0, it replaces inertial_number");
     visitor("normal_pressure", o.normal_pressure, "pressure", {0., 1e15},
-            "plane_shear: on the upper platen, free to rise and sink");
-    visitor("duration", o.duration, "time", {1e-12, 1e12}, "mode time: of the loading");
-    visitor("stage_time", o.stage_time, "time", {1e-12, 1e12}, "mode time: between two snapshots");
+            "plane_shear: pressure on the upper platen, which is free to rise and sink");
+    visitor("duration", o.duration, "time", {1e-12, 1e12}, "mode time: duration of the loading");
+    visitor("stage_time", o.stage_time, "time", {1e-12, 1e12}, "mode time: time between two stages");
     visitor(
       "stages", o.stages, "strain (mode time: time)", {1e-12, 1e12},
-      "the stages one by one, ascending, in the place of equal ones; the last is the end (axial_strain, mode time: duration)");
+      "list of all stages, ascending, which replaces equal stages; the last one is the end (axial_strain, mode time: duration)");
   }
 
   struct ComparisonOptions
@@ -78,8 +79,9 @@ namespace diptych::coupling
     visitor(
       "window_edges", o.window_edges, "strain (mode time: time)", {0., 1e12},
       "edges of the windows over which displacement increments are compared; each must be a stage (mode time: a time) or 0");
-    visitor("coarse_element_size", o.coarse_element_size, "mean diameters", {0., 100.},
-            "element size of the second continuum run that shows what the mesh does to the band, from 0.1 on; 0: no such run");
+    visitor(
+      "coarse_element_size", o.coarse_element_size, "mean diameters", {0., 100.},
+      "element size, at least 0.1, of a second continuum run that shows the effect of the mesh on the band; 0: no such run");
     visitor("averaging_strain", o.averaging_strain, "strain", {1e-9, 0.5},
             "last part of a stage over which stress ratio and platen forces are averaged, in both panels; mode time: the whole "
             "stage");
@@ -87,11 +89,10 @@ namespace diptych::coupling
     visit_parameters(o.probes, visitor);
     visit_parameters(o.margins, visitor);
     visit_parameters(o.averaging, visitor);
-    visitor(
-      "parameters_from", o.parameters_from, "-",
-      "where the continuum's parameters come from (fitted on what, or predicted): the report says it beside every comparison");
+    visitor("parameters_from", o.parameters_from, "-",
+            "origin of the continuum's parameters (data of the fit, or predicted); the report shows it beside every comparison");
     visitor("grid_size", o.grid_size, "mean diameters", {0.5, 1000.},
-            "about the side of the regular grid's cells, on which all fields are given beside the continuum's mesh");
+            "approximate cell size of the regular grid; all fields are given on this grid and on the continuum's mesh");
   }
 
   struct OutputOptions
@@ -108,7 +109,7 @@ namespace diptych::coupling
 
   struct Scene
   {
-    std::string             name; // of the scene file's folder, or of the file where it is not called scene.*
+    std::string             name; // name of the file, or of its folder if the file is called scene.*
     discrete::SampleOptions sample;
     LoadingOptions          loading;
     discrete::Options       discrete;
@@ -116,10 +117,10 @@ namespace diptych::coupling
     ComparisonOptions       comparison;
     OutputOptions           output;
 
-    std::vector<std::string> warnings; // of its reader: keys that nothing reads, values that are doubtful
+    std::vector<std::string> warnings; // from reading it: unused keys, doubtful values
   };
 
-  // The sections of a scene, in their order: function(name, options). A new section is added here and nowhere else.
+  // The sections of a scene, in their order: function(name, options). A new section needs an entry only here.
   template <class AnyScene, class Function> void for_each_section(AnyScene &scene, Function &&function)
   {
     function("sample", scene.sample);
@@ -130,11 +131,11 @@ namespace diptych::coupling
     function("output", scene.output);
   }
 
-  // Values of the progress (strains; mode time: times), ascending, from the first on. In discrete_loading(), too.
+  // Progress (strain; mode time: time) at the end of each stage, ascending. discrete_loading() contains the same values.
   std::vector<double> stages(const LoadingOptions &loading);
   discrete::Loading   discrete_loading(const LoadingOptions &loading);
 
-  // In what the keys of the continuum's law count.
+  // Pressure and length by which the keys of the continuum's law are multiplied.
   continuum::Units continuum_units(const Scene &scene);
 
   // The last part of a stage over which stress ratio and platen forces are averaged, in the unit of the stages.

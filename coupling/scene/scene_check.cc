@@ -1,4 +1,4 @@
-// diptych: what a scene must not be, and what should be pointed out of it
+// diptych: checks of a scene: contradictions are errors, doubtful values are warnings
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/scene/scene_check.h"
 
@@ -77,8 +77,8 @@ namespace diptych::coupling
                                     " stages; at most 100000");
       const std::vector<double> &edges = scene.comparison.window_edges;
       if (edges.size() < 2 || std::adjacent_find(edges.begin(), edges.end(), std::greater_equal<double>()) != edges.end())
-        throw std::invalid_argument(
-          "comparison/window_edges must be at least two ascending values of what the loading walks along");
+        throw std::invalid_argument("comparison/window_edges = " + text_of(edges) + ": give at least two ascending " +
+                                    (time ? "times" : "strains"));
       if (compares)
         check_windows(scene, last);
     }
@@ -114,7 +114,7 @@ namespace diptych::coupling
       return !(at > 0 && joins(at - 1)) && !joins(at + length);
     }
 
-    // Where a message names a key; npos: nowhere.
+    // Position at which a message names a key; npos if it does not.
     std::size_t place_of(const std::string &key, const std::string &message)
     {
       for (std::size_t at = message.find(key); at != std::string::npos; at = message.find(key, at + 1))
@@ -138,21 +138,21 @@ namespace diptych::coupling
       return first;
     }
 
-    // The assignments that a message is about, as they were made last: it names the key with its section or, in a check of one
-    // section, without.
+    // The last assignment of each key that a message names, with its section or, in a check of one section, without.
     std::vector<Entry> assignments_in(const std::string &message, const std::string &section, const std::vector<Entry> &entries)
     {
-      std::map<std::string, Entry> last;
-      for (const Entry &entry : entries)
-        last[entry.name()] = entry;
       std::vector<Entry> found;
-      for (const auto &[key, entry] : last)
-        if (speaks_of(message, key) || (entry.section == section && speaks_of(message, entry.key)))
-          found.push_back(entry);
+      for (const Entry &entry : entries)
+        {
+          const auto is_same = [&](const Entry &earlier) { return earlier.name() == entry.name(); };
+          found.erase(std::remove_if(found.begin(), found.end(), is_same), found.end());
+          if (speaks_of(message, entry.name()) || (entry.section == section && speaks_of(message, entry.key)))
+            found.push_back(entry);
+        }
       return found;
     }
 
-    // "; FILE, line 12: continuum/cohesion = '3'" for each of them.
+    // "; FILE, line 12: continuum/cohesion = '3'" for each assignment.
     std::string places_of(const std::vector<Entry> &assignments)
     {
       std::string text;
@@ -161,7 +161,8 @@ namespace diptych::coupling
       return text;
     }
 
-    // Runs `check`. Its error gets the file in front and the assignments that it is about behind.
+    // Runs `check`. Its error begins with one place: the line of a wrong file, or else the assignment of the wrong key. Other
+    // assignments that take part in a contradiction follow.
     template <class Check>
     void in_section(const std::string &file, const std::string &section, const std::vector<Entry> &entries, Check &&check)
     {
@@ -171,14 +172,24 @@ namespace diptych::coupling
         }
       catch (const std::invalid_argument &error)
         {
-          const std::vector<Entry> about = assignments_in(error.what(), section, entries);
-          SceneError whole(file + ": " + (section.empty() ? "" : "section " + section + ": ") + error.what() + places_of(about));
-          whole.refusal.key = first_key(error.what());
-          if (whole.refusal.key.empty() && !about.empty())
-            whole.refusal.key = about.front().name();
-          for (const Entry &entry : about)
-            if (entry.name() == whole.refusal.key)
-              whole.refusal = {entry.place, entry.name(), entry.value, "", ""};
+          const std::string  text  = error.what();
+          std::vector<Entry> about = assignments_in(text, section, entries);
+          std::string        lead  = file + ": " + (section.empty() ? "" : "section " + section + ": ");
+          Refusal            refusal;
+          refusal.key = first_key(text);
+          if (!about.empty())
+            {
+              auto first = std::find_if(about.begin(), about.end(), [&](const Entry &e) { return e.name() == refusal.key; });
+              if (first == about.end())
+                --first; // the latest assignment is probably the wrong one
+              lead = text_of(first->place) + ": " + (section.empty() ? "" : first->name() + " = '" + first->value + "': ");
+              if (refusal.key.empty() || refusal.key == first->name())
+                refusal = {first->place, first->name(), first->value, "", ""};
+              about.erase(first);
+            }
+          const bool is_of_file = text.rfind('/', 0) == 0; // paths in a scene are absolute
+          SceneError whole(is_of_file ? text : lead + text + places_of(about));
+          whole.refusal = refusal;
           throw whole;
         }
     }

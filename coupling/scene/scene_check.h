@@ -1,4 +1,4 @@
-// diptych: what a scene must not be, and what should be pointed out of it
+// diptych: checks of a scene: contradictions are errors, doubtful values are warnings
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -11,13 +11,16 @@
 
 namespace diptych::coupling
 {
-  // Throws SceneError naming file, lines, keys and values that contradict each other.
+  // Throws SceneError with file, lines, keys and values that contradict each other.
   void check_scene(const Scene &scene, const std::string &file, const std::vector<Entry> &entries, bool compares);
 
-  // The same of what a comparison reads alone, of a scene that has been computed: files that it names may be gone.
+  // The same for a computed scene, limited to the keys that a comparison reads. Files that the scene names need not exist any
+  // more.
   void check_comparison(const Scene &scene, const std::string &file, const std::vector<Entry> &entries, bool compares);
 
-  // Keys that the scene sets to another value than the default and that nothing reads, each with the key that says so; moduli and
-  // cohesions that are probably meant in another unit; a coarse mesh that is no coarser than the first.
+  // Warnings about
+  //   keys that differ from their default but have no effect, each with the key that is the reason;
+  //   moduli and cohesions that are probably meant in another unit;
+  //   a coarse mesh that is no coarser than the first.
   std::vector<std::string> warnings_of(const Scene &scene, const std::vector<Entry> &entries);
 } // namespace diptych::coupling

@@ -8,7 +8,7 @@
 
 namespace diptych::coupling
 {
-  // Where something was written: a file with the line (0: none), or an option of the command line.
+  // Place of an input: a file with its line (0: no line), or an option of the command line.
   struct Place
   {
     Place() = default;
@@ -29,12 +29,12 @@ namespace diptych::coupling
     return place.file + (place.line > 0 ? ", line " + std::to_string(place.line) : "");
   }
 
-  // What a message names; members that do not apply are empty.
+  // The parts of a message; members that do not apply are empty.
   struct Refusal
   {
     Place       place;
     std::string key;     // section/key of a scene, or a section
-    std::string value;   // as it was given
+    std::string value;   // as the user gave it
     std::string allowed; // the range or the choices
     std::string hint;    // what to do
   };
@@ -48,7 +48,7 @@ namespace diptych::coupling
            (r.hint.empty() ? "" : "; " + r.hint);
   }
 
-  // Exit code 2. The message names file, line, key, value, what is allowed and the way out as far as they are known.
+  // Exit code 2. The message gives file, line, key, value, allowed values and a way out, as far as they are known.
   struct SceneError : std::invalid_argument
   {
     using std::invalid_argument::invalid_argument;

@@ -1,4 +1,4 @@
-// diptych: scenes are read, written in full and explained
+// diptych: reads, resolves and explains scenes
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/scene/scene_file.h"
 
@@ -11,6 +11,7 @@
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_check.h"
 #include "discrete/files/nearest_name.h"
+#include "discrete/files/words.h"
 
 namespace diptych::coupling
 {
@@ -31,7 +32,15 @@ namespace diptych::coupling
                                      const std::string              &section,
                                      const std::vector<std::string> &known = section_names())
     {
-      throw SceneError({place, section, "", "", "the nearest is '" + discrete::nearest_name(section, known) + "'"},
+      std::vector<std::string> names = known;
+      for (const KeyDescription &key : describe(""))
+        names.push_back(key.name);
+      const std::string nearest = discrete::nearest_name(section, names), keys = keys_with(section);
+      const bool        is_key = std::find(known.begin(), known.end(), nearest) == known.end();
+      throw SceneError({place, section, "", "",
+                        !is_key        ? "the nearest is '" + nearest + "'"
+                        : keys.empty() ? keys_with(nearest)
+                                       : keys},
                        "is an unknown section");
     }
 
@@ -106,7 +115,7 @@ namespace diptych::coupling
     std::vector<Entry> entries_with(const std::string &file, const std::vector<Entry> &changes)
     {
       if (std::error_code none; std::filesystem::is_directory(file, none))
-        throw SceneError(file + ": is a folder; a scene file, .prm or .json, is needed");
+        throw SceneError(file + ": is a folder; give a scene file, .prm or .json");
       std::istringstream in      = scene_input(file);
       std::vector<Entry> entries = entries_of(file, in);
       if (sets_every_key(entries))
@@ -141,6 +150,15 @@ namespace diptych::coupling
       return scene;
     }
   } // namespace
+
+  std::string keys_with(const std::string &word)
+  {
+    std::vector<std::string> names;
+    for (const KeyDescription &key : word.size() < 3 ? std::vector<KeyDescription>() : describe(""))
+      if (key.name.find(word) != std::string::npos)
+        names.insert(key.name == word ? names.begin() : names.end(), key.section + "/" + key.name);
+    return names.empty() ? "" : "keys with '" + word + "': " + discrete::listed(names);
+  }
 
   void demand_section(const Place &place, const std::string &section)
   {
@@ -227,7 +245,7 @@ namespace diptych::coupling
           set(scene, entry);
         return scene;
       }
-    catch (const SceneError &) // of another version
+    catch (const SceneError &) // the file is from another version
       {
         return std::nullopt;
       }
@@ -255,7 +273,7 @@ namespace diptych::coupling
     std::vector<std::string> known = section_names();
     if (!section.empty() && std::find(known.begin(), known.end(), section) == known.end())
       {
-        known.push_back("results"); // which the command explains itself
+        known.push_back("results"); // the command explains this word
         refuse_section({}, section, known);
       }
     std::ostringstream out;

@@ -1,4 +1,4 @@
-// diptych: scenes are read, written in full and explained
+// diptych: reads, resolves and explains scenes
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -12,38 +12,38 @@
 
 namespace diptych::coupling
 {
-  // Reads a .prm or .json file, then applies `overrides` of the form section/key=value. Files that the scene names are found
-  // relative to the scene's own folder, those of overrides relative to the working directory. Throws SceneError. `compares`:
-  // whether both panels will be compared, so that the windows must be stages.
+  // Reads a .prm or .json file, then applies `overrides` of the form section/key=value. File names in the scene are relative to
+  // the folder of the scene, those in overrides to the working directory. If `compares` is true, both panels will be compared,
+  // and the windows must be stages. Throws SceneError.
   Scene read_scene(const std::string &file, const std::vector<std::string> &overrides, bool compares = true);
 
-  // The resolved scene of a result folder with overrides. Only keys that a comparison reads are checked again, and files that it
-  // names may be gone. `compares` as in read_scene(). Throws SceneError, also where a key is missing.
+  // The resolved scene of a result folder with overrides. Only keys that a comparison reads are checked again. Files that it
+  // names need not exist any more. `compares` as in read_scene(). Throws SceneError, also if a key is missing.
   Scene read_computed_scene(const std::string &file, const std::vector<std::string> &overrides, bool compares = true);
 
-  // As read_scene(), with changes that say where they were made and where their files are.
+  // As read_scene(), with changes that carry the place of their text and the folder of their files.
   Scene read_changed_scene(const std::string &file, const std::vector<Entry> &changes, bool compares);
 
-  // A scene that stands in no file: `file` is what messages call it and gives its name. Throws SceneError.
+  // A scene without a file. `file` is its name in messages, and gives the name of the scene. Throws SceneError.
   Scene scene_of_entries(const std::string &file, const std::vector<Entry> &entries, bool compares);
 
-  // Throws SceneError naming the place where no scene has such a key or such a value of it.
+  // Throws SceneError with the place if scenes have no such key, or if the key cannot have this value.
   void check_entry(const Entry &entry);
 
-  // Keys of a fragment as calibrate writes it (.prm), each checked. Throws SceneError naming file and line.
+  // Reads and checks the keys of a part of a scene (.prm), as calibrate writes it. Throws SceneError with file and line.
   std::vector<Entry> read_fragment(const std::string &file);
 
-  // The resolved scene: every key with its value and meaning, in .prm format; files by their absolute paths.
+  // The resolved scene in .prm format: every key with its value and meaning. Files have absolute paths.
   std::string resolved_text(const Scene &scene);
 
-  // Names of the sections of which a scene file sets a key, each once. Throws SceneError where it is no scene file.
+  // Names of the sections in which a scene file sets a key, each once. Throws SceneError if the file is no scene.
   std::vector<std::string> sections_set_in(const std::string &file);
 
-  // Whether a file sets every key, as the resolved scene beside results does.
+  // True if a file sets every key, as a resolved scene does.
   bool is_resolved_scene(const std::string &file);
 
-  // The resolved scene of a result folder (scene.prm, ensemble.prm); files that it names may be gone. Nothing where the file is
-  // missing or was written by a version with other keys.
+  // The resolved scene of a result folder (scene.prm, ensemble.prm). Files that it names need not exist any more. Empty if the
+  // file is missing or comes from a version with other keys.
   std::optional<Scene> resolved_scene(const std::string &file);
 
   std::vector<std::string> section_names();

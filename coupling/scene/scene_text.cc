@@ -141,7 +141,10 @@ namespace diptych::coupling
     const std::size_t slash = text.find('/'), equals = text.find('=');
     if (slash == std::string::npos || equals == std::string::npos || slash == 0 || equals <= slash + 1 ||
         text.substr(slash + 1, equals - slash - 1).find('/') != std::string::npos)
-      throw SceneError("--set " + text + ": not of the form section/key=value");
+      {
+        const std::string keys = slash == std::string::npos && equals > 0 ? keys_with(text.substr(0, equals)) : "";
+        throw SceneError("--set " + text + ": not of the form section/key=value" + (keys.empty() ? "" : "; " + keys));
+      }
     return {text.substr(0, slash), text.substr(slash + 1, equals - slash - 1),
             std::string(discrete::trimmed(text.substr(equals + 1))), Place("--set " + text), ""};
   }

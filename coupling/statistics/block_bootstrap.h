@@ -41,21 +41,21 @@ namespace diptych::coupling
   // blocks or 40 resamples. The same seed gives the same rows on every machine.
   std::vector<std::vector<int>> resampled_blocks(int n, const BootstrapOptions &options);
 
-  // By what deviations of a resampled statistic are stretched: sqrt(n/(n-1)) t/z. The mean of n blocks drawn with replacement has
-  // (n-1)/n of the unbiased variance. Its quantiles are those of a normal distribution (z = 1.96), while n - 1 degrees of freedom
-  // require Student's t. With this factor the interval of a mean is Student's. NaN for n < minimum_blocks.
+  // Factor that widens the deviations of a resampled statistic: sqrt(n/(n-1)) t/z, with Student's t for n - 1 degrees of freedom
+  // and z = 1.96. The mean of n blocks drawn with replacement has (n-1)/n of the unbiased variance. Its quantiles are normal (z)
+  // and not Student's (t). With this factor the interval of a mean is Student's interval. NaN for n < minimum_blocks.
   double small_sample_factor(int n);
 
   // A second factor for the deviations, >= 1, if neighbouring blocks are correlated. influence: the contribution of each block to
   // the statistic's deviation (components in any unit; they add up to about 0 over the blocks). place: column and row of each
-  // block. The variance of a sum of blocks is sum c_bb + sum over b != b' c_bb', c = influence_b . influence_b'. The second sum
-  // is taken over blocks that touch, and each pair is corrected for the common mean (-s^2/n). The factor is the root of the
-  // ratio, limited to 1 to 2.
+  // block. With c_bb' = influence_b . influence_b' and n blocks:
+  //   V0 = sum c_bb, the variance of independent blocks;
+  //   V = V0 + 2 sum over touching pairs (c_bb' + s^2/n), s^2 = V0/(n-1); s^2/n removes the bias from the common mean;
+  //   factor = sqrt(V/V0), limited to 1..2.
   double neighbour_factor(const std::vector<Eigen::Vector3d> &influence, const std::vector<Eigen::Vector2i> &place);
 
-  // value + the 2.5 and 97.5 % quantiles of the deviations (resampled minus value, already stretched). Deviations that are NaN
-  // are left out; such a resample has no value of the statistic. If more than a tenth are NaN, or there are none at all, the ends
-  // are NaN.
+  // value + the 2.5 and 97.5 % quantiles of the deviations (resampled minus value, already widened). Deviations that are NaN are
+  // left out, because the statistic has no value there. If more than a tenth are NaN, or there are none at all, the ends are NaN.
   Interval interval_from(double value, const std::vector<double> &deviations);
 
   // Quantile with linear interpolation between order statistics (Hyndman and Fan 1996, type 7). NaN without values.

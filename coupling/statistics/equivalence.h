@@ -13,19 +13,20 @@ namespace diptych::coupling
   // Statistics of independent realisations. NaN if n is too small: the mean needs n >= 1, the others n >= 2.
   struct SampleStatistics
   {
-    int    n         = 0;
-    double mean      = std::numeric_limits<double>::quiet_NaN();
-    double deviation = std::numeric_limits<double>::quiet_NaN(); // of one realisation, with n - 1 in the denominator
-    double low       = std::numeric_limits<double>::quiet_NaN(); // ends of the 95 % Student interval of the mean
-    double high      = std::numeric_limits<double>::quiet_NaN();
+    int    n    = 0;
+    double mean = std::numeric_limits<double>::quiet_NaN();
+    double deviation =
+      std::numeric_limits<double>::quiet_NaN(); // standard deviation of one realisation, with n - 1 in the denominator
+    double low  = std::numeric_limits<double>::quiet_NaN(); // ends of the 95 % Student interval of the mean
+    double high = std::numeric_limits<double>::quiet_NaN();
   };
 
   [[nodiscard]] SampleStatistics statistics(const std::vector<double> &values);
 
-  // The same for angles of lines [degrees], which repeat after 180:
-  // the mean is half the direction of the sum of the unit vectors of the doubled angles, in (-90, 90]. The deviation is that of
-  // the rotations from this mean. low and high may lie outside (-90, 90]. NaN if the lines have no mean direction. Source: Mardia
-  // and Jupp, Directional Statistics (2000), section 2.2.
+  // The same for angles of lines [degrees], which repeat after 180. The mean is half the direction of the sum of the unit vectors
+  // of the doubled angles, in (-90, 90]. The deviation is the standard deviation of the rotations from this mean. low and high
+  // may lie outside (-90, 90]. NaN if the lines have no mean direction. Source: Mardia and Jupp, Directional Statistics (2000),
+  // section 2.2.
   [[nodiscard]] SampleStatistics line_statistics(const std::vector<double> &degrees);
 
   enum class Verdict
@@ -52,8 +53,8 @@ namespace diptych::coupling
   // The same for rotations between lines [degrees].
   [[nodiscard]] Equivalence compare_turns(const std::vector<double> &turns, double margin);
 
-  // The same difference if its second part has an independent uncertainty, given by a deviation in the unit of the margin and a
-  // 97.5 % quantile. The squares of the half widths are added.
+  // The same difference if the second panel has an additional, independent uncertainty: its standard deviation in the unit of the
+  // margin, and the 97.5 % quantile for it. The squares of the half widths are added.
   [[nodiscard]] Equivalence widened(Equivalence result, double deviation, double quantile, double margin);
 
   // The difference is (mean of second) / (mean of first) - 1, with Fieller's interval, so that the scatter of the first panel

@@ -4,8 +4,7 @@
 
 namespace diptych::coupling
 {
-  // The largest deviation of the continuum from the grains that still counts as equivalent. Choose these before you look at
-  // results.
+  // The largest difference between continuum and grains that still counts as equivalent. Choose these before you look at results.
   struct EquivalenceMargins
   {
     double angle             = 3;

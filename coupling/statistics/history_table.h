@@ -33,8 +33,8 @@ namespace diptych::coupling
     return progress > from + 1e-9 * std::abs(from);
   }
 
-  // Mean of a column over [from, to] of the column `progress`: integral of the broken line through its rows, constant beyond the
-  // ends. Rows at uneven progress are thus weighted by the range that they represent.
+  // Mean of a column over the range [from, to] of the column `progress`. The rows are joined by straight lines, and the end
+  // values continue beyond the ends. So rows at uneven distances are weighted by the range that they represent.
   double mean_over_progress(const HistoryTable &table, const std::string &name, double from, double to);
 
   // The same mean over any ascending column.
@@ -44,8 +44,8 @@ namespace diptych::coupling
   };
   double mean_over(const HistoryTable &table, const ColumnPair &names, double from, double to);
 
-  // T/S: the mean of t over [from, to] of the progress over that of s, from the columns sxx, sxy, syx (if present) and syy.
-  // Unlike the mean of t/s it gives less weight to moments of small load. NaN if the history does not reach `to`.
+  // T/S = (mean of t) / (mean of s) over the range [from, to] of the progress, from the columns sxx, sxy, syx (if present) and
+  // syy. Unlike the mean of t/s it gives less weight to moments of small load. NaN if the history does not reach `to`.
   double ratio_of_means(const HistoryTable &table, double from, double to);
 
   // For each row, the mean over the preceding `width` of progress; NaN before the first full width. Needs O(rows) operations.
@@ -54,7 +54,7 @@ namespace diptych::coupling
   // The broken line through (x, y), x ascending, evaluated at the points of a grid; NaN beyond its ends.
   std::vector<double> resampled(const std::vector<double> &x, const std::vector<double> &y, const std::vector<double> &grid);
 
-  // Largest of the running means, and the progress at the end of its range.
+  // Largest running mean, and the progress at the end of its range.
   struct Peak
   {
     double value = 0, progress = 0;

@@ -6,7 +6,7 @@
 
 namespace diptych::coupling
 {
-  constexpr double normal_quantile = 1.959963984540054; // 97.5 %, for a known deviation
+  constexpr double normal_quantile = 1.959963984540054; // 97.5 %, for a known standard deviation
 
   // probability in (0, 1); degrees_of_freedom above 0, not necessarily whole.
   [[nodiscard]] inline double student_quantile(const double probability, const double degrees_of_freedom)

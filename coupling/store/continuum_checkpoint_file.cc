@@ -1,4 +1,4 @@
-// diptych: the continuum panel put down in a file, to be taken up again
+// diptych: checkpoint file of the continuum panel
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/store/continuum_checkpoint_file.h"
 

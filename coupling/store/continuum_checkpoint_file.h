@@ -1,4 +1,4 @@
-// diptych: the continuum panel put down in a file, to be taken up again
+// diptych: checkpoint file of the continuum panel
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,18 +8,18 @@
 
 namespace diptych::coupling
 {
-  // What a loading goes on from, and what of its other files belongs to it.
+  // The state from which a loading continues, and the scene to which it belongs.
   struct ContinuumCheckpoint
   {
     continuum::Checkpoint panel;
-    long                  n_rows = 0;    // of continuum.csv, written before
-    std::string           scene, sample; // identities of the scene and of the mesh: others must refuse the checkpoint
+    long                  n_rows = 0;    // rows of continuum.csv that were written before
+    std::string           scene, sample; // identities of scene and mesh; a run with others refuses it
   };
 
-  // HDF5 with checksums, all numbers with all bits (NaN, too); replaces the file only when complete. Throws std::runtime_error
-  // naming it.
+  // Writes HDF5 with checksums and all bits of every number, also NaN. Replaces an earlier file only when the new one is
+  // complete. Throws std::runtime_error with the file's name.
   void write_continuum_checkpoint(const std::string &path, const ContinuumCheckpoint &checkpoint);
 
-  // Throws std::invalid_argument naming the file when it is missing, cut short, damaged or no checkpoint of this panel.
+  // Throws std::invalid_argument with the file's name if it is missing, cut short, damaged or no checkpoint of this panel.
   ContinuumCheckpoint read_continuum_checkpoint(const std::string &path);
 } // namespace diptych::coupling

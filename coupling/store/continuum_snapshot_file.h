@@ -12,21 +12,20 @@
 
 namespace diptych::coupling
 {
-  // PATH.h5, PATH.xdmf, PATH.pvd and PATH/stage_NNNN.vtu of the snapshots that are added, names and units as
-  // continuum/snapshot_fields.h lists them. Complete after every add() and O(new): a snapshot that is written is not written
-  // again. The time that ParaView shows is the progress. All throw std::runtime_error naming a file that cannot be written.
+  // Writes the added snapshots to PATH.h5, PATH.xdmf, PATH.pvd and PATH/stage_NNNN.vtu. continuum/snapshot_fields.h lists names
+  // and units. The files are complete after every add(), and no snapshot is written twice. ParaView shows the progress as time.
+  // All functions throw std::runtime_error with the name of a file that cannot be written.
   class ContinuumSnapshotFile
   {
   public:
-    explicit ContinuumSnapshotFile(const std::string &path_without_ending); // begins anew
+    explicit ContinuumSnapshotFile(const std::string &path_without_ending); // replaces earlier files
 
-    // Goes on after the first `kept` snapshots of files that stand there. Throws std::invalid_argument naming the file where it
-    // has fewer.
+    // Appends to the first `kept` snapshots of existing files. Throws std::invalid_argument with the file's name if it has fewer.
     ContinuumSnapshotFile(const std::string &path_without_ending, std::size_t kept);
 
-    // Throws std::invalid_argument for lists of the snapshot that differ in length.
+    // Throws std::invalid_argument if lists of the snapshot differ in length.
     void add(const continuum::Snapshot &snapshot);
-    void close(); // makes one .h5 of all
+    void close(); // joins all stages in one .h5 file
 
     std::size_t size() const { return stages.size(); }
 
@@ -39,10 +38,10 @@ namespace diptych::coupling
     std::vector<PvdEntry>    views;
   };
 
-  // Bit by bit as they were added. Throws std::invalid_argument naming file, stage and array where one is missing, damaged, of
-  // another shape or contradicts another.
+  // Returns the snapshots with the same bits as they were added. Throws std::invalid_argument with file, stage and array if an
+  // array is missing, damaged, of a wrong shape or contradicts another one.
   std::vector<continuum::Snapshot> read_continuum_snapshots(const std::string &h5_path);
 
-  // How many a file holds; 0 where there is none.
+  // Number of snapshots in a file; 0 if there is no file.
   std::size_t count_continuum_snapshots(const std::string &h5_path);
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: what the panels said of themselves when they ran
+// diptych: facts that the panels record about their runs
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -30,7 +30,7 @@ namespace diptych::coupling
     bool        finished         = false;
     double      reached_progress = NAN, reached_axial_strain = NAN, reached_shear_strain = NAN;
     std::string message;
-    std::string warnings; // a line each
+    std::string warnings; // one per line
   };
 
   template <class Facts, class Visitor, std::enable_if_t<std::is_same_v<std::remove_const_t<Facts>, DiscreteFacts>, int> = 0>
@@ -41,34 +41,36 @@ namespace diptych::coupling
     v({"preparation_steps", "-", "steps of the preparation"}, f.preparation_steps);
     v({"preparation_residual", "-", "residual at the end of the preparation"}, f.preparation_residual);
     v({"preparation_unbalanced_force", "-", "unbalanced force after the preparation"}, f.preparation_unbalanced_force);
-    v({"preparation_settling_steps", "-", "steps after the compaction, from rest, that took out the overlaps"},
+    v({"preparation_settling_steps", "-", "steps after the compaction, from rest, that removed the overlaps"},
       f.preparation_settling_steps);
-    v({"preparation_largest_overlap", "mean diameters", "largest overlap of the sample as it was loaded"},
+    v({"preparation_largest_overlap", "mean diameters", "largest overlap of the sample when its loading began"},
       f.preparation_largest_overlap);
     v({"initial_height", "length", "initial height"}, f.initial_height);
     v({"platen_speed", "length/time", "platen speed"}, f.platen_speed);
     v({"step", "time", "step of the last stage"}, f.step);
-    v({"step_bound", "-", "which bound gave the step, where it was chosen automatically"}, f.step_bound);
+    v({"step_bound", "-", "bound that gave the step, if it was chosen automatically"}, f.step_bound);
     v({"tolerance", "-", "residual at which the steps of the last stage ended"}, f.tolerance);
-    v({"expected_strength_error", "-", "relative, that step and strain rate lead to expect"}, f.expected_strength_error);
-    v({"expected_dilation_error", "-", "relative loss that tolerance and step lead to expect"}, f.expected_dilation_error);
+    v({"expected_strength_error", "-", "relative error of the strength expected for this step and strain rate"},
+      f.expected_strength_error);
+    v({"expected_dilation_error", "-", "relative loss of dilation expected for this tolerance and step"},
+      f.expected_dilation_error);
     v({"halved_steps", "-", "steps halved because the sweeps stalled"}, f.halved_steps);
     v({"kinetic_energy_bursts", "-", "times the kinetic energy rose above twice M|V|²/4"}, f.kinetic_energy_bursts);
     v({"ns_per_update", "ns", "time of one contact update", Kind::clock}, f.ns_per_update);
     v({"solver_share_of_cpu", "-", "contact solver's share of the CPU time", Kind::clock}, f.solver_share_of_cpu);
     v({"residual_factor", "-", "grain-stress error over residual"}, f.residual_factor);
-    v({"residual_factor_reference_residual", "-", "residual of the solve that this was measured against"},
+    v({"residual_factor_reference_residual", "-", "residual of the more accurate solve used for that measurement"},
       f.residual_factor_reference_residual);
-    v({"residual_factor_error", "-", "error of the grain stress, measured there"}, f.residual_factor_error);
-    v({"residual_factor_estimate", "-", "error of the grain stress, estimated there"}, f.residual_factor_estimate);
+    v({"residual_factor_error", "-", "error of the grain stress, measured in that solve"}, f.residual_factor_error);
+    v({"residual_factor_estimate", "-", "error of the grain stress, estimated in that solve"}, f.residual_factor_estimate);
     v({"snapshots_sampled", "-", "snapshots whose grain stress was estimated"}, f.snapshots_sampled);
     v({"snapshots_accurate", "-", "snapshots that reached the demanded accuracy"}, f.snapshots_accurate);
     v({"finished", "-", "ran to its end"}, f.finished);
-    v({"reached_progress", "as walk says", "progress reached"}, f.reached_progress);
+    v({"reached_progress", "strain or time", "progress reached"}, f.reached_progress);
     v({"reached_axial_strain", "-", "axial strain reached"}, f.reached_axial_strain);
     v({"reached_shear_strain", "-", "shear strain reached"}, f.reached_shear_strain);
     v({"message", "-", "message"}, f.message);
-    v({"warnings", "-", "what makes the result doubtful, a line each"}, f.warnings);
+    v({"warnings", "-", "reasons to doubt the result, one per line"}, f.warnings);
   }
 
   struct ContinuumFacts
@@ -87,10 +89,11 @@ namespace diptych::coupling
     v({"unknowns", "-", "unknowns"}, f.unknowns);
     v({"steps", "-", "steps"}, f.steps);
     v({"processes", "-", "processes"}, f.processes);
-    v({"localisation_strain", "as walk says", "progress at the first loss of ellipticity"}, f.localisation_strain);
-    v({"localisation_angle_deg", "degrees", "angle of the line that could form there", Kind::line}, f.localisation_angle);
+    v({"localisation_strain", "strain or time", "progress at which localisation is first possible (singular acoustic tensor)"},
+      f.localisation_strain);
+    v({"localisation_angle_deg", "degrees", "angle of the band that could form at that point", Kind::line}, f.localisation_angle);
     v({"finished", "-", "ran to its end"}, f.finished);
-    v({"reached_progress", "as walk says", "progress reached"}, f.reached_progress);
+    v({"reached_progress", "strain or time", "progress reached"}, f.reached_progress);
     v({"reached_axial_strain", "-", "axial strain reached"}, f.reached_axial_strain);
     v({"reached_shear_strain", "-", "shear strain reached"}, f.reached_shear_strain);
     v({"message", "-", "message"}, f.message);
@@ -106,13 +109,13 @@ namespace diptych::coupling
   template <class Phase, class Visitor, std::enable_if_t<std::is_same_v<std::remove_const_t<Phase>, PhaseCost>, int> = 0>
   void list_numbers(Phase &p, Visitor &v)
   {
-    v({"name", "-", "of the phase", Kind::setting}, p.name);
+    v({"name", "-", "name of the phase", Kind::setting}, p.name);
     v({"wall_s", "s", "time on the clock", Kind::clock}, p.wall_s);
     v({"cpu_s", "s", "CPU time", Kind::clock}, p.cpu_s);
     v({"peak_memory_mb", "MB", "peak memory of the process so far", Kind::clock}, p.peak_memory_mb);
   }
 
-  // Checksums of the two files of a part when it ended (FNV-1a, 64 bits, hexadecimal). Empty: not known.
+  // Checksums (FNV-1a, 64 bits, hexadecimal) of the two files of a part, taken when the part ended. Empty: not known.
   struct FileSums
   {
     std::string table, snapshots;

@@ -27,7 +27,7 @@ namespace diptych::coupling
   {
     return folder + "/checkpoint.h5";
   }
-  // A stored contact problem, from stage 1 on.
+  // A stored contact problem; stages are counted from 1.
   inline std::string contact_problem(const std::string &folder, const int stage)
   {
     char name[32];
@@ -50,7 +50,7 @@ namespace diptych::coupling
   {
     return folder + "/sample.msh";
   }
-  inline std::string coarse_folder(const std::string &folder) // of the continuum on the coarse mesh
+  inline std::string coarse_folder(const std::string &folder) // the continuum on the coarse mesh
   {
     return folder + "/coarse";
   }
@@ -70,11 +70,11 @@ namespace diptych::coupling
   {
     return folder + "/comparison.h5";
   }
-  inline std::string fields_vtu(const std::string &folder) // on the continuum's mesh
+  inline std::string fields_vtu(const std::string &folder) // fields on the continuum's mesh
   {
     return folder + "/fields.vtu";
   }
-  inline std::string grid_vtu(const std::string &folder) // on the regular grid
+  inline std::string grid_vtu(const std::string &folder) // fields on the regular grid
   {
     return folder + "/grid.vtu";
   }

@@ -6,14 +6,15 @@
 
 namespace diptych::coupling
 {
-  // Locks a folder for this process as long as the object lives. A folder that does not exist is made, and removed again if it
-  // stays empty. The lock is the system's (flock) on the file .diptych.lock in the folder, which names process and machine. It
-  // ends with the process and with the workers that the process has started.
+  // Locks a folder for this process as long as the object lives. Makes the folder if it does not exist, and removes such a folder
+  // if it stays empty. The lock is a flock() on the file .diptych.lock in the folder, which names process and machine. The system
+  // releases it when the process and all workers that it started have ended.
   class FolderLock
   {
   public:
-    // Waits up to 90 s for the workers of a process that was killed. Throws std::runtime_error naming the folder and its
-    // writer, or the system's reason; std::invalid_argument for a name that no folder can have; StoppedOnRequest while it waits.
+    // Waits up to 90 s for the workers of a process that was killed. Throws std::runtime_error with the folder and its writer, or
+    // with the system's message. Throws std::invalid_argument if no folder can have this name, and StoppedOnRequest on a stop
+    // signal.
     explicit FolderLock(const std::string &directory);
     ~FolderLock();
     FolderLock(const FolderLock &)            = delete;
@@ -22,7 +23,7 @@ namespace diptych::coupling
     const std::string &folder() const { return directory; }
     int                number() const { return descriptor; } // file descriptor of the lock
 
-    // Renames the folder to `aside` and goes on with a new, locked folder in its place. Throws std::runtime_error.
+    // Renames the folder to `aside` and makes a new, locked folder in its place. Throws std::runtime_error.
     void set_aside(const std::string &aside);
 
   private:
@@ -35,12 +36,12 @@ namespace diptych::coupling
     int         descriptor = -1;
   };
 
-  // Throws std::runtime_error naming the writer where another process has locked the folder.
+  // Throws std::runtime_error with the name of the writer if another process has locked the folder.
   void require_unlocked(const std::string &directory);
 
-  // No file but a lock and what a killed run has left unfinished (.part).
+  // True if the folder holds no files, apart from a lock and unfinished files (.part) of a killed run.
   bool is_empty_folder(const std::string &directory);
 
-  // Makes a folder that can be written to. Throws as FolderLock does.
+  // Makes a folder and checks that files can be written to it. Throws like FolderLock.
   void make_folder(const std::string &directory);
 } // namespace diptych::coupling

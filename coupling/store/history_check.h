@@ -1,4 +1,4 @@
-// diptych: whether a table of steps is that of the snapshots beside it
+// diptych: checks that a table of steps belongs to the snapshots beside it
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -15,8 +15,8 @@ namespace diptych::coupling
   struct HistoryCheck
   {
     std::string table;        // path
-    bool        finished;     // the run says so: then no row is missing
-    bool        another_code; // which tells less: only how far it went must be known
+    bool        finished;     // true if the run finished; then every stage must have a row
+    bool        another_code; // true for imported results, where only progress and axial strain must be finite
   };
 
   namespace history
@@ -28,7 +28,7 @@ namespace diptych::coupling
       throw std::invalid_argument(check.table + what);
     }
 
-    // A plain text is the meaning of a column whose numbers are finite.
+    // A meaning given as plain text belongs to a column whose numbers must be finite.
     template <class Meaning> bool may_be_nan(const Meaning &meaning)
     {
       if constexpr (std::is_class_v<Meaning>)
@@ -60,9 +60,9 @@ namespace diptych::coupling
     }
   } // namespace history
 
-  // Rows as read from a file, at least one. Every stage ends with a step that has a row: what the table lacks of them was lost.
-  // Of a run that did not finish the last snapshot is that of the step on which it ended, which may have no row, and rows may go
-  // on after it. Throws std::invalid_argument naming the table.
+  // Checks rows that were read from a file, at least one. Each stage must have a row at its end; a missing row means that the
+  // file is damaged. There is one exception: the last snapshot of an unfinished run may have no row, and rows may follow it.
+  // Throws std::invalid_argument with the table's name.
   template <class Row, class Snapshot>
   void check_history(const std::vector<Row> &rows, const std::vector<Snapshot> &snapshots, const HistoryCheck &check)
   {

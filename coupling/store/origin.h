@@ -11,11 +11,11 @@
 
 namespace diptych::coupling
 {
-  // Of one command; versions are those of this build.
+  // Origin of the results of one command. Versions are those of this build.
   struct Origin
   {
     std::string      command, scene;
-    std::vector<int> seeds; // of the samples: one, or those of an ensemble
+    std::vector<int> seeds; // seed of the sample, or seeds of an ensemble
     std::string      date, cpu;
     unsigned int     cores = 0;
   };
@@ -39,23 +39,24 @@ namespace diptych::coupling
   template <class Visitor> void list_numbers(const Host &h, Visitor &v)
   {
     v({"cpu", "-", "name of the processor", Kind::setting}, h.of.cpu);
-    v({"cores", "-", "of the machine", Kind::setting}, int(h.of.cores));
+    v({"cores", "-", "cores of the machine", Kind::setting}, int(h.of.cores));
   }
 
   template <class Visitor> void list_numbers(const Origin &o, Visitor &v)
   {
     v({"program", "-", "diptych", Kind::setting}, std::string("diptych"));
-    v({"version", "-", "of the program", Kind::setting}, std::string(version));
-    v({"git_revision", "-", "of its source; unknown where it was built without git", Kind::setting}, std::string(git_revision));
+    v({"version", "-", "version of the program", Kind::setting}, std::string(version));
+    v({"git_revision", "-", "revision of its source; unknown if it was built without git", Kind::setting},
+      std::string(git_revision));
     v.group("libraries", "libraries that the program was built with", Libraries());
     v({"command", "-", "command line", Kind::setting}, o.command);
     v({"scene", "-", "name of the scene", Kind::setting}, o.scene);
-    v({"seeds", "-", "of the samples", Kind::setting}, o.seeds);
+    v({"seeds", "-", "seeds of the samples", Kind::setting}, o.seeds);
     v.group("host", "machine", Host{o});
     v({"date", "-", "UTC", Kind::setting}, o.date);
   }
 
-  // The whole of provenance.json.
+  // All entries of provenance.json.
   struct ProvenanceDocument
   {
     const Origin   &origin;
@@ -67,12 +68,12 @@ namespace diptych::coupling
     v.list("phases", "phases of the run and their cost", d.facts.phases);
     v.group("discrete", "facts of the discrete panel", d.facts.discrete);
     v.group("continuum", "facts of the continuum panel", d.facts.continuum);
-    v.group("continuum_coarse", "the same of the run on coarser elements", d.facts.continuum_coarse);
+    v.group("continuum_coarse", "facts of the run on coarser elements", d.facts.continuum_coarse);
     v.group("discrete_files", "checksums of the discrete panel's files", d.facts.discrete_files);
     v.group("continuum_files", "checksums of the continuum's files", d.facts.continuum_files);
-    v.group("continuum_coarse_files", "the same of the run on coarser elements", d.facts.continuum_coarse_files);
+    v.group("continuum_coarse_files", "checksums of the files of the run on coarser elements", d.facts.continuum_coarse_files);
     v.group("comparison_files", "checksums of the comparison's files", d.facts.comparison_files);
     v.group("ensemble_files", "checksums of the ensemble's files", d.facts.ensemble_files);
-    v.group("hashes", "of the scene and of the files that it reads", d.facts.hashes);
+    v.group("hashes", "hashes of the scene and of the files that it reads", d.facts.hashes);
   }
 } // namespace diptych::coupling

@@ -25,43 +25,45 @@ namespace diptych::coupling
   // CPU seconds of all threads of the process; `children` adds those of its child processes (the report).
   double cpu_seconds(bool children = false);
 
-  // The command that wrote results, and the scene that they are of.
+  // Command, scene and seeds that produced the results of a folder.
   struct RunOrigin
   {
-    std::string      scene; // its name
-    std::vector<int> seeds; // of its samples
+    std::string      scene; // name of the scene
+    std::vector<int> seeds; // seeds of its samples
     std::string      command;
   };
 
-  // Adds phases to provenance.json; a phase of the same name is replaced, other entries stay. Throws std::runtime_error if the
-  // file cannot be written, std::invalid_argument if it is damaged.
+  // Adds phases to provenance.json. Replaces a phase of the same name and keeps all other entries. Throws std::runtime_error if
+  // the file cannot be written, std::invalid_argument if it is damaged.
   void record_phases(const std::string &directory, const RunOrigin &origin, const std::vector<PhaseCost> &phases);
 
-  // The facts of one part, "discrete", "continuum" or "continuum_coarse", and the checksums of its files.
+  // Records the facts of one part ("discrete", "continuum" or "continuum_coarse") and the checksums of its files.
   void record_facts(const std::string &directory, const DiscreteFacts &facts);
   void record_facts(const std::string &directory, const std::string &part, const ContinuumFacts &facts);
 
-  // Checksum of a file's bytes (FNV-1a, 64 bits, hexadecimal); empty where there is no file.
+  // Checksum of a file's bytes (FNV-1a, 64 bits, hexadecimal); empty if there is no file.
   std::string sum_over(const std::string &file);
 
-  // The checksums of a part's files: "comparison" has comparison.json and .h5, "ensemble" likewise.
+  // Records the checksums of a part's files. The files of "comparison" are comparison.json and comparison.h5; "ensemble"
+  // likewise.
   void record_files(const std::string &directory, const std::string &part);
 
-  // The scene that the folder's results are of, and the hashes by which it is recognised.
+  // Records the scene of the folder's results and its hashes, which later commands compare.
   void record_scene(const std::string &directory, const RunOrigin &origin, const SceneHashes &hashes);
 
-  // Facts, checksums, hashes and phases of the continuum in the folder `from` take the place of those recorded in `directory`.
+  // Replaces the facts, checksums, hashes and phases of the continuum recorded in `directory` by those recorded in the folder
+  // `from`.
   void take_continuum_facts(const std::string &directory, const std::string &from);
 
   // Removes the facts and checksums of a part, or its checksums only, before the part is computed again.
   void forget_fact(const std::string &directory, const std::string &part);
   void forget_files(const std::string &directory, const std::string &part);
 
-  // Throws std::invalid_argument naming a file that is missing or has changed since its checksum was recorded. `part` empty: both
-  // panels.
+  // Throws std::invalid_argument with the name of a file that is missing or has changed since its checksum was recorded. An empty
+  // `part` checks both panels.
   void check_files(const std::string &directory, const std::string &part = "");
 
-  // Facts that are not recorded keep their defaults. Throws std::invalid_argument where provenance.json is not a run's record.
+  // Facts that are not recorded keep their defaults. Throws std::invalid_argument if provenance.json does not describe a run.
   RunFacts    read_run_facts(const std::string &directory);
-  std::string recorded_scene(const std::string &directory); // its name; empty where there is none
+  std::string recorded_scene(const std::string &directory); // name of the scene; empty if none is recorded
 } // namespace diptych::coupling

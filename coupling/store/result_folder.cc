@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "coupling/processes/stop_signal.h"
+#include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
 #include "coupling/store/file_names.h"
 #include "coupling/store/provenance.h"
@@ -42,7 +43,7 @@ namespace diptych::coupling
       return {hash(sample_identity(scene)), hash(continuum_identity(scene)), hash(member_identity(scene))};
     }
 
-    // The first key whose value differs between the scene and scene.prm; where none does, one of the scene's files has changed.
+    // The first key whose value differs between the scene and scene.prm. If all agree, one of the scene's files has changed.
     std::string reason(const Scene &scene, const std::string &directory, Identity (*identity)(const Scene &))
     {
       const std::optional<Scene> earlier = resolved_scene(scene_prm(directory));
@@ -52,7 +53,7 @@ namespace diptych::coupling
       return difference.empty() ? "an input file has changed since" : difference;
     }
 
-    // Where the next continuum stands once all its parts are complete.
+    // Folder of the next continuum once all its parts are complete.
     std::string whole_next_folder(const std::string &directory)
     {
       return directory + "/next_whole";
@@ -96,7 +97,7 @@ namespace diptych::coupling
       throw SceneError("the folder '" + directory + "' holds other files and no results. Name a new or an empty folder.");
     if (!opening.resume && !opening.overwrite)
       throw SceneError("the folder '" + directory + "' holds results. Add " +
-                       (opening.can_resume ? "--resume to go on from them, " : "") + "--overwrite to rename them to " +
+                       (opening.can_resume ? "--resume to continue them, " : "") + "--overwrite to rename them to " +
                        plain_path(directory).filename().string() + ".1, or --output with another folder.");
   }
 
@@ -126,7 +127,7 @@ namespace diptych::coupling
     const SceneHashes now = hashes_of(scene), before = read_run_facts(folder).hashes;
     SceneChanges      changes;
     if (now.sample != before.sample)
-      changes.sample = reason(scene, folder, sample_identity);
+      changes.sample = before.sample.empty() ? "its provenance.json records no run" : reason(scene, folder, sample_identity);
     if (now.continuum != before.continuum)
       changes.continuum = reason(scene, folder, continuum_identity);
     if (now.comparison != before.comparison)
@@ -151,18 +152,20 @@ namespace diptych::coupling
                                   const Opening                                   &opening,
                                   const std::function<void(const SceneChanges &)> &check) const
   {
-    const bool is_empty = is_empty_folder(directory);
-    Opening    usable   = opening;
-    usable.resume       = opening.resume || opening.adds;
+    const bool is_empty      = is_empty_folder(directory);
+    Opening    usable        = opening;
+    usable.resume            = opening.resume || opening.adds;
+    const bool keeps_results = !is_empty && !opening.overwrite && is_result_folder(directory);
+    // require_usable() advises --resume, which another sample does not allow.
+    if (const std::string change = keeps_results ? changes().sample : ""; !change.empty())
+      throw SceneError("'" + directory + "' holds results of another sample: " + change +
+                       ". Use --output with another folder, or --overwrite.");
     require_usable(directory, usable);
     SceneChanges changes;
-    if (!is_empty && !opening.overwrite)
+    if (keeps_results)
       {
         finish_replacement(directory);
         changes = this->changes();
-        if (!changes.sample.empty())
-          throw SceneError("the results in '" + directory + "' are of another sample: " + changes.sample +
-                           ". Run the same scene, or add --overwrite, or --output with another folder.");
       }
     if (check)
       check(changes);
@@ -173,7 +176,7 @@ namespace diptych::coupling
           inputs.push_back(input);
         set_aside(lock, inputs);
       }
-    // The scene of a finished continuum or comparison stays beside it until a new one takes its place.
+    // scene.prm describes a finished continuum or comparison until a new one replaces it.
     if (is_empty || opening.overwrite || (!changes.continuum.empty() && !has_continuum(directory)))
       write_scene(directory, opening.command);
     return changes;
@@ -245,7 +248,7 @@ namespace diptych::coupling
   {
     const std::string next = next_comparison(directory);
     forget_files(directory, "comparison");
-    remove_results(directory, {"report.html"}); // shows the earlier comparison, and may not be drawn again
+    remove_results(directory, {"report.html"}); // shows the earlier comparison; a new report is not always drawn
     for (const fs::directory_entry &entry : fs::directory_iterator(next))
       fs::rename(entry.path(), directory + "/" + entry.path().filename().string());
     remove_results(directory, {"next_comparison"});

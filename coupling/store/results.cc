@@ -1,4 +1,4 @@
-// diptych: what both panels made of one scene, in memory
+// diptych: the results of both panels of one scene, in memory
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/store/results.h"
 

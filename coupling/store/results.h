@@ -1,4 +1,4 @@
-// diptych: what both panels made of one scene, in memory
+// diptych: the results of both panels of one scene, in memory
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -18,30 +18,29 @@ namespace diptych::coupling
   struct DiscreteResults
   {
     std::vector<discrete::HistoryRow> rows;
-    std::vector<discrete::Snapshot>   snapshots; // the prepared sample first, then one a stage
+    std::vector<discrete::Snapshot>   snapshots; // the prepared sample first, then one per stage
     DiscreteFacts                     facts;
   };
 
   struct ContinuumResults
   {
     std::vector<continuum::HistoryRow> rows;
-    std::vector<continuum::Snapshot>   snapshots; // the state at rest first, then one a stage
+    std::vector<continuum::Snapshot>   snapshots; // the state at rest first, then one per stage
     ContinuumFacts                     facts;
   };
 
-  // Everything that a comparison is made of. It comes from panels that ran in this process, or from files; numbers are the same
-  // bits either way.
+  // Everything that a comparison needs. It comes from panels that ran in this process or from files; both give the same bits.
   struct Results
   {
     DiscreteResults        discrete;
-    ContinuumResults       continuum, coarse; // coarse: on the coarse mesh, without it empty
+    ContinuumResults       continuum, coarse; // coarse: on the coarse mesh; empty without a coarse run
     std::vector<PhaseCost> phases;
   };
 
-  // Progress of stages: two that differ by less are the same stage.
+  // Two stages whose progress differs by less are the same stage.
   constexpr double same_progress = 1e-6;
 
-  // Index of the first snapshot at that progress; none where no stage ends there.
+  // Index of the first snapshot at that progress; none if no stage ends there.
   template <class Snapshot> std::optional<std::size_t> snapshot_at(const std::vector<Snapshot> &snapshots, const double progress)
   {
     for (std::size_t k = 0; k < snapshots.size(); ++k)
@@ -50,8 +49,8 @@ namespace diptych::coupling
     return std::nullopt;
   }
 
-  // Of a result folder: discrete.h5 and .csv, continuum.h5 and .csv, coarse/continuum.h5 and .csv, provenance.json. Throws
-  // std::invalid_argument naming what is missing, broken or not of the same run: a table without the last step of a stage, a mesh
-  // turned inside out.
+  // Reads a result folder: discrete.h5 and .csv, continuum.h5 and .csv, coarse/continuum.h5 and .csv, provenance.json. Throws
+  // std::invalid_argument with the name of a file that is missing, damaged or from another run. Examples: a table without the
+  // last step of a stage, a mesh turned inside out.
   Results load_results(const std::string &folder);
 } // namespace diptych::coupling

@@ -13,7 +13,7 @@ namespace diptych::coupling
   enum class VtkCell : std::uint8_t
   {
     quadrilateral             = 9, // four nodes, anticlockwise
-    biquadratic_quadrilateral = 28 // then the middles of the edges and the centre
+    biquadratic_quadrilateral = 28 // the four nodes, then the middles of the edges and the centre
   };
 
   // One array: (n), (n, 3) or (n, 9), row by row.
@@ -33,11 +33,11 @@ namespace diptych::coupling
     std::vector<VtuField>        fields;
   };
 
-  // Uncompressed binary arrays, all numbers with all bits, NaN where there is none. Throws std::runtime_error naming the file,
-  // std::invalid_argument for a field of another length than its nodes or cells are many.
+  // Writes uncompressed binary arrays with all bits; missing values are NaN. Throws std::runtime_error with the file's name, and
+  // std::invalid_argument if the length of a field is not the number of nodes or cells.
   void write_vtu(const std::string &path, const VtuGrid &grid);
 
-  // PATH.pvd: the .vtu files, relative to it, in the order of `time`.
+  // Writes PATH.pvd, the list of .vtu files with paths relative to it, in the order of `time`.
   struct PvdEntry
   {
     double      time = 0;

@@ -9,11 +9,11 @@
 
 namespace diptych::discrete
 {
-  // Moreau's containing action on free sides (1997, section 3).
+  // Free sides: the outermost grains carry the pressure (Moreau 1997, section 3, "containing action").
   struct EndGrains
   {
-    double band_height = 3; // w [mean diameters]
-    int    end_grains  = 5; // at each end of a band
+    double band_height = 3; // height of a horizontal layer [mean diameters]
+    int    end_grains  = 5; // at each end of a layer
   };
   // Two smooth rigid walls. walls[2] on the left does not move; walls[3] on the right is free or moves at a given speed.
   struct RigidSides
@@ -73,11 +73,13 @@ namespace diptych::discrete
   {
     visitor(
       "lateral", o.lateral, "-",
-      "condition at the sides: the end grains of horizontal bands carry the pressure (free sides), two rigid walls, periodic "
+      "condition at the sides: the end grains of horizontal layers carry the pressure (free sides), two rigid walls, periodic "
       "sides, or nothing");
-    visitor("band_height", o.band_height, "mean diameters", {0.5, 100.},
-            "end_grains: height w of a band; 1 to 5 are equivalent, and from 8 on grains escape between five end grains");
-    visitor("end_grains", o.end_grains, "-", {1, 100}, "grains at each end of a band that share the force w P");
+    visitor(
+      "band_height", o.band_height, "mean diameters", {0.5, 100.},
+      "end_grains: height of a horizontal layer; 1.5 to 3 are equivalent, and from 8 on grains escape between five end grains");
+    visitor("end_grains", o.end_grains, "-", {1, 100},
+            "grains at each end of a layer that share the force (height of the layer) x pressure");
     visitor("side_motion", o.side_motion, "-",
             "rigid_walls: the right wall is free under pressure x height, or moves at side_velocity; periodic: the width is "
             "free under the pressure, or changes at side_velocity (0: fixed)");
@@ -90,10 +92,10 @@ namespace diptych::discrete
   LateralCondition lateral_condition(const LateralOptions &options);
 
   // Adds the containing action to `force` (one entry per grain) [pressure x length]. The height between the platens walls[0] and
-  // walls[1] is divided into equal bands, as near to band_height as fits. In each band the `end_grains` outermost grains on the
-  // left carry, in proportion to their masses, horizontal forces that total (height of the band) x pressure. Those on the right
-  // carry the opposite. If a band has fewer than twice as many grains, half of them belong to each side. A grain belongs to the
-  // band of its centre, also beyond the end of a platen. Fixed grains carry nothing.
+  // walls[1] is divided into equal layers, as near to band_height as fits. In each layer the `end_grains` outermost grains on the
+  // left carry horizontal forces in proportion to their masses. Their sum is (height of the layer) x pressure. Those on the right
+  // carry the opposite. If a layer has fewer than twice as many grains, half of them belong to each side. A grain belongs to the
+  // layer of its centre, also beyond the end of a platen. Fixed grains carry nothing.
   void add_lateral_forces(const State                  &state,
                           const EndGrains              &action,
                           double                        pressure,

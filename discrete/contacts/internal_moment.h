@@ -11,9 +11,9 @@
 
 namespace diptych::discrete
 {
-  // M_i = -sym sum_c (x_c - x_i) (x) f_c - (1/2) omega_i^2 I_i 1, summed over the contacts of grain i (Moreau 1997, eq. 6).
-  // Positive in compression [pressure x length^2]. Forces that act at the centre contribute nothing. `spin_term` is (1/2) omega^2
-  // I of each grain (or its mean over a window).
+  // M_i = -sym(sum_c l_c f_c^T) - (1/2) J_i omega_i^2 Id, l_c = x_c - x_i, summed over the contacts c of grain i (Moreau 1997,
+  // eq. 6). J_i is the moment of inertia and Id the identity. Positive in compression [pressure x length^2]. Forces that act at
+  // the centre contribute nothing. `spin_term` is (1/2) J_i omega_i^2 of each grain, or its mean over a range of time.
   std::vector<Eigen::Matrix2d> internal_moments(const std::vector<Eigen::Vector2d> &position,
                                                 const std::vector<ContactForce>    &forces,
                                                 const std::vector<double>          &spin_term);
@@ -22,7 +22,7 @@ namespace diptych::discrete
   std::vector<Eigen::Matrix2d> raw_contact_moments(const std::vector<Eigen::Vector2d> &position,
                                                    const std::vector<ContactForce>    &forces);
 
-  std::vector<double> spin_terms(const Grains &grains); // (1/2) omega^2 I of each grain
+  std::vector<double> spin_terms(const Grains &grains); // (1/2) J_i omega_i^2 of each grain
 
   // Invariants of a symmetric stress: s = (s1 + s2)/2, t = (s1 - s2)/2, t/s = sin of the mobilised friction angle.
   double stress_ratio(const Eigen::Matrix2d &stress);

@@ -10,7 +10,7 @@
 
 namespace diptych::discrete
 {
-  // Numbers under named columns; rows[k][c] belongs to columns[c] and stood in line[k] of the file, counted from 1.
+  // Numbers in named columns. rows[k][c] belongs to columns[c] and comes from line line[k] of the file, counted from 1.
   struct CsvTable
   {
     std::string                      path;
@@ -20,24 +20,27 @@ namespace diptych::discrete
 
     std::optional<std::size_t> find(const std::string &column) const;
 
-    // Of a column that is there (a required one).
+    // The value in an existing column, for example a required one.
     double at(std::size_t row, const std::string &column) const { return rows[row][*find(column)]; }
   };
 
-  // What the header line may name, in any order.
+  // Column names that the header line may contain, in any order.
   struct CsvHeader
   {
     std::vector<std::string> required;
     std::vector<std::string> optional = {};
-    bool                     others   = false; // true: further columns are read, too; false: they are an error
+    bool                     others   = false; // true: other columns are also read; false: they are an error
   };
 
-  // The first line names the columns, every other one holds as many finite numbers, separated by commas. Blanks around fields,
-  // blank lines and lines that start with # are skipped. Numbers are read as in C whatever the locale, rounded correctly: what
-  // exact_text() wrote comes back with the same bits.
-  // Throws std::invalid_argument naming file, line, column and value: file missing, empty or without a row; column missing,
-  // unknown (with the nearest known one), unnamed or named twice; another number of fields; not a number, not finite, beyond
-  // double precision. Calls `check_stop` between lines.
+  // The first line names the columns. Every other line has as many finite numbers, separated by commas. Blanks around fields,
+  // blank lines and lines that start with # are skipped. Numbers use a decimal point in every locale. Numbers that exact_text()
+  // wrote come back with the same bits.
+  // Throws std::invalid_argument with file, line, column and value if
+  //   the file is missing, empty or has no row;
+  //   a column is missing, unknown (the message proposes the nearest name), unnamed or named twice;
+  //   a line has a wrong number of fields;
+  //   a field is not a number, not finite or beyond double precision.
+  // Calls `check_stop` between lines.
   CsvTable read_csv(const std::string &path, const CsvHeader &header, const CheckStop &check_stop = {});
 
   // "FILE, line N: column 'r' = '-1'"

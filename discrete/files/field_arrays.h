@@ -14,8 +14,8 @@
 
 namespace diptych::discrete
 {
-  // How one value stands in a file: vectors with three components (z = 0), tensors with nine, row by row; counts and choices as
-  // whole numbers.
+  // Stored form of one value. Vectors have three components (z = 0), tensors nine, row by row. Counts and choices are whole
+  // numbers.
   template <class T> inline constexpr bool is_whole = std::is_integral_v<T> || std::is_enum_v<T>;
 
   template <class T> constexpr int count_components()
@@ -50,7 +50,7 @@ namespace diptych::discrete
           value(a, b) = *numbers;
   }
 
-  // Of an array of n values: (n), (n, 3) or (n, 3, 3).
+  // Extents of an array of n values: (n), (n, 3) or (n, 3, 3).
   template <class T> std::vector<std::size_t> extents_of(const std::size_t n)
   {
     std::vector<std::size_t> extents{n};
@@ -70,7 +70,7 @@ namespace diptych::discrete
     return numbers;
   }
 
-  // The array with its unit and its meaning.
+  // Writes the array with its unit and meaning.
   template <class T>
   void write_field(Hdf5Writer           &file,
                    const std::string    &name,
@@ -91,8 +91,8 @@ namespace diptych::discrete
     file.attribute(name, "meaning", meaning);
   }
 
-  // Throws std::invalid_argument naming file and array where it has another shape; vectors and tensors of two dimensions are
-  // taken as such of three.
+  // Throws std::invalid_argument with file and array if the array has a wrong shape. Two-dimensional vectors and tensors are
+  // accepted as three-dimensional ones.
   template <class T> std::vector<T> read_field(const Hdf5Reader &file, const std::string &name)
   {
     if constexpr (std::is_same_v<T, double>)
@@ -129,8 +129,8 @@ namespace diptych::discrete
             of_cells};
   }
 
-  // The columns of a list of structs whose members `fields(entry, visit)` lists, visit(name, member, unit, meaning): calls
-  // action(name, values of that member, unit, meaning).
+  // Splits a list of structs into columns. `fields(entry, visit)` calls visit(name, member, unit, meaning) for each member. For
+  // each column this calls action(name, values of that member, unit, meaning).
   template <class Entry, class Fields, class Action>
   void for_each_column(const std::vector<Entry> &entries, Fields &&fields, Action &&action)
   {
@@ -149,7 +149,7 @@ namespace diptych::discrete
     });
   }
 
-  // The inverse: `column(name, values)` fills one column, as many values as there are entries.
+  // The inverse: `column(name, values)` fills one column with one value per entry.
   template <class Entry, class Fields, class Column>
   void set_columns(std::vector<Entry> &entries, Fields &&fields, Column &&column)
   {
@@ -167,8 +167,7 @@ namespace diptych::discrete
     });
   }
 
-  // Of what a file holds: entries of a list must be as many as the grains, contacts, nodes or cells that it belongs to, and
-  // finite.
+  // Checks lists read from a file. A list must have one finite entry for each grain, contact, node or cell.
   struct ArrayCheck
   {
     std::string place; // file and group

@@ -1,4 +1,4 @@
-// diptych: arrays and numbers in an HDF5 file, written whole or not at all, and not believed before they are checked
+// diptych: arrays and numbers in an HDF5 file: complete when written, checked when read
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/files/hdf5_file.h"
 

@@ -1,4 +1,4 @@
-// diptych: arrays and numbers in an HDF5 file, written whole or not at all, and not believed before they are checked
+// diptych: arrays and numbers in an HDF5 file: complete when written, checked when read
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -13,22 +13,22 @@ namespace diptych::discrete
 {
   class Hdf5Reader;
 
-  // An HDF5 file in memory; finish() writes it under `path`.part and renames, so that a kill never leaves half a file under the
-  // final name, and a full disk is met by a plain write, not within the library, which it would bring down. Arrays carry
-  // checksums. Missing groups of a name like "stage_0001/grains/radius" are made on the way. All functions throw
-  // std::runtime_error naming file and path.
+  // Builds an HDF5 file in memory; finish() writes it under `path`.part and renames it. So a killed program never leaves half a
+  // file under the final name. A full disk also fails in our write and not within the library, which would crash. Arrays have
+  // checksums. Missing groups of a name like "stage_0001/grains/radius" are made. All functions throw std::runtime_error with
+  // file and name.
   class Hdf5Writer
   {
   public:
     explicit Hdf5Writer(const std::string &path);
-    // For what is too large to be held in memory twice: the file grows on the disk, in room for `n_bytes` and a little more that
-    // is taken beforehand.
+    // For data too large to be in memory twice: the file grows on the disk, where space for a little more than `n_bytes` is
+    // reserved first.
     Hdf5Writer(const std::string &path, std::size_t n_bytes);
     ~Hdf5Writer(); // without finish() nothing is written
     Hdf5Writer(const Hdf5Writer &)            = delete;
     Hdf5Writer &operator=(const Hdf5Writer &) = delete;
 
-    // `values` in C order with the given extents.
+    // Writes `values` in C order with the given extents.
     void write(const std::string &name, const std::vector<double> &values, const std::vector<std::size_t> &extents);
     void write(const std::string &name, const std::vector<int> &values, const std::vector<std::size_t> &extents);
     void write(const std::string &name, const std::vector<double> &values); // (n)
@@ -41,9 +41,10 @@ namespace diptych::discrete
     void attribute(const std::string &object, const std::string &name, double value);
     void attribute(const std::string &object, const std::string &name, const std::vector<double> &values);
     void attribute(const std::string &object, const std::string &name, const std::string &text);
-    void copy(const Hdf5Reader &from, const std::string &name); // of a file of ours: a group with all it holds, or one array
-    // The same of a file of somebody else's, whose damage the library's own copying would carry into memory: what it holds is
-    // read and written. Throws std::invalid_argument where it cannot be read.
+    void copy(const Hdf5Reader  &from,
+              const std::string &name); // a group with its contents, or one array, from a file of this program
+    // As copy(), from a file of another program, which may be damaged. Reads and writes each array, because copying within the
+    // library could corrupt memory. Throws std::invalid_argument if an array cannot be read.
     void copy_values(const Hdf5Reader &from, const std::string &name);
     void link(const std::string &name, const std::string &other_file, const std::string &object); // path relative to this file
     void finish();
@@ -54,16 +55,16 @@ namespace diptych::discrete
     bool         on_disk_ = false;
   };
 
-  // All functions throw std::invalid_argument naming file and object: missing, truncated, damaged (checksum), of another type or
-  // shape than asked for, or in another file, where links and arrays may lead: to pipes, devices, what the reader alone may see.
-  // Only the stages of a StagedFile are files of their own.
+  // All functions throw std::invalid_argument with file and object if the object is missing, truncated, damaged (checksum), or of
+  // a wrong type or shape. They also refuse objects in another file, because a link may lead to a pipe, a device or a private
+  // file. Only the stages of a StagedFile may be in separate files.
   class Hdf5Reader
   {
   public:
     enum class From
     {
       anybody,
-      this_program // numbers of another type than it writes, or without the checksum that it gives them, are refused, too
+      this_program // also refuses numbers of a type that this program does not write, or without its checksum
     };
 
     explicit Hdf5Reader(const std::string &path, From from = From::anybody);
@@ -71,8 +72,8 @@ namespace diptych::discrete
     Hdf5Reader(const Hdf5Reader &)            = delete;
     Hdf5Reader &operator=(const Hdf5Reader &) = delete;
 
-    bool                         has(const std::string &name) const;          // and all groups on the way
-    bool                         is_link(const std::string &name) const;      // into another file
+    bool                         has(const std::string &name) const;          // false also if a group of the name is missing
+    bool                         is_link(const std::string &name) const;      // a link into another file
     std::vector<double>          read(const std::string &name) const;         // C order
     std::vector<int>             read_int(const std::string &name) const;     // integers of any width that fit
     std::vector<Eigen::Vector2d> read_vectors(const std::string &name) const; // first two components of (n, 2 or 3)
@@ -90,8 +91,8 @@ namespace diptych::discrete
     friend class Hdf5Writer; // copies need the open file
     struct Links;
 
-    std::int64_t link_access() const;                   // how names are followed
-    std::int64_t opened(const std::string &name) const; // an array, to be closed
+    std::int64_t link_access() const;                   // access list that restricts external links
+    std::int64_t opened(const std::string &name) const; // opens an array, which the caller closes
     void         check_numbers(const std::string &name, std::int64_t data, std::size_t n) const;
     void         check_storage_below(const std::string &name) const;
     void         refuse_links(const std::string &name) const;
@@ -100,6 +101,6 @@ namespace diptych::discrete
     std::int64_t           file_ = -1;
     From                   from_;
     bool                   has_checksums_ = false;
-    std::unique_ptr<Links> links_; // how names are followed
+    std::unique_ptr<Links> links_; // files to which links may lead
   };
 } // namespace diptych::discrete

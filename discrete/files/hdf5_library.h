@@ -1,4 +1,4 @@
-// diptych: the HDF5 library as the files here use it: ids that are closed, errors that are thrown
+// diptych: helpers for the HDF5 library: ids that close themselves, errors as exceptions
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -25,7 +25,7 @@ namespace diptych::discrete
       throw std::invalid_argument(path + ": '" + name + "' " + what);
     }
 
-    // An id that is closed when it goes out of scope; opening reports failure by a negative one.
+    // An id that is closed when it goes out of scope. A negative id means that opening failed.
     class Id
     {
     public:
@@ -47,7 +47,7 @@ namespace diptych::discrete
       herr_t (*close)(hid_t);
     };
 
-    // Errors are reported as exceptions; the library's own print-out would only double them.
+    // Errors become exceptions. The library must not print them a second time.
     inline void silence()
     {
       H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);

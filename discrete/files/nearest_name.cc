@@ -1,4 +1,4 @@
-// diptych: what a mistyped name was probably meant to be
+// diptych: the known name nearest to a mistyped one
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/files/nearest_name.h"
 

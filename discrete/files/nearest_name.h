@@ -1,4 +1,4 @@
-// diptych: what a mistyped name was probably meant to be
+// diptych: the known name nearest to a mistyped one
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -7,6 +7,6 @@
 
 namespace diptych::discrete
 {
-  // The one of `known` (not empty) that takes the fewest letters inserted, deleted or exchanged; of equals the first.
+  // The name in `known` (not empty) with the fewest letters to insert, delete or replace; the first one if several are equal.
   std::string nearest_name(const std::string &name, const std::vector<std::string> &known);
 } // namespace diptych::discrete

@@ -1,4 +1,4 @@
-// diptych: memory that is not to be had
+// diptych: errors from a lack of memory
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -9,34 +9,37 @@
 
 namespace diptych::discrete
 {
-  // No fault of the input, whatever was read: the machine has no more, or lets this process have no more.
+  // The machine has no more memory, or this process may not have more. This is not a fault of the input.
   struct OutOfMemory : std::runtime_error
   {
     using std::runtime_error::runtime_error;
   };
 
-  // Also of what the standard library throws by itself: std::bad_alloc, and std::length_error of sizes that no machine has.
+  // True also for exceptions of the standard library: std::bad_alloc, and std::length_error for impossible sizes.
   inline bool is_out_of_memory(const std::exception &error)
   {
     return dynamic_cast<const std::bad_alloc *>(&error) != nullptr ||
            dynamic_cast<const std::length_error *>(&error) != nullptr || dynamic_cast<const OutOfMemory *>(&error) != nullptr;
   }
 
-  // What the error says; of memory in words, which the standard library has none for, of a path by its name and what the system
-  // says.
+  // The text of an error. Out of memory: our own words, because the standard library has none. File system error: the path and
+  // the message of the system. Otherwise: what().
   inline std::string text_of(const std::exception &error)
   {
-    if (const auto *of_path = dynamic_cast<const std::filesystem::filesystem_error *>(&error); of_path != nullptr)
-      return of_path->path1().string() + ": " + of_path->code().message();
-    const bool is_told = dynamic_cast<const OutOfMemory *>(&error) != nullptr || !is_out_of_memory(error);
-    return is_told ? error.what() : "not enough memory, or this process may not have more (ulimit -v)";
+    if (const auto *file_error = dynamic_cast<const std::filesystem::filesystem_error *>(&error); file_error != nullptr)
+      return file_error->path1().string() + ": " + file_error->code().message();
+    const bool has_text = dynamic_cast<const OutOfMemory *>(&error) != nullptr || !is_out_of_memory(error);
+    return has_text ? error.what() : "not enough memory, or this process may not have more (ulimit -v)";
   }
 
-  // Throws std::invalid_argument "PLACE: what the error says", for what is wrong in a file; OutOfMemory where that was the error.
-  [[noreturn]] inline void throw_wrong_input(const std::string &place, const std::exception &error)
+  // For a fault in the file that `key` names: throws std::invalid_argument "FILE, line 3: text of the error (file of KEY)", or
+  // OutOfMemory if memory was missing.
+  [[noreturn]] inline void throw_wrong_input(const std::string &key, const std::string &file, const std::exception &error)
   {
+    const std::string text  = text_of(error);
+    const std::string whole = (text.rfind(file, 0) == 0 ? text : file + ": " + text) + " (file of " + key + ")";
     if (is_out_of_memory(error))
-      throw OutOfMemory(place + ": " + text_of(error));
-    throw std::invalid_argument(place + ": " + error.what());
+      throw OutOfMemory(whole);
+    throw std::invalid_argument(whole);
   }
 } // namespace diptych::discrete

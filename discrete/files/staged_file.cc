@@ -1,4 +1,4 @@
-// diptych: an HDF5 file that gains a stage at a time
+// diptych: an HDF5 file to which stages are appended
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/files/staged_file.h"
 

@@ -1,4 +1,4 @@
-// diptych: an HDF5 file that gains a stage at a time
+// diptych: an HDF5 file to which stages are appended
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -9,21 +9,21 @@
 
 namespace diptych::discrete
 {
-  std::string stage_name(std::size_t stage); // "stage_0003": of its group
+  std::string stage_name(std::size_t stage); // name of its group, "stage_0003"
 
-  // PATH.h5 with a group for each stage. While stages are added each of them is a file of its own in the folder PATH, and PATH.h5
-  // holds links to them: no earlier byte is written again, and whatever ends the program leaves a file that any reader of HDF5
-  // opens. close() makes one file of all. Functions throw std::runtime_error naming the file.
+  // PATH.h5 with one group per stage. Until close(), each stage is a separate file in the folder PATH, and PATH.h5 holds links to
+  // them. So no earlier byte is written again, and a killed program leaves a file that any HDF5 reader opens. close() joins all
+  // stages in PATH.h5. Functions throw std::runtime_error with the file's name.
   class StagedFile
   {
   public:
-    // Begins anew: what stands there of an earlier file is removed.
+    // Begins a new file and removes an earlier one.
     explicit StagedFile(std::string path_without_ending);
 
-    // Goes on from the first n stages of a file that stands there. Throws std::invalid_argument where it has fewer.
+    // Appends to the first n stages of an existing file. Throws std::invalid_argument if it has fewer.
     StagedFile(std::string path_without_ending, std::size_t n);
 
-    // `write` puts the stage into the group it is given.
+    // `write` writes the stage into the given group.
     void add(const std::function<void(Hdf5Writer &, const std::string &group)> &write);
 
     std::size_t size() const { return n_stages; }
@@ -39,7 +39,7 @@ namespace diptych::discrete
     std::size_t n_stages = 0;
   };
 
-  // How many stages a file holds. Throws std::invalid_argument naming it where there is none.
-  bool        is_written_by_us(const Hdf5Reader &file); // it says how many stages it must hold
+  // Number of stages in a file. Throws std::invalid_argument with its name if it has none.
+  bool        is_written_by_us(const Hdf5Reader &file); // true if the file records how many stages it must have
   std::size_t count_stages(const Hdf5Reader &file);
 } // namespace diptych::discrete

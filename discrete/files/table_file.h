@@ -13,17 +13,17 @@
 
 namespace diptych::discrete
 {
-  // Comma-separated values below a line of column names. Rows are appended, no earlier byte is touched; numbers are written with
-  // the digits that give the same bits back. Throws std::runtime_error naming the file where it cannot be written.
+  // Comma-separated values below a line of column names. Rows are appended, and no earlier byte changes. Numbers are written with
+  // all digits needed to read the same bits back. Throws std::runtime_error with the name of a file that cannot be written.
   class TableFile
   {
   public:
-    TableFile(std::string path, const std::string &header); // begins anew
+    TableFile(std::string path, const std::string &header); // begins a new file
 
-    // Goes on after the first n_rows of a file that stands there. Throws as check_table().
+    // Appends to the first n_rows of an existing file. Throws like check_table().
     TableFile(std::string path, const std::string &header, long n_rows);
 
-    void add(const std::string &line); // without its end; kept until flush(), or until a megabyte waits
+    void add(const std::string &line); // without line end; written at flush(), or once a megabyte is waiting
     void flush();
 
     long n_rows() const { return n; }
@@ -33,10 +33,10 @@ namespace diptych::discrete
     long        n = 0;
   };
 
-  // Throws std::invalid_argument naming the file where it is missing, has other columns or fewer rows.
+  // Throws std::invalid_argument with the file's name if it is missing, has other columns or fewer rows.
   void check_table(const std::string &path, const std::string &header, long n_rows);
 
-  // The header and the line of a row whose type has a visit_columns beside it: visit(name, value, unit, meaning).
+  // Header and lines for rows whose type has a function visit_columns(row, visit), which calls visit(name, value, unit, meaning).
   template <class Row> std::string csv_header()
   {
     std::string text;
@@ -62,20 +62,20 @@ namespace diptych::discrete
     return text;
   }
 
-  // The words of a table, line by line.
+  // The fields of a table as text, line by line.
   struct WordTable
   {
     std::string                           path;
     std::vector<std::string>              columns;
     std::vector<std::vector<std::string>> rows;
 
-    // Throws std::invalid_argument naming the file and the column where it is not there.
+    // Throws std::invalid_argument with file and column if the column is missing.
     std::size_t       place_of(const std::string &column) const;
     [[noreturn]] void refuse(std::size_t row, const std::string &column, const std::string &value) const;
   };
 
-  // Throws std::invalid_argument naming the file where it is missing or a line has another number of entries. A last line that
-  // has no end is left out: it was being written.
+  // Throws std::invalid_argument with the file's name if it is missing, or if a line has a wrong number of fields. A last line
+  // without a line end is left out, because its writer was interrupted.
   WordTable read_words(const std::string &path);
 
   template <class Value> bool parse_word(const std::string &word, Value &value)
@@ -97,8 +97,8 @@ namespace diptych::discrete
       }
   }
 
-  // The rows of a table whose Row has a visit_columns, bit by bit as they were written (but NaN is any NaN); columns are found by
-  // name, others are not looked at. Throws std::invalid_argument naming file, line, column and value.
+  // Reads rows with the same bits as they were written (any NaN counts as NaN). Columns are found by name; other columns are
+  // ignored. Row needs a function visit_columns. Throws std::invalid_argument with file, line, column and value.
   template <class Row> std::vector<Row> read_rows(const std::string &path)
   {
     const WordTable          table = read_words(path);
@@ -119,7 +119,7 @@ namespace diptych::discrete
     return rows;
   }
 
-  // The same of what ran: at least one row. Throws where there is none, too.
+  // As read_rows(), for the history of a run. Also throws if there is no row.
   template <class Row> std::vector<Row> read_history(const std::string &path)
   {
     std::vector<Row> rows = read_rows<Row>(path);

@@ -1,4 +1,4 @@
-// diptych: text files that are whole or absent, and tables that grow at their end
+// diptych: text files that are complete or absent, and files to which lines are appended
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/files/text_file.h"
 

@@ -1,4 +1,4 @@
-// diptych: text files that are whole or absent, and tables that grow at their end
+// diptych: text files that are complete or absent, and files to which lines are appended
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,17 +8,18 @@
 
 namespace diptych::discrete
 {
-  // `path`.part, under which a file is written; a link that stands there is removed, so that nothing is written where it leads.
+  // Returns `path`.part, the temporary name of a file. Removes a symbolic link of this name, because we must not write to its
+  // target.
   std::string temporary_for(const std::string &path);
 
-  // Writes under `path`.part, then renames. Throws std::runtime_error naming the file and what the system says; the file of that
-  // name stays as it was.
+  // Writes to `path`.part, then renames it. On failure an earlier file stays unchanged. Throws std::runtime_error with the file's
+  // name and the system's message.
   void write_text(const std::string &path, const std::string &text);
 
-  // The whole file, byte by byte; empty where it cannot be read.
+  // All bytes of a file; empty if it cannot be read.
   std::string read_text(const std::string &path);
 
-  // A long reading calls this now and then. It may throw to leave; the exception passes to the caller. Empty: never stops.
+  // Called regularly while a long file is read. It may throw to stop; the exception passes to the caller. Empty: never stops.
   using CheckStop = std::function<void()>;
 
   inline void call(const CheckStop &check_stop)
@@ -27,22 +28,22 @@ namespace diptych::discrete
       check_stop();
   }
 
-  // Throws std::invalid_argument where `path` is there but no regular file: opening a FIFO waits for its writer, and a device may
-  // never come to an end.
+  // Throws std::invalid_argument if `path` exists and is not a regular file: opening a FIFO waits for its writer, and a device
+  // may have no end.
   void require_regular_file(const std::string &path);
 
-  // A text that somebody else wrote, in a regular file: at most `most_bytes` of UTF-8 without zeros. A byte order mark at its
-  // begin is left out. Throws std::invalid_argument naming the file and, for a byte that is none of a text, its line.
+  // Reads a text of unknown origin from a regular file: at most `most_bytes` bytes of UTF-8 without zeros. A byte order mark at
+  // its beginning is left out. Throws std::invalid_argument with the file's name, and with the line of a byte that is not valid
+  // UTF-8.
   std::string read_input(const std::string &path, std::size_t most_bytes, const CheckStop &check_stop = {});
 
-  // Index of the first byte that is none of a text in UTF-8 (a zero, a sequence that is cut, overlong or a surrogate); npos:
-  // none.
+  // Index of the first byte that is zero or not valid UTF-8 (cut or overlong sequences, surrogates); npos if all bytes are valid.
   std::size_t first_non_utf8(const std::string &text);
 
-  // Adds whole lines to the end of a file, in one write; no earlier byte is touched. Throws std::runtime_error naming the file;
-  // what was written of the lines is cut off again.
+  // Appends complete lines to a file in one write; no earlier byte changes. If the write fails, a partly written line is removed.
+  // Throws std::runtime_error with the file's name.
   void append_text(const std::string &path, const std::string &lines);
 
-  // Keeps the first n lines (all, where there are not so many). Throws std::runtime_error naming the file.
+  // Keeps the first n lines of a file, or all if it has fewer. Throws std::runtime_error with the file's name.
   void keep_lines(const std::string &path, std::size_t n);
 } // namespace diptych::discrete

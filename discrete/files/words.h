@@ -1,4 +1,4 @@
-// diptych: words of a text, taken apart and put together
+// diptych: trims and joins words
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace diptych::discrete
 {
-  // The text without white space at its begin and end.
+  // The text without white space at its beginning and end.
   inline std::string_view trimmed(const std::string_view text)
   {
     constexpr char    blanks[] = " \t\r\n\f\v";

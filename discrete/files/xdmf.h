@@ -29,7 +29,7 @@ namespace diptych::discrete
     bool        of_cells = false;
   };
 
-  // One instant of one grid: points by themselves, or quadrilaterals with nine nodes.
+  // One instant of one grid: single points, or quadrilaterals with nine nodes.
   struct XdmfGrid
   {
     std::string                name;
@@ -45,6 +45,6 @@ namespace diptych::discrete
     std::vector<XdmfGrid> grids;
   };
 
-  // PATH.xdmf beside PATH.h5. Throws std::runtime_error naming the file.
+  // Writes PATH.xdmf beside PATH.h5. Throws std::runtime_error with the file's name.
   void write_xdmf(const std::string &path_without_ending, const std::vector<XdmfCollection> &collections);
 } // namespace diptych::discrete

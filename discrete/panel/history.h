@@ -30,7 +30,7 @@ namespace diptych::discrete
     double          inertial_number   = 0; // with the present mean stress s instead of P
     double          max_penetration   = 0; // at mid-step, largest since the previous row [mean diameters]
     int             rattlers          = 0; // grains without a force-carrying contact
-    double          spin_term_share   = 0; // sum (1/2) omega^2 I / area / mean stress
+    double          spin_term_share   = 0; // sum (1/2) J omega^2 / area / mean stress
     double          momentum_residual = 0; // largest since the previous row, relative to the sums of contact impulses and momenta
     double          unbalanced_force  = 0; // mean over grains of |m dv/h| / mean normal contact force
     double          platen_sliding    = 0; // share of the force-carrying platen contacts that are at their Coulomb bound
@@ -75,7 +75,7 @@ namespace diptych::discrete
     visit("inertial_number", r.inertial_number, "-", "inertial number with the present mean stress instead of the pressure");
     visit("max_penetration", r.max_penetration, "mean diameters", "largest penetration at mid-step since the previous row");
     visit("rattlers", r.rattlers, "-", "number of grains without a contact that carries force");
-    visit("spin_term_share", r.spin_term_share, "-", "sum of (1/2) omega^2 I / area / mean stress");
+    visit("spin_term_share", r.spin_term_share, "-", "sum of (1/2) J omega^2 (J: moment of inertia) / area / mean stress");
     visit("momentum_residual", r.momentum_residual, "-",
           "largest error of the momentum balance since the previous row, relative to contact impulses and momenta");
     visit("unbalanced_force", r.unbalanced_force, "-", "mean over grains of |m dv/h| / mean normal contact force");
@@ -89,7 +89,7 @@ namespace diptych::discrete
     visit("right_fy", r.right_force.y(), "pressure length", "force of the right wall on the sample, upwards");
     visit("platen_sliding", r.platen_sliding, "-", "share of the force-carrying platen contacts at their Coulomb bound");
     visit("skew_moment", r.skew_moment, "-", "norm of the grains' skew moments / norm of the symmetric ones");
-    visit("progress", r.progress, "as walk says", "value of the loading variable that walk names");
+    visit("progress", r.progress, "strain or time", "loading variable: axial strain, shear strain or time");
     visit("walk", r.walk, "-", "which column progress equals: axial_strain, shear_strain or time");
   }
 

@@ -32,7 +32,7 @@ namespace diptych::discrete
         }
       catch (const std::exception &error)
         {
-          throw_wrong_input(key + " = '" + column + " " + text + "'", error);
+          throw_wrong_input(key, text, error);
         }
     }
 

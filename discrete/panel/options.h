@@ -89,11 +89,11 @@ namespace diptych::discrete
   // Throws std::invalid_argument if options contradict each other or file names are wrong.
   void validate(const SampleOptions &sample, const Loading &loading, const Options &options);
 
-  constexpr double most_steps = 1e9; // of a loading; they would take months even for a hundred grains
+  constexpr double most_steps = 1e9; // largest number of steps of a loading; it would take months even for a hundred grains
 
-  // Estimates from the scene only: length of a step [time], steps of the whole loading, rows of its history. step = auto is taken
-  // for a slow sample (step_at_rest) that yields under loading/pressure. 0 without pressure. These functions need the stages, but
-  // not the other conditions of validate().
+  // Estimates from the scene only: length of a step [time], steps of the whole loading, rows of its history. With step = auto
+  // they assume slow loading (step_at_rest) and stresses at which a sample under loading/pressure yields. They return 0 if the
+  // pressure is 0. The stages in `loading` must be valid; the other conditions of validate() need not hold.
   double expected_step(const SampleOptions &sample, const Loading &loading, const Options &options);
   double expected_steps(const SampleOptions &sample, const Loading &loading, const Options &options);
   double expected_rows(const SampleOptions &sample, const Loading &loading, const Options &options);

@@ -31,11 +31,14 @@ namespace diptych::discrete
     ExpectedErrors    expected;                                             // due to step and tolerance; largest of all stages
     long              steps = 0, sweeps = 0, updates = 0; // of the loading; one update = one contact in one sweep
     double            preparation_cpu_s = 0, loading_cpu_s = 0, solver_cpu_s = 0;
-    double            initial_height = 0, platen_speed = 0;                           // speed: strain rate x height
-    double            error_over_residual = std::numeric_limits<double>::quiet_NaN(); // of grain stress, measured once
-    double            reference_residual  = error_over_residual; // of the reference solution of that measurement
-    double            reference_error     = error_over_residual,
-           estimated_error                = error_over_residual; // true and estimated error in that measurement
+    double            initial_height = 0, platen_speed = 0; // speed: strain rate x height
+
+    // (Error of the grain stress) / residual, measured at one step per run against a more accurate solution of this step.
+    double error_over_residual = std::numeric_limits<double>::quiet_NaN();
+    double reference_residual  = error_over_residual; // residual of the more accurate solution
+    double reference_error     = error_over_residual; // error measured against it
+    double estimated_error     = error_over_residual; // estimate of the same error
+
     int snapshots_sampled = 0, snapshots_accurate = 0;
     int halved_steps = 0; // because the sweeps stalled
   };

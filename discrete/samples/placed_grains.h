@@ -22,7 +22,7 @@ namespace diptych::discrete
   // Sets up side walls or cell for the lateral condition during the preparation.
   void set_sides(State &state, const PreparationSetting &setting);
 
-  // A fault of the file of a key, and a lack of memory, is reported together with the key. Other exceptions pass.
+  // Reads the file of a key. Wrong input and a lack of memory are reported with file and key. Other exceptions pass.
   template <class Read> auto read_for(const std::string &key, const std::string &file, Read &&read)
   {
     try
@@ -33,27 +33,27 @@ namespace diptych::discrete
       {
         if (dynamic_cast<const std::invalid_argument *>(&error) == nullptr && !is_out_of_memory(error))
           throw;
-        throw_wrong_input("sample/" + key + " = '" + file + "'", error);
+        throw_wrong_input("sample/" + key, file, error);
       }
   }
 
-  // Grains of a file between platens and sides, checked.
+  // Grains from a file between platens and sides, checked.
   struct FileSample
   {
     State                      state;
     std::optional<StoredStage> stage;
   };
 
-  // Places platens and sides at the given positions, or as a snapshot stored them, or where the grains touch them. Throws
-  // std::invalid_argument with grains, places and keys.
+  // Places platens and sides at the given positions. Without these it takes the positions of a snapshot, or positions at which
+  // they touch the grains. Throws std::invalid_argument with grains, places and keys.
   FileSample place_grains(const SampleOptions &options, const PreparationSetting &preparation, GrainFile file);
 
-  // The same with the file of `sample/file`. Nothing if `go_on`, asked while it reads, says no.
+  // Reads the file of `sample/file` and calls place_grains(). Empty if `go_on`, which is called while it reads, returns false.
   std::optional<FileSample> file_sample(const SampleOptions         &options,
                                         const PreparationSetting    &preparation,
                                         const std::function<bool()> &go_on);
 
-  // Throws std::invalid_argument naming key, file, place and range where the file of the sample is wrong. Reads it whole
-  // and calls `check_stop` between its lines.
+  // Reads the whole file of the sample. Throws std::invalid_argument with key, file, place and range if it is wrong. Calls
+  // `check_stop` between its lines.
   void check_sample_file(const SampleOptions &options, const PreparationSetting &setting, const CheckStop &check_stop = {});
 } // namespace diptych::discrete

@@ -12,8 +12,10 @@ namespace diptych::discrete
   {
     double largest_overlap  = 0; // largest overlap that may remain, between grains and with walls [length]
     double unbalanced_force = 0; // mean over grains / mean contact force that may remain
-    int    patient_steps    = 0; // steps in which a tenth of that is required; tiny and slender samples never reach it
-    int    most_steps       = 0;
+    // During the first patient_steps steps a tenth of unbalanced_force is required. Afterwards unbalanced_force is sufficient,
+    // because tiny and slender samples never reach a tenth of it.
+    int patient_steps = 0;
+    int most_steps    = 0;
   };
 
   struct Settled

@@ -9,8 +9,8 @@
 
 namespace diptych::discrete
 {
-  // The batched sweeps of a problem. If they stall on a few contacts, these contacts are swept by themselves, almost to their
-  // solution, at intervals between the sweeps over the others.
+  // The batched sweeps of a problem. If a few contacts slow down the convergence, the solver regularly iterates these contacts
+  // alone until they have almost converged. Between these iterations it sweeps over the other contacts.
   class RelievedSweeps
   {
   public:
@@ -25,7 +25,7 @@ namespace diptych::discrete
     // alike.
     bool relieve();
 
-    int n_relieved() const { return int(held_.size()); } // contacts swept by themselves at present
+    int n_relieved() const { return int(held_.size()); } // contacts that are iterated alone at present
 
   private:
     const ContactProblem            &problem_;

@@ -25,8 +25,9 @@ namespace diptych::discrete
             "Coulomb coefficient at the platens; below `friction` the sample slides along them");
     visitor("wall_friction", o.wall_friction, "-", {0., 100.}, "Coulomb coefficient at rigid side walls");
     visitor("normal_restitution", o.normal_restitution, "-", {0., 1.},
-            "e_n = (1-w)/w of Moreau's weighted average velocity; 0: inelastic");
-    visitor("tangential_restitution", o.tangential_restitution, "-", {-1., 1.}, "e_t, the same for the tangential velocity");
+            "Newton's restitution coefficient in the normal direction; 0: no rebound, 1: elastic");
+    visitor("tangential_restitution", o.tangential_restitution, "-", {-1., 1.},
+            "Newton's restitution coefficient in the tangential direction; 0: no rebound, 1: elastic");
   }
 
   // Method that removes interpenetration.

@@ -37,11 +37,14 @@ namespace diptych::discrete
     std::optional<SampledAccuracy> accuracy;                // if the step was sampled
   };
 
-  // Advances the state by one step (Moreau 1988, Jean 1999, theta = 1/2):
-  //   q_m = q + (h/2) v; contacts found there; v_f = v + h M^-1 F; impulses r solved; v' = v_f + M^-1 H r;
-  //   q' = q_m + (h/2) v'; penetrations corrected.
-  // Normal term: c_n = e_n u_n for an impact (u_n < 0 and the gap is or would be closed), max(g, 0)/h otherwise, so that
-  // g + h u_n' >= 0 is exactly the gap at the next q_m. Detection margin of a grain: 0.04 d + 1.2 h (|v| + h |F|/m).
+  // Advances the state by one step h (Moreau 1988, Jean 1999, theta = 1/2). q are positions, v velocities, M masses, F applied
+  // forces. H maps impulses of contacts to impulses on bodies. A prime marks values at the end of the step.
+  //   q_m = q + (h/2) v; contacts are found at q_m; v_f = v + h M^-1 F; the solver finds the impulses r; v' = v_f + M^-1 H r;
+  //   q' = q_m + (h/2) v'; penetrations are corrected.
+  // Normal law of a contact with relative velocity u_n and impulse r_n >= 0: u_n' + c_n >= 0, and r_n (u_n' + c_n) = 0.
+  //   Impact (u_n < 0 and the gap g is or would be closed): c_n = e_n u_n.
+  //   Otherwise: c_n = max(g, 0)/h. For g >= 0 the law then says that the gap at the next q_m, g + h u_n', is not negative.
+  // Detection margin of a grain: 0.04 d + 1.2 h (|v| + h |F|/m).
   // If the solver does not converge, the state stays unchanged unless accept_unconverged is set. With `sample` the solve
   // continues until the grains' stress has the requested accuracy.
   StepResult advance(State &state, const StepSetting &setting, StepCache &cache, const SampleRequest *sample = nullptr);

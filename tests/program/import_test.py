@@ -174,7 +174,7 @@ class Refused(Case):
         write(self.path("mine", "import.json"), record[:len(record) // 2].decode())
         self.refused("discrete", scene, "--output", self.path("out"), says="import.json")
         write(self.path("mine", "import.json"), record.decode())
-        self.refused("run", scene, "--output", self.path("mine"), says="holds results")
+        self.refused("run", scene, "--output", self.path("mine"), says="--overwrite")
         self.refused("run", scene, "--output", self.path("out"), "--set", "discrete/file=absent.h5", says="absent.h5")
         self.refused("run", scene, "--output", self.path("out"), "--set", "loading/stages=0.01,0.03", "--set", "loading/axial_strain=0.03", "--set",
                      "comparison/window_edges=0,0.03", says="frames")

@@ -285,7 +285,7 @@ class WrongInput(unittest.TestCase):
         self.expect_wrong(["run", QUICK, "--outptu", "x"], "'--outptu x' is not used", "nearest option is '--output'")
         self.expect_wrong(["run", QUICK, "--outptu=x"], "'--outptu=x' is not used", "nearest option is '--output'")
         self.expect_wrong(["run", QUICK, "--seed", "3"], "nearest option is '--seeds'")
-        self.expect_wrong(["run", QUICK, "--solver", "psor"], "it is one of diptych solve")
+        self.expect_wrong(["run", QUICK, "--solver", "psor"], "option of diptych solve")
         self.expect_wrong(["run", "no_such_scene.prm"], "no_such_scene.prm")
         self.expect_wrong(["run", QUICK, "--set", "sample/grains=-4"], "sample/grains", "-4")
         self.expect_wrong(["run", QUICK, "--threads", "none"], "--threads")

@@ -43,7 +43,7 @@ def numbers():
                                  ("stages/discrete/bands/angle_deg", "degrees", "inclination"),
                                  ("stages/discrete/probes/fabric_to_stress_deg", "degrees", "fabric to stress"),
                                  ("continuum_summary/element_size_d", "mean diameters", "element size"),
-                                 ("continuum_summary/localisation_strain", "as walk says", "progress at the first loss")):
+                                 ("continuum_summary/localisation_strain", "strain or time", "progress at the first loss")):
         entries[place] = {"unit": unit, "meaning": meaning, "kind": "number", "shape": "number"}
     return entries
 
@@ -184,7 +184,7 @@ def write_arrays(folder):
         write_group(file, "window_0", 0.0, 0.01, False)
         for name in ("discrete", "continuum"):
             history = file.create_group("histories/" + name)
-            store(history, "progress", 0.0005 * np.arange(1, 21), "as walk says")
+            store(history, "progress", 0.0005 * np.arange(1, 21), "strain or time")
             for mean in ("stress_ratio_mean", "lower_fy_mean", "upper_fy_mean", "platen_difference"):
                 store(history, mean, np.append(np.full(9, np.nan), np.full(11, 0.3)))
 

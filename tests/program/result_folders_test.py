@@ -42,7 +42,7 @@ class Folders(faults_test.Folder):
 class Refused(Folders):
     def test_results_are_replaced_only_on_request(self):
         for command in ("run", "discrete"):
-            self.expect(2, self.words(command, *setting(discrete_friction=0.3)), self.folder, "--resume", "--overwrite")
+            self.expect(2, self.words(command, *setting(discrete_friction=0.3)), self.folder, "discrete/friction", "--output", "--overwrite")
         self.expect(2, self.words("run", *OTHER), "--resume", "--overwrite")
 
     def test_results_of_another_sample_are_not_gone_on_from(self):

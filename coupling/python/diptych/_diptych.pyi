@@ -86,7 +86,7 @@ class DiscreteSnapshot:
     @property
     def walk(self) -> str: ...  # [-]: the loading variable: axial_strain, shear_strain or time
     @property
-    def progress(self) -> float: ...  # [as walk says]: loading variable
+    def progress(self) -> float: ...  # [strain or time]: loading variable
     @property
     def axial_strain(self) -> float: ...  # [-]: descent of the upper platen / initial height
     @property
@@ -164,7 +164,7 @@ class ContinuumSnapshot:
     @property
     def shear_strain(self) -> float: ...  # [-]: travel of the upper platen to the right / initial height
     @property
-    def progress(self) -> float: ...  # [as walk says]: loading variable
+    def progress(self) -> float: ...  # [strain or time]: loading variable
     @property
     def walk(self) -> str: ...  # [-]: the loading variable: axial_strain, shear_strain or time
     @property

@@ -129,6 +129,6 @@ namespace
     const ForceChains chains = grain_force_chains(beside, box_60, grains([](const auto &) { return 2; }), 0, {5, 100, 1});
     EXPECT_EQ(chains.inside.count, 0);
     EXPECT_TRUE(std::isnan(chains.largest_distance.value));
-    EXPECT_EQ(chains.verdict, "too few blocks to tell");
+    EXPECT_EQ(chains.verdict.rfind("cannot tell", 0), 0u);
   }
 } // namespace

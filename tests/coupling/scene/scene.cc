@@ -138,6 +138,7 @@ namespace
     expect_words(error_of("end\n"), {"line 1", "without a subsection"});
     expect_words(error_of("{\"sample\": {\"grains\": 500}\n", {}, ".json"), {"line 2", "JSON"});
     expect_words(error_of("", {"sample.grains=3"}), {"--set sample.grains=3", "section/key=value"});
+    expect_words(error_of("", {"friction=0.3"}), {"--set friction=0.3", "discrete/friction"});
   }
 
   TEST(Scene, WhatIsNoTextIsRefusedWithItsLine)

@@ -127,7 +127,7 @@ def _histories(directory: str, seeds: Sequence[int]) -> dict[str, list[Any]]:
 def _write_curves(directory: str, scene: Any, seeds: Sequence[int], tables: dict[str, list[Any]]) -> None:
     last = max((table["progress"].iloc[-1] for panel in _PANELS for table in tables[panel]), default=0.0)
     grid, width = last * np.arange(401) / 400, scene.averaging_width()
-    arrays = {"progress": (grid, "progress", "as walk says", "points of the curves"),
+    arrays = {"progress": (grid, "progress", "strain or time", "points of the curves"),
               "seeds": (np.array(seeds, np.int32), "seeds", "-", "seeds of the members, one per row")}
     for panel in _PANELS:
         for name in ("stress_ratio", "volumetric_strain"):

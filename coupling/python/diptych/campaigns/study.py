@@ -90,7 +90,7 @@ def write_curves(directory: str, study: Study, points: Sequence[Point], results:
         ends = [run.tables[source]["progress"].iloc[-1] for runs in results for run in runs
                 if run.known and run.exit_code == 0 and run.tables.get(source) is not None]
         grid = max(ends, default=0.0) * np.arange(201) / 200
-        arrays[source + "/progress"] = (grid, "progress", "as walk says", "points of the curves")
+        arrays[source + "/progress"] = (grid, "progress", "strain or time", "points of the curves")
         attributes[source] = {"averaging_width": width}
         for name, title, meaning in _CURVES:
             curves = [_mean_curve(runs, source, name, grid, width) for runs in results]

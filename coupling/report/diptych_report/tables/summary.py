@@ -22,6 +22,6 @@ def table(result, part):
 def _text(result, place, key, value):
     if value is None and key in NULLS:
         return NULLS[key]
-    if result.numbers.unit(place) == "as walk says" and isinstance(value, (int, float)):
+    if result.numbers.unit(place) == "strain or time" and isinstance(value, (int, float)):
         return result.walk.text(value)
     return number(value, shown_unit(result.numbers, place))

@@ -55,7 +55,7 @@ EXPECTED = {
 NULLS = {"internal_length_d": "none", "localisation_strain": "never", "localisation_angle_deg": "–"}
 
 UNBROKEN = "\u00a0"  # between a number and its unit: no line break
-SUFFIXES = {"": "", "-": "", "time": "", "as walk says": "", "degrees": "°", "rad": " rad", "mean diameters": " d"}
+SUFFIXES = {"": "", "-": "", "time": "", "strain or time": "", "degrees": "°", "rad": " rad", "mean diameters": " d"}
 DECIMALS = {"°": 1, " d": 1, " P": 2, "%": 2, "": 3}
 
 
