@@ -301,8 +301,8 @@ namespace diptych::coupling
   {
     if (scene.discrete.method.method == discrete::Method::imported)
       (void)load_imported(scene);
-    if (scene.sample.glued_platen_grains)
-      refuse("sample/glued_platen_grains", "true", "the forces on grains that are part of a platen are not mapped");
+    if (scene.sample.rough_platens)
+      refuse("sample/rough_platens", "true", "the forces on grains that are part of a platen are not mapped");
     const WallDrives                drives  = drives_of(scene.discrete.drives);
     const discrete::LateralOptions &lateral = scene.discrete.lateral;
     const bool                      smooth  = scene.continuum.platens == continuum::Platens::smooth;

@@ -50,7 +50,7 @@ namespace diptych::discrete
     int                   seed                   = 1;
     std::string           file                   = "";
     bool                  prepare_file           = false;
-    bool                  glued_platen_grains    = false;
+    bool                  rough_platens          = false;
     std::optional<double> lower_platen           = {};
     std::optional<double> upper_platen           = {};
     std::optional<double> left_wall              = {};
@@ -97,10 +97,12 @@ namespace diptych::discrete
       "if not 0, the program searches the preparation friction between 0 and 1 that gives this solid fraction within 0.002");
     visitor("quiet_unbalanced_force", o.quiet_unbalanced_force, "-", {1e-12, 1e3},
             "the sample is at rest if the mean unbalanced force on a grain / mean contact force is below this value; once the "
-            "overlaps are removed, the target is a tenth of it, if the sample reaches that");
-    visitor("glued_platen_grains", o.glued_platen_grains, "-",
+            "overlaps are "
+            "removed, the target is a tenth of it, if the sample reaches that");
+    visitor("rough_platens", o.rough_platens, "-",
             "after the preparation, grains within a tenth of their diameter of a platen become part of it: they move with it and "
-            "do not turn");
+            "do not "
+            "turn");
     visitor("seed", o.seed, "-", {0, 2147483647}, "seed of the random generator");
     visitor("file", FileName{o.file}, "-",
             "file with the grains: CSV with the columns x, y, r and, optionally, vx, vy, omega, fixed (1: held, 2 or 3: part of "

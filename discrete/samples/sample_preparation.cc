@@ -139,8 +139,7 @@ namespace diptych::discrete
           if (make_contact(state, i, n + platen).gap < 0.2 * g.radius[i] && !g.fixed[i])
             g.fixed[i] = std::uint8_t(lower_platen_grain + platen);
       if (std::all_of(g.fixed.begin(), g.fixed.end(), [](const std::uint8_t fixed) { return fixed != 0; }))
-        throw std::invalid_argument(
-          "sample/glued_platen_grains = true: every grain touches a platen, and none remains free to move");
+        throw std::invalid_argument("sample/rough_platens = true: every grain touches a platen, and none remains free to move");
     }
 
     double step_of_preparation(const SampleOptions &o, const double pressure)
@@ -391,7 +390,7 @@ namespace diptych::discrete
     PreparationReport &report = sample.report;
     report.touches = report.steps == 0 || carries_anything(sample.last_step, sample.state.grains.size(), setting.lateral);
     report.quiet   = report.quiet && report.touches;
-    if (options.glued_platen_grains)
+    if (options.rough_platens)
       roughen_platens(sample.state);
     return sample;
   }

@@ -169,7 +169,7 @@ class WrongKeys(unittest.TestCase):
         sides = setting(discrete_lateral="rigid_walls")
         for words, key in [(setting(discrete_lateral="periodic"), "continuum/platens"),
                            (setting(loading_mode="shear", continuum_platens="smooth"), "loading/mode"),
-                           (setting(sample_glued_platen_grains="true"), "sample/glued_platen_grains"),
+                           (setting(sample_rough_platens="true"), "sample/rough_platens"),
                            (["--set", "discrete/drive_upper_y=velocity -1"], "discrete/drive_upper_y"),
                            (sides + ["--set", "discrete/drive_right_x=force -1"], "discrete/drive_right_x"),
                            (sides + ["--set", "discrete/drive_left_y=velocity 1"], "discrete/drive_left_y")]:

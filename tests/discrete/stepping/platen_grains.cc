@@ -88,8 +88,8 @@ namespace
   // platen keep their places on it, and the sample carries shear force without friction of platens or grains.
   TEST(PlatenGrains, ShearASampleWithClosedLedgers)
   {
-    SampleOptions sample       = small_sample(150);
-    sample.glued_platen_grains = true;
+    SampleOptions sample = small_sample(150);
+    sample.rough_platens = true;
     Loading loading;
     loading.mode            = LoadingMode::plane_shear;
     loading.inertial_number = 0.02;
