@@ -6,7 +6,7 @@
 #   ./test.sh debug      unit tests of discrete/, continuum/ and coupling/ with assertions of deal.II, Eigen and our own
 #   ./test.sh sanitize   unit tests of discrete/ and coupling/ with address and undefined-behaviour sanitizers
 #   ./test.sh thread     solver, stepping and panel under the thread sanitizer
-#   ./test.sh fuzz [S]   fuzzers of the readers of foreign files, S seconds each (60); their inputs are in build/fuzz/inputs
+#   ./test.sh fuzz [S]   fuzzers of scenes, tables and contact problems, S seconds each (60); their inputs are in build/fuzz/inputs
 set -euo pipefail
 cd "$(dirname "$0")"
 source ./.build.sh
@@ -30,7 +30,7 @@ case "$preset" in
             select+=(-R '^(house[.]House|discrete|coupling|coupling_panels)[.]') ;;
   thread) targets=(discrete_tests diptych)
           select+=(-R '^discrete[.](Solvers|StalledContacts|ManyPanels)$') ;;
-  fuzz) targets=(fuzz_scene fuzz_table fuzz_problem fuzz_import)
+  fuzz) targets=(fuzz_scene fuzz_table fuzz_problem)
         packages+=(clang) ;;
 esac
 # Only the tests need these packages. They open report.html, read the ParaView files, build a package and the manual, and use the
@@ -51,7 +51,7 @@ if [ "$preset" = fuzz ]; then
     echo "fuzz_$1: $(sed -n 's/stat::number_of_executed_units: *//p' "$log") inputs, no finding"
   }
   export -f fuzz_one
-  printf '%s\n' scene table problem import | xargs -P "$(cores)" -I '{}' bash -c "fuzz_one {} $seconds"
+  printf '%s\n' scene table problem | xargs -P "$(cores)" -I '{}' bash -c "fuzz_one {} $seconds"
   exit 0
 fi
 # The thread sanitizer needs a process without address randomisation.

@@ -51,12 +51,20 @@ namespace diptych::coupling
       stage.band_difference              = band_difference(stage.increment);
     }
 
-    StageRecord make_stage(const Comparison &c, const Results &results, const std::size_t k, const Scene &scene)
+    // The part of a scene that stages and windows need.
+    struct Settings
+    {
+      const ComparisonOptions &options;
+      std::uint64_t            seed;
+      double                   averaging_width; // range of progress
+    };
+
+    StageRecord make_stage(const Comparison &c, const Results &results, const std::size_t k, const Settings &settings)
     {
       const StagePair pair  = stage_pair(results, k - 1, k);
-      const double    width = averaging_width(scene);
-      StageRecord     stage = stage_record(make_increment(pair, scene.comparison.band, std::uint64_t(scene.sample.seed)), pair,
-                                           scene);
+      const double    width = settings.averaging_width;
+      StageRecord     stage = stage_record(make_increment(pair, settings.options.band, settings.seed), pair, settings.options,
+                                           settings.seed);
       take_averages(c.discrete_history, stage.progress, width, stage.discrete);
       take_averages(c.continuum_history, stage.progress, width, stage.continuum);
       stage.discrete.stress_ratio = mean_interval_over_progress(c.discrete_history, "stress_ratio", stage.progress - width,
@@ -127,33 +135,32 @@ namespace diptych::coupling
       double            n, done = 0;
     };
 
-    void make_windows(const Scene &scene, const Results &results, const std::size_t n, Pieces &pieces, Comparison &c)
+    void make_windows(const Settings &settings, const Results &results, const std::size_t n, Pieces &pieces, Comparison &c)
     {
-      const std::vector<double>             &edges  = scene.comparison.window_edges;
+      const std::vector<double>             &edges  = settings.options.window_edges;
       const std::vector<discrete::Snapshot> &grains = results.discrete.snapshots;
       for (std::size_t w = 0; w + 1 < edges.size(); ++w, pieces.next())
         {
           const auto from = snapshot_at(grains, edges[w]), to = snapshot_at(grains, edges[w + 1]);
           if (!from || !to || *from >= n || *to >= n)
             continue;
-          c.windows.push_back(
-            make_increment(stage_pair(results, *from, *to), scene.comparison.band, std::uint64_t(scene.sample.seed)));
+          c.windows.push_back(make_increment(stage_pair(results, *from, *to), settings.options.band, settings.seed));
           if (*to > 0)
             take_angles_to_stress(c.windows.back(), c.stages[*to - 1]);
         }
     }
 
-    std::optional<CoarseRun> coarse_run(const Scene                  &scene,
+    std::optional<CoarseRun> coarse_run(const Settings               &settings,
                                         const Results                &results,
                                         const std::vector<Increment> &windows,
                                         Pieces                       &pieces)
     {
       const std::vector<continuum::Snapshot> &nodes = results.coarse.snapshots;
       CoarseRun                               result;
-      result.element_size = scene.comparison.coarse_element_size;
+      result.element_size = settings.options.coarse_element_size;
       if (nodes.empty())
         return std::nullopt;
-      result.peak = peak_of_running_mean(history_table(results.coarse.rows), "stress_ratio", averaging_width(scene));
+      result.peak = peak_of_running_mean(history_table(results.coarse.rows), "stress_ratio", settings.averaging_width);
       for (const Increment &window : windows)
         {
           const std::size_t from = snapshot_at(results.discrete.snapshots, window.from).value();
@@ -165,8 +172,7 @@ namespace diptych::coupling
           coarse.from      = window.from;
           coarse.to        = window.to;
           coarse.frame     = window.frame;
-          coarse.continuum = continuum_increment(nodes[from], nodes[to], window.frame, scene.comparison.band,
-                                                 std::uint64_t(scene.sample.seed));
+          coarse.continuum = continuum_increment(nodes[from], nodes[to], window.frame, settings.options.band, settings.seed);
           result.windows.push_back(std::move(coarse));
         }
       return result;
@@ -176,6 +182,7 @@ namespace diptych::coupling
   Comparison compare(const Scene &scene, const Results &results, const OnProgress &on_progress)
   {
     const std::size_t n = n_common_snapshots(results);
+    const Settings    settings{scene.comparison, std::uint64_t(scene.sample.seed), averaging_width(scene)};
     Pieces            pieces(on_progress, n + 2 * scene.comparison.window_edges.size());
     Comparison        c;
     c.discrete_history  = history_table(results.discrete.rows);
@@ -183,11 +190,11 @@ namespace diptych::coupling
     for (std::size_t k = 1; k < n; ++k)
       {
         pieces.next();
-        c.stages.push_back(make_stage(c, results, k, scene));
+        c.stages.push_back(make_stage(c, results, k, settings));
         take_angles_to_stress(c.stages.back().increment, c.stages.back());
       }
-    make_windows(scene, results, n, pieces, c);
-    c.coarse = coarse_run(scene, results, c.windows, pieces);
+    make_windows(settings, results, n, pieces, c);
+    c.coarse = coarse_run(settings, results, c.windows, pieces);
     pieces.next();
     c.resolution         = study_of(c, results.discrete.snapshots[n - 1], scene.comparison);
     const auto &material = scene.continuum.material;

@@ -6,6 +6,7 @@
 #include "coupling/store/vtu_file.h"
 #include "discrete/files/field_arrays.h"
 #include "discrete/files/hdf5_file.h"
+#include "coupling/store/file_names.h"
 #include "discrete/files/staged_file.h"
 
 namespace diptych::coupling
@@ -153,7 +154,7 @@ namespace diptych::coupling
 
   void write_comparison_h5(const std::string &directory, const Scene &scene, const Comparison &c, const Results &results)
   {
-    discrete::Hdf5Writer file(directory + "/comparison.h5");
+    discrete::Hdf5Writer file(comparison_h5(directory));
     for (std::size_t k = 0; k < c.stages.size(); ++k)
       write_stage(file, discrete::stage_name(k + 1), c.stages[k], results, k + 1);
     for (std::size_t k = 0; k < c.windows.size(); ++k)
@@ -169,7 +170,7 @@ namespace diptych::coupling
   void write_fields_vtu(const std::string &directory, const Comparison &c)
   {
     const StageRecord &last = c.stages.back();
-    write_vtu(directory + "/fields.vtu", vtu_of(last.fields, motion_units(last.increment)));
-    write_vtu(directory + "/grid.vtu", vtu_of(last.grid, motion_units(last.increment)));
+    write_vtu(fields_vtu(directory), vtu_of(last.fields, motion_units(last.increment)));
+    write_vtu(grid_vtu(directory), vtu_of(last.grid, motion_units(last.increment)));
   }
 } // namespace diptych::coupling

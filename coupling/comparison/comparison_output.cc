@@ -30,9 +30,8 @@ namespace diptych::coupling
     }
 
     // The start and the stages as the scene gives them: without the rounding error of a multiple of the interval.
-    std::vector<double> requested_stages(const Scene &scene)
+    std::vector<double> requested_stages(std::vector<double> requested)
     {
-      std::vector<double> requested = stages(scene.loading);
       for (double &stage : requested)
         {
           char              text[32];
@@ -47,8 +46,8 @@ namespace diptych::coupling
     class CsvLines
     {
     public:
-      explicit CsvLines(const Scene &scene)
-          : stages(requested_stages(scene))
+      explicit CsvLines(const std::vector<double> &stages)
+          : stages(requested_stages(stages))
       {
         for (const NumberDescription &number : comparison_schema())
           units[number.place] = number.unit;
@@ -112,9 +111,9 @@ namespace diptych::coupling
       std::map<std::string, std::string> units; // by place
     };
 
-    std::string comparison_csv(const Scene &scene, const json &comparison)
+    std::string table_of(const std::vector<double> &stages, const json &comparison)
     {
-      CsvLines lines(scene);
+      CsvLines lines(stages);
       lines.add_increments(comparison["stages"], "stages", "");
       lines.add_increments(comparison["windows"], "windows", "");
       if (const json &coarse = comparison["continuum_coarse"]; coarse.is_object())
@@ -146,6 +145,6 @@ namespace diptych::coupling
     list_numbers(ComparisonDocument{scene, c}, writer);
     root["numbers"] = descriptions();
     discrete::write_text(comparison_json(directory), root.dump(1) + "\n");
-    discrete::write_text(directory + "/comparison.csv", comparison_csv(scene, root));
+    discrete::write_text(comparison_csv(directory), table_of(stages(scene.loading), root));
   }
 } // namespace diptych::coupling

@@ -11,7 +11,7 @@
 
 namespace diptych::coupling
 {
-  void require_comparable_sample(const Scene &scene, const discrete::Snapshot &prepared)
+  void require_comparable_sample(const ProbeOptions &options, const discrete::Snapshot &prepared)
   {
     // Before the loading, grains of an imported table carry no force and would have no weight.
     const std::vector<double> weight   = displacement_field(prepared, prepared).weight;
@@ -23,7 +23,6 @@ namespace diptych::coupling
                        "; increase sample/grains");
     const SampleFrame                  frame   = sample_frame(prepared, prepared);
     const std::vector<Eigen::Vector2d> outline = outline_polygon(prepared.outline);
-    const ProbeOptions                &options = scene.comparison.probes;
     if (!options.probe_rectangles.empty())
       for (const ProbeRegion &region : place_probes(outline, frame, {}, options))
         if (region.polygon.empty())

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include "coupling/scene/scene.h"
+#include "coupling/probes/probe_options.h"
 #include "discrete/snapshot.h"
 
 namespace diptych::coupling
 {
   // Throws SceneError if the prepared sample has too few grains for the band detection, or if a probe of the scene lies outside
   // it. A band or probe that leaves the sample during the loading is found only by the comparison.
-  void require_comparable_sample(const Scene &scene, const discrete::Snapshot &prepared);
+  void require_comparable_sample(const ProbeOptions &options, const discrete::Snapshot &prepared);
 } // namespace diptych::coupling

@@ -136,7 +136,10 @@ namespace diptych::coupling
     }
   } // namespace
 
-  StageRecord stage_record(Increment increment, const StagePair &stage, const Scene &scene)
+  StageRecord stage_record(Increment                increment,
+                           const StagePair         &stage,
+                           const ComparisonOptions &options,
+                           const std::uint64_t      seed)
   {
     StageRecord record;
     record.progress     = stage.grains_to.progress;
@@ -144,7 +147,7 @@ namespace diptych::coupling
     record.shear_strain = stage.grains_to.shear_strain;
     record.time         = stage.grains_to.time;
     record.increment    = std::move(increment);
-    map_fields(stage, scene.comparison, record);
+    map_fields(stage, options, record);
 
     double spin = 0;
     for (const double term : stage.grains_to.mean_spin_term)
@@ -156,13 +159,12 @@ namespace diptych::coupling
     record.continuum.minor_direction_deg = minor_direction(
       (stage.nodes_from.mean_stress + stage.nodes_to.mean_stress).topLeftCorner<2, 2>());
 
-    const ProbeOptions &probes = scene.comparison.probes;
-    const ProbeView     view{
-      outline_polygon(stage.grains_to.outline),
-      grain_network(stage.grains_to),
-      {probes.probe_block * stage.grains_to.mean_diameter, probes.probe_resamples, std::uint64_t(scene.sample.seed)},
-      record.increment.frame,
-      record.increment.discrete.band.bands};
+    const ProbeOptions &probes = options.probes;
+    const ProbeView     view{outline_polygon(stage.grains_to.outline),
+                         grain_network(stage.grains_to),
+                         {probes.probe_block * stage.grains_to.mean_diameter, probes.probe_resamples, seed},
+                         record.increment.frame,
+                         record.increment.discrete.band.bands};
     take_rectangles(view, probes, record);
     take_circle(view, probes, record);
     look_across_the_band(view, stage, record);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -75,6 +76,6 @@ namespace diptych::coupling
     BandDifference band_difference;
   };
 
-  // increment: the stage's increment. The caller adds histories and the intervals of the stress ratio.
-  StageRecord stage_record(Increment increment, const StagePair &stage, const Scene &scene);
+  // increment: the stage's increment; seed: of the bootstrap. The caller adds histories and the intervals of the stress ratio.
+  StageRecord stage_record(Increment increment, const StagePair &stage, const ComparisonOptions &options, std::uint64_t seed);
 } // namespace diptych::coupling

@@ -9,6 +9,7 @@
 
 #include "coupling/numbers/number_json.h"
 #include "discrete/files/text_file.h"
+#include "coupling/store/file_names.h"
 #include "discrete/panel/history.h"
 
 namespace diptych::coupling
@@ -142,11 +143,11 @@ namespace diptych::coupling
             csv << '\n';
           }
       }
-    discrete::write_text(directory + "/study_step.csv", csv.str());
+    discrete::write_text(study_step(directory, ".csv"), csv.str());
 
     nlohmann::json root = nlohmann::json::object();
     NumbersToJson  writer{root, 1};
     list_numbers(comparison, writer);
-    discrete::write_text(directory + "/study_step.json", root.dump(1) + "\n");
+    discrete::write_text(study_step(directory, ".json"), root.dump(1) + "\n");
   }
 } // namespace diptych::coupling

@@ -32,10 +32,10 @@ namespace diptych::coupling
       return {values.begin() + (column(history, "progress").front() == 0 ? 1 : 0), values.end()};
     }
 
-    Strength strength_of(const Scene &scene, const HistoryTable &history)
+    Strength strength_of(const discrete::LoadingMode mode, const HistoryTable &history)
     {
       constexpr double early_strain = 0.003;
-      if (scene.loading.mode == discrete::LoadingMode::time)
+      if (mode == discrete::LoadingMode::time)
         return {};
       return {ratio_of_means(history, 0, early_strain),
               ratio_of_means(history, early_strain, column(history, "progress").back())};
@@ -65,7 +65,7 @@ namespace diptych::coupling
     s.momentum_residual            = largest(column(h, "momentum_residual"));
     s.residual                     = largest(column(h, "residual"));
     s.peak                         = peak_of_running_mean(h, "stress_ratio", averaging_width(scene));
-    s.strength                     = strength_of(scene, h);
+    s.strength                     = strength_of(scene.loading.mode, h);
     s.final_volumetric_strain      = column(h, "volumetric_strain").back();
     s.spin_term_share              = largest(column(h, "spin_term_share"));
     s.kinetic_energy_ratio_median  = median(column(h, "kinetic_energy_ratio"));
@@ -90,7 +90,7 @@ namespace diptych::coupling
     s.newton_iterations             = column(h, "newton_iterations").back();
     s.cut_backs                     = column(h, "cut_backs").back();
     s.peak                          = peak_of_running_mean(h, "stress_ratio", averaging_width(scene));
-    s.strength                      = strength_of(scene, h);
+    s.strength                      = strength_of(scene.loading.mode, h);
     s.final_volumetric_strain       = column(h, "volumetric_strain").back();
     s.share_zz_not_intermediate     = largest(loaded(h, "share_zz_not_intermediate"));
     s.unstable_share                = largest(column(h, "unstable_share"));

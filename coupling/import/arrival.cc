@@ -54,6 +54,23 @@ namespace diptych::coupling
         }
     }
 
+    // Weights of all grains; without masses they follow from --density.
+    void take_weights(const ForeignFrame &from, const ForeignOptions &options, Arrival &arrival, ArrivedFrame &to)
+    {
+      to.weight.assign(to.position.size(), Eigen::Vector2d::Zero());
+      const Eigen::Vector2d gravity = options.gravity.value_or(from.gravity);
+      if (!gravity.allFinite() || gravity == Eigen::Vector2d::Zero())
+        return;
+      for (std::size_t i = 0; i < to.weight.size(); ++i)
+        to.weight[i] = gravity * (std::isfinite(to.mass[i])
+                                    ? to.mass[i]
+                                    : M_PI * to.radius[i] * to.radius[i] * options.density.value_or(not_told));
+      if (!std::isfinite(to.weight[0].sum()))
+        throw SceneError(from.grain_file + ": frame " + from.name +
+                         ": gravity acts on the grains, but the files contain no masses; give --density, the mass per area");
+      remark_once(arrival, "the grains have weight; the continuum of a run has none");
+    }
+
     // All frames must have the grains of the first one.
     void require_same_grains(const std::vector<long> &ids, const std::vector<ForeignGrain> &grains, const ForeignFrame &frame)
     {
@@ -95,18 +112,8 @@ namespace diptych::coupling
     // A user who gives an option without effect believes that it counts.
     void require_effect(const ForeignSample &sample, const ForeignOptions &options)
     {
-      if (options.timestep && !sample.counts_steps)
-        refuse_without_effect(sample, "--timestep", "these files contain times and not steps");
       if (options.pressure && sample.frames.size() == 1)
         refuse_without_effect(sample, "--pressure", "a single frame has no loading, so there is no scene");
-      for (const std::string &text : options.columns)
-        {
-          const std::string kind = text.substr(0, text.find('='));
-          if (text.size() < kind.size() + 2 || (kind != "contacts" && kind != "walls"))
-            throw SceneError("--columns " + text + ": is not KIND=NAME,NAME,..., where KIND is contacts or walls");
-          if (std::find(sample.unnamed.begin(), sample.unnamed.end(), kind) == sample.unnamed.end())
-            refuse_without_effect(sample, "--columns " + text, "every file of " + kind + " names its columns");
-        }
     }
 
     // Masses that grow as r^3 belong to spheres, even if the run was in the plane.
@@ -137,7 +144,7 @@ namespace diptych::coupling
         refuse_without_effect(sample, "--density", "the files contain the masses of the grains");
       if (std::isfinite(mass))
         return mass / area;
-      return options.density.value_or(sample.is_spheres ? not_told : sample.density);
+      return options.density.value_or(not_told);
     }
 
     void note_what_is_lacking(const Arrival &arrival, std::vector<std::string> &lacking)
@@ -214,6 +221,7 @@ namespace diptych::coupling
         frame.time       = from.time.value_or(not_told);
         frame.step       = from.step.value_or(long(k));
         take_grains(grains[k], arrival.thickness, frame);
+        take_weights(from, options, arrival, frame);
         take_contacts(from, arrival, options, frame);
         require_later_time(arrival, frame, from.grain_file);
         arrival.frames.push_back(std::move(frame));

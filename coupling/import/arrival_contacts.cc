@@ -30,12 +30,6 @@ namespace diptych::coupling
       return frame.contact_file + (c.line > 0 ? ", line " + std::to_string(c.line) : "") + ": frame " + frame.name;
     }
 
-    void remark_once(Arrival &arrival, const std::string &text)
-    {
-      if (std::find(arrival.remarks.begin(), arrival.remarks.end(), text) == arrival.remarks.end())
-        arrival.remarks.push_back(text);
-    }
-
     int index_of(const Arrival &arrival, const long id)
     {
       const auto found = std::lower_bound(arrival.id.begin(), arrival.id.end(), id);
@@ -221,7 +215,7 @@ namespace diptych::coupling
     }
 
     // Sets the normal. Without a contact point in the file it uses the middle of the overlap, or the nearest point of the wall.
-    void complete(const ForeignContact &c, ContactForce &contact, ArrivedFrame &to)
+    void complete(const ForeignFrame &from, const ForeignContact &c, ContactForce &contact, ArrivedFrame &to)
     {
       const std::size_t     i = std::size_t(contact.i), n = to.position.size();
       const Eigen::Vector2d x = to.position[i];
@@ -241,6 +235,12 @@ namespace diptych::coupling
           contact.normal               = branch.normalized();
           contact.point                = x - (to.radius[i] - 0.5 * overlap) * contact.normal;
         }
+      const double diameter = 2 * std::max(to.radius[i], std::size_t(contact.j) < n ? to.radius[std::size_t(contact.j)] : 0);
+      if (-overlap > diameter && contact.force != Eigen::Vector2d::Zero())
+        throw SceneError(place_of(from, c) + ": the surfaces of the two bodies in contact (grain " + std::to_string(c.first) +
+                         " and " + (c.wall >= 0 ? from.walls[std::size_t(c.wall)].name : "grain " + std::to_string(c.second)) +
+                         ") are " + std::to_string(-overlap / diameter) +
+                         " grain diameters apart; do the files belong to one frame, and the columns have this meaning?");
       to.widest_gap = std::max(to.widest_gap, -overlap);
       if (c.point.allFinite())
         {
@@ -251,6 +251,12 @@ namespace diptych::coupling
         to.overlap_miss = std::max(to.overlap_miss, std::abs(c.overlap - overlap));
     }
   } // namespace
+
+  void remark_once(Arrival &arrival, const std::string &text)
+  {
+    if (std::find(arrival.remarks.begin(), arrival.remarks.end(), text) == arrival.remarks.end())
+      arrival.remarks.push_back(text);
+  }
 
   void take_contacts(const ForeignFrame &from, Arrival &arrival, const ForeignOptions &options, ArrivedFrame &to)
   {
@@ -274,7 +280,7 @@ namespace diptych::coupling
           }
         if (contact.j < n && is_repeated(from, c, contact, to, order))
           continue;
-        complete(c, contact, to);
+        complete(from, c, contact, to);
         if (!contact.point.allFinite() || !contact.normal.allFinite())
           throw SceneError(place_of(from, c) + ": grains " + std::to_string(c.first) + " and " + std::to_string(c.second) +
                            " have the same position");

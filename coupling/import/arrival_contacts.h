@@ -6,6 +6,9 @@
 
 namespace diptych::coupling
 {
+  // Adds a note to arrival.remarks, unless it is there.
+  void remark_once(Arrival &arrival, const std::string &text);
+
   // Fills contacts, status and walls of `to`; its grains are already there, in the order of arrival.id. Repeated pairs are
   // counted once. Forces that pull are reversed. A wall without a side is located by the grains that touch it. arrival.remarks
   // reports each of these once for all frames. Throws SceneError like arrive().

@@ -22,6 +22,7 @@ namespace diptych::coupling
     double                               time = not_told;
     long                                 step = 0;
     std::vector<Eigen::Vector2d>         position, velocity, resultant;
+    std::vector<Eigen::Vector2d>         weight; // 0 without gravity
     std::vector<double>                  radius, mass, rotation, spin;
     std::vector<discrete::ContactForce>  contacts; // with a force
     std::vector<discrete::ContactStatus> status;
@@ -48,6 +49,7 @@ namespace diptych::coupling
     bool            against_resultants = false;
     double          balance_rms = not_told, balance_worst = not_told;
     long            balance_worst_grain = 0;
+    Eigen::Vector2d balancing_gravity   = {not_told, not_told}; // that would halve a residual without weight
     Eigen::Matrix2d contact_stress = Eigen::Matrix2d::Constant(not_told), wall_stress = contact_stress;
     double          stress_difference = not_told, wall_force_difference = not_told, largest_overlap = not_told;
   };
@@ -69,13 +71,15 @@ namespace diptych::coupling
     v({"balance_against_resultants", "-", "true: contact forces are compared with the resultant in the file; false: with zero"},
       c.against_resultants);
     v({"balance_rms", "-",
-       "rms over grains of the sum of contact forces minus resultant (or 0) / mean contact force; without resultants and with "
+       "rms over grains of contact forces plus weight minus resultant (or 0) / mean contact force; without resultants and with "
        "free sides only the vertical component counts"},
       c.balance_rms);
     v({"balance_worst", "-", "largest such residual of a grain"}, c.balance_worst);
     v({"balance_worst_grain", "-", "id of that grain", Kind::setting}, c.balance_worst_grain);
     v({"contact_stress", "pressure", "sum over contacts of force (x) branch / area"}, c.contact_stress);
-    v({"wall_stress", "pressure", "sum over wall contacts of force on the wall (x) contact point / area"}, c.wall_stress);
+    v({"wall_stress", "pressure",
+       "sum over wall contacts of force on the wall (x) contact point, less weights (x) centres, / area"},
+      c.wall_stress);
     v({"stress_difference", "-",
        "largest component of their difference / largest component of the wall stress; inertia or an error"},
       c.stress_difference);

@@ -8,7 +8,6 @@
 #include <limits>
 #include <sstream>
 
-#include "coupling/import/lmgc90_datbox.h"
 #include "coupling/scene/scene_error.h"
 #include "discrete/files/csv_file.h"
 
@@ -139,39 +138,6 @@ namespace diptych::coupling
             << s.position[i].y() << " 0\n";
       return {{"sample.data", out.str()}, {"in.sample", lammps_script(scene, s, box)}};
     }
-
-    ExportedFiles as_yade(const Scene &scene, const Snapshot &s)
-    {
-      const ExportBox    box   = box_of(s);
-      std::ostringstream table = exact_stream(), out = exact_stream();
-      table << "#format x_y_z_r_attrs\n# x y z r id mass\n";
-      for (std::size_t i = 0; i < s.radius.size(); ++i)
-        table << s.position[i].x() << '\t' << s.position[i].y() << "\t0\t" << s.radius[i] << '\t' << i << '\t'
-              << (std::isnan(s.mass[i]) ? scene.sample.density * M_PI * s.radius[i] * s.radius[i] : s.mass[i]) << '\n';
-      out << "# Discs of sample.txt as one layer of spheres between walls at rest. Yade's spheres have masses of spheres: each "
-             "is set to that of\n"
-          << "# its disc. Springs 1e4 P (rigid grains have none).\n"
-          << "from yade import utils\nimport math\nfriction, wall_friction = " << scene.discrete.law.friction << ", "
-          << scene.discrete.law.platen_friction << "\nyoung = 1e4*" << scene.loading.pressure << "/" << s.mean_diameter << "\n"
-          << "grain = O.materials.append(FrictMat(young=young, poisson=0.8, frictionAngle=math.atan(friction), density="
-          << scene.sample.density << "))\n"
-          << "plate = O.materials.append(FrictMat(young=young, poisson=0.8, frictionAngle=math.atan(wall_friction), density=0))\n"
-          << "for line in open('sample.txt'):\n    if line.startswith('#'):\n        continue\n"
-          << "    x, y, z, r, number, mass = (float(v) for v in line.split())\n"
-          << "    body = O.bodies[O.bodies.append(utils.sphere((x, y, 0), r, material=grain))]\n"
-          << "    body.state.blockedDOFs, body.state.mass = 'zXY', mass\n    body.state.inertia = (0.5*mass*r*r,)*3\n"
-          << "walls = dict(lower=O.bodies.append(utils.wall((0, " << box.lower << ", 0), axis=1, material=plate)),\n"
-          << "             upper=O.bodies.append(utils.wall((0, " << box.upper << ", 0), axis=1, material=plate)))\n";
-      if (box.has_sides())
-        out << "walls.update(left=O.bodies.append(utils.wall((" << box.left << ", 0, 0), axis=0, material=plate)),\n"
-            << "             right=O.bodies.append(utils.wall((" << box.right << ", 0, 0), axis=0, material=plate)))\n";
-      out << "O.engines = [ForceResetter(), InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()]),\n"
-          << "             InteractionLoop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()], "
-             "[Ip2_FrictMat_FrictMat_FrictPhys()],\n"
-          << "                             [Law2_ScGeom_FrictPhys_CundallStrack()]), NewtonIntegrator(damping=0.2)]\n"
-          << "O.dt = 0.3*utils.PWaveTimeStep()\n";
-      return {{"sample.txt", table.str()}, {"start.py", out.str()}};
-    }
   } // namespace
 
   ExportedFiles exported_sample(const std::string        &format,
@@ -181,10 +147,6 @@ namespace diptych::coupling
   {
     if (format == "lammps")
       return as_lammps(scene, snapshot);
-    if (format == "yade")
-      return as_yade(scene, snapshot);
-    if (format == "lmgc90")
-      return lmgc90_datbox(scene, snapshot);
     return as_csv(snapshot, stage);
   }
 } // namespace diptych::coupling

@@ -10,9 +10,8 @@
 
 namespace diptych::coupling
 {
-  // Returns name and text of every file. `lammps`: data file and script. `yade`: table of spheres and script. `lmgc90`: DATBOX
-  // with DOF.INI (text). `csv`: particles, contacts and walls, with the stage in their names. Grains and walls come from the
-  // snapshot, friction and pressure from the scene. Rigid grains have no contact stiffness and damping; the scripts state the
-  // values that they use. Throws SceneError if the sample has no walls that the format needs (periodic sides).
+  // Returns name and text of every file. `lammps`: data file and script. `csv`: particles, contacts and walls, with the stage in
+  // their names. Grains and walls come from the snapshot, friction and pressure from the scene. Rigid grains have no contact
+  // stiffness and damping; the script states the values that it uses. Throws SceneError for periodic sides.
   ExportedFiles exported_sample(const std::string &format, const Scene &scene, const discrete::Snapshot &snapshot, int stage);
 } // namespace diptych::coupling

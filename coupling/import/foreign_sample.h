@@ -1,4 +1,4 @@
-// diptych: a granular sample as read from another code's files
+// diptych: the door of the import: a granular sample as a reader of another code's files returns it
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -65,8 +65,9 @@ namespace diptych::coupling
     std::string                 name;                     // unique name from the files: "step 120000", "_3"
     std::string                 grain_file, contact_file; // for messages
     std::string                 wall_file;                // for messages; file that places the walls, if not the grains' file
-    std::optional<double>       time = {};
-    std::optional<long>         step = {};
+    std::optional<double>       time    = {};
+    std::optional<long>         step    = {};
+    Eigen::Vector2d             gravity = {not_told, not_told}; // acceleration of every grain [length/time^2]
     std::vector<ForeignGrain>   grains;
     std::vector<ForeignContact> contacts;
     bool                        has_contacts = false;
@@ -76,31 +77,21 @@ namespace diptych::coupling
   struct ForeignSample
   {
     std::string               format;
-    bool                      is_spheres   = false;    // one layer of spheres: stresses need a thickness
-    double                    density      = not_told; // of the material [mass/length^2 of discs, mass/length^3 of spheres]
-    bool                      counts_steps = false;    // frames know their step; --timestep turns it into a time
-    std::vector<std::string>  unnamed;                 // kinds of tables that may have no column names
-    std::vector<ForeignFrame> frames;                  // ascending
-    std::vector<std::string>  remarks;                 // notes on data that were reordered, reversed or left out
-    std::vector<std::string>  lacking;                 // quantities that this format never contains, besides NaN
+    bool                      is_spheres = false; // one layer of spheres: stresses need a thickness
+    std::vector<ForeignFrame> frames;             // ascending
+    std::vector<std::string>  remarks;            // notes on data that were reordered, reversed or left out
+    std::vector<std::string>  lacking;            // quantities that this format never contains, besides NaN
   };
-
-  // True for a normal in the plane, from files with seven digits.
-  inline bool is_unit(const Eigen::Vector2d &normal)
-  {
-    return std::abs(normal.squaredNorm() - 1) < 1e-5;
-  }
 
   // Options of the command line besides the files.
   struct ForeignOptions
   {
-    std::vector<std::string> files;
-    std::vector<std::string> columns;   // "contacts=index,id1,..." if files do not name their columns
-    std::optional<double>    timestep;  // for codes that count steps [time]
-    std::optional<double>    thickness; // of the sample [length]
-    std::optional<double>    density;   // if no file contains masses
-    std::optional<double>    pressure;  // lateral; empty: that of the first frame with forces
-    std::optional<double>    mean_diameter;
-    bool                     walls_touch = false; // place missing walls at the outermost grains
+    std::vector<std::string>       files;
+    std::optional<double>          thickness; // of the sample [length]
+    std::optional<double>          density;   // if no file contains masses
+    std::optional<double>          pressure;  // lateral; empty: that of the first frame with forces
+    std::optional<double>          mean_diameter;
+    std::optional<Eigen::Vector2d> gravity;             // replaces that of the files [length/time^2]
+    bool                           walls_touch = false; // place missing walls at the outermost grains
   };
 } // namespace diptych::coupling

@@ -71,7 +71,7 @@ namespace diptych::coupling
           s.rotation.push_back(f.rotation[i] - first.rotation[i]);
         }
       s.fixed.assign(f.position.size(), 0);
-      s.applied_force.assign(f.position.size(), Eigen::Vector2d::Zero());
+      s.applied_force                 = f.weight;
       s.lower_y                       = f.wall[int(Side::lower)];
       s.upper_y                       = f.wall[int(Side::upper)];
       s.left_x                        = f.wall[int(Side::left)];
@@ -127,7 +127,7 @@ namespace diptych::coupling
     // Mean over grains of the sum of forces on each / mean normal contact force.
     double unbalanced_force(const ArrivedFrame &f)
     {
-      std::vector<Eigen::Vector2d> sum(f.position.size(), Eigen::Vector2d::Zero());
+      std::vector<Eigen::Vector2d> sum    = f.weight;
       double                       normal = 0, total = 0;
       for (const discrete::ContactForce &c : f.contacts)
         {

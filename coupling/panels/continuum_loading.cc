@@ -39,13 +39,14 @@ namespace diptych::coupling
     };
 
     // In the order of State::walls: lower and upper platen, left and right wall; [x, y] each.
-    std::array<std::array<DriveKey, 2>, 4> drives_of(const Scene &scene)
+    using WallDrives = std::array<std::array<DriveKey, 2>, 4>;
+
+    WallDrives drives_of(const discrete::WallDriveOptions &options)
     {
-      std::array<std::array<DriveKey, 2>, 4> drives;
-      for_each_drive(scene.discrete.drives,
-                     [&](const int wall, const int axis, const std::string &key, const discrete::DriveOption &option) {
-                       drives[std::size_t(wall)][std::size_t(axis)] = {"discrete/" + key, option};
-                     });
+      WallDrives drives;
+      for_each_drive(options, [&](const int wall, const int axis, const std::string &key, const discrete::DriveOption &option) {
+        drives[std::size_t(wall)][std::size_t(axis)] = {"discrete/" + key, option};
+      });
       return drives;
     }
 
@@ -108,18 +109,16 @@ namespace diptych::coupling
       return continuum::Walk::time;
     }
 
-    continuum::LateralCondition lateral_of(const Scene &scene)
+    continuum::LateralCondition lateral_of(const discrete::LateralOptions &o, const DriveKey &right, const double rate)
     {
-      const discrete::LateralOptions &o    = scene.discrete.lateral;
-      const double                    rate = rate_of(scene);
-      std::optional<double>           widening;
+      std::optional<double> widening;
       if (o.side_motion == SideMotion::velocity)
         widening = o.side_velocity / rate;
       continuum::RigidSides rigid;
       switch (o.lateral)
         {
         case Lateral::rigid_walls:
-          if (const DriveKey right = drives_of(scene)[3][0]; !right.is_auto())
+          if (!right.is_auto())
             widening = *constant_velocity(right) / rate;
           if (widening)
             rigid.widening = [by = *widening](const double progress) { return by * progress; };
@@ -152,16 +151,13 @@ namespace diptych::coupling
         y = {true, [force = -o.normal_pressure * sample.platen_width](double) { return force; }};
     }
 
-    void check_platen_drives(const Scene &scene)
+    void check_platen_drives(const WallDrives &drives, const LoadingMode mode, const bool smooth, const Lateral lateral)
     {
-      const auto        drives   = drives_of(scene);
-      const LoadingMode mode     = scene.loading.mode;
-      const DriveKey   &progress = mode == LoadingMode::descent ? drives[1][1] : drives[1][0];
+      const DriveKey &progress = mode == LoadingMode::descent ? drives[1][1] : drives[1][0];
       if (mode != LoadingMode::time && !progress.is_auto())
         refuse(progress.key, progress.text(),
                "loading/mode = " + discrete::name_of(mode) +
                  " moves the platen in this component; use loading/mode = time for other motions");
-      const bool smooth = scene.continuum.platens == continuum::Platens::smooth;
       for (const auto *platen : {&drives[0], &drives[1]})
         if (smooth && !(*platen)[0].is_auto())
           refuse((*platen)[0].key, (*platen)[0].text(),
@@ -173,14 +169,13 @@ namespace diptych::coupling
       if (is_force(drives[0][1]) && (pressed || is_force(drives[1][1])))
         refuse(drives[0][1].key, drives[0][1].text(),
                "the upper platen moves freely in this component, and one platen must be held");
-      if (is_force(drives[0][0]) && is_force(drives[1][0]) && scene.discrete.lateral.lateral != Lateral::rigid_walls)
+      if (is_force(drives[0][0]) && is_force(drives[1][0]) && lateral != Lateral::rigid_walls)
         refuse(drives[0][0].key, drives[0][0].text(),
                "the upper platen moves freely in this component, and one platen must be held");
     }
 
-    void check_side_drives(const Scene &scene)
+    void check_side_drives(const WallDrives &drives)
     {
-      const auto drives = drives_of(scene);
       for (const DriveKey &key : {drives[2][0], drives[2][1], drives[3][1]})
         if (!key.is_auto() && constant_velocity(key) != 0.)
           refuse(key.key, key.text(), "side walls are smooth, and only the right one moves, horizontally");
@@ -189,26 +184,22 @@ namespace diptych::coupling
         refuse(right.key, right.text(), "give a constant velocity, or the pressure (discrete/side_motion)");
     }
 
-    void check_sides(const Scene &scene)
+    void check_sides(const discrete::LateralOptions &lateral, const continuum::Options &o, const LoadingMode mode)
     {
-      const bool periodic = scene.discrete.lateral.lateral == Lateral::periodic;
-      if (periodic && scene.discrete.lateral.side_motion == SideMotion::pressure &&
-          scene.continuum.platens == continuum::Platens::rough)
+      const bool periodic = lateral.lateral == Lateral::periodic;
+      if (periodic && lateral.side_motion == SideMotion::pressure && o.platens == continuum::Platens::rough)
         refuse("continuum/platens", "rough",
                "a free period under pressure (discrete/side_motion = pressure) needs continuum/platens = smooth");
-      if (periodic && scene.continuum.refinement == continuum::Refinement::adaptive)
+      if (periodic && o.refinement == continuum::Refinement::adaptive)
         refuse("continuum/refinement", "adaptive",
                "periodic sides (discrete/lateral) must match node by node; use continuum/refinement = uniform");
-      if (scene.continuum.platens == continuum::Platens::smooth &&
-          (scene.loading.mode == LoadingMode::shear || scene.loading.mode == LoadingMode::plane_shear))
-        refuse("loading/mode", discrete::name_of(scene.loading.mode),
-               "smooth platens cannot shear the sample; use continuum/platens = rough");
+      if (o.platens == continuum::Platens::smooth && (mode == LoadingMode::shear || mode == LoadingMode::plane_shear))
+        refuse("loading/mode", discrete::name_of(mode), "smooth platens cannot shear the sample; use continuum/platens = rough");
     }
 
-    void check_rectangle(const Scene &scene)
+    // edge: of the elements before refinement [length].
+    void check_rectangle(const continuum::Options &o, const double edge)
     {
-      const continuum::Options &o    = scene.continuum;
-      const double              edge = first_edge(scene, o.element_size);
       if (edge > std::min(o.rectangle_width, o.rectangle_height))
         throw SceneError("continuum/element_size = " + text_of(o.element_size) + ": elements of " + text_of(edge) +
                          " [length] before refinement do not fit into continuum/rectangle_width = " + text_of(o.rectangle_width) +
@@ -219,15 +210,6 @@ namespace diptych::coupling
       if (o.platen_width > o.rectangle_width)
         throw SceneError("continuum/platen_width = " + text_of(o.platen_width) +
                          " must not exceed continuum/rectangle_width = " + text_of(o.rectangle_width));
-    }
-
-    // The size of a generated sample is known to a few percent, that of an imported one exactly.
-    void check_outline(const Scene &scene)
-    {
-      if (scene.discrete.method.method == discrete::Method::imported)
-        require_elements_fit(scene, height_of(load_imported(scene).snapshots.front().outline));
-      else if (scene.sample.file.empty())
-        require_elements_fit(scene, 1.3 * discrete::expected_size(scene.sample).y());
     }
 
     // The mesh file is read completely before a result folder is opened for it.
@@ -242,10 +224,13 @@ namespace diptych::coupling
       if (mesh.kind != Kind::outline && scene.continuum.initial_stress == continuum::InitialStress::mapped)
         throw SceneError("continuum/initial_stress = mapped with continuum/mesh = " + text_of(mesh) +
                          ": only continuum/mesh = outline has grains whose stress can be mapped");
-      if (mesh.kind == Kind::outline)
-        check_outline(scene);
+      // The size of a generated sample is known to a few percent, that of an imported one exactly.
+      if (mesh.kind == Kind::outline && scene.discrete.method.method == discrete::Method::imported)
+        require_elements_fit(scene, height_of(load_imported(scene).snapshots.front().outline));
+      else if (mesh.kind == Kind::outline && scene.sample.file.empty())
+        require_elements_fit(scene, 1.3 * discrete::expected_size(scene.sample).y());
       if (mesh.kind == Kind::rectangle)
-        check_rectangle(scene);
+        check_rectangle(scene.continuum, first_edge(scene.continuum, scene.continuum.element_size, scene.sample.mean_diameter));
       if (mesh.kind != Kind::file)
         return;
       try
@@ -261,10 +246,12 @@ namespace diptych::coupling
 
     // The upper platen follows that of the imported sample, scaled to the mesh's height. The right wall has the imported mean
     // pressure frame by frame, or the imported motion if discrete/side_motion = velocity. Between frames all values are linear.
-    void follow_imported_walls(const Scene &scene, const ContinuumSample &sample, continuum::Loading &loading)
+    void follow_walls(const ImportedWalls   &walls,
+                      const SideMotion       side_motion,
+                      const ContinuumSample &sample,
+                      continuum::Loading    &loading)
     {
-      const ImportedWalls walls   = imported_walls(load_imported(scene));
-      const auto          follows = [](const TimeTable &table, const double scale) {
+      const auto follows = [](const TimeTable &table, const double scale) {
         return continuum::Drive{false, [table, scale](const double progress) { return scale * table.at(progress); }};
       };
       const double scale    = sample.height / walls.initial_height;
@@ -274,21 +261,20 @@ namespace diptych::coupling
       if (rigid == nullptr)
         return;
       rigid->widening = nullptr;
-      if (scene.discrete.lateral.side_motion == SideMotion::velocity)
+      if (side_motion == SideMotion::velocity)
         rigid->widening = [table = walls.right_x](const double progress) { return table.at(progress); };
       else if (!walls.right_pressure.time.empty())
         loading.side_pressure = [table = walls.right_pressure](const double progress) { return table.at(progress); };
     }
 
-    void check_load_steps(const Scene &scene)
+    void check_load_steps(const LoadingOptions &loading, const double max_step)
     {
       constexpr double most   = 1e7; // more than a day with the smallest mesh
-      const double     fewest = stages(scene.loading).back() / scene.continuum.max_step;
+      const double     fewest = stages(loading).back() / max_step;
       if (fewest > most)
-        throw SceneError("continuum/max_step = " + text_of(scene.continuum.max_step) + ": the loading would take " +
-                         text_of(std::ceil(fewest)) +
+        throw SceneError("continuum/max_step = " + text_of(max_step) + ": the loading would take " + text_of(std::ceil(fewest)) +
                          " load steps or more, and at most 1e+07 are allowed; increase it, or reduce loading/" +
-                         (scene.loading.mode == LoadingMode::time ? "duration" : "axial_strain"));
+                         (loading.mode == LoadingMode::time ? "duration" : "axial_strain"));
     }
   } // namespace
 
@@ -302,7 +288,7 @@ namespace diptych::coupling
     if (scene.continuum.mesh.kind == continuum::MeshOption::Kind::outline)
       for (const auto &[key, size] : {std::pair{"continuum/element_size", scene.continuum.element_size},
                                       {"comparison/coarse_element_size", scene.comparison.coarse_element_size}})
-        if (const double edge = first_edge(scene, size); edge > height)
+        if (const double edge = first_edge(scene.continuum, size, scene.sample.mean_diameter); edge > height)
           throw SceneError(std::string(key) + " = " + text_of(size) + ": elements of " + text_of(edge) +
                            " [length] before refinement do not fit into a sample of at most " + text_of(height) + " in height");
   }
@@ -313,11 +299,14 @@ namespace diptych::coupling
       (void)load_imported(scene);
     if (scene.sample.rough_platens)
       refuse("sample/rough_platens", "true", "the forces on grains that are part of a platen are not mapped");
-    check_sides(scene);
-    check_platen_drives(scene);
-    check_side_drives(scene);
+    const WallDrives                drives  = drives_of(scene.discrete.drives);
+    const discrete::LateralOptions &lateral = scene.discrete.lateral;
+    const bool                      smooth  = scene.continuum.platens == continuum::Platens::smooth;
+    check_sides(lateral, scene.continuum, scene.loading.mode);
+    check_platen_drives(drives, scene.loading.mode, smooth, lateral.lateral);
+    check_side_drives(drives);
     check_mesh_key(scene);
-    check_load_steps(scene);
+    check_load_steps(scene.loading, scene.continuum.max_step);
   }
 
   ContinuumSample measured(const continuum::QuadMesh &mesh, const double solid_fraction)
@@ -328,25 +317,26 @@ namespace diptych::coupling
 
   continuum::Loading continuum_loading(const Scene &scene, const ContinuumSample &sample)
   {
+    const WallDrives   drives = drives_of(scene.discrete.drives);
+    const double       rate   = rate_of(scene);
     continuum::Loading loading;
     loading.pressure   = scene.loading.pressure;
-    loading.lateral    = lateral_of(scene);
+    loading.lateral    = lateral_of(scene.discrete.lateral, drives[3][0], rate);
     loading.body_force = scene.sample.density * sample.solid_fraction *
                          Eigen::Vector2d(scene.discrete.time.gravity_x, scene.discrete.time.gravity_y);
     loading.stages            = stages(scene.loading);
     loading.walk              = continuum_walk(scene.loading.mode);
-    loading.time_per_progress = loading.walk == continuum::Walk::time ? 1. : 1 / rate_of(scene);
+    loading.time_per_progress = loading.walk == continuum::Walk::time ? 1. : 1 / rate;
     set_mode(scene.loading, sample, loading);
     if (scene.discrete.method.method == discrete::Method::imported)
       {
-        follow_imported_walls(scene, sample, loading);
+        follow_walls(imported_walls(load_imported(scene)), scene.discrete.lateral.side_motion, sample, loading);
         return loading;
       }
-    const auto drives = drives_of(scene);
     for (std::size_t p = 0; p < 2; ++p)
       for (std::size_t c = 0; c < 2; ++c)
         if (!drives[p][c].is_auto())
-          loading.platens[p][c] = drive_of(drives[p][c], rate_of(scene));
+          loading.platens[p][c] = drive_of(drives[p][c], rate);
     return loading;
   }
 

@@ -16,34 +16,23 @@
 
 namespace diptych::coupling
 {
-  double first_edge(const Scene &scene, const double element_size)
+  double first_edge(const continuum::Options &o, const double element_size, const double mean_diameter)
   {
-    const double larger = scene.continuum.refinement == continuum::Refinement::adaptive
-                            ? std::exp2(scene.continuum.refinement_levels)
-                            : 1;
-    return larger * element_size * scene.sample.mean_diameter;
+    const double larger = o.refinement == continuum::Refinement::adaptive ? std::exp2(o.refinement_levels) : 1;
+    return larger * element_size * mean_diameter;
   }
-
-  namespace
-  {
-    bool has_coarse(const Scene &scene)
-    {
-      const continuum::Options &o = scene.continuum;
-      if (scene.comparison.coarse_element_size == 0)
-        return false;
-      if (o.mesh.kind == continuum::MeshOption::Kind::rectangle)
-        return first_edge(scene, scene.comparison.coarse_element_size) <= std::min(o.rectangle_width, o.rectangle_height);
-      return o.mesh.kind == continuum::MeshOption::Kind::outline;
-    }
-  } // namespace
 
   std::vector<ContinuumPart> continuum_parts(const Scene &scene)
   {
-    const std::string         &directory = scene.output.directory;
-    std::vector<ContinuumPart> parts     = {{"continuum", "continuum panel", directory, scene.continuum.element_size}};
-    if (has_coarse(scene))
-      parts.push_back({"continuum_coarse", "continuum panel, coarse mesh", coarse_folder(directory),
-                       scene.comparison.coarse_element_size, true});
+    using Kind                        = continuum::MeshOption::Kind;
+    const continuum::Options  &o      = scene.continuum;
+    const std::string         &folder = scene.output.directory;
+    const double               coarse = scene.comparison.coarse_element_size;
+    const auto                 edge   = [&](const double size) { return first_edge(o, size, scene.sample.mean_diameter); };
+    const bool                 fits   = edge(coarse) <= std::min(o.rectangle_width, o.rectangle_height);
+    std::vector<ContinuumPart> parts  = {{"continuum", "continuum panel", folder, o.element_size, edge(o.element_size)}};
+    if (coarse > 0 && (o.mesh.kind == Kind::outline || (o.mesh.kind == Kind::rectangle && fits)))
+      parts.push_back({"continuum_coarse", "continuum panel, coarse mesh", coarse_folder(folder), coarse, edge(coarse), true});
     return parts;
   }
 
@@ -77,10 +66,8 @@ namespace diptych::coupling
     return continuum::read_mesh(file, [&] { leave_if_stopped("making the mesh of " + file); });
   }
 
-  continuum::QuadMesh mesh_of(const Scene &scene, const ContinuumPart &part, const discrete::Snapshot *grains)
+  continuum::QuadMesh mesh_of(const continuum::Options &o, const double edge, const discrete::Snapshot *grains)
   {
-    const continuum::Options &o    = scene.continuum;
-    const double              edge = first_edge(scene, part.element_size);
     switch (o.mesh.kind)
       {
       case continuum::MeshOption::Kind::outline:

@@ -20,6 +20,7 @@ namespace diptych::coupling
     std::string title;            // text for messages
     std::string directory;        // folder of its files
     double      element_size = 0; // [mean diameters]
+    double      edge         = 0; // of its elements before refinement [length]
     bool        is_coarse    = false;
 
     std::string checkpoint() const { return continuum_checkpoint(directory); }
@@ -31,7 +32,7 @@ namespace diptych::coupling
 
   // Size of the elements before refinement [length]. refinement = adaptive divides them down to the element size [mean
   // diameters].
-  double first_edge(const Scene &scene, double element_size);
+  double first_edge(const continuum::Options &options, double element_size, double mean_diameter);
 
   // The prepared grain sample with the forces that carry it. Empty, with a message, if it does not come to rest or the
   // preparation is interrupted.
@@ -43,8 +44,8 @@ namespace diptych::coupling
   // Reads a .msh or .geo file. Throws std::invalid_argument with the file's name, or StoppedOnRequest.
   continuum::QuadMesh users_mesh(const std::string &file);
 
-  // The part's mesh. `grains` is used only if continuum/mesh = outline.
-  continuum::QuadMesh mesh_of(const Scene &scene, const ContinuumPart &part, const discrete::Snapshot *grains);
+  // The mesh of a part with elements of `edge`. `grains` is used only if continuum/mesh = outline.
+  continuum::QuadMesh mesh_of(const continuum::Options &options, double edge, const discrete::Snapshot *grains);
 
   // Hash of the places and connections of all vertices. A checkpoint must have the same one, bit by bit.
   std::string identity_of(const continuum::QuadMesh &mesh);

@@ -25,7 +25,7 @@ namespace diptych::coupling
       table.add(discrete::csv_line(row));
     table.flush();
     discrete::write_snapshots(directory + "/discrete", imported.snapshots);
-    record_phases(directory, scene, options.text, {timer.stop()});
+    record_phases(directory, {scene.name, {scene.sample.seed}, options.text}, {timer.stop()});
     record_facts(directory, imported.facts);
     const std::string folder = std::filesystem::path(imported_file(scene)).parent_path().string();
     if (const std::string record = discrete::read_text(import_json(folder)); !record.empty())

@@ -101,19 +101,22 @@ namespace diptych::coupling
     return fraction;
   }
 
-  void map_initial_state(const Scene &scene, const discrete::Snapshot *grains, continuum::Panel &panel)
+  void map_initial_state(const continuum::Options &options,
+                         const double              pressure,
+                         const discrete::Snapshot *grains,
+                         continuum::Panel         &panel)
   {
-    if (scene.continuum.initial_stress == continuum::InitialStress::mapped)
+    if (options.initial_stress == continuum::InitialStress::mapped)
       {
         const continuum::Snapshot    nodes = panel.snapshot();
         std::vector<Eigen::Matrix2d> stress;
         on_first_process([&] {
-          stress = grain_stress_on_cells(*grains, nodes, scene.loading.pressure);
+          stress = grain_stress_on_cells(*grains, nodes, pressure);
           return 0;
         });
         panel.set_initial_stress(stress);
       }
-    const continuum::LawOptions &law = scene.continuum.material;
+    const continuum::LawOptions &law = options.material;
     if (law.hardening == continuum::HardeningKind::critical_state && !law.solid_fraction_start)
       {
         const continuum::Snapshot nodes = panel.snapshot();

@@ -29,5 +29,8 @@ namespace diptych::coupling
 
   // Call before panel.prepare(). Maps the initial stress and solid fraction if the scene asks for it. `grains`: needed on the
   // first process only, and only if something is mapped. Collective.
-  void map_initial_state(const Scene &scene, const discrete::Snapshot *grains, continuum::Panel &panel);
+  void map_initial_state(const continuum::Options &options,
+                         double                    pressure,
+                         const discrete::Snapshot *grains,
+                         continuum::Panel         &panel);
 } // namespace diptych::coupling

@@ -25,13 +25,13 @@ namespace diptych::coupling
       (void)read_continuum_snapshots(continuum_h5(part.directory));
     }
 
-    void check_interrupted(const Scene &scene, const ContinuumPart &part)
+    void check_interrupted(const ContinuumPart &part, const std::string &scene, const continuum::Options &options)
     {
       const ContinuumCheckpoint checkpoint = read_continuum_checkpoint(part.checkpoint());
-      if (checkpoint.scene != text_of(continuum_identity(scene)))
+      if (checkpoint.scene != scene)
         throw SceneError("--resume: " + part.checkpoint() + " belongs to another scene");
-      if (scene.continuum.mesh.kind != continuum::MeshOption::Kind::outline &&
-          checkpoint.sample != identity_of(mesh_of(scene, part, nullptr)))
+      if (options.mesh.kind != continuum::MeshOption::Kind::outline &&
+          checkpoint.sample != identity_of(mesh_of(options, part.edge, nullptr)))
         throw SceneError("--resume: " + part.checkpoint() + " belongs to another mesh");
       discrete::check_table(continuum_csv(part.directory), discrete::csv_header<continuum::HistoryRow>(), checkpoint.n_rows);
       const std::string snapshots = continuum_h5(part.directory);
@@ -45,7 +45,7 @@ namespace diptych::coupling
     for (const ContinuumPart &part : continuum_parts(scene))
       if (std::filesystem::exists(part.checkpoint()))
         {
-          check_interrupted(scene, part);
+          check_interrupted(part, text_of(continuum_identity(scene)), scene.continuum);
           check_files(scene.output.directory, part.name);
         }
       else if ((part.is_coarse ? facts.continuum_coarse : facts.continuum).finished &&

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "coupling/scene/identity.h"
 #include "coupling/scene/scene_error.h"
 #include "coupling/store/file_names.h"
 #include "coupling/store/provenance.h"
@@ -22,34 +21,33 @@ namespace diptych::coupling
                                   " that the checkpoint beside it goes on from");
   }
 
-  std::optional<discrete::StoredCheckpoint> interrupted_grains(const Scene &scene)
+  std::optional<discrete::StoredCheckpoint> interrupted_grains(const std::string &directory, const std::string &sample)
   {
-    const std::string path = grain_checkpoint(scene.output.directory);
+    const std::string path = grain_checkpoint(directory);
     if (!std::filesystem::exists(path))
       return std::nullopt;
     discrete::StoredCheckpoint checkpoint = discrete::read_checkpoint(path);
-    if (checkpoint.scene != text_of(sample_identity(scene)))
+    if (checkpoint.scene != sample)
       throw SceneError("--resume: " + path + " belongs to another scene: the sections sample, loading or discrete differ");
     return checkpoint;
   }
 
-  bool grains_are_finished(const Scene &scene)
+  bool grains_are_finished(const std::string &directory)
   {
-    return read_run_facts(scene.output.directory).discrete.finished &&
-           std::filesystem::exists(discrete_h5(scene.output.directory));
+    return read_run_facts(directory).discrete.finished && std::filesystem::exists(discrete_h5(directory));
   }
 
-  void check_earlier_grains(const Scene &scene)
+  void check_earlier_grains(const std::string &directory, const std::string &sample)
   {
-    const bool        finished = grains_are_finished(scene);
-    const auto        found    = interrupted_grains(scene);
-    const std::string rows = discrete_csv(scene.output.directory), snapshots = discrete_h5(scene.output.directory);
+    const bool        finished = grains_are_finished(directory);
+    const auto        found    = interrupted_grains(directory, sample);
+    const std::string rows = discrete_csv(directory), snapshots = discrete_h5(directory);
     if (!found && !finished)
       return;
     const std::size_t n_snapshots = discrete::read_snapshots(snapshots).size();
     if (!found || found->n_rows > 0) // stopped before the first step there is none
       (void)discrete::read_history<discrete::HistoryRow>(rows);
-    check_files(scene.output.directory, "discrete");
+    check_files(directory, "discrete");
     if (!found)
       return;
     discrete::check_table(rows, discrete::csv_header<discrete::HistoryRow>(), found->n_rows);

@@ -43,11 +43,11 @@ namespace diptych::coupling
       return mesh;
     }
 
-    continuum::QuadMesh made(const Scene &scene, const ContinuumPart &part, const discrete::Snapshot *grains)
+    continuum::QuadMesh made(const continuum::Options &options, const ContinuumPart &part, const discrete::Snapshot *grains)
     {
       continuum::QuadMesh mesh;
       on_first_process([&] {
-        mesh = mesh_of(scene, part, grains);
+        mesh = mesh_of(options, part.edge, grains);
         leave_if_stopped(part.title);
         std::filesystem::create_directories(part.directory);
         continuum::write_mesh(mesh, sample_msh(part.directory));
@@ -68,7 +68,7 @@ namespace diptych::coupling
         scene(scene),
         part(part),
         grains(grains),
-        mesh(made(scene, part, grains)),
+        mesh(made(scene.continuum, part, grains)),
         loading(continuum_loading(scene, measured(mesh, solid_fraction))),
         scene_identity(text_of(continuum_identity(scene))),
         sample_identity(identity_of(mesh)),
@@ -161,7 +161,7 @@ namespace diptych::coupling
       snapshots.emplace(path("continuum"));
       return 0;
     });
-    map_initial_state(scene, grains, *panel);
+    map_initial_state(scene.continuum, scene.loading.pressure, grains, *panel);
     if (panel->prepare() != continuum::Status::finished)
       return;
     is_under_way = true;

@@ -3,13 +3,13 @@
 #include "coupling/panels/recorded_grains.h"
 
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 
 #include "coupling/panels/interrupted_grains.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/scene/identity.h"
 #include "coupling/store/file_names.h"
-#include "coupling/store/result_folder.h"
 
 namespace diptych::coupling
 {
@@ -77,7 +77,7 @@ namespace diptych::coupling
     if (panel.report().status == discrete::Status::finished)
       {
         snapshots->close();
-        remove_results(scene.output.directory, {"checkpoint.h5"});
+        std::filesystem::remove(grain_checkpoint(scene.output.directory));
       }
     return panel.report();
   }

@@ -130,7 +130,7 @@ namespace diptych::coupling
       std::filesystem::absolute(directory + "/meshes/path_" + std::to_string(1 + outlines.size()) + ".msh").string();
     on_first_process([&] {
       std::filesystem::create_directories(directory + "/meshes");
-      continuum::write_mesh(mesh_of(scene, continuum_parts(scene).front(), &grains), file);
+      continuum::write_mesh(mesh_of(scene.continuum, continuum_parts(scene).front().edge, &grains), file);
       return 0;
     });
     return file;

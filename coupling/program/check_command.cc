@@ -54,7 +54,7 @@ namespace diptych::coupling
       if (!sample)
         return;
       require_elements_fit(scene, height_of(sample->outline));
-      require_comparable_sample(scene, *sample);
+      require_comparable_sample(scene.comparison.probes, *sample);
     }
   } // namespace
 

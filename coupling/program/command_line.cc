@@ -233,35 +233,33 @@ namespace diptych::coupling
       {
         CLI::App *in = add(Command::import_sample,
                            "a sample of another code as results of the discrete panel, checked on arrival");
-        in->add_option("FORMAT", line.target, "whose files")
+        in->add_option("FORMAT", line.target, "whose files; or a Python file that registers a reader of your own")
           ->required()
-          ->check(CLI::IsMember({"lammps", "liggghts", "yade", "lmgc90", "mercurydpm", "csv"}));
-        in->add_option("FILES", line.foreign.files, "of grains, contacts and walls, in any order")->required();
+          ->check(CLI::IsMember({"lammps", "liggghts", "yade", "lmgc90", "mercurydpm", "csv"}) | CLI::ExistingFile);
+        in->add_option("FILES", ignored_words, "of grains, contacts and walls, in any order")->required();
         in->add_option("--output", line.output, "folder of the imported sample")->check(is_filled)->type_name("DIR")->required();
-        in->add_option(
-            "--columns", line.foreign.columns,
-            "KIND=NAME,NAME,...: what columns mean that the files do not name; KIND: contacts or walls; may be repeated")
+        in->add_option("--columns", ignored_words,
+                       "KIND=NAME,NAME,...: what columns mean that the files do not name; KIND: particles, contacts or walls; "
+                       "may be repeated")
           ->allow_extra_args(false)
           ->type_name("KIND=NAMES");
-        const auto number = [&](const char *name, std::optional<double> &value, const char *meaning) {
-          in->add_option(name, value, meaning)->check(CLI::Range(1e-30, 1e30))->type_name("NUMBER");
+        const auto number = [&](const char *name, const char *meaning) {
+          in->add_option(name, ignored_number, meaning)->check(CLI::Range(1e-30, 1e30))->type_name("NUMBER");
         };
-        number("--thickness", line.foreign.thickness,
-               "of a layer of spheres: forces and masses are divided by it; 1 keeps forces per length");
-        number("--timestep", line.foreign.timestep, "of codes that count steps");
-        number("--density", line.foreign.density, "mass per area, where no file tells masses");
-        number("--pressure", line.foreign.pressure, "lateral (default: that of the right wall in the first frame with forces)");
-        number("--mean-diameter", line.foreign.mean_diameter, "(default: mean of the grains)");
-        in->add_flag("--walls-touch", line.foreign.walls_touch,
-                     "walls that no file places stand where the grains reach farthest");
+        number("--thickness", "of a layer of spheres: forces and masses are divided by it; 1 keeps forces per length");
+        number("--timestep", "of codes that count steps");
+        number("--density", "mass per area, where no file tells masses");
+        number("--pressure", "lateral (default: that of the right wall in the first frame with forces)");
+        number("--mean-diameter", "(default: mean of the grains)");
+        in->add_option("--gravity", ignored, "acceleration of the grains (default: that of the files)")->type_name("GX,GY");
+        in->add_option("--frames", ignored, "10-20,30: these alone, counted from 0 in ascending order")->type_name("LIST");
+        in->add_flag("--walls-touch", "walls that no file places stand where the grains reach farthest");
         add_overwrite(in);
         add_quiet(in);
 
         CLI::App *out = add(Command::export_sample, "the prepared sample of a result folder as a start for another code");
         out->add_option("FOLDER", line.target, "result folder")->required();
-        out->add_option("--format", line.format, "for whom")
-          ->required()
-          ->check(CLI::IsMember({"lammps", "yade", "lmgc90", "csv"}));
+        out->add_option("--format", line.format, "for whom")->required()->check(CLI::IsMember({"lammps", "csv"}));
         add_output(out, "folder of the exported files (default: FOLDER_for_FORMAT)");
         out->add_option("--stage", line.stage, "of the snapshots (default: 0, the prepared sample)")
           ->check(CLI::Range(0, 1000000));
@@ -281,6 +279,9 @@ namespace diptych::coupling
 
       CommandLine                  &line;
       CLI::App                      app;
+      std::string                   ignored; // options that the importers parse again
+      std::vector<std::string>      ignored_words;
+      double                        ignored_number = 0;
       std::map<CLI::App *, Command> by_parser;
     };
 

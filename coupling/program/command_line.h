@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "coupling/import/foreign_sample.h"
 #include "coupling/processes/run_options.h"
 #include "coupling/program/exit_code.h"
 #include "coupling/scene/scene.h"
@@ -52,7 +51,6 @@ namespace diptych::coupling
     double                               tolerance  = 1e-8;
     int                                  max_sweeps = 1000000;
     std::optional<discrete::ProblemForm> form;                   // --form; none: the better one that the file has
-    ForeignOptions                       foreign;                // of import
     std::string                          format;                 // of export
     int                                  stage           = 0;    // of export
     bool                                 prints_warnings = true; // the first of several processes does

@@ -59,8 +59,8 @@ namespace diptych::coupling
       write_comparison(next, scene, c);
       discrete::write_text(scene_prm(next), resolved_text(scene));
       take_next_comparison(directory);
-      record_phases(directory, scene, line.text, {phases.back()});
-      record_compared_scene(scene, line.text);
+      record_phases(directory, {scene.name, {scene.sample.seed}, line.text}, {phases.back()});
+      ResultFolder(scene).record_compared(line.text);
       record_files(directory, "comparison");
       progress.finish();
       for (const StageRecord &stage : c.stages)
@@ -109,7 +109,7 @@ namespace diptych::coupling
       return code;
     const PhaseTimer timer("report");
     draw_page(line, Drawing::page, scene.output.directory);
-    record_phases(scene.output.directory, scene, line.text, {timer.stop()});
+    record_phases(scene.output.directory, {scene.name, {scene.sample.seed}, line.text}, {timer.stop()});
     return done;
   }
 

@@ -77,7 +77,7 @@ namespace diptych::coupling
         {
           const PhaseTimer timer("preparation");
           grains.snapshot = prepared_grains(scene, line.quiet);
-          record_phases(scene.output.directory, scene, line.text, {timer.stop()});
+          record_phases(scene.output.directory, {scene.name, {scene.sample.seed}, line.text}, {timer.stop()});
         }
       if (with_grains && !grains.snapshot)
         {
@@ -162,7 +162,7 @@ namespace diptych::coupling
       PhaseCost               cost   = timer.stop();
       cost.cpu_s                     = sum_over_processes(cost.cpu_s);
       on_first_process([&] {
-        record_phases(scene.output.directory, scene, line.text, {cost});
+        record_phases(scene.output.directory, {scene.name, {scene.sample.seed}, line.text}, {cost});
         record_facts(scene.output.directory, part.name, facts_of(report));
         say_result(line, scene, part, report,
                    resume ? discrete::read_rows<continuum::HistoryRow>(continuum_csv(part.directory)) : recorded.results.rows);
@@ -216,9 +216,13 @@ namespace diptych::coupling
       [&] { return int(!changes.continuum.empty() && std::filesystem::exists(continuum_h5(directory))); });
     if (!replaces)
       return continuum_panel(line, scene, task);
+    on_first_process([&] {
+      say(line, "another " + changes.continuum + ": the continuum in " + directory + " is computed again and then replaced");
+      return 0;
+    });
     Scene next            = scene;
     next.output.directory = next_folder(directory);
-    task.resume           = on_first_process([&] { return int(open_next_continuum(scene, line.text)); });
+    task.resume           = on_first_process([&] { return int(ResultFolder(scene).open_next_continuum(line.text)); });
     const int code        = continuum_panel(line, next, task);
     if (code == done)
       on_first_process([&] {
@@ -240,7 +244,7 @@ namespace diptych::coupling
       SceneChanges  changes;
       on_first_process([&] {
         lock.emplace(scene.output.directory);
-        changes = open_result_folder(scene, *lock, opening_of(line, true), [&](const SceneChanges &found) {
+        changes = ResultFolder(scene).open(*lock, opening_of(line, true), [&](const SceneChanges &found) {
           if (found.continuum.empty())
             check_earlier_continuum(scene);
           else if (scene.sample.target_solid_fraction > 0 && scene.continuum.mesh.kind == continuum::MeshOption::Kind::outline)

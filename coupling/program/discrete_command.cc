@@ -172,7 +172,7 @@ namespace diptych::coupling
           loading.cpu_s -= report.preparation_cpu_s;
           loading.wall_s -= report.preparation_cpu_s;
         }
-      record_phases(scene.output.directory, scene, line.text, {preparation, loading});
+      record_phases(scene.output.directory, {scene.name, {scene.sample.seed}, line.text}, {preparation, loading});
       record_facts(scene.output.directory, facts);
     }
 
@@ -204,7 +204,7 @@ namespace diptych::coupling
     void check_resumed(const CommandLine &line, const Scene &scene)
     {
       if (line.resume)
-        check_earlier_grains(scene);
+        check_earlier_grains(scene.output.directory, text_of(sample_identity(scene)));
     }
 
     constexpr int divisors[] = {1, 2, 4};
@@ -226,8 +226,8 @@ namespace diptych::coupling
         {
           const Scene part = divisor == 1 ? first_part : part_of_study(scene, divisor);
           const int   code = writing(part.output.directory, [&](FolderLock &lock) {
-            open_result_folder(part, lock, {line.resume, false, false, true, line.text, {}},
-                                 [&](const SceneChanges &) { check_resumed(line, part); });
+            ResultFolder(part).open(lock, {line.resume, false, false, true, line.text, {}},
+                                      [&](const SceneChanges &) { check_resumed(line, part); });
             return discrete_panel(line, part, std::move(first));
           });
           if (code != done)
@@ -239,15 +239,15 @@ namespace diptych::coupling
       write_step_comparison(scene.output.directory, runs, comparison);
       draw(Drawing::step_study, scene.output.directory);
       say(line, comparison.verdict);
-      say(line, "study of the step: " + scene.output.directory + "/study_step.png");
+      say(line, "study of the step: " + study_step(scene.output.directory, ".png"));
       return done;
     }
   } // namespace
 
   std::unique_ptr<RecordedGrains> prepared_early(const CommandLine &line, const Scene &scene)
   {
-    const bool is_there = line.resume &&
-                          (std::filesystem::exists(grain_checkpoint(scene.output.directory)) || grains_are_finished(scene));
+    const bool is_there = line.resume && (std::filesystem::exists(grain_checkpoint(scene.output.directory)) ||
+                                          grains_are_finished(scene.output.directory));
     if (is_there || scene.discrete.method.method == discrete::Method::imported)
       return {};
     auto prepared = std::make_unique<RecordedGrains>(line, scene, std::nullopt);
@@ -267,8 +267,9 @@ namespace diptych::coupling
         return done;
       }
     const std::string &directory  = scene.output.directory;
-    const auto         checkpoint = line.resume ? interrupted_grains(scene) : std::nullopt;
-    if (line.resume && !checkpoint && grains_are_finished(scene))
+    const auto         checkpoint = line.resume ? interrupted_grains(scene.output.directory, text_of(sample_identity(scene)))
+                                                : std::nullopt;
+    if (line.resume && !checkpoint && grains_are_finished(scene.output.directory))
       {
         say(line, "the grains are finished in " + directory + ": not run again");
         return done;
@@ -321,7 +322,7 @@ namespace diptych::coupling
     return writing(scene.output.directory, [&](FolderLock &lock) {
       const Scene                     first = line.study_of_step ? part_of_study(scene, divisors[0]) : scene;
       std::unique_ptr<RecordedGrains> prepared;
-      open_result_folder(scene, lock, opening_of(line), [&](const SceneChanges &) {
+      ResultFolder(scene).open(lock, opening_of(line), [&](const SceneChanges &) {
         check_resumed(line, scene);
         prepared = prepared_early(line, first);
       });

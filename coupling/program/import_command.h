@@ -1,11 +1,10 @@
-// diptych: import FORMAT FILES: other codes' samples as results of the discrete panel
+// diptych: import FORMAT FILES: starts the importers, which are part of the Python package
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include "coupling/program/command_line.h"
-
 namespace diptych::coupling
 {
-  // Exit code. Throws SceneError for wrong files, before anything is written.
-  int import_sample(const CommandLine &line);
+  // Replaces this process by `python3 -m diptych.importers`, with the words after "import". Throws SceneError if the program was
+  // built without the package, std::runtime_error if Python cannot be started.
+  [[noreturn]] void start_importers(char **argv);
 } // namespace diptych::coupling

@@ -183,7 +183,7 @@ namespace
       case Command::report:
         return report_again(line);
       case Command::import_sample:
-        return import_sample(line);
+        start_importers(argv);
       case Command::export_sample:
         return export_sample(line);
       default:
@@ -200,10 +200,7 @@ namespace
       }
     catch (const std::bad_alloc &error)
       {
-        std::string about = line.target;
-        for (const std::string &file : line.foreign.files)
-          about += (about.empty() ? "" : ", ") + file;
-        throw diptych::discrete::OutOfMemory(about + ": " + diptych::discrete::text_of(error));
+        throw diptych::discrete::OutOfMemory(line.target + ": " + diptych::discrete::text_of(error));
       }
   }
 

@@ -50,12 +50,12 @@ namespace diptych::coupling
         throw SceneError(line.target + ": loading/pressure, loading/axial_strain or continuum/initial_step: " + error.what());
       }
     return writing(scene.output.directory, [&](FolderLock &lock) {
-      open_result_folder(scene, lock, opening_of(line, true));
+      ResultFolder(scene).open(lock, opening_of(line, true));
       const PhaseTimer                     timer("material_point");
       const continuum::MaterialPointReport report = continuum::drive_material_point(law, path);
       const std::string                    csv    = material_point_csv(scene.output.directory);
       write(report, csv);
-      record_phases(scene.output.directory, scene, line.text, {timer.stop()});
+      record_phases(scene.output.directory, {scene.name, {scene.sample.seed}, line.text}, {timer.stop()});
       std::cout << summary(report) << std::endl;
       say(line, "material point: " + csv);
       if (report.status == continuum::MaterialPointStatus::finished)

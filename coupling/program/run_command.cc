@@ -15,6 +15,7 @@
 #include "coupling/program/discrete_command.h"
 #include "coupling/program/report_command.h"
 #include "coupling/program/resource_estimate.h"
+#include "coupling/scene/identity.h"
 #include "coupling/store/provenance.h"
 #include "coupling/store/result_folder.h"
 
@@ -52,7 +53,7 @@ namespace diptych::coupling
     require_continuum(scene);
     check_comparable(scene);
     require_platen_travel(scene);
-    if (!line.resume && !line.overwrite && holds_finished_run(scene))
+    if (!line.resume && !line.overwrite && ResultFolder(scene).holds_finished_run())
       {
         say(line, scene.output.directory + " holds the finished run of this scene; --overwrite runs it again");
         if (scene.output.report)
@@ -62,9 +63,9 @@ namespace diptych::coupling
     announce_resources(line, scene, {true, true});
     return writing(scene.output.directory, [&](FolderLock &lock) {
       std::unique_ptr<RecordedGrains> prepared;
-      const SceneChanges              changes = open_result_folder(scene, lock, opening_of(line), [&](const SceneChanges &found) {
+      const SceneChanges              changes = ResultFolder(scene).open(lock, opening_of(line), [&](const SceneChanges &found) {
         if (line.resume)
-          check_earlier_grains(scene);
+          check_earlier_grains(scene.output.directory, text_of(sample_identity(scene)));
         if (line.resume && found.continuum.empty())
           check_earlier_continuum(scene);
         prepared = prepared_early(line, scene);
@@ -72,7 +73,7 @@ namespace diptych::coupling
           return;
         const discrete::Snapshot sample = prepared->sample();
         require_elements_fit(scene, height_of(sample.outline));
-        require_comparable_sample(scene, sample);
+        require_comparable_sample(scene.comparison.probes, sample);
       });
       std::optional<DiscreteResults>  grains;
       if (const int code = discrete_panel(line, scene, std::move(prepared), &grains); code != done)

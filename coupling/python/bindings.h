@@ -16,6 +16,7 @@ namespace diptych::python
   void bind_probes(pybind11::module_ &m);
   void bind_problems(pybind11::module_ &m);
   void bind_results(pybind11::module_ &m);
+  void bind_import(pybind11::module_ &m);
 
   // Translates coupling::SceneError to diptych.SceneError in the calling module.
   void translate_errors();

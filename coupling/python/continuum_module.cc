@@ -69,7 +69,7 @@ namespace diptych::python
         const auto turn = own_turn();
         {
           const py::gil_scoped_release release;
-          coupling::map_initial_state(scene, grains.get(), driven->panel());
+          coupling::map_initial_state(scene.continuum, scene.loading.pressure, grains.get(), driven->panel());
         }
         return driven->prepare(on_step);
       }
@@ -105,7 +105,7 @@ namespace diptych::python
       std::unique_ptr<Driven> made() const
       {
         const auto                part     = coupling::continuum_parts(scene).front();
-        const continuum::QuadMesh mesh     = coupling::mesh_of(scene, part, grains.get());
+        const continuum::QuadMesh mesh     = coupling::mesh_of(scene.continuum, part.edge, grains.get());
         const double              fraction = needs_grains() ? coupling::solid_fraction(*grains) : scene.sample.solid_fraction;
         const continuum::Loading  loading  = coupling::continuum_loading(scene, coupling::measured(mesh, fraction));
         return std::make_unique<Driven>([&](const continuum::Hooks &hooks) {

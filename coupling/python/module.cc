@@ -16,4 +16,5 @@ PYBIND11_MODULE(_diptych, m)
   bind_bands(m);
   bind_probes(m);
   bind_problems(m);
+  bind_import(m);
 }

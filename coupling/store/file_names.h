@@ -62,6 +62,26 @@ namespace diptych::coupling
   {
     return folder + "/comparison.json";
   }
+  inline std::string comparison_csv(const std::string &folder)
+  {
+    return folder + "/comparison.csv";
+  }
+  inline std::string comparison_h5(const std::string &folder)
+  {
+    return folder + "/comparison.h5";
+  }
+  inline std::string fields_vtu(const std::string &folder) // on the continuum's mesh
+  {
+    return folder + "/fields.vtu";
+  }
+  inline std::string grid_vtu(const std::string &folder) // on the regular grid
+  {
+    return folder + "/grid.vtu";
+  }
+  inline std::string study_step(const std::string &folder, const std::string &extension)
+  {
+    return folder + "/study_step" + extension;
+  }
   inline std::string report_html(const std::string &folder)
   {
     return folder + "/report.html";

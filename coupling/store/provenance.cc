@@ -256,23 +256,12 @@ namespace diptych::coupling
       check_part(one);
   }
 
-  void record_phases(const std::string            &directory,
-                     const Scene                  &scene,
-                     const std::string            &command,
-                     const std::vector<PhaseCost> &phases)
-  {
-    record_phases(directory, scene, command, phases, {scene.sample.seed});
-  }
-
-  void record_phases(const std::string            &directory,
-                     const Scene                  &scene,
-                     const std::string            &command,
-                     const std::vector<PhaseCost> &phases,
-                     const std::vector<int>       &seeds)
+  void record_phases(const std::string &directory, const RunOrigin &origin, const std::vector<PhaseCost> &phases)
   {
     json          record = read_record(directory);
     NumbersToJson into{record, 1};
-    list_numbers(Origin{command, scene.name, seeds, now_utc(), cpu_name(), std::thread::hardware_concurrency()}, into);
+    list_numbers(Origin{origin.command, origin.scene, origin.seeds, now_utc(), cpu_name(), std::thread::hardware_concurrency()},
+                 into);
     if (record["phases"].is_null())
       record["phases"] = json::array();
     for (const PhaseCost &phase : phases)
@@ -295,9 +284,9 @@ namespace diptych::coupling
     put_facts(directory, part, facts);
   }
 
-  void record_scene(const std::string &directory, const Scene &scene, const std::string &command, const SceneHashes &hashes)
+  void record_scene(const std::string &directory, const RunOrigin &origin, const SceneHashes &hashes)
   {
-    record_phases(directory, scene, command, {});
+    record_phases(directory, origin, {});
     json          record = read_record(directory);
     NumbersToJson writer{record["hashes"] = json::object(), 1};
     list_numbers(hashes, writer);

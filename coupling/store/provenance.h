@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "coupling/scene/scene.h"
 #include "coupling/store/facts.h"
 
 namespace diptych::coupling
@@ -26,17 +25,17 @@ namespace diptych::coupling
   // CPU seconds of all threads of the process; `children` adds those of its child processes (the report).
   double cpu_seconds(bool children = false);
 
-  // Adds phases to provenance.json; a phase of the same name is replaced, other entries stay. `seeds` of the samples, by default
-  // the scene's. Throws std::runtime_error where the file cannot be written, std::invalid_argument where it is damaged.
-  void record_phases(const std::string            &directory,
-                     const Scene                  &scene,
-                     const std::string            &command,
-                     const std::vector<PhaseCost> &phases);
-  void record_phases(const std::string            &directory,
-                     const Scene                  &scene,
-                     const std::string            &command,
-                     const std::vector<PhaseCost> &phases,
-                     const std::vector<int>       &seeds);
+  // The command that wrote results, and the scene that they are of.
+  struct RunOrigin
+  {
+    std::string      scene; // its name
+    std::vector<int> seeds; // of its samples
+    std::string      command;
+  };
+
+  // Adds phases to provenance.json; a phase of the same name is replaced, other entries stay. Throws std::runtime_error if the
+  // file cannot be written, std::invalid_argument if it is damaged.
+  void record_phases(const std::string &directory, const RunOrigin &origin, const std::vector<PhaseCost> &phases);
 
   // The facts of one part, "discrete", "continuum" or "continuum_coarse", and the checksums of its files.
   void record_facts(const std::string &directory, const DiscreteFacts &facts);
@@ -49,7 +48,7 @@ namespace diptych::coupling
   void record_files(const std::string &directory, const std::string &part);
 
   // The scene that the folder's results are of, and the hashes by which it is recognised.
-  void record_scene(const std::string &directory, const Scene &scene, const std::string &command, const SceneHashes &hashes);
+  void record_scene(const std::string &directory, const RunOrigin &origin, const SceneHashes &hashes);
 
   // Facts, checksums, hashes and phases of the continuum in the folder `from` take the place of those recorded in `directory`.
   void take_continuum_facts(const std::string &directory, const std::string &from);

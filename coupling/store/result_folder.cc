@@ -64,19 +64,6 @@ namespace diptych::coupling
     }
   } // namespace
 
-  SceneChanges changes_since(const Scene &scene, const std::string &directory)
-  {
-    const SceneHashes now = hashes_of(scene), before = read_run_facts(directory).hashes;
-    SceneChanges      changes;
-    if (now.sample != before.sample)
-      changes.sample = reason(scene, directory, sample_identity);
-    if (now.continuum != before.continuum)
-      changes.continuum = reason(scene, directory, continuum_identity);
-    if (now.comparison != before.comparison)
-      changes.comparison = reason(scene, directory, member_identity);
-    return changes;
-  }
-
   bool is_result_folder(const std::string &directory)
   {
     for (const char *name :
@@ -96,14 +83,6 @@ namespace diptych::coupling
       throw SceneError("the folder '" + directory + "' holds results. Add " +
                        (opening.can_resume ? "--resume to go on from them, " : "") + "--overwrite to rename them to " +
                        plain_path(directory).filename().string() + ".1, or --output with another folder.");
-  }
-
-  InputFiles with_files_of(const Opening &opening, const Scene &scene)
-  {
-    InputFiles inputs = opening.inputs;
-    for (const auto &input : input_files(scene))
-      inputs.push_back(input);
-    return inputs;
   }
 
   void set_aside(FolderLock &lock, const InputFiles &inputs)
@@ -127,34 +106,45 @@ namespace diptych::coupling
               << std::endl;
   }
 
-  void write_scene(const std::string &directory, const Scene &scene, const std::string &command)
+  SceneChanges ResultFolder::changes_in(const std::string &folder) const
   {
-    record_scene(directory, scene, command, hashes_of(scene));
-    discrete::write_text(scene_prm(directory), resolved_text(scene));
+    const SceneHashes now = hashes_of(scene), before = read_run_facts(folder).hashes;
+    SceneChanges      changes;
+    if (now.sample != before.sample)
+      changes.sample = reason(scene, folder, sample_identity);
+    if (now.continuum != before.continuum)
+      changes.continuum = reason(scene, folder, continuum_identity);
+    if (now.comparison != before.comparison)
+      changes.comparison = reason(scene, folder, member_identity);
+    return changes;
   }
 
-  void record_compared_scene(const Scene &scene, const std::string &command)
+  void ResultFolder::write_scene(const std::string &folder, const std::string &command) const
   {
-    SceneHashes hashes = read_run_facts(scene.output.directory).hashes;
+    record_scene(folder, {scene.name, {scene.sample.seed}, command}, hashes_of(scene));
+    discrete::write_text(scene_prm(folder), resolved_text(scene));
+  }
+
+  void ResultFolder::record_compared(const std::string &command) const
+  {
+    SceneHashes hashes = read_run_facts(directory).hashes;
     hashes.comparison  = hashes_of(scene).comparison;
-    record_scene(scene.output.directory, scene, command, hashes);
+    record_scene(directory, {scene.name, {scene.sample.seed}, command}, hashes);
   }
 
-  SceneChanges open_result_folder(const Scene                                     &scene,
-                                  FolderLock                                      &lock,
+  SceneChanges ResultFolder::open(FolderLock                                      &lock,
                                   const Opening                                   &opening,
-                                  const std::function<void(const SceneChanges &)> &check)
+                                  const std::function<void(const SceneChanges &)> &check) const
   {
-    const std::string &directory = scene.output.directory;
-    const bool         is_empty  = is_empty_folder(directory);
-    Opening            usable    = opening;
-    usable.resume                = opening.resume || opening.adds;
+    const bool is_empty = is_empty_folder(directory);
+    Opening    usable   = opening;
+    usable.resume       = opening.resume || opening.adds;
     require_usable(directory, usable);
     SceneChanges changes;
     if (!is_empty && !opening.overwrite)
       {
         finish_replacement(directory);
-        changes = changes_since(scene, directory);
+        changes = this->changes();
         if (!changes.sample.empty())
           throw SceneError("the results in '" + directory + "' are of another sample: " + changes.sample +
                            ". Run the same scene, or add --overwrite, or --output with another folder.");
@@ -162,20 +152,24 @@ namespace diptych::coupling
     if (check)
       check(changes);
     if (!is_empty && opening.overwrite)
-      set_aside(lock, with_files_of(opening, scene));
+      {
+        InputFiles inputs = opening.inputs;
+        for (const auto &input : input_files(scene))
+          inputs.push_back(input);
+        set_aside(lock, inputs);
+      }
     // The scene of a finished continuum or comparison stays beside it until a new one takes its place.
     if (is_empty || opening.overwrite || (!changes.continuum.empty() && !has_continuum(directory)))
-      write_scene(directory, scene, opening.command);
+      write_scene(directory, opening.command);
     return changes;
   }
 
-  bool holds_finished_run(const Scene &scene)
+  bool ResultFolder::holds_finished_run() const
   {
-    const std::string &directory = scene.output.directory;
     if (!fs::exists(directory + "/provenance.json"))
       return false;
     const RunFacts     facts   = read_run_facts(directory);
-    const SceneChanges changes = changes_since(scene, directory);
+    const SceneChanges changes = this->changes();
     if (!changes.sample.empty() || !changes.continuum.empty() || !changes.comparison.empty() || !facts.discrete.finished ||
         !facts.continuum.finished || facts.comparison_files.table.empty() ||
         (scene.output.report && !fs::exists(report_html(directory))))
@@ -190,14 +184,14 @@ namespace diptych::coupling
     return directory + "/next";
   }
 
-  bool open_next_continuum(const Scene &scene, const std::string &command)
+  bool ResultFolder::open_next_continuum(const std::string &command) const
   {
-    const std::string next = next_folder(scene.output.directory);
-    if (fs::exists(next + "/provenance.json") && changes_since(scene, next).continuum.empty())
+    const std::string next = next_folder(directory);
+    if (fs::exists(next + "/provenance.json") && changes_in(next).continuum.empty())
       return true;
-    remove_results(scene.output.directory, {"next"});
+    remove_results(directory, {"next"});
     make_folder(next);
-    write_scene(next, scene, command);
+    write_scene(next, command);
     return false;
   }
 

@@ -33,8 +33,6 @@ namespace diptych::coupling
     std::string sample, continuum, comparison;
   };
 
-  SceneChanges changes_since(const Scene &scene, const std::string &directory);
-
   // Results of any command: of a run, an import, an ensemble, a study, a plan or a calibration.
   bool is_result_folder(const std::string &directory);
 
@@ -47,32 +45,47 @@ namespace diptych::coupling
   // where another run writes to a folder in it.
   void set_aside(FolderLock &lock, const InputFiles &inputs);
 
-  // The files of the command line and of the scene.
-  InputFiles with_files_of(const Opening &opening, const Scene &scene);
+  // The folder output/directory of a scene. The scene must outlive it.
+  class ResultFolder
+  {
+  public:
+    explicit ResultFolder(const Scene &scene)
+        : scene(scene),
+          directory(scene.output.directory)
+    {}
 
-  // Prepares the folder of a run: refuses it as above, compares the scene with the one whose results stand there, calls `check`,
-  // which may throw before anything has changed, sets old results aside, and writes scene.prm and provenance.json.
-  // Throws SceneError, also where results of another sample stand there, and std::runtime_error where it cannot be written to.
-  SceneChanges open_result_folder(const Scene                                     &scene,
-                                  FolderLock                                      &lock,
-                                  const Opening                                   &opening,
-                                  const std::function<void(const SceneChanges &)> &check = {});
+    // Between the scene and the one whose results stand in the folder.
+    SceneChanges changes() const { return changes_in(directory); }
 
-  // The resolved scene as DIRECTORY/scene.prm and its hashes in provenance.json.
-  void write_scene(const std::string &directory, const Scene &scene, const std::string &command);
+    // Prepares the folder of a run: refuses it as require_usable() does, compares the scenes, calls `check`, which may throw
+    // before anything has changed, sets old results aside, and writes scene.prm and provenance.json. Throws SceneError, also
+    // where results of another sample stand there, and std::runtime_error where it cannot be written to.
+    SceneChanges open(FolderLock                                      &lock,
+                      const Opening                                   &opening,
+                      const std::function<void(const SceneChanges &)> &check = {}) const;
 
-  // Records the hash of a comparison with other keys; sample and continuum stay those that were run.
-  void record_compared_scene(const Scene &scene, const std::string &command);
+    // Records in provenance.json that the comparison is now of this scene. The hashes of the panels stay those that were run.
+    void record_compared(const std::string &command) const;
 
-  // Everything that the scene asks for is in the folder, computed from this scene and these inputs.
-  // Throws std::invalid_argument naming a file that was changed since.
-  bool holds_finished_run(const Scene &scene);
+    // Everything that the scene asks for is in the folder, computed from this scene and these inputs.
+    // Throws std::invalid_argument naming a file that was changed since.
+    bool holds_finished_run() const;
 
-  // A continuum that replaces another one is computed in DIRECTORY/next, with scene.prm and provenance.json of its own.
+    // Prepares next_folder(). True: it holds an interrupted run of the same scene, which can go on.
+    bool open_next_continuum(const std::string &command) const;
+
+  private:
+    SceneChanges changes_in(const std::string &folder) const;
+
+    // The resolved scene as FOLDER/scene.prm and its hashes in provenance.json.
+    void write_scene(const std::string &folder, const std::string &command) const;
+
+    const Scene       &scene;
+    const std::string &directory;
+  };
+
+  // A continuum that replaces another one is computed in DIRECTORY/next, with its own scene.prm and provenance.json.
   std::string next_folder(const std::string &directory);
-
-  // Prepares that folder. True: it holds an interrupted run of the same scene, which can go on.
-  bool open_next_continuum(const Scene &scene, const std::string &command);
 
   // Moves the complete continuum from there to its place and removes the comparison with the old one.
   void replace_continuum(const std::string &directory);

@@ -77,7 +77,7 @@ def disk(case):
             line, keeps = [out if word == "OUT" else word for word in line], tuple("disk/out/" + name for name in os.listdir(out) if name.startswith(kept))
         else:
             line = dice.choice([["import", "csv", *bases.foreign("csv"), "--output", out],
-                                ["export", os.path.join(case.base("both"), "out"), "--format", dice.choice(["csv", "yade", "lmgc90"]), "--output", out]])
+                                ["export", os.path.join(case.base("both"), "out"), "--format", dice.choice(["csv", "lammps"]), "--output", out]])
         filler = threading.Timer(dice.choice([0, 0, dice.uniform(0, 0.3), dice.uniform(0, 1.5)]), fill, (case.path("disk"), room))
         if is_one:
             filler.start()

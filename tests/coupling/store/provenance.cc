@@ -1,5 +1,6 @@
 // diptych: records of a folder that are not what this program writes
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/scene/scene.h"
 #include "coupling/store/provenance.h"
 
 #include <filesystem>
@@ -46,7 +47,7 @@ namespace
   {
     Scene scene;
     scene.name = "mine";
-    record_phases(folder, scene, "diptych run mine.prm", {{"discrete", 2, 1, 100}});
+    record_phases(folder, {scene.name, {scene.sample.seed}, "diptych run mine.prm"}, {{"discrete", 2, 1, 100}});
     json record;
     std::ifstream(folder / "provenance.json") >> record;
     return record;

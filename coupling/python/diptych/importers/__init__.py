@@ -1,0 +1,18 @@
+# diptych: importers of other codes' samples
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Readers of LAMMPS, LIGGGHTS, Yade, LMGC90, MercuryDPM and tables, and the place for a reader of your own.
+
+A reader is a function that takes Options and returns a list of Frame in ascending order; register() gives it a name.
+"""
+
+from .command import main
+from .frames import Frame, Options, Wall, contacts_of, refused
+from .grains import grains_of
+from .readers import check, read, register
+from .table_files import read_table
+from .tables import Table
+from .text import read_lines
+from .walls import add_wall_tables
+
+__all__ = ["Frame", "Options", "Table", "Wall", "add_wall_tables", "check", "contacts_of", "grains_of", "main", "read",
+           "read_lines", "read_table", "refused", "register"]

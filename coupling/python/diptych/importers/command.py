@@ -1,0 +1,85 @@
+# diptych: the command `import`, from its words to the door in C++
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Hands the frames of a reader to the compiled module, which checks them and writes the results."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import runpy
+import signal
+import sys
+from typing import Any, Sequence
+
+from .. import _diptych
+from .frames import Options
+from .readers import read_frames, registered
+
+
+def _positive(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 1e-30 <= value <= 1e30:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a number from 1e-30 to 1e30")
+    return value
+
+
+def _vector(text: str) -> tuple[float, float]:
+    try:
+        x, y = (float(part) for part in text.split(","))
+    except ValueError:
+        x = y = math.nan
+    if not math.isfinite(x + y):
+        raise argparse.ArgumentTypeError(f"'{text}' is not GX,GY, two numbers such as 0,-9.81")
+    return x, y
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="diptych import", allow_abbrev=False)
+    parser.add_argument("format")
+    parser.add_argument("files", nargs="+")
+    parser.add_argument("--output", required=True, metavar="DIR")
+    parser.add_argument("--columns", action="append", default=[], metavar="KIND=NAMES")
+    for name in ("thickness", "timestep", "density", "pressure", "mean-diameter"):
+        parser.add_argument("--" + name, type=_positive, metavar="NUMBER")
+    parser.add_argument("--gravity", type=_vector, metavar="GX,GY")
+    parser.add_argument("--frames", default="", metavar="LIST")
+    for name in ("walls-touch", "overwrite", "quiet"):
+        parser.add_argument("--" + name, action="store_true")
+    return parser
+
+
+def _stop(*_: Any) -> None:
+    raise KeyboardInterrupt
+
+
+def main(words: Sequence[str] | None = None) -> int:
+    """Runs `diptych import` with these words (sys.argv[1:]) and returns its exit code: 0, 2, 3 or 4."""
+    words = list(sys.argv[1:] if words is None else words)
+    signals = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    try:
+        for each in signals:
+            signal.signal(each, _stop)
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, signals)
+        given = vars(_parser().parse_intermixed_args(words))
+        format = given.pop("format")
+        if format.endswith(".py"):
+            runpy.run_path(format)
+            format = next(reversed(registered), format)
+        options = Options(command=" ".join(["diptych import", *words]), **given)
+        frames = read_frames(format, options)
+        sys.stdout.flush()
+        _diptych.import_frames(format, frames, options.notes, options)
+        return 0
+    except ValueError as error:  # SceneError is one
+        code, text = 2, str(error)
+    except KeyboardInterrupt:
+        code, text = 3, "import: stopped on request"
+    except MemoryError:
+        code, text = 4, f"import {' '.join(words)}: not enough memory"
+    except (OSError, RuntimeError, ImportError) as error:
+        code, text = 4, str(error)
+    print("diptych:", text, file=sys.stderr)
+    return code

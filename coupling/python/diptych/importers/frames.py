@@ -1,0 +1,125 @@
+# diptych: what a reader of foreign files returns, and the options that it gets
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Frames of grains, contacts and walls, in the units of the files. Forces and masses are those of the whole thickness."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ..errors import SceneError
+
+SIDES = ("lower", "upper", "left", "right")
+
+
+def refused(path: str, text: str, line: int = 0) -> SceneError:
+    """The error to raise for wrong input: it names the file and its line (from 1; 0: none)."""
+    error = SceneError(f"{path}, line {line}: {text}" if line else f"{path}: {text}")
+    error.file, error.line = path, int(line)
+    return error
+
+
+@dataclass
+class Wall:
+    """A straight wall along x or y. Without a side, the grains that touch it give the side."""
+
+    name: str
+    side: str | None = None  # lower, upper, left or right
+    place: float = math.nan  # of its inner face: y of lower and upper, x of left and right; nan: from its contact points
+    travel: float = 0.0  # along itself since the first frame, to the right
+    force: Any = (math.nan, math.nan)  # between wall and sample, of either sign
+
+
+@dataclass
+class Frame:
+    """One instant. Arrays have one row per grain (n) or contact (m).
+
+    grains    "id" (n), "position" (n, 2), "radius" (n); if known "mass" (n), "velocity" (n, 2), "spin" and "rotation" (n,
+              counter-clockwise), "resultant" (n, 2: of all forces, as the code summed them up), "line" (n, of the file)
+    contacts  "first", "second" (m, ids), "wall" (m, index in `walls`, -1: two grains), "force" (m, 2, on `first`); if known
+              "point" (m, 2), "overlap" (m), "slides" (m, 0 or 1), "line" (m). None: the files hold no contacts
+    gravity   acceleration of every grain; None: unknown
+    """
+
+    name: str
+    grains: dict[str, np.ndarray]
+    contacts: dict[str, np.ndarray] | None = None
+    walls: list[Wall] = field(default_factory=list)
+    gravity: tuple[float, float] | None = None
+    time: float | None = None
+    step: int | None = None
+    spheres: bool = False  # one layer of spheres: stresses need a thickness
+    lacking: list[str] = field(default_factory=list)  # quantities that this format never contains
+    grain_file: str = ""  # for messages
+    contact_file: str = ""
+    wall_file: str = ""
+
+
+@dataclass
+class Options:
+    """Words of the command line. A reader uses files, columns_of(), time_of() and note()."""
+
+    files: list[str]
+    columns: list[str] = field(default_factory=list)  # "contacts=index,id1,..."
+    timestep: float | None = None
+    thickness: float | None = None
+    density: float | None = None
+    pressure: float | None = None
+    mean_diameter: float | None = None
+    gravity: tuple[float, float] | None = None
+    frames: str = ""
+    walls_touch: bool = False
+    output: str = ""
+    overwrite: bool = False
+    quiet: bool = False
+    command: str = "diptych import"
+    notes: list[str] = field(default_factory=list)
+    used: set[str] = field(default_factory=set)  # options that had an effect
+
+    def columns_of(self, kind: str, width: int | None = None) -> list[str] | None:
+        """Names that the user gave for the columns of "particles", "contacts" or "walls"; `width`: only if they are so many."""
+        for text in self.columns:
+            names = text.partition("=")[2].split(",")
+            if text.startswith(kind + "=") and width in (None, len(names)):
+                self.used.add(text)
+                return names
+        return None
+
+    def time_of(self, step: int) -> float | None:
+        """The time of a step, if --timestep is given."""
+        self.used.add("timestep")
+        return None if self.timestep is None else step * self.timestep
+
+    def note(self, text: str) -> None:
+        """Tells the user about data that were left out or changed; once."""
+        if text not in self.notes:
+            self.notes.append(text)
+
+
+def contacts_of(first: Any, second: Any, force: Any, wall: Any = -1, **more: Any) -> dict[str, np.ndarray]:
+    """The contacts of a frame. Scalars count for all rows; members of `more` that are None are left out."""
+    first = np.asarray(first)
+    columns = {"first": first, "second": np.broadcast_to(second, first.shape), "force": np.reshape(force, (-1, 2)),
+               "wall": np.broadcast_to(wall, first.shape)}
+    return columns | {name: np.asarray(values) for name, values in more.items() if values is not None}
+
+
+def joined(*parts: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Several lists of contacts as one; columns that a part lacks are nan."""
+    def column(part: dict[str, np.ndarray], name: str) -> np.ndarray:
+        n = len(part["first"])
+        return part.get(name, np.full((n, 2) if name == "point" else n, np.nan))
+    return {name: np.concatenate([column(part, name) for part in parts])
+            for name in {name: 0 for part in parts for name in part}}
+
+
+def rows_of(ids: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """The row of each wanted id in `ids`; -1: there is none."""
+    if not len(ids):
+        return np.full(len(wanted), -1)
+    order = np.argsort(ids)
+    place = order[np.minimum(np.searchsorted(ids, wanted, sorter=order), len(ids) - 1)]
+    return np.where(ids[place] == wanted, place, -1)

@@ -1,0 +1,139 @@
+# diptych: reads LMGC90: BODIES.DAT with DOF and Vloc_Rloc files, or with its HDF5 file
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""LMGC90, discs DISKx between walls JONCx."""
+
+from __future__ import annotations
+
+import os
+import re
+
+import numpy as np
+
+from .frames import Frame, Options, refused
+from .lmgc90_bodies import Bodies, contacts_with, field, place_bodies, read_bodies, read_bulk
+from .table_files import read_table
+from .text import int_of, read_lines
+from .walls import add_wall_tables, is_wall_table
+
+
+def _instant(path: str, lines: list[str]) -> tuple[int, float]:
+    """Step and time of "$steps N time= T"."""
+    for k, line in enumerate(lines, 1):
+        if line.startswith("$steps"):
+            words = line.split()
+            if len(words) < 3:
+                raise refused(path, "expected '$steps N time= T'", k)
+            return int_of(path, k, words[1], "the step"), field(path, k, line, r"time=")
+    raise refused(path, "the file ends without '$steps'", len(lines))
+
+
+def _motions(path: str) -> tuple[int, float, np.ndarray, np.ndarray]:
+    """Step, time, and (n, 3) displacement and velocity of every body, in the order of the file."""
+    lines = read_lines(path)
+    step, time = _instant(path, lines)
+    x, v = [], []
+    for k, line in enumerate(lines, 1):
+        if "X(1)=" in line:
+            x.append([field(path, k, line, rf"X\({axis}\)=") for axis in (1, 2, 3)])
+        elif "V(1)=" in line and len(v) < len(x):
+            v.append([field(path, k, line, rf"V\({axis}\)=") for axis in (1, 2, 3)])
+    if len(x) != len(v):
+        raise refused(path, f"{len(x)} bodies have X, but {len(v)} have V; is the file truncated?", len(lines))
+    return step, time, np.array(x).reshape(-1, 3), np.array(v).reshape(-1, 3)
+
+
+def _contacts(path: str, frame: Frame, bodies: Bodies) -> None:
+    """Blocks of eight lines that begin with $icdan."""
+    lines = read_lines(path)
+    step, time = _instant(path, lines)
+    if step != frame.step or abs(time - frame.time) > 1e-9 * abs(frame.time):
+        raise refused(path, f"step {step} differs from that of {frame.grain_file} ({frame.step}): the frames do not match")
+    numbers, values = [], []
+    for k, line in enumerate(lines):
+        if not line.startswith("$icdan"):
+            continue
+        if k + 7 >= len(lines):
+            raise refused(path, "the file ends within a contact; is it truncated?", len(lines))
+        words = lines[k + 2].split()
+        if len(words) < 11 or words[0] != "RBDY2" or words[5] != "RBDY2":
+            raise refused(path, "expected RBDY2 N DISKx K law RBDY2 N DISKx or JONCx K status", k + 3)
+        numbers.append([int_of(path, k + 3, words[1], "the candidate"), int_of(path, k + 3, words[6], "the antagonist"),
+                        words[9].startswith("sl"), k + 3])
+        fields = ((3, "rlt/H"), (3, "rln/H"), (5, "gapTT"), (6, r"n\(1\)="), (6, r"n\(2\)="), (7, "coo1="), (7, "coo2="))
+        values.append([field(path, k + row + 1, lines[k + row], name) for row, name in fields])
+    numbers, values = np.array(numbers, dtype=int).reshape(-1, 4), np.array(values).reshape(-1, 7)
+    frame.contact_file = path
+    frame.contacts = contacts_with(path, numbers[:, :2], values, numbers[:, 2], bodies, numbers[:, 3])
+
+
+def _columns(file: object, path: str, quantity: str, n: int) -> slice:
+    """Columns of a quantity. Help counts them from 1, both ends included."""
+    low, high = (int(bound) for bound in file[f"Help/{quantity}/bound"][()])
+    if low < 1 or high - low + 1 < n:
+        raise refused(path, f"Help/{quantity}/bound does not name {n} columns")
+    return slice(low - 1, low - 1 + n)
+
+
+def _hdf5_frames(path: str, bodies: Bodies, gravity: tuple[float, float] | None) -> list[Frame]:
+    """Frames Evolution/ID_k. The file has no geometry."""
+    import h5py  # type: ignore
+
+    try:
+        frames = []
+        with h5py.File(path, "r") as file:
+            for name, group in file["Evolution"].items():
+                frame = Frame(name, {}, gravity=gravity, grain_file=path, contact_file=path)
+                frame.time, frame.step = float(np.ravel(group["TPS"][()])[0]), int(np.ravel(group["NStep"][()])[0])
+                motion, real, whole = (group[table][()] for table in ("RBDY2/rdata", "VlocRloc/rdata", "VlocRloc/idata"))
+                if not np.all(np.isfinite(motion)) or not np.all(np.isfinite(real)) or len(real) != len(whole):
+                    raise refused(path, f"Evolution/{name} has a number that is not finite, or tables of different lengths")
+                place_bodies(frame, bodies, *(motion[:, _columns(file, path, "RBDY2/rdata/" + q, 3)] for q in "XV"))
+                parts = [("rl", 2), ("gapTT", 1), ("uc", 2), ("coor", 2)]
+                values = np.column_stack([real[:, _columns(file, path, "VlocRloc/rdata/" + q, n)] for q, n in parts])
+                status = whole[:, _columns(file, path, "VlocRloc/idata/status", 1)][:, 0]
+                numbers = whole[:, _columns(file, path, "VlocRloc/idata/ibdyty", 2)]
+                frame.contacts = contacts_with(path, numbers, values, (status == 6) | (status == 7),
+                                               bodies)  # slides either way
+                frames.append(frame)
+        return frames
+    except (OSError, RuntimeError, KeyError, IndexError, TypeError, AttributeError, OverflowError) as error:
+        raise refused(path, f"is no HDF5 file of LMGC90 that can be read: {error}") from error
+
+
+def read(options: Options) -> list[Frame]:
+    """Frames in the order of time. LMGC90 prescribes the names of its files. Raises SceneError."""
+    named: dict[str, str] = {}
+    motions, contacts, tables = {}, {}, []
+    for path in options.files:
+        kind, _, tail = re.sub(r"\.gz$", "", os.path.basename(path)).partition(".")
+        if kind in ("BODIES", "BULK_BEHAV"):
+            named[kind] = path
+        elif kind in ("DOF", "Vloc_Rloc"):
+            (motions if kind == "DOF" else contacts)[tail] = path
+        elif path.endswith(".h5"):
+            named["h5"] = path
+        elif kind in ("DRV_DOF", "TACT_BEHAV"):
+            options.note(f"{path}: this file is not needed")
+        elif is_wall_table(path):
+            tables.append(path)
+        else:
+            raise refused(path, "is none of BODIES.*, BULK_BEHAV.*, DOF.*, Vloc_Rloc.*, *.h5, nor a wall table")
+    if "BODIES" not in named:
+        raise refused("import lmgc90", "BODIES.DAT is missing; it contains radii and walls")
+    if not motions and "h5" not in named:
+        raise refused("import lmgc90", "DOF.OUT.* or a .h5 file is missing; they contain the positions of the bodies")
+    densities, gravity = read_bulk(named["BULK_BEHAV"]) if "BULK_BEHAV" in named else ({}, None)
+    bodies = read_bodies(named["BODIES"], densities, options)
+    frames = _hdf5_frames(named["h5"], bodies, gravity) if "h5" in named else []
+    for tail, path in motions.items():
+        step, time, x, v = _motions(path)
+        frames.append(Frame(tail, {}, step=step, time=time, gravity=gravity, grain_file=path))
+        place_bodies(frames[-1], bodies, x, v)
+        if tail in contacts:
+            _contacts(contacts.pop(tail), frames[-1], bodies)
+    if contacts:
+        tail, path = next(iter(contacts.items()))
+        raise refused(path, f"there is no DOF.{tail}: the frames do not match")
+    frames.sort(key=lambda frame: frame.time)
+    add_wall_tables(frames, [read_table(path) for path in tables], options)
+    return frames

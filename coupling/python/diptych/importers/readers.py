@@ -1,0 +1,88 @@
+# diptych: readers by their names, and the frames that they return
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Reads files with the reader of a format. The compiled module checks the frames."""
+
+from __future__ import annotations
+
+import importlib
+import json
+import os
+from typing import Any, Callable, Sequence
+
+from .. import _diptych
+from ..errors import SceneError
+from .frames import Frame, Options, refused
+
+Reader = Callable[[Options], "list[Frame]"]
+_MODULES = {"lammps": "lammps", "liggghts": "liggghts", "yade": "yade", "lmgc90": "lmgc90", "mercurydpm": "mercurydpm",
+            "csv": "plain_csv"}
+registered: dict[str, Reader] = {}
+
+
+def register(name: str) -> Callable[[Reader], Reader]:
+    """Decorator: makes a function the reader of a format. main() and read() then know the name."""
+    def keep(reader: Reader) -> Reader:
+        registered[name] = reader
+        return reader
+    return keep
+
+
+def _reader(name: str) -> Reader:
+    if name in registered:
+        return registered[name]
+    if name in _MODULES:
+        return importlib.import_module("." + _MODULES[name], __package__).read
+    raise SceneError(f"import {name}: unknown format; known are {', '.join([*_MODULES, *registered])}, or a Python file that "
+                     "registers a reader")
+
+
+def _selected(frames: list[Frame], text: str) -> list[Frame]:
+    """Frames of "10-20,30", counted from 0."""
+    wanted: set[int] = set()
+    for part in text.split(","):
+        low, _, high = part.partition("-")
+        if not low.isdigit() or not (high or low).isdigit() or not int(low) <= int(high or low) < len(frames):
+            raise SceneError(f"--frames {text}: '{part}' is not allowed; give numbers as 10-20,30 from 0 to {len(frames) - 1}")
+        wanted |= set(range(int(low), int(high or low) + 1))
+    return [frames[k] for k in sorted(wanted)]
+
+
+def _refuse_unused(format: str, options: Options) -> None:
+    """Refuses options that would have no effect, because the user believes that they count."""
+    if options.timestep is not None and "timestep" not in options.used:
+        raise SceneError(f"import {format}: --timestep would have no effect: these files contain times, or no steps")
+    for text in options.columns:
+        if text not in options.used:
+            raise SceneError(f"import {format}: --columns {text} would have no effect: no such file has so many columns, or "
+                             "the files name them")
+
+
+def read_frames(format: str, options: Options) -> list[Frame]:
+    """The frames that the options choose; those without grains are left out. Raises SceneError."""
+    for path in options.files:
+        if not os.path.isfile(path):
+            raise refused(path, "is not a regular file" if os.path.exists(path) else "there is no such file")
+    for text in options.columns:
+        kind, _, names = text.partition("=")
+        if kind not in ("particles", "contacts", "walls") or not names:
+            raise SceneError(f"--columns {text}: is not KIND=NAME,NAME,..., where KIND is particles, contacts or walls")
+    frames = _reader(format)(options)
+    for frame in frames:
+        if not len(frame.grains["id"]):
+            options.note(f"frame {frame.name} has no grains; it was left out")
+    frames = [frame for frame in frames if len(frame.grains["id"])]
+    if not frames:
+        raise SceneError(f"import {format}: the files contain no frame with grains")
+    _refuse_unused(format, options)
+    return _selected(frames, options.frames) if options.frames else frames
+
+
+def read(format: str, files: Sequence[str], **options: Any) -> list[Frame]:
+    """Frames of files, in ascending order. `options` are members of Options. Raises SceneError (file, line)."""
+    return read_frames(format, Options([str(file) for file in files], **options))
+
+
+def check(format: str, files: Sequence[str], **options: Any) -> dict[str, Any]:
+    """Reads and checks files without writing: the content of import.json as a dict. Raises SceneError."""
+    given = Options([str(file) for file in files], **options)
+    return json.loads(_diptych.check_frames(format, read_frames(format, given), given.notes, given))

@@ -1,0 +1,97 @@
+# diptych: reads tables as programs, scripts and spreadsheets write them
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Files of tables: separated by semicolons, tabs, commas or blanks, with or without names of their columns."""
+
+from __future__ import annotations
+
+import csv
+import re
+from typing import Callable, Sequence
+
+from .frames import Options, refused
+from .tables import Table
+from .text import read_lines
+
+
+def split(line: str, separator: str | None) -> list[str]:
+    """The cells of a line, without their quotes."""
+    if separator is None:
+        return line.split()
+    return [cell.strip() for cell in next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])]
+
+
+def _separator(line: str) -> str | None:
+    return next((mark for mark in (";", "\t", ",") if mark in line), None)
+
+
+def _is_names(words: list[str]) -> bool:
+    """Column names, of which the first may be empty (the index of pandas and R)."""
+    if not words[0]:
+        words = words[1:]
+    return bool(words) and all(re.match(r"[A-Za-z_]", word) and word.lower() not in ("nan", "inf", "na") for word in words)
+
+
+def _expanded(names: list[str]) -> list[str]:
+    """force_x y z stands for force_x, force_y and force_z."""
+    full: list[str] = []
+    for name in names:
+        before = full[-1] if full else ""
+        follows = len(name) == 1 and re.search(r"_[a-z]$", before) and ord(name) == ord(before[-1]) + 1
+        full.append(before[:-1] + name if follows else name)
+    return full
+
+
+def head_of(lines: Sequence[str]) -> tuple[list[str], int]:
+    """Column names above the first row of numbers, perhaps behind a '#', and the index of that row. Without names: []."""
+    names: list[str] = []
+    marked = True
+    for k, line in enumerate(lines):
+        plain = line.strip().lstrip("#").strip() if line.strip().startswith("#") else line.strip("\n ")
+        words = split(plain, _separator(plain)) if plain.strip() else []
+        if words and _is_names(words) and (marked or not line.strip().startswith("#")):
+            names, marked = _expanded(words), line.strip().startswith("#")
+        elif words and not line.strip().startswith("#"):
+            return names, k
+    return names, len(lines)
+
+
+def read_table(path: str, names: Sequence[str] | None = None) -> Table:
+    """Reads a table. `names` replaces the names of its columns. Raises SceneError with file and line."""
+    lines = read_lines(path)
+    columns, start = head_of(lines)
+    columns = list(names or columns)
+    if not columns or start == len(lines):
+        raise refused(path, "contains no row of numbers" if columns
+                      else "no line above the numbers names the columns; use --columns")
+    separator, rows, places = _separator(lines[start]), [], []
+    if separator == "\t" and names is None and not any("\t" in line for line in lines[:start]):
+        separator = None  # names with blanks, numbers with tabs
+    for k, line in enumerate(lines[start:], start + 1):
+        words = [] if line.lstrip().startswith("#") or not line.strip() else split(line, separator)
+        if len(words) == len(columns) + 1 and not words[-1]:
+            words = words[:-1]  # a separator ends the line
+        elif len(words) == len(columns) + 1 and not rows:
+            columns = ["", *columns]  # R does not name its index
+        if not words or [word.lower() for word in words] == [name.lower() for name in columns]:
+            continue
+        if len(words) != len(columns):
+            raise refused(path, f"{len(words)} entries; expected {len(columns)}: {', '.join(columns)}", k)
+        rows.append(words)
+        places.append(k)
+    return Table(path, columns, rows, places)
+
+
+def table_of_kind(path: str, options: Options, kinds: dict[str, Callable[[set[str]], bool]]) -> tuple[str, Table]:
+    """The kind of a file, by the names of its columns (in lower case) or by --columns, and its table. Raises SceneError."""
+    lines = read_lines(path)
+    columns, start = head_of(lines)
+    for kind, has_columns in kinds.items():
+        if has_columns({name.lower() for name in columns}):
+            return kind, read_table(path)
+    width = len(split(lines[start], _separator(lines[start]))) if start < len(lines) else 0
+    for kind in kinds:
+        names = options.columns_of(kind, width)
+        if names:
+            return kind, read_table(path, names)
+    found = f"its columns are {', '.join(columns)}" if columns else f"its {width} columns have no names"
+    raise refused(path, f"does not have the columns of {' or '.join(kinds)}; {found}; name them: --columns KIND=NAME,NAME,...")
