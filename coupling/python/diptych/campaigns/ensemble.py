@@ -189,7 +189,7 @@ def _write(scene: Any, record: dict[str, Any], options: Options, timer: Timer) -
     _write_curves(directory, scene, record["done"], tables)
     write_json(os.path.join(directory, "ensemble.json"), record)
     write_text(os.path.join(directory, "ensemble.csv"), _csv(record["quantities"], record["done"]))
-    _diptych.record_phase(directory, scene, options.command, timer.stop(), record["seeds"])
+    _diptych.record_phase(directory, (scene.name, record["seeds"], options.command), timer.stop())
     _diptych.record_files(directory, "ensemble")
     for verdict in record["verdicts"]:
         say(options, _text_of(verdict))
@@ -204,7 +204,7 @@ def _member_scene(scene: Any, seed: int) -> Any:
 
 def _demand_member(scene: Any, seed: int) -> None:
     member = _member_scene(scene, seed)
-    sample, _, comparison = _diptych.changes_since(member, member.directory)
+    sample, _, comparison = _diptych.changes_since(member)
     if sample or comparison:
         raise SceneError(f"the results in '{member.directory}' are not of this ensemble: {sample or comparison}. Move them "
                          "elsewhere, or run the ensemble with --overwrite.")
