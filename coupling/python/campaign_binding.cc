@@ -132,8 +132,7 @@ namespace diptych::python
       m.def("kept_in", &kept_in);
       m.def("holds_finished_run", [](const Scene &scene) { return ResultFolder(scene).holds_finished_run(); });
       // the keys by which the scene differs from that of the folder: (sample, continuum, comparison)
-      m.def("changes_since", [](Scene scene, const std::string &directory) {
-        scene.output.directory     = directory;
+      m.def("changes_since", [](const Scene &scene) {
         const SceneChanges changes = ResultFolder(scene).changes();
         return py::make_tuple(changes.sample, changes.continuum, changes.comparison);
       });
@@ -141,10 +140,12 @@ namespace diptych::python
       m.def("record_files", &record_files);
       m.def("forget_files", &forget_files);
       m.def("recorded_scene", &recorded_scene);
-      m.def("record_phase", [](const std::string &directory, const Scene &scene, const std::string &command,
-                               const std::tuple<std::string, double, double, double> &phase, const std::vector<int> &seeds) {
+      // (scene's name, seeds, command) and (phase, wall s, CPU s, peak memory MB)
+      m.def("record_phase", [](const std::string &directory, const std::tuple<std::string, std::vector<int>, std::string> &origin,
+                               const std::tuple<std::string, double, double, double> &phase) {
+        const auto &[scene, seeds, command]               = origin;
         const auto &[name, wall_s, cpu_s, peak_memory_mb] = phase;
-        record_phases(directory, {scene.name, seeds, command}, {{name, wall_s, cpu_s, peak_memory_mb}});
+        record_phases(directory, {scene, seeds, command}, {{name, wall_s, cpu_s, peak_memory_mb}});
       });
     }
   } // namespace
