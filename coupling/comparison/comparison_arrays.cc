@@ -152,8 +152,9 @@ namespace diptych::coupling
     }
   } // namespace
 
-  void write_comparison_h5(const std::string &directory, const Scene &scene, const Comparison &c, const Results &results)
+  void write_comparison_h5(const std::string &directory, const ComparisonDocument &document, const Results &results)
   {
+    const auto &[scene, c] = document;
     discrete::Hdf5Writer file(comparison_h5(directory));
     for (std::size_t k = 0; k < c.stages.size(); ++k)
       write_stage(file, discrete::stage_name(k + 1), c.stages[k], results, k + 1);
@@ -163,7 +164,7 @@ namespace diptych::coupling
     list_history_arrays(c.discrete_history, width, IntoGroup{file, "histories/discrete"});
     list_history_arrays(c.continuum_history, width, IntoGroup{file, "histories/continuum"});
 
-    list_file_attributes(scene, results.discrete.snapshots.front(), IntoGroup{file, "/"});
+    list_file_attributes(scene.loading, scene.sample.mean_diameter, results.discrete.snapshots.front(), IntoGroup{file, "/"});
     file.finish();
   }
 

@@ -248,17 +248,21 @@ namespace diptych::coupling
   }
 
   // Lists the attributes of the whole file. `start`: the grains before the loading.
-  template <class Visit> void list_file_attributes(const Scene &scene, const discrete::Snapshot &start, Visit &&visit)
+  template <class Visit>
+  void list_file_attributes(const LoadingOptions     &loading,
+                            const double              mean_diameter,
+                            const discrete::Snapshot &start,
+                            Visit                   &&visit)
   {
     const auto  &left   = start.outline.left;
     const double height = left.empty() ? NAN : left.back().y() - left.front().y();
-    visit(NumberEntry{"mean_diameter", "length", "mean diameter d of the grains"}, scene.sample.mean_diameter);
-    visit(NumberEntry{"pressure", "pressure", "lateral pressure P on the sample"}, scene.loading.pressure);
+    visit(NumberEntry{"mean_diameter", "length", "mean diameter d of the grains"}, mean_diameter);
+    visit(NumberEntry{"pressure", "pressure", "lateral pressure P on the sample"}, loading.pressure);
     visit(NumberEntry{"height0", "length", "distance between the platens before the loading"}, start.upper_y - start.lower_y);
     visit(NumberEntry{"width0", "length", "area of the sample's outline over its height before the loading"},
           start.area / height);
     visit(NumberEntry{"walk", "-", "meaning of progress: axial_strain, shear_strain or time"},
-          std::string(discrete::name_of(discrete::walk_of(scene.loading.mode))));
+          std::string(discrete::name_of(discrete::walk_of(loading.mode))));
   }
 
   // Lists the arrays of a panel's whole history, one entry per row of its .csv.

@@ -138,13 +138,13 @@ namespace diptych::coupling
     return schema;
   }
 
-  void write_comparison(const std::string &directory, const Scene &scene, const Comparison &c)
+  void write_comparison(const std::string &directory, const ComparisonDocument &document)
   {
     json          root = json::object();
-    NumbersToJson writer{root, scene.sample.mean_diameter};
-    list_numbers(ComparisonDocument{scene, c}, writer);
+    NumbersToJson writer{root, document.scene.sample.mean_diameter};
+    list_numbers(document, writer);
     root["numbers"] = descriptions();
     discrete::write_text(comparison_json(directory), root.dump(1) + "\n");
-    discrete::write_text(comparison_csv(directory), table_of(stages(scene.loading), root));
+    discrete::write_text(comparison_csv(directory), table_of(stages(document.scene.loading), root));
   }
 } // namespace diptych::coupling

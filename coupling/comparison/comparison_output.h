@@ -5,7 +5,7 @@
 #include <array>
 #include <string>
 
-#include "coupling/comparison/comparison.h"
+#include "coupling/comparison/comparison_numbers.h"
 #include "coupling/numbers/number_entry.h"
 
 namespace diptych::coupling
@@ -27,10 +27,10 @@ namespace diptych::coupling
   // comparison.json: every number that comparison_numbers.h lists, with their descriptions under "numbers". comparison.csv: the
   // same numbers, one per line, with progress_from, progress_to, panel, quantity, value, the ends of the 95 % interval if known,
   // and unit.
-  void write_comparison(const std::string &directory, const Scene &scene, const Comparison &c);
+  void write_comparison(const std::string &directory, const ComparisonDocument &document);
 
   // comparison.h5: the arrays behind the report's figures, as listed in comparison_arrays.h.
-  void write_comparison_h5(const std::string &directory, const Scene &scene, const Comparison &c, const Results &results);
+  void write_comparison_h5(const std::string &directory, const ComparisonDocument &document, const Results &results);
 
   // fields.vtu: the last stage of both panels on the continuum's mesh in its current position. It has every field of CellFields
   // under its name in comparison.h5, and the difference of the stresses. Tensors are 3x3 tensors (positive in compression), and

@@ -80,9 +80,10 @@ namespace diptych::coupling
       return {{"particles_" + number, particles.str()}, {"contacts_" + number, contacts.str()}, {"walls_" + number, walls.str()}};
     }
 
-    std::string lammps_script(const Scene &scene, const Snapshot &s, const ExportBox &box)
+    std::string lammps_script(const discrete::ContactLawOptions &law, const double p, const double rho, const Snapshot &s)
     {
-      const double       d = s.mean_diameter, p = scene.loading.pressure, rho = scene.sample.density;
+      const ExportBox    box = box_of(s);
+      const double       d   = s.mean_diameter;
       const double       kn = 1e4 * p, mass = rho * M_PI * d * d / 4, damping = std::sqrt(kn / mass);
       std::ostringstream out = exact_stream();
       out
@@ -91,7 +92,7 @@ namespace diptych::coupling
         << "set group all density/disc " << rho << "\n"
         << "variable kn equal " << kn << "\nvariable kt equal 0.8*${kn}\nvariable gn equal " << damping
         << "\nvariable gt equal 0.5*${gn}\n"
-        << "pair_style gran/hooke/history ${kn} ${kt} ${gn} ${gt} " << scene.discrete.law.friction << " 1\npair_coeff * *\n";
+        << "pair_style gran/hooke/history ${kn} ${kt} ${gn} ${gt} " << law.friction << " 1\npair_coeff * *\n";
       const auto wall = [&](const char *name, const char *sides, const double mu) {
         out << "region " << name << " block " << sides << " units box side in\n"
             << "fix " << name << " all wall/gran/region hooke/history ${kn} ${kt} ${gn} ${gt} " << mu << " 1 region " << name
@@ -99,12 +100,12 @@ namespace diptych::coupling
       };
       const std::string lower = exact_text(box.lower), upper = exact_text(box.upper), left = exact_text(box.left),
                         right = exact_text(box.right);
-      wall("lower", ("INF INF " + lower + " INF INF INF").c_str(), scene.discrete.law.platen_friction);
-      wall("upper", ("INF INF INF " + upper + " INF INF").c_str(), scene.discrete.law.platen_friction);
+      wall("lower", ("INF INF " + lower + " INF INF INF").c_str(), law.platen_friction);
+      wall("upper", ("INF INF INF " + upper + " INF INF").c_str(), law.platen_friction);
       if (box.has_sides())
         {
-          wall("left", (left + " INF INF INF INF INF").c_str(), scene.discrete.law.wall_friction);
-          wall("right", ("INF " + right + " INF INF INF INF").c_str(), scene.discrete.law.wall_friction);
+          wall("left", (left + " INF INF INF INF INF").c_str(), law.wall_friction);
+          wall("right", ("INF " + right + " INF INF INF INF").c_str(), law.wall_friction);
         }
       out << "fix move all nve/sphere disc\nfix plane all enforce2d\n"
           << "timestep " << 0.05 * M_PI / damping << "\n"
@@ -136,7 +137,8 @@ namespace diptych::coupling
       for (std::size_t i = 0; i < s.radius.size(); ++i)
         out << i + 1 << " 1 " << 2 * s.radius[i] << ' ' << scene.sample.density << ' ' << s.position[i].x() << ' '
             << s.position[i].y() << " 0\n";
-      return {{"sample.data", out.str()}, {"in.sample", lammps_script(scene, s, box)}};
+      return {{"sample.data", out.str()},
+              {"in.sample", lammps_script(scene.discrete.law, scene.loading.pressure, scene.sample.density, s)}};
     }
   } // namespace
 

@@ -18,12 +18,11 @@
 
 namespace diptych::coupling
 {
-  std::string imported_file(const Scene &scene)
+  std::string imported_file(std::string file, const int seed)
   {
-    std::string       file = scene.discrete.method.file;
     const std::string mark = "{seed}";
     for (std::size_t at = file.find(mark); at != std::string::npos; at = file.find(mark))
-      file.replace(at, mark.size(), std::to_string(scene.sample.seed));
+      file.replace(at, mark.size(), std::to_string(seed));
     return file;
   }
 
@@ -32,9 +31,8 @@ namespace diptych::coupling
     // Samples of one ensemble have nearly the same strains, but not the same bits.
     constexpr double same_stage = 1e-3; // relative to the stage
 
-    void take_stages(const Scene &scene, const std::string &file, DiscreteResults &results)
+    void take_stages(const std::vector<double> &wanted, const std::string &file, DiscreteResults &results)
     {
-      const std::vector<double> wanted = stages(scene.loading);
       if (results.snapshots.size() != wanted.size() + 1)
         throw SceneError("discrete/file = '" + file + "' holds " + std::to_string(results.snapshots.size()) +
                          " frames, but loading/stages need " + std::to_string(wanted.size()) + " and one at the start");
@@ -63,7 +61,7 @@ namespace diptych::coupling
 
   DiscreteResults load_imported(const Scene &scene)
   {
-    const std::string file = imported_file(scene);
+    const std::string file = imported_file(scene.discrete.method.file, scene.sample.seed);
     if (file.empty())
       throw SceneError("discrete/method = imported needs discrete/file, the discrete.h5 of `diptych import`");
     const std::string folder = std::filesystem::path(file).parent_path().string();
@@ -80,7 +78,7 @@ namespace diptych::coupling
       {
         throw SceneError("discrete/file = '" + file + "': " + error.what());
       }
-    take_stages(scene, file, results);
+    take_stages(stages(scene.loading), file, results);
     return results;
   }
 

@@ -10,8 +10,8 @@
 
 namespace diptych::coupling
 {
-  // discrete/file with {seed} replaced by sample/seed.
-  std::string imported_file(const Scene &scene);
+  // The name in discrete/file with {seed} replaced.
+  std::string imported_file(std::string file, int seed);
 
   // Reads discrete.h5, discrete.csv and the facts of an import. Throws SceneError naming key and file if one is missing or
   // damaged, or if the stages differ from the scene's by more than a thousandth. Smaller differences are replaced by the

@@ -50,11 +50,6 @@ namespace diptych::coupling
       return drives;
     }
 
-    double rate_of(const Scene &scene)
-    {
-      return discrete::strain_rate(discrete_loading(scene.loading), scene.sample.mean_diameter, scene.sample.density);
-    }
-
     // int_0^t v, where v is linear between the table's times and constant before the first and after the last.
     double displacement(const TimeTable &velocity, const double t)
     {
@@ -321,8 +316,8 @@ namespace diptych::coupling
 
   continuum::Loading continuum_loading(const Scene &scene, const ContinuumSample &sample)
   {
-    const WallDrives   drives = drives_of(scene.discrete.drives);
-    const double       rate   = rate_of(scene);
+    const WallDrives drives = drives_of(scene.discrete.drives);
+    const double rate = discrete::strain_rate(discrete_loading(scene.loading), scene.sample.mean_diameter, scene.sample.density);
     continuum::Loading loading;
     loading.pressure   = scene.loading.pressure;
     loading.lateral    = lateral_of(scene.discrete.lateral, drives[3][0], rate);

@@ -11,7 +11,7 @@
 #include "coupling/averaging/segments.h"
 #include "coupling/cells/bin_grid.h"
 #include "coupling/panels/continuum_mesh.h"
-#include "coupling/processes/processes.h"
+#include "coupling/panels/processes.h"
 
 namespace diptych::coupling
 {

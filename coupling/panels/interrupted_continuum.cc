@@ -6,7 +6,7 @@
 
 #include "continuum/history.h"
 #include "coupling/panels/continuum_mesh.h"
-#include "coupling/panels/interrupted_grains.h"
+#include "coupling/grains/interrupted_grains.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_error.h"
 #include "coupling/store/continuum_checkpoint_file.h"

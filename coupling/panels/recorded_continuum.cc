@@ -8,7 +8,7 @@
 #include "continuum/mesh/mesh.h"
 #include "coupling/panels/continuum_loading.h"
 #include "coupling/panels/initial_stress.h"
-#include "coupling/processes/processes.h"
+#include "coupling/panels/processes.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_error.h"

@@ -47,7 +47,7 @@ namespace diptych::coupling
       const std::string next = next_comparison(directory);
       remove_results(directory, {"next_comparison"}); // of a comparison that did not finish
       make_folder(next);
-      write_comparison_h5(next, scene, c, results);
+      write_comparison_h5(next, {scene, c}, results);
       write_fields_vtu(next, c);
       std::vector<PhaseCost> phases = read_run_facts(directory).phases;
       phases.erase(
@@ -55,7 +55,7 @@ namespace diptych::coupling
         phases.end());
       phases.push_back(timer.stop());
       c.cost = summary_of(phases);
-      write_comparison(next, scene, c);
+      write_comparison(next, {scene, c});
       discrete::write_text(scene_prm(next), resolved_text(scene));
       take_next_comparison(directory);
       record_phases(directory, {scene.name, {scene.sample.seed}, line.text}, {phases.back()});

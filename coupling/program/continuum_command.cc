@@ -11,7 +11,7 @@
 #include "coupling/panels/continuum_loading.h"
 #include "coupling/panels/interrupted_continuum.h"
 #include "coupling/panels/recorded_continuum.h"
-#include "coupling/processes/processes.h"
+#include "coupling/panels/processes.h"
 #include "coupling/program/resource_estimate.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"

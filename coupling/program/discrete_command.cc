@@ -9,11 +9,11 @@
 #include <optional>
 #include <sstream>
 
-#include "coupling/comparison/step_comparison.h"
+#include "coupling/program/step_comparison.h"
 #include "coupling/import/imported_folder.h"
-#include "coupling/panels/imported_grains.h"
-#include "coupling/panels/interrupted_grains.h"
-#include "coupling/panels/recorded_grains.h"
+#include "coupling/grains/imported_grains.h"
+#include "coupling/grains/interrupted_grains.h"
+#include "coupling/grains/recorded_grains.h"
 #include "coupling/processes/progress.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/program/report_command.h"

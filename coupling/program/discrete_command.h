@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "coupling/panels/recorded_grains.h"
+#include "coupling/grains/recorded_grains.h"
 #include "coupling/program/command_line.h"
 
 namespace diptych::coupling

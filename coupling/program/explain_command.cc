@@ -4,7 +4,7 @@
 
 #include <iostream>
 
-#include "coupling/comparison/step_comparison.h"
+#include "coupling/program/step_comparison.h"
 #include "coupling/import/import_record.h"
 #include "coupling/program/result_entries.h"
 #include "coupling/scene/scene_file.h"

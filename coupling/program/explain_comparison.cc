@@ -42,7 +42,7 @@ namespace diptych::coupling
       const CellFields         fields;
       const HistoryTable       history = history_table(std::vector<discrete::HistoryRow>(1));
       const std::string        stages = "comparison.h5, group stage_NNNN", windows = "comparison.h5, group window_N";
-      list_file_attributes(Scene(), grains, AddArrays{"comparison.h5", "", result});
+      list_file_attributes(LoadingOptions(), 1, grains, AddArrays{"comparison.h5", "", result});
       list_increment_attributes(increment, AddArrays{stages, "", result});
       list_increment_arrays(increment, grains, AddArrays{stages, "", result});
       list_grain_arrays(increment, grains, grains, AddArrays{stages, "", result});

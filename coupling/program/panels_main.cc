@@ -6,7 +6,7 @@
 
 #include <deal.II/base/mpi.h>
 
-#include "coupling/processes/processes.h"
+#include "coupling/panels/processes.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/program/check_command.h"
 #include "coupling/program/continuum_command.h"

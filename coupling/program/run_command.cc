@@ -9,7 +9,7 @@
 #include "coupling/panels/continuum_loading.h"
 #include "coupling/panels/continuum_mesh.h"
 #include "coupling/panels/interrupted_continuum.h"
-#include "coupling/panels/interrupted_grains.h"
+#include "coupling/grains/interrupted_grains.h"
 #include "coupling/program/compare_command.h"
 #include "coupling/program/continuum_command.h"
 #include "coupling/program/discrete_command.h"

@@ -13,7 +13,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "coupling/processes/processes.h"
+#include "coupling/panels/processes.h"
 
 namespace diptych::coupling
 {

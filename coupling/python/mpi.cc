@@ -9,7 +9,7 @@
 #include <deal.II/base/multithread_info.h>
 #include <sc.h>
 
-#include "coupling/processes/processes.h"
+#include "coupling/panels/processes.h"
 
 namespace diptych::python
 {

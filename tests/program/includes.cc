@@ -29,7 +29,7 @@ namespace
     {"continuum", {"laws", "mesh", "elements", "equilibrium", "panel"}},
     {"coupling",
      {"cells", "statistics", "numbers", "processes", "averaging", "fields", "bands", "probes", "scene", "store", "import",
-      "comparison", "panels", "program", "python"}}};
+      "comparison", "grains", "panels", "program", "python"}}};
 
   std::vector<std::string> includes_of(const fs::path &file)
   {
@@ -241,6 +241,62 @@ namespace
     EXPECT_EQ(lines_outside(DIPTYCH_SOURCE_DIR, {"store"}, path_in_a_folder), std::vector<std::string>());
   }
 
+  // A function takes the options that it uses. Only the reader of scenes, the commands and the Python binding know
+  // the whole scene.
+  TEST(House, TheWholeSceneIsPassedToFewFunctions)
+  {
+    const std::set<std::string> may = {"scene", "program", "python"};
+    EXPECT_LE(lines_outside(DIPTYCH_SOURCE_DIR, may, R"x(const\s+(coupling::)?Scene\s*&)x").size(), 40u);
+    EXPECT_GT(lines_outside(DIPTYCH_SOURCE_DIR, {}, R"x(const\s+(coupling::)?Scene\s*&)x").size(), 40u);
+  }
+
+  // The library or program of CMake that each source of `folder` belongs to, by its path below the folder.
+  std::multimap<std::string, std::string> targets_of(const fs::path &root, const std::string &folder)
+  {
+    std::ifstream     in(root / folder / "CMakeLists.txt");
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::regex  command(R"x((add_library|add_executable|target_sources)\((\S+)([^)]*)\))x"), source(R"x(\S+\.cc)x");
+    const auto        end = std::sregex_iterator();
+    std::multimap<std::string, std::string> found;
+    for (auto one = std::sregex_iterator(text.begin(), text.end(), command); one != end; ++one)
+      {
+        const std::string sources = (*one)[3];
+        for (auto file = std::sregex_iterator(sources.begin(), sources.end(), source); file != end; ++file)
+          found.emplace(file->str(), (*one)[2]);
+      }
+    return found;
+  }
+
+  // Rooms whose sources are in more than one target, as text, and sources that are in none.
+  std::vector<std::string> divided_rooms(const fs::path &root, const std::string &folder)
+  {
+    const auto                                   targets = targets_of(root, folder);
+    std::map<std::string, std::set<std::string>> of_room;
+    std::vector<std::string>                     found;
+    for (const auto &[file, includes] : sources(root, folder))
+      if (const std::string name = file.substr(folder.size() + 1);
+          fs::path(file).extension() == ".cc" && room_of(file) != "python")
+        {
+          const auto [first, last] = targets.equal_range(name);
+          if (first == last)
+            found.push_back(file + " is in no target");
+          for (auto target = first; target != last; ++target)
+            of_room[room_of(file)].insert(target->second);
+        }
+    for (const auto &[room, of] : of_room)
+      if (of.size() > 1 && !room.empty())
+        found.push_back(room);
+    return found;
+  }
+
+  // Sources of program/ go with the programs that need them. A program without deal.II reads the options of laws.
+  TEST(House, LibrariesConsistOfWholeRooms)
+  {
+    EXPECT_EQ(divided_rooms(DIPTYCH_SOURCE_DIR, "discrete"), std::vector<std::string>());
+    EXPECT_EQ(divided_rooms(DIPTYCH_SOURCE_DIR, "continuum"), std::vector<std::string>{"laws"});
+    EXPECT_EQ(divided_rooms(DIPTYCH_SOURCE_DIR, "coupling"), std::vector<std::string>{"program"});
+  }
+
   // The tests themselves must be able to fail: a house with one wrong arrow of each kind and one wrong library.
   TEST(House, AWrongArrowIsSeen)
   {
@@ -268,6 +324,12 @@ namespace
     std::ofstream(root / "coupling" / "panels" / "e.cc") << "read(folder + \"/scene.prm\");\nread(folder + \"/a/b\");\n";
     EXPECT_EQ(lines_outside(root, {"store"}, path_in_a_folder).size(), 1u);
     EXPECT_EQ(lines_outside(root, {"panels"}, path_in_a_folder).size(), 0u);
+    std::ofstream(root / "discrete" / "CMakeLists.txt") << "add_library(a STATIC\n  b.cc\n  files/d.cc\n  panel/e.cc)\n";
+    EXPECT_EQ(divided_rooms(root, "discrete"), std::vector<std::string>());
+    std::ofstream(root / "discrete" / "panel" / "f.cc") << "";
+    EXPECT_EQ(divided_rooms(root, "discrete"), std::vector<std::string>{"discrete/panel/f.cc is in no target"});
+    std::ofstream(root / "discrete" / "CMakeLists.txt", std::ios::app) << "add_executable(g panel/f.cc)\n";
+    EXPECT_EQ(divided_rooms(root, "discrete"), std::vector<std::string>{"panel"});
     fs::remove_all(root);
   }
 } // namespace

@@ -32,8 +32,8 @@ namespace
     {
       const Results    results = example_results();
       const Comparison c       = compare(example_scene(), results);
-      write_comparison(folder.path, example_scene(), c);
-      write_comparison_h5(folder.path, example_scene(), c, results);
+      write_comparison(folder.path, {example_scene(), c});
+      write_comparison_h5(folder.path, {example_scene(), c}, results);
       std::ifstream(folder / "comparison.json") >> document;
       csv = files::contents_of(folder / "comparison.csv");
     }
@@ -127,7 +127,7 @@ namespace
     const files::Folder folder("stages");
     Comparison          c = compare(example_scene(), example_results());
     c.windows[0].to       = 0.0199999999998;
-    write_comparison(folder.path, example_scene(), c);
+    write_comparison(folder.path, {example_scene(), c});
     json document;
     std::ifstream(folder / "comparison.json") >> document;
     EXPECT_EQ(document["windows"][0]["to"], 0.0199999999998);

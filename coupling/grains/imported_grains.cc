@@ -1,6 +1,6 @@
 // diptych: frames of another code as the grains of a run
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupling/panels/imported_grains.h"
+#include "coupling/grains/imported_grains.h"
 
 #include <filesystem>
 
@@ -27,9 +27,10 @@ namespace diptych::coupling
     discrete::write_snapshots(directory + "/discrete", imported.snapshots);
     record_phases(directory, {scene.name, {scene.sample.seed}, options.text}, {timer.stop()});
     record_facts(directory, imported.facts);
-    const std::string folder = std::filesystem::path(imported_file(scene)).parent_path().string();
+    const std::string file   = imported_file(scene.discrete.method.file, scene.sample.seed);
+    const std::string folder = std::filesystem::path(file).parent_path().string();
     if (const std::string record = discrete::read_text(import_json(folder)); !record.empty())
       discrete::write_text(import_json(directory), record); // lists what the files did not hold
-    say(options, "the grains are those of " + imported_file(scene));
+    say(options, "the grains are those of " + file);
   }
 } // namespace diptych::coupling

@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "coupling/comparison/step_comparison.h"
+#include "coupling/program/step_comparison.h"
 #include "discrete/files/table_file.h"
 
 namespace

@@ -1,6 +1,6 @@
 // diptych: checks the files of an interrupted run of the grains before --resume changes anything
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupling/panels/interrupted_grains.h"
+#include "coupling/grains/interrupted_grains.h"
 
 #include <filesystem>
 #include <stdexcept>

@@ -1,6 +1,6 @@
 // diptych: comparison of runs of one sample with different lengths of the step
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupling/comparison/step_comparison.h"
+#include "coupling/program/step_comparison.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 // diptych: runs the discrete panel and writes its files
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupling/panels/recorded_grains.h"
+#include "coupling/grains/recorded_grains.h"
 
 #include <cmath>
 #include <filesystem>
 #include <sstream>
 
-#include "coupling/panels/interrupted_grains.h"
+#include "coupling/grains/interrupted_grains.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/scene/identity.h"
 #include "coupling/store/file_names.h"

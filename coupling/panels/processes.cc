@@ -1,6 +1,6 @@
 // diptych: helpers for several MPI processes that run the continuum together
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupling/processes/processes.h"
+#include "coupling/panels/processes.h"
 
 #include <chrono>
 #include <cstdlib>
