@@ -100,24 +100,24 @@ class _Search:
         return fit.jacobian
 
     def run(self, fresh: bool) -> bool:
-        """True if no step was rejected."""
-        self.fresh = fresh
+        """True if no step was rejected and the last one lowered chi^2 no more."""
+        self.fresh, settled = fresh, True
         start, radius = self.fit.point, RADIUS_OF_FRESH if fresh else RADIUS_OF_GIVEN
 
         def point(y: Array) -> Array:  # from 0 on, scipy's first trust region is 1
             return np.clip(start + radius * y, 0, 1)
 
         try:
-            scipy.optimize.least_squares(lambda y: self.value(point(y)), np.zeros_like(start),
-                                         lambda y: radius * self.jacobian(point(y)),
-                                         bounds=(-start / radius, (1 - start) / radius), method="dogbox", x_scale=1.0,
-                                         ftol=None,
-                                         gtol=1e-10, xtol=None, max_nfev=MOST_STEPS + 1)
+            found = scipy.optimize.least_squares(
+                lambda y: self.value(point(y)), np.zeros_like(start), lambda y: radius * self.jacobian(point(y)),
+                bounds=(-start / radius, (1 - start) / radius), method="dogbox", x_scale=1.0, ftol=None, gtol=1e-10, xtol=None,
+                max_nfev=MOST_STEPS + 1)
+            settled = found.status != 0  # 0: the steps ran out
         except _Ended:
             pass
         if self.trial[0] is not self.fit.point:
             self.failed = True
-        return not self.failed
+        return settled and not self.failed
 
 
 def least_squares(residuals: Residuals, start: Array, most_jacobians: int = 4, jacobian: Array | None = None) -> Fit:

@@ -122,7 +122,7 @@ def _fieller(a: np.ndarray, b: np.ndarray, confidence: float) -> Interval:
     if n == 0:
         return UNKNOWN
     mean_a, mean_b = a.mean(), b.mean()
-    value = mean_b / mean_a - 1
+    value = mean_b / mean_a - 1 if mean_a != 0 else math.nan
     if n < 2:
         return Interval(value, math.nan, math.nan)
     (s_aa, s_ab), (_, s_bb) = np.cov(a, b)
