@@ -87,10 +87,10 @@ namespace diptych::python
     {
       if (is_working_.exchange(true))
         throw std::runtime_error("the panel is already at work: in another thread, or in the call that called this callback");
-      worker_  = std::this_thread::get_id();
-      on_step_ = on_step.is_none() ? py::object() : on_step;
-      error_ = nullptr;
-      stops_ = false;
+      worker_                   = std::this_thread::get_id();
+      on_step_                  = on_step.is_none() ? py::object() : on_step;
+      error_                    = nullptr;
+      stops_                    = false;
       Status             status = Status::finished;
       std::exception_ptr failure;
       {
