@@ -326,6 +326,7 @@ namespace
     EXPECT_EQ(lines_outside(root, {"panels"}, path_in_a_folder).size(), 0u);
     std::ofstream(root / "discrete" / "CMakeLists.txt") << "add_library(a STATIC\n  b.cc\n  files/d.cc\n  panel/e.cc)\n";
     EXPECT_EQ(divided_rooms(root, "discrete"), std::vector<std::string>());
+    std::ofstream(root / "discrete" / "panel" / "e.cc") << "";
     std::ofstream(root / "discrete" / "panel" / "f.cc") << "";
     EXPECT_EQ(divided_rooms(root, "discrete"), std::vector<std::string>{"discrete/panel/f.cc is in no target"});
     std::ofstream(root / "discrete" / "CMakeLists.txt", std::ios::app) << "add_executable(g panel/f.cc)\n";
