@@ -14,8 +14,8 @@ from conftest import SOURCE
 NOTEBOOKS = sorted(glob.glob(os.path.join(SOURCE, "coupling", "python", "notebooks", "*.ipynb")))
 
 
-def test_there_are_three():
-    assert len(NOTEBOOKS) == 3
+def test_there_are_seven():
+    assert len(NOTEBOOKS) == 7
     for path in NOTEBOOKS:
         assert os.path.getsize(path) < 250000, path
 

@@ -77,9 +77,15 @@ def _call(words: Sequence[str], output: str, options: Mapping[str, Any]) -> None
         raise NotConverged(f"{done.stderr.strip()}; load('{output}') of the result's class reads what is there")
 
 
-def _run(words: Sequence[str], output: str, options: Mapping[str, Any]) -> Campaign:
-    _call(words, output, options)
-    return Campaign.load(output)
+def _call_with_file(command: str, contents: Mapping[str, Any] | str | os.PathLike[str], output: str,
+                    options: Mapping[str, Any]) -> None:
+    """Runs a command with a file, or with a file of these contents in the working directory, where their paths begin."""
+    if not isinstance(contents, Mapping):
+        return _call([command, os.fspath(contents)], output, options)
+    with tempfile.NamedTemporaryFile("w", dir=".", prefix=command + "_", suffix=".json") as file:
+        json.dump({"title": os.path.basename(os.path.normpath(output)), **contents}, file, indent=1, default=os.fspath)
+        file.flush()
+        return _call([command, file.name], output, options)
 
 
 def study(contents: Mapping[str, Any] | str | os.PathLike[str], output: str | os.PathLike[str], **options: Any) -> Campaign:
@@ -92,17 +98,14 @@ def study(contents: Mapping[str, Any] | str | os.PathLike[str], output: str | os
     Raises SceneError for wrong input, NotConverged if runs were stopped or the system ended them, RuntimeError for
     failures of the system.
     """
-    if not isinstance(contents, Mapping):
-        return _run(["study", os.fspath(contents)], os.fspath(output), options)
-    with tempfile.NamedTemporaryFile("w", dir=".", prefix="study_", suffix=".json") as file:  # paths are relative to its folder
-        json.dump({"title": os.path.basename(os.path.normpath(output)), **contents}, file, indent=1, default=os.fspath)
-        file.flush()
-        return _run(["study", file.name], os.fspath(output), options)
+    _call_with_file("study", contents, os.fspath(output), options)
+    return Campaign.load(output)
 
 
 def ensemble(scene: str | os.PathLike[str], seeds: str, output: str | os.PathLike[str], **options: Any) -> Campaign:
     """Runs a scene file with several seeds ("1-8") and returns the statistics. Options and errors are as in study()."""
-    return _run(["run", os.fspath(scene), "--seeds", seeds], os.fspath(output), options)
+    _call(["run", os.fspath(scene), "--seeds", seeds], os.fspath(output), options)
+    return Campaign.load(output)
 
 
 @dataclass(repr=False)
@@ -140,9 +143,10 @@ class CalibrationResult:
         return f"CalibrationResult({self.folder!r}: {self.numbers['status']}, chi2 = {self.numbers['chi2']})"
 
 
-def calibrate(file: str | os.PathLike[str], output: str | os.PathLike[str], **options: Any) -> CalibrationResult:
-    """Runs a calibration file and returns its results. Options and errors are as in study()."""
-    _call(["calibrate", os.fspath(file)], os.fspath(output), options)
+def calibrate(contents: Mapping[str, Any] | str | os.PathLike[str], output: str | os.PathLike[str],
+              **options: Any) -> CalibrationResult:
+    """Runs a calibration file, or its contents as a dict, and returns its results. Options and errors are as in study()."""
+    _call_with_file("calibrate", contents, os.fspath(output), options)
     return CalibrationResult.load(output)
 
 

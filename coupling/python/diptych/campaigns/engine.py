@@ -109,7 +109,7 @@ def last_words(log: str) -> str:
 
 def program() -> str:
     """Path of the program `diptych`: that which started this process, or the one of the package."""
-    package = os.path.dirname(os.path.abspath(os.path.dirname(__file__)))
+    package = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))  # the folder that holds it
     places = [os.environ.get("DIPTYCH_PROGRAM", ""), os.path.join(package, "..", "diptych"),
               os.path.join(package, *[".."] * 3, "bin", "diptych")]
     for place in filter(os.path.isfile, places):
