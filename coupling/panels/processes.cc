@@ -107,11 +107,6 @@ namespace diptych::coupling
     return unsigned(size_of(MPI_COMM_WORLD));
   }
 
-  unsigned int own_number()
-  {
-    return unsigned(rank_in(MPI_COMM_WORLD));
-  }
-
   int on_first_process(const std::function<int()> &work)
   {
     if (n_processes() == 1)

@@ -16,7 +16,6 @@ namespace diptych::coupling
   // All functions need an initialised MPI. All except the next three are collective.
   bool         is_first_process();
   unsigned int n_processes();
-  unsigned int own_number(); // rank of this process, from 0
 
   // Runs `work`, which reads and writes files, on the first process only. All processes return its value or throw its
   // exception, so that none waits for another.

@@ -83,9 +83,17 @@ namespace diptych::coupling
       void add_scene_output_set(CLI::App *to) { add_scene(to); add_output(to); add_set(to); }
       void add_threads(CLI::App *to) { to->add_option("--threads", line.threads, "threads of the contact solver; every number gives the same bits")->check(in_range(1, 1024)); }
       void add_resume(CLI::App *to, const std::string &what) { to->add_flag("--resume", line.resume, "continue the results in the folder: " + what); }
-      void add_overwrite(CLI::App *to) { to->add_flag("--overwrite", line.overwrite, "rename results in the folder to DIR.1 and begin again"); }
       void add_quiet(CLI::App *to) { to->add_flag("--quiet", line.quiet, "no progress"); }
       // clang-format on
+
+      // To be called after add_resume().
+      void add_overwrite(CLI::App *to)
+      {
+        CLI::Option *overwrite = to->add_flag("--overwrite", line.overwrite,
+                                              "rename results in the folder to DIR.1 and begin again");
+        if (CLI::Option *resume = to->get_option_no_throw("--resume"))
+          overwrite->excludes(resume);
+      }
 
       CLI::Option *add_jobs(CLI::App *to, const std::string &when)
       {

@@ -229,7 +229,8 @@ namespace diptych::coupling
     if (code == done)
       on_first_process([&] {
         replace_continuum(directory);
-        say(line, "the new continuum has replaced the earlier one in " + directory + " (" + changes.continuum + ")");
+        say(line, "the new continuum has replaced the earlier one in " + directory + " (" + changes.continuum +
+                    "); a comparison with the earlier one was removed");
         return 0;
       });
     return code;

@@ -182,16 +182,6 @@ namespace diptych::coupling
     set(scratch, entry);
   }
 
-  std::vector<std::string> sections_set_in(const std::string &file)
-  {
-    std::istringstream       in = scene_input(file);
-    std::vector<std::string> sections;
-    for (const Entry &entry : entries_of(file, in))
-      if (std::find(sections.begin(), sections.end(), entry.section) == sections.end())
-        sections.push_back(entry.section);
-    return sections;
-  }
-
   Scene read_scene(const std::string &file, const std::vector<std::string> &overrides, const bool compares)
   {
     return read_changed_scene(file, entries_of_overrides(overrides), compares);

@@ -36,8 +36,6 @@ namespace diptych::coupling
   // The resolved scene in .prm format: every key with its value and meaning. Files have absolute paths.
   std::string resolved_text(const Scene &scene);
 
-  // Names of the sections in which a scene file sets a key, each once. Throws SceneError if the file is no scene.
-  std::vector<std::string> sections_set_in(const std::string &file);
 
   // True if a file sets every key, as a resolved scene does.
   bool is_resolved_scene(const std::string &file);

@@ -107,6 +107,10 @@ def read_curve(file: str) -> pd.DataFrame:
         table[name] = values.astype(float)
     if len(table) < 2 or not np.all(np.diff(table["axial_strain"]) > 0):
         raise SceneError(f"{file}: axial_strain must ascend over at least two rows")
+    if table["axial_strain"].iloc[-1] >= 1:
+        raise SceneError(f"{file}: axial_strain ends at {table['axial_strain'].iloc[-1]:g}; give strains below 1, not per cent")
+    if "stress_ratio" in table and (table["stress_ratio"].mean() < 0 or table["stress_ratio"].abs().max() >= 1):
+        raise SceneError(f"{file}: stress_ratio must be t/s = (s1 - s2) / (s1 + s2), positive in compression and below 1")
     return table.rename(columns={"axial_strain": "progress"})
 
 
@@ -162,6 +166,7 @@ def _target(part: Part) -> Target:
         target.results, target.seeds = _results(part)
         target.scene = target.results[0] + "/scene.prm"
     else:
+        part.at("scene")
         target.scene = _existing(part, "scene")
         if not part.has("curve"):
             part.at("seeds")

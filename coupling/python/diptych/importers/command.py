@@ -9,9 +9,11 @@ import math
 import runpy
 import signal
 import sys
+import traceback
 from typing import Any, Sequence
 
 from .. import _diptych
+from ..errors import SceneError
 from .frames import Options
 from .readers import read_frames, registered
 
@@ -63,6 +65,9 @@ def main(words: Sequence[str] | None = None) -> int:
         for each in signals:
             signal.signal(each, _stop)
         signal.pthread_sigmask(signal.SIG_UNBLOCK, signals)
+        for k in range(len(words) - 1, 0, -1):  # argparse takes a negative number for an option
+            if words[k - 1] == "--gravity":
+                words[k - 1:k + 1] = ["--gravity=" + words[k]]
         given = vars(_parser().parse_intermixed_args(words))
         format = given.pop("format")
         if format.endswith(".py"):
@@ -74,6 +79,8 @@ def main(words: Sequence[str] | None = None) -> int:
         _diptych.import_frames(format, frames, options.notes, options)
         return 0
     except ValueError as error:  # SceneError is one
+        if words[0].endswith(".py") and not isinstance(error, SceneError):
+            traceback.print_exc()  # shows the line of the user's reader
         code, text = 2, str(error)
     except KeyboardInterrupt:
         code, text = 3, "import: stopped on request"
