@@ -18,6 +18,7 @@
 #include "coupling/program/discrete_command.h"
 #include "coupling/program/export_command.h"
 #include "coupling/program/explain_command.h"
+#include "coupling/program/python_package.h"
 #include "coupling/program/report_command.h"
 #include "coupling/program/solve_command.h"
 #include "coupling/scene/scene_error.h"
@@ -25,7 +26,6 @@
 #include "discrete/files/out_of_memory.h"
 #ifdef DIPTYCH_CONTINUUM
 #include "coupling/program/compare_command.h"
-#include "coupling/program/python_package.h"
 #include "coupling/version.h"
 #endif
 

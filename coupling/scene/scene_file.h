@@ -36,7 +36,6 @@ namespace diptych::coupling
   // The resolved scene in .prm format: every key with its value and meaning. Files have absolute paths.
   std::string resolved_text(const Scene &scene);
 
-
   // True if a file sets every key, as a resolved scene does.
   bool is_resolved_scene(const std::string &file);
 

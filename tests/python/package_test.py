@@ -61,7 +61,7 @@ def test_an_installed_package_runs_from_its_place(tmp_path):
                           env={**os.environ, "PYTHONPATH": str(place)})
     notebooks = tmp_path / "share" / "diptych" / "notebooks"
     assert done.stdout.split() == [str(place / "diptych" / "__init__.py"), "True", str(notebooks), "2000"]
-    assert len(list(notebooks.glob("*.ipynb"))) == 3 and (notebooks / "data" / "frames.csv").exists()
+    assert len(list(notebooks.glob("*.ipynb"))) == 7 and (notebooks / "data" / "frames.csv").exists()
 
 
 def test_shipped_scenes_and_notebooks_are_found_in_the_source_tree():
