@@ -228,9 +228,10 @@ namespace diptych::coupling
     const int code        = continuum_panel(line, next, task);
     if (code == done)
       on_first_process([&] {
+        const bool had_comparison = std::filesystem::exists(comparison_json(directory));
         replace_continuum(directory);
-        say(line, "the new continuum has replaced the earlier one in " + directory + " (" + changes.continuum +
-                    "); a comparison with the earlier one was removed");
+        say(line, "the new continuum has replaced the earlier one in " + directory + " (" + changes.continuum + ")" +
+                    (had_comparison ? "; the comparison with the earlier one was removed" : ""));
         return 0;
       });
     return code;
