@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include "discrete/panel/panel.h"
 
 namespace diptych::tests
@@ -30,6 +32,16 @@ namespace diptych::tests
     return state;
   }
 
+  // Acceleration and angular acceleration of a disc on a plane of this slope. For tan a <= 3 mu it rolls with (2/3) g sin a.
+  // Otherwise it slides with g (sin a - mu cos a) and turns with 2 mu g cos a / r.
+  inline std::pair<double, double> on_an_incline(const double slope, const double g, const double mu, const double radius)
+  {
+    const double rolling = 2. / 3 * g * std::sin(slope), friction = mu * g * std::cos(slope);
+    if (std::tan(slope) <= 3 * mu)
+      return {rolling, rolling / radius};
+    return {g * std::sin(slope) - friction, 2 * friction / radius};
+  }
+
   // A disc whose gap to the floor is zero at mid-step, when contacts are searched.
   inline State touching_at_mid_step(const Eigen::Vector2d &velocity, const double step)
   {
@@ -46,6 +58,28 @@ namespace diptych::tests
       add_grain(state.grains, {k * (1 + gap), 0}, 0.5, 1.);
     state.grains.velocity[0] = {1, 0};
     return state;
+  }
+
+  // The impulse of the contact of two bodies, zero if there is none.
+  inline Impulse impulse_between(const StepResult &result, const int i, const int j)
+  {
+    for (std::size_t k = 0; k < result.contacts.size(); ++k)
+      if (result.contacts[k].i == i && result.contacts[k].j == j)
+        return result.impulses[k];
+    return {};
+  }
+
+  // A converged step. Momentum: sum m dv = h F + impulses of walls and fixed grains. Energy: kinetic change = external work -
+  // friction - impact. Impulses may be very small beside momenta of order 10.
+  inline void expect_ledgers(const StepResult &result, const double energy_tolerance)
+  {
+    const StepEnergies &e = result.energies;
+    ASSERT_EQ(result.solve.status, SolveStatus::converged);
+    double impulse_sum = 0;
+    for (const Impulse &r : result.impulses)
+      impulse_sum += std::hypot(r.normal, r.tangential);
+    ASSERT_LT(result.momentum_residual * impulse_sum, 1e-13);
+    ASSERT_NEAR(e.kinetic_change, e.external_work - e.friction_dissipation - e.impact_dissipation, energy_tolerance);
   }
 
   // A sample that takes less than a second to prepare.

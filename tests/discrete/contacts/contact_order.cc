@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <set>
 
-#include <gtest/gtest.h>
-
 #include "discrete/contacts/contact_order.h"
 #include "tests/discrete/small_scenes.h"
 

@@ -1,7 +1,5 @@
 // diptych: Moreau's internal moment is additive, symmetric and independent of the origin
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <gtest/gtest.h>
-
 #include "discrete/contacts/internal_moment.h"
 #include "discrete/stepping/step_problem.h"
 #include "discrete/panel/window_forces.h"

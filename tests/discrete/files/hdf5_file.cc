@@ -2,19 +2,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <csignal>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
-#include <gtest/gtest.h>
 #include <hdf5.h>
 
 #include "discrete/files/hdf5_file.h"
+#include "discrete/files/text_file.h"
+#include "tests/files.h"
 
 // Of a file with a turned bit the library keeps what it has already read when it finds the bit (HDF5 1.10); what we leave open it
 // closes itself.
@@ -26,14 +23,14 @@ extern "C" const char *__lsan_default_suppressions()
 namespace
 {
   using namespace diptych::discrete;
+  using namespace diptych::tests;
   namespace fs = std::filesystem;
 
   struct Hdf5 : testing::Test
   {
-    const std::string         path   = testing::TempDir() + "hdf5_file" + std::to_string(::getpid()) + ".h5";
+    const Folder              folder;
+    const std::string         path   = folder / "a.h5";
     const std::vector<double> values = std::vector<double>(20000, 0.7251);
-
-    void TearDown() override { fs::remove(path), fs::remove(path + ".part"); }
 
     void write() const
     {
@@ -60,32 +57,17 @@ namespace
   TEST_F(Hdf5, ATurnedBitIsRefused)
   {
     write();
-    std::fstream      file(path, std::ios::in | std::ios::out | std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-    char              number[sizeof(double)];
-    std::memcpy(number, values.data(), sizeof number);
-    const std::size_t at = bytes.find(std::string(number, sizeof number)); // arrays are not compressed
+    std::string       bytes = read_text(path);
+    const std::size_t at    = bytes.find(
+         std::string(reinterpret_cast<const char *>(values.data()), sizeof(double))); // not compressed
     ASSERT_NE(at, std::string::npos);
-    file.clear(), file.seekp(std::streamoff(at));
-    file.put(char(bytes[at] ^ 1));
-    file.close();
+    bytes[at] ^= 1;
+    write_text(path, bytes);
     const Hdf5Reader reader(path);
     EXPECT_EQ(reader.read_int("group/counts"), (std::vector<int>{1, 2, 3}));
-    try
-      {
-        reader.read("group/values");
-        FAIL() << "read without a word";
-      }
-    catch (const std::invalid_argument &error)
-      {
-        const std::string what = error.what();
-        EXPECT_NE(what.find(path), std::string::npos) << what;
-        EXPECT_NE(what.find("group/values"), std::string::npos) << what;
-      }
+    expect_refused({path, "group/values"}, [&] { reader.read("group/values"); });
   }
 
-  // A limit on the size of files acts as a full disk does: the write fails half way. The file of that name stays as it was, the
-  // program goes on, and the next file can be written.
   // Arrays, scalars, attributes, names and indices: one bit of every byte turned over gives an error or the same content.
   TEST_F(Hdf5, NoTurnedBitAnywhereChangesWhatIsRead)
   {
@@ -114,23 +96,15 @@ namespace
       file.attribute("stage", "unit", "length");
       file.finish();
     }
-    const std::vector<double> whole = content();
-    std::ifstream             in(path, std::ios::binary);
-    const std::string         bytes{std::istreambuf_iterator<char>(in), {}};
+    const std::vector<double> whole   = content();
+    const std::string         bytes   = read_text(path);
     int                       refused = 0;
     for (std::size_t k = 0; k < bytes.size(); ++k)
       {
         std::string damaged = bytes;
         damaged[k]          = char(damaged[k] ^ (1 << (k * 5 % 8)));
-        std::ofstream(path, std::ios::binary) << damaged;
-        try
-          {
-            EXPECT_EQ(content(), whole) << "byte " << k;
-          }
-        catch (const std::invalid_argument &)
-          {
-            ++refused;
-          }
+        write_text(path, damaged);
+        refused += refusal([&] { EXPECT_EQ(content(), whole) << "byte " << k; }) != "";
       }
     EXPECT_GT(refused, 1000);
   }
@@ -146,31 +120,22 @@ namespace
       file.finish();
     }
     EXPECT_EQ(Hdf5Reader(path).members("group"), names);
-    std::ifstream     in(path, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    const std::string bytes = read_text(path);
     const std::size_t heap = bytes.find("FHDB"), length = 400;
     ASSERT_NE(heap, std::string::npos);
     for (std::size_t at = heap; at < heap + length; at += 3)
       {
         std::string changed = bytes;
         changed[at] ^= 1;
-        std::ofstream(path, std::ios::binary) << changed;
-        const auto same_or_refused = [&](const auto &ask) {
-          try
-            {
-              ask();
-            }
-          catch (const std::invalid_argument &)
-            {}
-          catch (const std::runtime_error &) // of a copy
-            {}
-        };
-        same_or_refused([&] { EXPECT_EQ(Hdf5Reader(path).members("group"), names); });
-        same_or_refused([&] { Hdf5Writer(path + ".copy").copy(Hdf5Reader(path), "group"); });
-        same_or_refused([&] { Hdf5Writer(path + ".copy").copy_values(Hdf5Reader(path), "group"); });
+        write_text(path, changed);
+        (void)refusal([&] { EXPECT_EQ(Hdf5Reader(path).members("group"), names); });
+        (void)refusal<std::exception>([&] { Hdf5Writer(path + ".copy").copy(Hdf5Reader(path), "group"); });
+        (void)refusal<std::exception>([&] { Hdf5Writer(path + ".copy").copy_values(Hdf5Reader(path), "group"); });
       }
   }
 
+  // A limit on the size of files acts as a full disk does: the write fails half way. The file of that name stays as it was, the
+  // program goes on, and the next file can be written.
   TEST_F(Hdf5, AFullDiskLeavesTheOldFileAndTheProgram)
   {
     write();
@@ -201,18 +166,12 @@ namespace
 
   TEST_F(Hdf5, AFolderThatIsNotThereIsNamed)
   {
-    const std::string lost = testing::TempDir() + "no/such/folder/file.h5";
-    try
-      {
-        Hdf5Writer file(lost);
-        file.write("x", values);
-        file.finish();
-        FAIL() << "written where nothing is";
-      }
-    catch (const std::runtime_error &error)
-      {
-        EXPECT_NE(std::string(error.what()).find(lost), std::string::npos) << error.what();
-      }
+    const std::string lost = folder / "no/such/folder/file.h5";
+    expect_refused<std::runtime_error>({lost}, [&] {
+      Hdf5Writer file(lost);
+      file.write("x", values);
+      file.finish();
+    });
   }
 
   TEST_F(Hdf5, ArraysOfAnotherTypeOrShapeAreRefused)
@@ -233,9 +192,8 @@ namespace
 
   struct Hdf5Types : testing::Test
   {
-    const std::string path = testing::TempDir() + "hdf5_types" + std::to_string(::getpid()) + ".h5";
-
-    void TearDown() override { std::filesystem::remove(path); }
+    const Folder      folder;
+    const std::string path = folder / "a.h5";
 
     // 1, 2, 3 as another program stores them (version 1.8 of the format, without checksums), in an array and an attribute.
     void write(const hid_t type) const
@@ -285,8 +243,7 @@ namespace
   TEST_F(Hdf5Types, BitsBeyondTheNumberAreRefused)
   {
     write(H5T_STD_I32LE);
-    std::ifstream in(path, std::ios::binary);
-    std::string   bytes(std::istreambuf_iterator<char>(in), {});
+    std::string bytes = read_text(path);
     // Class and version, three bytes of flags (signed), size; then the offset and the number of bits, as the file format says
     // them.
     const std::string whole("\x10\x08\0\0\x04\0\0\0\0\0\x20\0", 12);
@@ -294,7 +251,7 @@ namespace
     for (std::size_t at = bytes.find(whole); at != std::string::npos; at = bytes.find(whole, at + 1), ++found)
       bytes[at + 9] = 0x3e;
     ASSERT_EQ(found, 2);
-    std::ofstream(path, std::ios::binary) << bytes;
+    write_text(path, bytes);
     expect_refused();
   }
 } // namespace

@@ -1,26 +1,20 @@
 // diptych: a file of stages grows without touching what it holds, and any reader of HDF5 opens it at any time
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <filesystem>
 #include <fstream>
 
-#include <unistd.h>
-
-#include <gtest/gtest.h>
-
 #include "discrete/files/staged_file.h"
+#include "tests/files.h"
 
 namespace
 {
   using namespace diptych::discrete;
+  using namespace diptych::tests;
   namespace fs = std::filesystem;
 
   struct Stages : testing::Test
   {
-    const fs::path    folder = fs::path(testing::TempDir()) / ("staged" + std::to_string(::getpid()));
-    const std::string path   = (folder / "panel").string();
-
-    void SetUp() override { fs::create_directories(folder); }
-    void TearDown() override { fs::remove_all(folder); }
+    const Folder      folder;
+    const std::string path = folder / "panel";
 
     static void add(StagedFile &file, const double value)
     {
@@ -68,34 +62,28 @@ namespace
     EXPECT_EQ(fs::last_write_time(first), long_ago);
   }
 
-  // Killed in the midst of a stage: what was complete stands, what was not is not looked at.
+  // Closed, or killed in the midst of a stage: what was complete stands, what was not is not looked at.
   TEST_F(Stages, AreTakenUpWhereTheCheckpointSays)
   {
-    {
-      StagedFile file(path);
-      add(file, 1), add(file, 2), add(file, 3);
-    } // never closed
-    std::ofstream(path + "/stage_0003.h5.part") << "half";
-    StagedFile file(path, 2);
-    EXPECT_EQ(file.size(), 2u);
-    EXPECT_EQ(times(), (std::vector<double>{1, 2}));
-    add(file, 5);
-    file.close();
-    EXPECT_EQ(times(), (std::vector<double>{1, 2, 5}));
-  }
-
-  TEST_F(Stages, OfAClosedFileAreTakenUpToo)
-  {
-    {
-      StagedFile file(path);
-      add(file, 1), add(file, 2), add(file, 3);
-      file.close();
-    }
-    StagedFile file(path, 2);
-    add(file, 4);
-    EXPECT_EQ(times(), (std::vector<double>{1, 2, 4}));
-    file.close();
-    EXPECT_EQ(times(), (std::vector<double>{1, 2, 4}));
+    for (const bool closed : {false, true})
+      {
+        {
+          StagedFile first(path);
+          for (const int k : {1, 2, 3})
+            add(first, k);
+          if (closed)
+            first.close();
+        }
+        if (!closed)
+          std::ofstream(path + "/stage_0003.h5.part") << "half";
+        StagedFile file(path, 2);
+        EXPECT_EQ(file.size(), 2u);
+        EXPECT_EQ(times(), (std::vector<double>{1, 2}));
+        add(file, 5);
+        EXPECT_EQ(times(), (std::vector<double>{1, 2, 5}));
+        file.close();
+        EXPECT_EQ(times(), (std::vector<double>{1, 2, 5}));
+      }
   }
 
   TEST_F(Stages, FewerThanTheCheckpointGoesOnFromAreRefused)
@@ -105,7 +93,7 @@ namespace
       add(file, 1);
     }
     EXPECT_THROW(StagedFile(path, 2), std::invalid_argument);
-    EXPECT_THROW(StagedFile((folder / "other").string(), 1), std::invalid_argument);
+    EXPECT_THROW(StagedFile(folder / "other", 1), std::invalid_argument);
   }
 
   // The folder may be moved before the file is closed: links are relative.
@@ -115,10 +103,10 @@ namespace
       StagedFile file(path);
       add(file, 1), add(file, 2);
     }
-    const fs::path other = folder.string() + "_moved";
-    fs::rename(folder, other);
-    const Hdf5Reader file((other / "panel.h5").string());
+    const std::string other = folder.path + "_moved";
+    fs::rename(folder.path, other);
+    const Hdf5Reader file(other + "/panel.h5");
     EXPECT_EQ(file.attribute(stage_name(1), "time"), 2);
-    fs::rename(other, folder);
+    fs::rename(other, folder.path);
   }
 } // namespace

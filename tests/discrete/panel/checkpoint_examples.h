@@ -3,16 +3,12 @@
 #pragma once
 
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <random>
 
-#include <unistd.h>
-
-#include <gtest/gtest.h>
-
 #include "discrete/panel/checkpoint.h"
 #include "tests/discrete/small_scenes.h"
+#include "tests/files.h"
 
 namespace
 {
@@ -67,7 +63,7 @@ namespace
     }
   };
 
-  std::vector<std::uint64_t> bits(const Snapshot &s)
+  inline std::vector<std::uint64_t> bits(const Snapshot &s)
   {
     Bits b;
     b(double(s.walk), s.progress, s.axial_strain, s.time, s.step, s.residual, s.mean_diameter, s.shear_strain, s.stress_error,
@@ -80,7 +76,7 @@ namespace
     return b.words;
   }
 
-  std::vector<std::uint64_t> bits(const std::vector<HistoryRow> &rows)
+  inline std::vector<std::uint64_t> bits(const std::vector<HistoryRow> &rows)
   {
     Bits b;
     b(rows);
@@ -88,7 +84,7 @@ namespace
   }
 
   // Everything that a checkpoint must keep. Drives follow from the scene.
-  std::vector<std::uint64_t> bits(const Checkpoint &p)
+  inline std::vector<std::uint64_t> bits(const Checkpoint &p)
   {
     Bits          b;
     const Grains &g = p.state.grains;
@@ -125,7 +121,7 @@ namespace
     Eigen::Vector2d vector() { return {(*this)(), (*this)()}; }
   };
 
-  HistoryRow random_row(Dice &dice)
+  inline HistoryRow random_row(Dice &dice)
   {
     HistoryRow row;
     visit_columns(row, [&](const char *, auto &value, const char *, const char *) {
@@ -140,7 +136,7 @@ namespace
     return row;
   }
 
-  void fill_state(Dice &dice, State &state)
+  inline void fill_state(Dice &dice, State &state)
   {
     for (int k = 0; k < 9; ++k)
       {
@@ -163,7 +159,7 @@ namespace
     state.time = dice.size();
   }
 
-  void fill_report(Dice &dice, Report &q)
+  inline void fill_report(Dice &dice, Report &q)
   {
     q.progress = dice(), q.axial_strain = dice(), q.shear_strain = dice(), q.steps = dice.whole(), q.sweeps = 123456789012345,
     q.updates           = 9007199254740991; // 2^53 - 1
@@ -174,7 +170,7 @@ namespace
     q.step_bound      = "forces";
   }
 
-  StoredCheckpoint random_checkpoint()
+  inline StoredCheckpoint random_checkpoint()
   {
     Dice             dice;
     StoredCheckpoint checkpoint;
@@ -196,19 +192,11 @@ namespace
     return checkpoint;
   }
 
-  // A file that exists as long as the test.
-  struct CheckpointFile
+  inline StoredCheckpoint written_and_read(const StoredCheckpoint &checkpoint)
   {
-    std::string path = (std::filesystem::path(testing::TempDir()) / ("checkpoint" + std::to_string(::getpid()) + ".h5")).string();
-
-    ~CheckpointFile() { std::filesystem::remove(path); }
-  };
-
-  StoredCheckpoint written_and_read(const StoredCheckpoint &checkpoint)
-  {
-    const CheckpointFile file;
-    write_checkpoint(file.path, checkpoint);
-    EXPECT_FALSE(std::filesystem::exists(file.path + ".part"));
-    return read_checkpoint(file.path);
+    const Folder folder;
+    write_checkpoint(folder / "a.h5", checkpoint);
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.h5.part"));
+    return read_checkpoint(folder / "a.h5");
   }
 } // namespace

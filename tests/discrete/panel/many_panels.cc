@@ -1,12 +1,14 @@
 // diptych: many samples in one process leave no trace in memory or results
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <cstring>
+
 #include <malloc.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <gtest/gtest.h>
-
+#include "discrete/files/text_file.h"
 #include "tests/discrete/small_scenes.h"
+#include "tests/files.h"
 
 namespace
 {
@@ -42,42 +44,23 @@ namespace
     return values;
   }
 
-  // The same in a process that has run nothing else. The numbers come through a pipe.
+  // The same in a process that has run nothing else. The numbers come through a file.
   std::vector<double> numbers_of_a_fresh_process(const int k)
   {
-    int ends[2];
-    EXPECT_EQ(pipe(ends), 0);
-    const pid_t child = fork();
+    const Folder folder;
+    const pid_t  child = fork();
     if (child == 0)
       {
         const std::vector<double> values = numbers(turn(k));
-        const char               *bytes  = reinterpret_cast<const char *>(values.data());
-        std::size_t               left   = values.size() * sizeof(double);
-        while (left > 0)
-          {
-            const ssize_t n = ::write(ends[1], bytes, left);
-            if (n <= 0)
-              _exit(1);
-            bytes += n, left -= std::size_t(n);
-          }
+        write_text(folder / "numbers", {reinterpret_cast<const char *>(values.data()), values.size() * sizeof(double)});
         _exit(0);
       }
-    close(ends[1]);
-    std::vector<double> values;
-    double              value;
-    std::size_t         filled = 0;
-    for (;;)
-      {
-        const ssize_t n = ::read(ends[0], reinterpret_cast<char *>(&value) + filled, sizeof value - filled);
-        if (n <= 0)
-          break;
-        if ((filled += std::size_t(n)) == sizeof value)
-          values.push_back(value), filled = 0;
-      }
-    close(ends[0]);
     int status = 0;
     waitpid(child, &status, 0);
     EXPECT_EQ(status, 0);
+    const std::string   bytes = read_text(folder / "numbers");
+    std::vector<double> values(bytes.size() / sizeof(double));
+    std::memcpy(values.data(), bytes.data(), bytes.size());
     return values;
   }
 

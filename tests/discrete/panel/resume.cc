@@ -5,11 +5,8 @@
 namespace
 {
   // A loading, with a checkpoint before each of its steps.
-  struct CheckpointedRun
+  struct CheckpointedRun : Course
   {
-    Report                  report;
-    std::vector<Snapshot>   snapshots;
-    std::vector<HistoryRow> rows;
     std::vector<Checkpoint> before;
   };
 
@@ -86,24 +83,17 @@ namespace
     expect_same_from(small_sample(150), two_stages(), sampled_options(), everywhere);
   }
 
-  TEST(Resume, RigidWalls)
+  TEST(Resume, SidesUnderPressureAndMoving)
   {
-    Options options         = sampled_options();
-    options.lateral.lateral = Lateral::rigid_walls;
-    expect_same_from(small_sample(150), two_stages(), options, everywhere);
-    options.lateral.side_motion   = SideMotion::velocity;
-    options.lateral.side_velocity = 0.01;
-    expect_same_from(small_sample(150), two_stages(), options, {10, 14});
-  }
-
-  TEST(Resume, PeriodicWidthFreeAndMoving)
-  {
-    Options options         = sampled_options();
-    options.lateral.lateral = Lateral::periodic;
-    expect_same_from(small_sample(150), two_stages(), options, everywhere);
-    options.lateral.side_motion   = SideMotion::velocity;
-    options.lateral.side_velocity = 0.01;
-    expect_same_from(small_sample(150), two_stages(), options, {10, 14});
+    for (const Lateral lateral : {Lateral::rigid_walls, Lateral::periodic})
+      {
+        Options options         = sampled_options();
+        options.lateral.lateral = lateral;
+        expect_same_from(small_sample(150), two_stages(), options, everywhere);
+        options.lateral.side_motion   = SideMotion::velocity;
+        options.lateral.side_velocity = 0.01;
+        expect_same_from(small_sample(150), two_stages(), options, {10, 14});
+      }
   }
 
   TEST(Resume, PlaneShearWithAFreePlaten)
@@ -136,54 +126,54 @@ namespace
     expect_same_from(small_sample(150), loading, options, {0, 4, 10, 15});
   }
 
-  // The impulses hold the sliding history of springs. Step lengths that differ by rounding must not change it.
-  TEST(Resume, SpringsInTheMiddleOfAStage)
+  Options springs()
   {
     Options options                 = quick_options();
     options.method.method           = Method::penalty;
     options.method.history_interval = 1;
-    Loading loading                 = two_stages();
-    loading.inertial_number         = 0.05;
-    loading.stages                  = {0.001, 0.002, 0.003};
-    const std::size_t n             = run_with_checkpoints(small_sample(80), loading, options).rows.size();
-    expect_same_from(small_sample(80), loading, options, {0, 2, n / 2, n - 1});
+    return options;
+  }
+
+  Loading fast(const std::vector<double> &stages)
+  {
+    Loading loading;
+    loading.inertial_number = 0.05;
+    loading.stages          = stages;
+    return loading;
+  }
+
+  // The impulses hold the sliding history of springs. Step lengths that differ by rounding must not change it.
+  TEST(Resume, SpringsInTheMiddleOfAStage)
+  {
+    const Loading     loading = fast({0.001, 0.002, 0.003});
+    const std::size_t n       = run_with_checkpoints(small_sample(80), loading, springs()).rows.size();
+    expect_same_from(small_sample(80), loading, springs(), {0, 2, n / 2, n - 1});
   }
 
   // Stages of 0.005, 0.01 - 0.005, ... are equal except for rounding, and so are their steps.
   TEST(Resume, SpringsAtTheBeginningOfAStage)
   {
-    Options options                 = quick_options();
-    options.method.method           = Method::penalty;
-    options.method.history_interval = 1;
-    Loading loading                 = two_stages();
-    loading.inertial_number         = 0.05;
-    loading.stages.clear();
+    Loading loading = fast({});
     for (int k = 1; k <= 8; ++k)
       loading.stages.push_back(k * 0.005);
-    const CheckpointedRun    whole = run_with_checkpoints(small_sample(80), loading, options);
+    const CheckpointedRun    whole = run_with_checkpoints(small_sample(80), loading, springs());
     std::vector<std::size_t> first_steps;
     for (std::size_t k = 1; k < whole.before.size(); ++k)
       if (whole.before[k].stage > whole.before[k - 1].stage)
         first_steps.push_back(k);
     ASSERT_EQ(first_steps.size(), 7u);
-    expect_same_from(small_sample(80), loading, options, first_steps);
+    expect_same_from(small_sample(80), loading, springs(), first_steps);
   }
 
   // A spring pulls with kt x stretch, whatever the length of the next step. A stage of 0.7 steps is taken in one step of 0.7
   // times the length. The shear force on the platen must continue, apart from the change in one step, and not be scaled by 0.7.
   TEST(Penalty, SpringsPersistIfTheStepChanges)
   {
-    Options options                        = quick_options();
-    options.method.method                  = Method::penalty;
-    options.method.history_interval        = 1;
-    options.penalty.step_fraction          = 0.05;
-    Loading loading                        = two_stages();
-    loading.inertial_number                = 0.05;
-    loading.stages                         = {0.001};
-    const CheckpointedRun one              = run_with_checkpoints(small_sample(80), loading, options);
-    const double          strain_of_a_step = one.report.step * loading.inertial_number;
-    loading.stages                         = {0.001, 0.001 + 0.7 * strain_of_a_step};
-    const CheckpointedRun change           = run_with_checkpoints(small_sample(80), loading, options);
+    Options options               = springs();
+    options.penalty.step_fraction = 0.05;
+    const CheckpointedRun one     = run_with_checkpoints(small_sample(80), fast({0.001}), options);
+    const double          second  = 0.001 + 0.7 * one.report.step * 0.05; // the strain of 0.7 steps
+    const CheckpointedRun change  = run_with_checkpoints(small_sample(80), fast({0.001, second}), options);
     ASSERT_EQ(change.rows.size(), one.rows.size() + 1);
     ASSERT_NEAR(change.report.step / one.report.step, 0.7, 1e-9);
     const double before = one.rows.back().upper_force.x(), after = change.rows.back().upper_force.x();

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include <gtest/gtest.h>
-
 #include "tests/discrete/small_scenes.h"
 
 namespace

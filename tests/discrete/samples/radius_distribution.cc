@@ -2,19 +2,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numeric>
-
-#include <gtest/gtest.h>
-
-#include <unistd.h>
 
 #include "discrete/samples/radius_distribution.h"
 #include "discrete/files/text_file.h"
+#include "tests/files.h"
 
 namespace
 {
   using namespace diptych::discrete;
+  using namespace diptych::tests;
 
   double mean(const std::vector<double> &values)
   {
@@ -36,43 +33,23 @@ namespace
   // A gap-graded curve without grains between 0.4 and 0.5.
   const RadiusTable gap_graded = {{0.2, 0.4, 0.5, 1.}, {0., 0.3, 0.3, 1.}};
 
-  std::string complaint(const RadiusDistribution &distribution, const RadiusScale scale = RadiusScale::as_given)
+  std::string fault_of(const RadiusDistribution &distribution, const RadiusScale scale = RadiusScale::as_given)
   {
-    try
-      {
-        radius_quantiles(distribution, 10, scale);
-      }
-    catch (const std::invalid_argument &error)
-      {
-        return error.what();
-      }
-    return "no error";
+    return refusal([&] { radius_quantiles(distribution, 10, scale); });
   }
 
-  const std::string path =
-    (std::filesystem::path(testing::TempDir()) / ("grading" + std::to_string(::getpid()) + ".csv")).string();
+  const Folder      gradings;
+  const std::string grading = gradings / "grading.csv";
 
   RadiusTable read_table(const std::string &text)
   {
-    write_text(path, text);
-    const RadiusTable table = read_radius_table(path);
-    std::filesystem::remove(path);
-    return table;
+    write_text(grading, text);
+    return read_radius_table(grading);
   }
 
   std::string file_complaint(const std::string &text)
   {
-    try
-      {
-        read_table(text);
-      }
-    catch (const std::invalid_argument &error)
-      {
-        std::filesystem::remove(path);
-        const std::string what = error.what();
-        return what.compare(0, path.size(), path) == 0 ? what.substr(path.size()) : "not named: " + what;
-      }
-    return "no error";
+    return complaint(grading, [&] { read_table("radius,passing\n" + text); });
   }
 
   // Midpoint quantiles of a linear curve have exactly the mean of its ends: (0.3 + 0.7) / 2.
@@ -186,17 +163,17 @@ namespace
 
   TEST(RadiusDistribution, AnInvalidDistributionIsRefusedByNameValueAndRange)
   {
-    EXPECT_EQ(complaint(UniformByNumber{0., 1.}), "smallest radius 0 is out of range; allowed: more than 0");
-    EXPECT_EQ(complaint(UniformByMass{0.5, 0.25}),
+    EXPECT_EQ(fault_of(UniformByNumber{0., 1.}), "smallest radius 0 is out of range; allowed: more than 0");
+    EXPECT_EQ(fault_of(UniformByMass{0.5, 0.25}),
               "largest radius 0.25 is out of range; allowed: 0.5 (the smallest radius) or more");
-    EXPECT_EQ(complaint(UniformByNumber{0.25, 0.5}), "no error");
-    EXPECT_EQ(complaint(UniformByNumber{0.25, 0.5}, RadiusScale::mean_diameter_one),
+    EXPECT_EQ(fault_of(UniformByNumber{0.25, 0.5}), "");
+    EXPECT_EQ(fault_of(UniformByNumber{0.25, 0.5}, RadiusScale::mean_diameter_one),
               "smallest + largest radius is 0.75 mean diameters; allowed: 1, so that radii uniform by number have the mean "
               "diameter 1");
-    EXPECT_EQ(complaint(UniformByMass{NAN, 1.}), "smallest radius nan is out of range; allowed: more than 0");
-    EXPECT_EQ(complaint(RadiusTable{{1.}, {1.}}),
+    EXPECT_EQ(fault_of(UniformByMass{NAN, 1.}), "smallest radius nan is out of range; allowed: more than 0");
+    EXPECT_EQ(fault_of(RadiusTable{{1.}, {1.}}),
               "a grading curve with 1 radii and 1 values of passing; allowed: 2 or more of each");
-    EXPECT_EQ(complaint(RadiusTable{{1., 2.}, {0., 0.5}}),
+    EXPECT_EQ(fault_of(RadiusTable{{1., 2.}, {0., 0.5}}),
               "grading curve, point 2: passing 0.5 is out of range; allowed: 1, at the largest radius");
     EXPECT_THROW(radius_quantiles(UniformByMass{0.5, 1.}, 0), std::invalid_argument);
   }
@@ -213,24 +190,21 @@ namespace
 
   TEST(RadiusTable, EveryFaultIsNamed)
   {
-    EXPECT_EQ(file_complaint(""), ": is empty; its first line must name the columns");
-    EXPECT_EQ(file_complaint("radius\n1\n"), ", line 1: column 'passing' is missing");
-    EXPECT_EQ(file_complaint("radius,passing\n1,x\n"), ", line 2: column 'passing' = 'x' is not a number");
-    EXPECT_EQ(file_complaint("radius,passing\n1,1\n"), ", line 2: a grading curve of one point; allowed: 2 or more");
-    EXPECT_EQ(file_complaint("radius,passing\n-1,0\n1,1\n"),
-              ", line 2: column 'radius' = '-1' is out of range; allowed: more than 0");
-    EXPECT_EQ(file_complaint("radius,passing\n1,0\n2,0.5\n2,1\n"),
+    EXPECT_EQ(complaint(grading, [] { read_table("radius\n1\n"); }), ", line 1: column 'passing' is missing");
+    EXPECT_EQ(file_complaint("1,1\n"), ", line 2: a grading curve of one point; allowed: 2 or more");
+    EXPECT_EQ(file_complaint("-1,0\n1,1\n"), ", line 2: column 'radius' = '-1' is out of range; allowed: more than 0");
+    EXPECT_EQ(file_complaint("1,0\n2,0.5\n2,1\n"),
               ", line 4: column 'radius' = '2' is out of range; allowed: more than 2, the radius before it");
-    EXPECT_EQ(file_complaint("radius,passing\n1,0.1\n2,1\n"),
+    EXPECT_EQ(file_complaint("1,0.1\n2,1\n"),
               ", line 2: column 'passing' = '0.1' is out of range; allowed: 0, at the smallest radius");
-    EXPECT_EQ(file_complaint("radius,passing\n1,0\n2,0.6\n3,0.5\n4,1\n"),
+    EXPECT_EQ(file_complaint("1,0\n2,0.6\n3,0.5\n4,1\n"),
               ", line 4: column 'passing' = '0.5' is out of range; allowed: 0.6 (the passing before it) to 1");
-    EXPECT_EQ(file_complaint("radius,passing\n1,0\n2,-5\n4,100\n"),
+    EXPECT_EQ(file_complaint("1,0\n2,-5\n4,100\n"),
               ", line 3: column 'passing' = '-5' is out of range; allowed: 0 (the passing before it) to 100");
-    EXPECT_EQ(file_complaint("radius,passing\n1,0\n2,60\n4,1\n"),
+    EXPECT_EQ(file_complaint("1,0\n2,60\n4,1\n"),
               ", line 3: column 'passing' = '60' is out of range; allowed: 0 (the passing before it) to 1");
     EXPECT_EQ(
-      file_complaint("radius,passing\n1,0\n2,99\n"),
+      file_complaint("1,0\n2,99\n"),
       ", line 3: column 'passing' = '99' is out of range; allowed: at the largest radius 1 (fractions) or 100 (per cent)");
   }
 } // namespace

@@ -3,57 +3,25 @@
 #pragma once
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
-#include <functional>
-
-#include <gtest/gtest.h>
-
-#include <unistd.h>
 
 #include "discrete/files/hdf5_file.h"
 #include "discrete/panel/snapshot_file.h"
 #include "discrete/samples/sample_file.h"
 #include "discrete/files/text_file.h"
+#include "tests/files.h"
 
 namespace
 {
   using namespace diptych::discrete;
+  using namespace diptych::tests;
 
-  std::string temporary_path(const std::string &name)
-  {
-    return (std::filesystem::path(testing::TempDir()) / ("sample_file" + std::to_string(::getpid()) + name)).string();
-  }
-
-  // Message about a fault, without the name of the file in front.
-  std::string complaint(const std::string &path, const std::function<void()> &action)
-  {
-    try
-      {
-        action();
-      }
-    catch (const std::exception &error)
-      {
-        const std::string what = error.what();
-        return what.compare(0, path.size(), path) == 0 ? what.substr(path.size()) : what;
-      }
-    return "no error";
-  }
-
-  const std::string csv = temporary_path(".csv"), h5 = temporary_path(".h5");
+  const Folder      samples;
+  const std::string csv = samples / "grains.csv", h5 = samples / "grains.h5";
 
   GrainFile read(const std::string &text)
   {
     write_text(csv, text);
-    const GrainFile file = read_grains_csv(csv, 2.);
-    std::filesystem::remove(csv);
-    return file;
-  }
-
-  std::string csv_complaint(const std::string &text)
-  {
-    const std::string what = complaint(csv, [&] { read(text); });
-    std::filesystem::remove(csv);
-    return what;
+    return read_grains_csv(csv, 2.);
   }
 } // namespace

@@ -1,7 +1,5 @@
 // diptych: every solver on every problem
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <gtest/gtest.h>
-
 #include "discrete/contacts/natural_map.h"
 #include "discrete/contacts/contact_law.h"
 #include "discrete/contacts/contact_order.h"
@@ -84,29 +82,6 @@ namespace
         const SolveReport report = solve(problem, options, stopped);
         EXPECT_EQ(report.status, SolveStatus::stopped) << name_of(solver);
         EXPECT_EQ(report.sweeps, 40) << name_of(solver);
-      }
-  }
-
-  TEST(Solvers, CoulombAndSignoriniHoldAtTheSolution)
-  {
-    const ContactProblem problem = pyramid(0.1);
-    SolverOptions        options;
-    options.tolerance = 1e-13;
-    std::vector<Impulse> impulses(problem.contacts.size());
-    ASSERT_EQ(solve(problem, options, impulses).status, SolveStatus::converged);
-    const std::vector<BodyVelocity> v = velocities(problem, impulses);
-    for (std::size_t k = 0; k < impulses.size(); ++k)
-      {
-        const ContactRow      &c = problem.contacts[k];
-        const RelativeVelocity u = relative_velocity(c, v);
-        EXPECT_GE(impulses[k].normal, 0);
-        EXPECT_GE(u.normal, -1e-11);
-        EXPECT_NEAR(impulses[k].normal * u.normal, 0, 1e-11);
-        EXPECT_LE(std::abs(impulses[k].tangential), c.friction * impulses[k].normal * (1 + 1e-12));
-        if (std::abs(impulses[k].tangential) < c.friction * impulses[k].normal * (1 - 1e-9))
-          {
-            EXPECT_NEAR(u.tangential, 0, 1e-11);
-          }
       }
   }
 

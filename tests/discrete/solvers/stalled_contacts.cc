@@ -1,7 +1,5 @@
 // diptych: sweeps that stall on a few contacts
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <gtest/gtest.h>
-
 #include <limits>
 
 #include "discrete/bodies/boundary.h"

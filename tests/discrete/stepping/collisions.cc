@@ -4,8 +4,6 @@
 #include <numeric>
 #include <random>
 
-#include <gtest/gtest.h>
-
 #include "discrete/panel/loading.h"
 #include "tests/discrete/small_scenes.h"
 

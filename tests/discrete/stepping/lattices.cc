@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 
-#include <gtest/gtest.h>
-
 #include "discrete/bodies/outline.h"
 #include "tests/discrete/small_scenes.h"
 

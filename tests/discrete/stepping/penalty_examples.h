@@ -6,7 +6,6 @@
 #include <random>
 
 #include <Eigen/Eigenvalues>
-#include <gtest/gtest.h>
 
 #include "discrete/stepping/penalty.h"
 #include "discrete/samples/soft_relaxation.h"
@@ -14,7 +13,6 @@
 
 namespace
 {
-  using namespace diptych::discrete;
   using namespace diptych::tests;
 
   constexpr double kt_over_kn = 0.5; // penalty.h

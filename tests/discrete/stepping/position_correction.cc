@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 
-#include <gtest/gtest.h>
-
 #include "discrete/contacts/contact_law.h"
 #include "discrete/stepping/position_correction.h"
 #include "discrete/stepping/step_problem.h"

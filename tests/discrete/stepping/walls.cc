@@ -2,21 +2,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 
-#include <gtest/gtest.h>
-
 #include "tests/discrete/small_scenes.h"
 
 namespace
 {
   using namespace diptych::tests;
-
-  Impulse impulse_between(const StepResult &result, const int i, const int j)
-  {
-    for (std::size_t k = 0; k < result.contacts.size(); ++k)
-      if (result.contacts[k].i == i && result.contacts[k].j == j)
-        return result.impulses[k];
-    return {};
-  }
 
   // A column of n touching discs (d = 1) on a floor. A platen at a distance `gap` above it is free vertically under a force.
   State column_under_platen(const int n, const double gap, const TimeTable &downward, const double mass)
