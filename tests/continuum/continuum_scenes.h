@@ -66,6 +66,13 @@ namespace diptych::continuum::tests
     return options;
   }
 
+  inline Options adaptive(Options options)
+  {
+    options.refinement           = Refinement::adaptive;
+    options.refinement_threshold = 0.5;
+    return options;
+  }
+
   // Optional requests to a run.
   struct Wishes
   {
@@ -109,6 +116,13 @@ namespace diptych::continuum::tests
     result.report     = panel.report();
     result.checkpoint = panel.checkpoint();
     return result;
+  }
+
+  inline Course resumed(const QuadMesh &mesh, const Loading &loading, const Options &options, const Checkpoint &checkpoint)
+  {
+    Wishes wishes;
+    wishes.resume = &checkpoint;
+    return course(mesh, loading, options, wishes);
   }
 
   // A run that must reach its end.

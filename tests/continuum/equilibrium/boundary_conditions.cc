@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <tuple>
 
-#include <gtest/gtest.h>
-
 #include "continuum/equilibrium/boundary_value_problem.h"
 #include "continuum/equilibrium/loads.h"
 #include "tests/continuum/continuum_scenes.h"
@@ -30,6 +28,15 @@ namespace
   std::vector<std::size_t> nodes_at_x(const Snapshot &s, const double x)
   {
     return nodes_where(s, [x](const Eigen::Vector2d &p) { return std::abs(p.x() - x) < 1e-9; });
+  }
+
+  // Largest difference of the horizontal displacements of some nodes.
+  double spread(const Snapshot &s, const std::vector<std::size_t> &nodes)
+  {
+    const auto [least, largest] = std::minmax_element(nodes.begin(), nodes.end(), [&](const std::size_t a, const std::size_t b) {
+      return s.displacement[a].x() < s.displacement[b].x();
+    });
+    return s.displacement[*largest].x() - s.displacement[*least].x();
   }
 
   // The weak spot makes the fields inhomogeneous.
@@ -162,18 +169,11 @@ namespace
     const Snapshot &s    = c.snapshots.back();
     const auto      wall = nodes_at_x(s, 12), other = nodes_at_x(s, 0), inside = nodes_at_x(s, 6);
     ASSERT_EQ(wall.size(), 17u);
-    for (const auto k : wall)
-      EXPECT_NEAR(s.displacement[k].x(), s.displacement[wall[0]].x(), 1e-9);
+    EXPECT_LT(spread(s, wall), 1e-9);
     EXPECT_GT(s.displacement[wall[0]].x(), 0.01);
     for (const auto k : other)
       EXPECT_NEAR(s.displacement[k].x(), 0, 1e-12);
-    double least = 1, largest = -1;
-    for (const auto k : inside)
-      {
-        least   = std::min(least, s.displacement[k].x());
-        largest = std::max(largest, s.displacement[k].x());
-      }
-    EXPECT_GT(largest - least, 1e-3) << "the field is inhomogeneous";
+    EXPECT_GT(spread(s, inside), 1e-3) << "the field is inhomogeneous";
   }
 
   // The same on the moved shape: mean s_xx = P.
@@ -226,16 +226,13 @@ namespace
     ASSERT_EQ(right.size(), 17u);
     const double widening = (s.displacement[right[0]] - s.displacement[left[0]]).x();
     EXPECT_GT(widening, 0.01);
-    double least = 1, largest = -1;
     for (std::size_t k = 0; k < left.size(); ++k)
       {
         const Eigen::Vector2d apart = s.displacement[right[k]] - s.displacement[left[k]];
         EXPECT_NEAR(apart.x(), widening, 1e-9);
         EXPECT_NEAR(apart.y(), 0, 1e-9);
-        least   = std::min(least, s.displacement[left[k]].x());
-        largest = std::max(largest, s.displacement[left[k]].x());
       }
-    EXPECT_GT(largest - least, 1e-3) << "a side need not stay straight";
+    EXPECT_GT(spread(s, left), 1e-3) << "a side need not stay straight";
     EXPECT_NEAR(c.snapshots[0].mean_stress(0, 0), 1, 1e-4);
     EXPECT_NEAR(c.end().mean_stress(0, 0), 0.99, 2e-3);
     for (const CellState &cell : c.snapshots[0].cell_state)

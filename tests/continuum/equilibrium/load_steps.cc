@@ -1,7 +1,5 @@
 // diptych: load steps: halving, failure and stop without a trace
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <gtest/gtest.h>
-
 #include "tests/continuum/problem_scenes.h"
 
 namespace

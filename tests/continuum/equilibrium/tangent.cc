@@ -4,8 +4,6 @@
 
 #include <deal.II/lac/full_matrix.h>
 
-#include <gtest/gtest.h>
-
 #include "tests/continuum/problem_scenes.h"
 
 namespace

@@ -4,8 +4,6 @@
 
 #include <Eigen/SparseLU>
 
-#include <gtest/gtest.h>
-
 #include "continuum/elements/element_kernels.h"
 #include "continuum/laws/mohr_coulomb.h"
 #include "tests/continuum/continuum_scenes.h"

@@ -2,38 +2,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <filesystem>
 #include <fstream>
 #include <map>
-#include <string>
-
-#include <unistd.h>
 
 #include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
 
-#include <gtest/gtest.h>
-
 #include "continuum/mesh/mesh.h"
+#include "tests/files.h"
 
 namespace diptych::continuum
 {
-  // A folder of its own that lives as long as the test.
-  struct Folder
-  {
-    std::filesystem::path path;
-
-    Folder()
-    {
-      static int n = 0;
-      path         = std::filesystem::path(testing::TempDir()) /
-             ("diptych_mesh" + std::to_string(::getpid()) + "_" + std::to_string(n++));
-      std::filesystem::create_directories(path);
-    }
-    ~Folder() { std::filesystem::remove_all(path); }
-    std::string file(const std::string &name) const { return (path / name).string(); }
-  };
+  using diptych::tests::Folder;
 
   // A mesh as deal.II's reader finds it in a file that write_mesh wrote.
   struct Grid
@@ -45,10 +26,10 @@ namespace diptych::continuum
     explicit Grid(const QuadMesh &mesh)
     {
       const Folder folder;
-      write_mesh(mesh, folder.file("mesh.msh"));
-      EXPECT_FALSE(std::filesystem::exists(folder.file("mesh.msh.part")));
+      write_mesh(mesh, folder / "mesh.msh");
+      EXPECT_FALSE(std::filesystem::exists(folder / "mesh.msh.part"));
       dealii::GridIn<2> reader(triangulation);
-      std::ifstream     file(folder.file("mesh.msh"));
+      std::ifstream     file(folder / "mesh.msh");
       reader.read_msh(file);
       for (const auto &face : triangulation.active_face_iterators())
         if (face->at_boundary())
@@ -72,5 +53,13 @@ namespace diptych::continuum
       EXPECT_TRUE(id >= lower_platen && id <= free_edge) << n << " edges have the id " << id;
     for (const unsigned int id : {lower_platen, upper_platen, left_side, right_side})
       EXPECT_EQ(grid.n_edges.count(id), 1u) << id;
+  }
+
+  // read_mesh names the file first, and says `reason`.
+  inline void expect_mesh_refused(const std::string &user_file, const std::string &reason)
+  {
+    const std::string message = diptych::tests::refusal([&] { (void)read_mesh(user_file); });
+    EXPECT_TRUE(message.find(user_file + ": ") == 0 || message.find(user_file + ", line ") == 0) << message;
+    diptych::tests::expect_words(message, {reason});
   }
 } // namespace diptych::continuum

@@ -1,24 +1,20 @@
 // diptych: the user's meshes and the templates: read by name, or refused with the reason
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <map>
 
 #include <gmsh.h>
-#include <gtest/gtest.h>
 
 #include "tests/continuum/mesh/grid_of_file.h"
-#include "tests/continuum/mesh/refused_mesh.h"
 
 namespace
 {
   using namespace diptych::continuum;
-  namespace fs = std::filesystem;
 
-  std::string template_file(const std::string &name)
+  QuadMesh mesh_of_template(const std::string &name)
   {
-    return (fs::path(DIPTYCH_SOURCE_DIR) / "meshes" / name).string();
+    const QuadMesh mesh = read_mesh(DIPTYCH_SOURCE_DIR "/meshes/" + name);
+    expect_that_deal_ii_reads(mesh);
+    return mesh;
   }
 
   // A user's own file in MSH 2.2: two unit squares side by side, 4-5-6 above 1-2-3. An element is its type, physical group,
@@ -57,8 +53,8 @@ namespace
   TEST(Mesh, PhysicalLinesWithoutNamesAreRecognisedByNumber)
   {
     const Folder folder;
-    UserMesh().write(folder.file("user.msh"));
-    const QuadMesh    mesh    = read_mesh(folder.file("user.msh"));
+    UserMesh().write(folder / "user.msh");
+    const QuadMesh    mesh    = read_mesh(folder / "user.msh");
     const MeshSummary summary = summarise(mesh);
     EXPECT_EQ(summary.n_cells, 2u);
     EXPECT_EQ(summary.area, 2);
@@ -76,8 +72,8 @@ namespace
          {std::pair{"1.0000000001", true}, {"0.9999999999", true}, {"1.00000001", false}, {"1.5", false}})
       {
         mesh.vertices[5] = std::string("2 ") + top + " 0";
-        mesh.write(folder.file("user.msh"));
-        EXPECT_EQ(summarise(read_mesh(folder.file("user.msh"))).sides_match, match) << top;
+        mesh.write(folder / "user.msh");
+        EXPECT_EQ(summarise(read_mesh(folder / "user.msh")).sides_match, match) << top;
       }
   }
 
@@ -92,12 +88,13 @@ namespace
     return mesh;
   }
 
-  void write_as_msh_4_1(const std::string &from, const std::string &to)
+  // Lets gmsh write a mesh anew with one option changed.
+  void rewrite(const std::string &from, const std::string &to, const std::string &option, const double value)
   {
     gmsh::initialize(0, nullptr, false);
     gmsh::option::setNumber("General.Terminal", 0);
     gmsh::open(from);
-    gmsh::option::setNumber("Mesh.MshFileVersion", 4.1);
+    gmsh::option::setNumber(option, value);
     gmsh::option::setNumber("Mesh.SaveAll", 1);
     gmsh::write(to);
     gmsh::finalize();
@@ -106,15 +103,15 @@ namespace
   TEST(Mesh, PhysicalLinesAreRecognisedByNameInMsh22AndMsh41)
   {
     const Folder folder;
-    named_mesh().write(folder.file("v2.msh"));
-    write_as_msh_4_1(folder.file("v2.msh"), folder.file("v4.msh"));
-    std::ifstream v4(folder.file("v4.msh"));
+    named_mesh().write(folder / "v2.msh");
+    rewrite(folder / "v2.msh", folder / "v4.msh", "Mesh.MshFileVersion", 4.1);
+    std::ifstream v4(folder / "v4.msh");
     std::string   line;
     std::getline(v4, line), std::getline(v4, line);
     ASSERT_EQ(line.substr(0, 3), "4.1");
     for (const char *name : {"v2.msh", "v4.msh"})
       {
-        const QuadMesh mesh = read_mesh(folder.file(name));
+        const QuadMesh mesh = read_mesh(folder / name);
         expect_that_deal_ii_reads(mesh);
         EXPECT_EQ(Grid(mesh).n_edges, (std::map<unsigned int, unsigned int>{{1, 2}, {2, 1}, {3, 1}, {4, 1}, {5, 1}}));
       }
@@ -126,8 +123,8 @@ namespace
     const auto   refused = [&](const std::string &reason, const auto &spoil) {
       UserMesh mesh;
       spoil(mesh);
-      mesh.write(folder.file("user.msh"));
-      expect_refused(folder.file("user.msh"), reason);
+      mesh.write(folder / "user.msh");
+      expect_mesh_refused(folder / "user.msh", reason);
     };
     refused("Triangle 3", [](UserMesh &m) { m.elements.back() = "2 1 1 2 3 6", m.elements.push_back("2 1 1 2 6 5"); });
     refused("Line 3", [](UserMesh &m) { m.elements[0] = "8 1 1 1 2 5"; });
@@ -163,60 +160,60 @@ namespace
   TEST(Mesh, AMeshWithAVertexOfNoCellIsRefused)
   {
     const Folder folder;
-    std::ofstream(folder.file("v4.msh")) << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
-                                            "$Entities\n0 4 1 0\n1 0 0 0 1 0 0 1 1 0\n2 0 1 0 1 1 0 1 2 0\n3 0 0 0 0 1 0 1 3 0\n"
-                                            "4 1 0 0 1 1 0 1 4 0\n1 0 0 0 1 1 0 1 1 4 1 2 3 4\n$EndEntities\n"
-                                            "$Nodes\n1 5 1 5\n2 1 0 5\n1\n2\n3\n4\n5\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0.5 0.25 0\n"
-                                            "$EndNodes\n$Elements\n5 5 1 5\n1 1 1 1\n1 1 2\n1 2 1 1\n2 4 3\n1 3 1 1\n3 1 4\n"
-                                            "1 4 1 1\n4 2 3\n2 1 3 1\n5 1 2 3 4\n$EndElements\n";
-    expect_refused(folder.file("v4.msh"), "a vertex belongs to no cell at (0.5, 0.25)");
+    std::ofstream(folder / "v4.msh") << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
+                                        "$Entities\n0 4 1 0\n1 0 0 0 1 0 0 1 1 0\n2 0 1 0 1 1 0 1 2 0\n3 0 0 0 0 1 0 1 3 0\n"
+                                        "4 1 0 0 1 1 0 1 4 0\n1 0 0 0 1 1 0 1 1 4 1 2 3 4\n$EndEntities\n"
+                                        "$Nodes\n1 5 1 5\n2 1 0 5\n1\n2\n3\n4\n5\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0.5 0.25 0\n"
+                                        "$EndNodes\n$Elements\n5 5 1 5\n1 1 1 1\n1 1 2\n1 2 1 1\n2 4 3\n1 3 1 1\n3 1 4\n"
+                                        "1 4 1 1\n4 2 3\n2 1 3 1\n5 1 2 3 4\n$EndElements\n";
+    expect_mesh_refused(folder / "v4.msh", "a vertex belongs to no cell at (0.5, 0.25)");
 
     UserMesh mesh;
     mesh.vertices.push_back("0 5 0");
     mesh.elements.push_back("1 3 3 4 7"); // a line that sticks out
-    mesh.write(folder.file("v2.msh"));
-    expect_refused(folder.file("v2.msh"), "a vertex belongs to no cell at (0, 5)");
+    mesh.write(folder / "v2.msh");
+    expect_mesh_refused(folder / "v2.msh", "a vertex belongs to no cell at (0, 5)");
 
     mesh.elements.back() = "15 9 9 7"; // a mere point, such as the centre of an arc, is left out
-    mesh.write(folder.file("v2.msh"));
-    EXPECT_EQ(read_mesh(folder.file("v2.msh")).vertices.size(), 6u);
+    mesh.write(folder / "v2.msh");
+    EXPECT_EQ(read_mesh(folder / "v2.msh").vertices.size(), 6u);
   }
 
   TEST(Mesh, UnreadableMeshFilesAreRefused)
   {
     const Folder folder;
-    expect_refused(folder.file("missing.msh"), "no such mesh file");
-    std::ofstream(folder.file("picture.png")) << "x";
-    expect_refused(folder.file("picture.png"), ".msh or .geo");
-    std::ofstream(folder.file("empty.msh")) << "";
-    expect_refused(folder.file("empty.msh"), "no quadrilateral");
-    std::ofstream(folder.file("nothing.msh")) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
-    expect_refused(folder.file("nothing.msh"), "no quadrilateral");
-    std::ofstream(folder.file("text.msh")) << "this is no mesh\n";
-    expect_refused(folder.file("text.msh"), "line 1");
+    expect_mesh_refused(folder / "missing.msh", "no such mesh file");
+    for (const auto &[name, text, reason] : {std::tuple{"picture.png", "x", ".msh or .geo"},
+                                             {"empty.msh", "", "no quadrilateral"},
+                                             {"nothing.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", "no quadrilateral"},
+                                             {"text.msh", "this is no mesh\n", "line 1"},
+                                             {"error.geo", "Point(1) = {0, 0, 0};\nPoint(2) = {1, 2;\n", "line 2: syntax error"},
+                                             {"exit.geo", "Exit;\n", "gmsh ended before there was a mesh"}})
+      {
+        std::ofstream(folder / name) << text;
+        expect_mesh_refused(folder / name, reason);
+      }
     UserMesh mesh;
     mesh.elements.back() = "3 1 1 2 3 6 99"; // node 99 does not exist
-    mesh.write(folder.file("lost.msh"));
-    expect_refused(folder.file("lost.msh"), "99");
+    mesh.write(folder / "lost.msh");
+    expect_mesh_refused(folder / "lost.msh", "99");
   }
 
   TEST(Mesh, TemplateOfASampleIsMeshed)
   {
-    const QuadMesh    mesh    = read_mesh(template_file("sample.geo"));
+    const QuadMesh    mesh    = mesh_of_template("sample.geo");
     const MeshSummary summary = summarise(mesh);
     EXPECT_NEAR(summary.area, 52 * 75, 1e-9);
     EXPECT_TRUE(summary.sides_match);
-    expect_that_deal_ii_reads(mesh);
   }
 
   // 20 x 10 under a strip of 2, elements of 0.5: 40 x 20 cells.
   TEST(Mesh, TemplateOfAFootingHasAStripInTheMiddle)
   {
-    const QuadMesh    mesh    = read_mesh(template_file("footing.geo"));
+    const QuadMesh    mesh    = mesh_of_template("footing.geo");
     const MeshSummary summary = summarise(mesh);
     EXPECT_EQ(summary.n_cells, 800u);
     EXPECT_TRUE(summary.sides_match);
-    expect_that_deal_ii_reads(mesh);
     Grid grid(mesh);
     EXPECT_EQ(grid.n_edges, (std::map<unsigned int, unsigned int>{{1, 40}, {2, 4}, {3, 20}, {4, 20}, {5, 36}}));
     EXPECT_NEAR(grid.length[upper_platen], 2, 1e-12);
@@ -225,12 +222,11 @@ namespace
   // A sector of the angle pi/40 between chords: area sin(pi/40)/2 (b^2 - a^2), chord 2 r sin(pi/80); 20 of them, a = 1, b = 2.
   TEST(Mesh, TemplateOfAThickCylinderIsAQuarterOfIt)
   {
-    const QuadMesh    mesh    = read_mesh(template_file("thick_cylinder.geo"));
+    const QuadMesh    mesh    = mesh_of_template("thick_cylinder.geo");
     const MeshSummary summary = summarise(mesh);
     EXPECT_EQ(summary.n_cells, 200u);
     EXPECT_EQ(summary.n_vertices, 231u); // without the centre of the arcs
     EXPECT_NEAR(summary.area, 20 * std::sin(M_PI / 40) / 2 * 3, 1e-9);
-    expect_that_deal_ii_reads(mesh);
     Grid grid(mesh);
     EXPECT_NEAR(grid.length[lower_platen], 1, 1e-9);
     EXPECT_NEAR(grid.length[left_side], 1, 1e-9);
@@ -242,37 +238,16 @@ namespace
   TEST(Mesh, UnknownSectionsAreSkipped)
   {
     const Folder folder;
-    UserMesh().write(folder.file("user.msh"));
-    std::ofstream(folder.file("user.msh"), std::ios::app) << "$Comments\nmine\n$EndComments\n";
-    EXPECT_EQ(read_mesh(folder.file("user.msh")).cells.size(), 2u);
+    UserMesh().write(folder / "user.msh");
+    std::ofstream(folder / "user.msh", std::ios::app) << "$Comments\nmine\n$EndComments\n";
+    EXPECT_EQ(read_mesh(folder / "user.msh").cells.size(), 2u);
   }
 
   TEST(Mesh, BinaryMshFilesAreRead)
   {
     const Folder folder;
-    UserMesh().write(folder.file("text.msh"));
-    gmsh::initialize(0, nullptr, false);
-    gmsh::option::setNumber("General.Terminal", 0);
-    gmsh::open(folder.file("text.msh"));
-    gmsh::option::setNumber("Mesh.Binary", 1);
-    gmsh::option::setNumber("Mesh.SaveAll", 1);
-    gmsh::write(folder.file("binary.msh"));
-    gmsh::finalize();
-    EXPECT_EQ(read_mesh(folder.file("binary.msh")).cells.size(), 2u);
-  }
-
-  // gmsh reports the place of a syntax error in a script.
-  TEST(Mesh, ASyntaxErrorInAScriptIsReportedWithItsLine)
-  {
-    const Folder folder;
-    std::ofstream(folder.file("user.geo")) << "Point(1) = {0, 0, 0};\nPoint(2) = {1, 2;\n";
-    expect_refused(folder.file("user.geo"), "line 2: syntax error");
-  }
-
-  TEST(Mesh, AScriptThatEndsGmshIsReported)
-  {
-    const Folder folder;
-    std::ofstream(folder.file("user.geo")) << "Exit;\n";
-    expect_refused(folder.file("user.geo"), "gmsh ended before there was a mesh");
+    UserMesh().write(folder / "text.msh");
+    rewrite(folder / "text.msh", folder / "binary.msh", "Mesh.Binary", 1);
+    EXPECT_EQ(read_mesh(folder / "binary.msh").cells.size(), 2u);
   }
 } // namespace

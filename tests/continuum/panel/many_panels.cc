@@ -1,20 +1,17 @@
 // diptych: many panels in one process give the results of separate processes and release their memory
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 
 #include <malloc.h>
-#include <unistd.h>
-
-#include <gtest/gtest.h>
 
 #include "tests/continuum/continuum_scenes.h"
+#include "tests/files.h"
 
 namespace
 {
   using namespace diptych::continuum;
   using namespace diptych::continuum::tests;
+  using diptych::tests::Folder;
 
   // Bytes that are allocated and not released.
   double bytes_in_use()
@@ -31,9 +28,7 @@ namespace
     options.law     = k % 3 == 0 ? LawKind::cosserat_mohr_coulomb : k % 3 == 1 ? LawKind::mohr_coulomb : LawKind::drucker_prager;
     options.material.friction_angle_peak = 18 + k % n_turns % 5;
     options.linear_solver                = k % 4 == 3 ? LinearChoice::amg : LinearChoice::direct;
-    options.refinement                   = k % 2 ? Refinement::adaptive : Refinement::uniform;
-    options.refinement_threshold         = 0.5;
-    return course(rectangle(24, 24, 3.), straight_loading(1, {24, -24}, {0, 0.012}), options);
+    return course(rectangle(24, 24, 3.), straight_loading(1, {24, -24}, {0, 0.012}), k % 2 ? adaptive(options) : options);
   }
 
   std::vector<double> numbers(const Course &course)
@@ -63,12 +58,12 @@ namespace
   // Starts without this process's environment, which contains MPI's own variables.
   std::vector<double> numbers_of_a_fresh_process(const int k)
   {
-    namespace fs                = std::filesystem;
-    const fs::path    file      = fs::path(testing::TempDir()) / ("turn_" + std::to_string(::getpid()));
+    const Folder      folder;
+    const std::string file      = folder / "numbers";
     const std::string variables = "env -i PATH=/usr/bin:/bin OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
                                   "OMP_NUM_THREADS=1 DIPTYCH_TURN=" +
-                                  std::to_string(k) + " DIPTYCH_NUMBERS='" + file.string() + "' ";
-    const std::string program = "'" + fs::read_symlink("/proc/self/exe").string() + "'";
+                                  std::to_string(k) + " DIPTYCH_NUMBERS='" + file + "' ";
+    const std::string program = "'" + std::filesystem::read_symlink("/proc/self/exe").string() + "'";
     const std::string command = variables + program +
                                 " --gtest_filter=ManyPanels.DISABLED_OneTurn --gtest_also_run_disabled_tests >/dev/null 2>&1";
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
@@ -76,8 +71,6 @@ namespace
     std::vector<double> values;
     for (double value; in.read(reinterpret_cast<char *>(&value), sizeof value);)
       values.push_back(value);
-    in.close();
-    fs::remove(file);
     return values;
   }
 

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/mpi.h>
 
-#include <gtest/gtest.h>
-
 #include "tests/continuum/continuum_scenes.h"
 
 namespace
@@ -140,9 +138,7 @@ namespace
     wishes.stop_requested = [](const std::size_t n_rows) { return n_rows >= 4; };
     const Course half     = course(mesh, loading, options, wishes);
     EXPECT_EQ(half.report.status, Status::stopped_by_user);
-    Wishes further;
-    further.resume = &half.checkpoint;
-    const Course c = course(mesh, loading, options, further);
+    const Course c = resumed(mesh, loading, options, half.checkpoint);
     EXPECT_EQ(c.report.status, Status::finished) << c.report.message;
     if (!is_first())
       return;
@@ -154,18 +150,14 @@ namespace
   // All processes write and resume a checkpoint. Factors of the last matrix are recomputed, all else is restored.
   TEST(ParallelChanges, AnInterruptedRunContinues)
   {
-    const QuadMesh mesh          = rectangle(24, 24, 4.);
-    const Loading  loading       = straight_loading(1, {24, -24}, {0, 0.012});
-    Options        options       = fixed_steps(LawKind::cosserat_mohr_coulomb);
-    options.refinement           = Refinement::adaptive;
-    options.refinement_threshold = 0.5;
-    const Course whole           = course(mesh, loading, options);
-    Wishes       wishes;
+    const QuadMesh mesh    = rectangle(24, 24, 4.);
+    const Loading  loading = straight_loading(1, {24, -24}, {0, 0.012});
+    const Options  options = adaptive(fixed_steps(LawKind::cosserat_mohr_coulomb));
+    const Course   whole   = course(mesh, loading, options);
+    Wishes         wishes;
     wishes.stop_requested = [](const std::size_t n_rows) { return n_rows >= 9; };
     const Course half     = course(mesh, loading, options, wishes);
-    Wishes       further;
-    further.resume = &half.checkpoint;
-    const Course c = course(mesh, loading, options, further);
+    const Course c        = resumed(mesh, loading, options, half.checkpoint);
     EXPECT_EQ(c.report.status, Status::finished) << c.report.message;
     if (!is_first())
       return;
@@ -180,11 +172,8 @@ namespace
   // elements are divided, including neighbours on another process.
   TEST(ParallelChanges, AdaptiveRefinement)
   {
-    const QuadMesh mesh          = rectangle(24, 24, 4.);
-    Options        options       = fixed_steps(LawKind::cosserat_mohr_coulomb);
-    options.refinement           = Refinement::adaptive;
-    options.refinement_threshold = 0.5;
-    as_alone(mesh, straight_loading(1, {24, -24}, {0, 0.012}), options, 1e-3);
+    const Options options = adaptive(fixed_steps(LawKind::cosserat_mohr_coulomb));
+    as_alone(rectangle(24, 24, 4.), straight_loading(1, {24, -24}, {0, 0.012}), options, 1e-3);
   }
 
   // Nodes that have reached a platen, for a sample of the initial height `height`.

@@ -1,7 +1,5 @@
 // diptych: an interrupted and resumed run has the bits of an uninterrupted one
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <gtest/gtest.h>
-
 #include "tests/continuum/continuum_scenes.h"
 
 namespace
@@ -9,16 +7,11 @@ namespace
   using namespace diptych::continuum;
   using namespace diptych::continuum::tests;
 
-  Options options_of(const LawKind law, const bool adaptive)
+  Options options_of(const LawKind law, const bool is_adaptive = false)
   {
     Options options = with_steps({}, 1e-3);
     options.law     = law;
-    if (adaptive)
-      {
-        options.refinement           = Refinement::adaptive;
-        options.refinement_threshold = 0.5;
-      }
-    return options;
+    return is_adaptive ? adaptive(options) : options;
   }
 
   // All entries of a row except the CPU seconds.
@@ -43,9 +36,7 @@ namespace
   {
     ASSERT_EQ(of.first.report.status, Status::stopped_by_user);
     const std::size_t interrupted_after = of.first.rows.size();
-    Wishes            further;
-    further.resume      = &of.first.checkpoint;
-    const Course second = course(mesh, loading, options, further);
+    const Course      second            = resumed(mesh, loading, options, of.first.checkpoint);
     ASSERT_EQ(second.report.status, Status::finished) << second.report.message;
     ASSERT_EQ(interrupted_after + second.rows.size(), of.whole.rows.size());
     for (std::size_t k = 0; k < of.whole.rows.size(); ++k)
@@ -105,7 +96,7 @@ namespace
     const QuadMesh mesh    = outline_mesh(wavy_outline(24, 24, 13, 0.2), 4.);
     const Loading  loading = straight_loading(1, {24, -24}, {0, 0.004, 0.012});
     for (const LawKind law : {LawKind::cosserat_mohr_coulomb, LawKind::drucker_prager})
-      expect_that_it_goes_on(mesh, loading, options_of(law, false));
+      expect_that_it_goes_on(mesh, loading, options_of(law));
   }
 
   // With factors and with a multigrid preconditioner. The iterations of the rejected step have replaced both.
@@ -113,7 +104,7 @@ namespace
   {
     for (const LinearChoice solver : {LinearChoice::direct, LinearChoice::amg})
       {
-        Options options       = options_of(LawKind::mohr_coulomb, false);
+        Options options       = options_of(LawKind::mohr_coulomb);
         options.linear_solver = solver;
         expect_resume_within_steps(rectangle(14, 20, 2.), straight_loading(1, {20, -20}, {0, 0.01}), options);
       }
@@ -130,7 +121,7 @@ namespace
 
   TEST(Restart, ContinuesWithTheSameBitsWithAMultigridPreconditioner)
   {
-    Options options       = options_of(LawKind::mohr_coulomb, false);
+    Options options       = options_of(LawKind::mohr_coulomb);
     options.linear_solver = LinearChoice::amg;
     expect_that_it_goes_on(rectangle(14, 20, 2.), straight_loading(1, {20, -20}, {0, 0.01}), options);
   }
@@ -154,7 +145,7 @@ namespace
   {
     Loading loading       = straight_loading(1, {0, -30}, {0, 0.3});
     loading.platens[1][0] = force(0);
-    expect_that_it_goes_on(rectangle(30, 30, 3.75), loading, with_steps(options_of(LawKind::cosserat_mohr_coulomb, false), 5e-3));
+    expect_that_it_goes_on(rectangle(30, 30, 3.75), loading, with_steps(options_of(LawKind::cosserat_mohr_coulomb), 5e-3));
   }
 
   // The preconditioner determines the bits of the next solve. If its matrix is missing, the factors must not be recomputed
@@ -164,43 +155,38 @@ namespace
     const Loading loading = straight_loading(1, {14, -20}, {0.002});
     for (const LinearChoice choice : {LinearChoice::direct, LinearChoice::amg})
       {
-        Options options       = options_of(LawKind::mohr_coulomb, false);
+        Options options       = options_of(LawKind::mohr_coulomb);
         options.linear_solver = choice;
-        const auto resumed    = [&](const Checkpoint &checkpoint) {
-          Wishes further;
-          further.resume = &checkpoint;
-          (void)course(rectangle(14, 20, 2.), loading, options, further);
+        const auto go_on      = [&](const Checkpoint &checkpoint) {
+          (void)resumed(rectangle(14, 20, 2.), loading, options, checkpoint);
         };
         const Checkpoint whole = course(rectangle(14, 20, 2.), loading, options).checkpoint;
         ASSERT_FALSE(whole.preconditioner_is_stale);
         ASSERT_FALSE(whole.factorised_matrix.empty());
-        EXPECT_NO_THROW(resumed(whole));
+        EXPECT_NO_THROW(go_on(whole));
         for (const std::size_t length : {std::size_t(0), std::size_t(5), whole.factorised_matrix.size() - 1})
           {
             Checkpoint cut = whole;
             cut.factorised_matrix.resize(length);
-            EXPECT_THROW(resumed(cut), std::invalid_argument) << length;
+            EXPECT_THROW(go_on(cut), std::invalid_argument) << length;
           }
         Checkpoint without_analysis = whole;
         without_analysis.analysed_matrix.clear();
         if (choice == LinearChoice::direct)
           {
-            EXPECT_THROW(resumed(without_analysis), std::invalid_argument);
+            EXPECT_THROW(go_on(without_analysis), std::invalid_argument);
           }
       }
   }
 
   TEST(Restart, ACheckpointOfAnotherMeshIsRefused)
   {
-    const Loading loading = straight_loading(1, {8, -8}, {0.002});
-    const Options options = options_of(LawKind::mohr_coulomb, false);
-    const Course  course_ = course(rectangle(8, 8, 2.), loading, options);
-    Wishes        further;
-    further.resume = &course_.checkpoint;
-    EXPECT_THROW((void)course(rectangle(8, 8, 4.), loading, options, further), std::invalid_argument);
+    const Loading    loading = straight_loading(1, {8, -8}, {0.002});
+    const Options    options = options_of(LawKind::mohr_coulomb);
+    const Checkpoint from    = course(rectangle(8, 8, 2.), loading, options).checkpoint;
+    EXPECT_THROW((void)resumed(rectangle(8, 8, 4.), loading, options, from), std::invalid_argument);
     Options cosserat = options;
     cosserat.law     = LawKind::cosserat_mohr_coulomb;
-    EXPECT_THROW((void)course(rectangle(8, 8, 2.), loading, cosserat, further), std::invalid_argument)
-      << "other values of a cell";
+    EXPECT_THROW((void)resumed(rectangle(8, 8, 2.), loading, cosserat, from), std::invalid_argument) << "other values of a cell";
   }
 } // namespace
