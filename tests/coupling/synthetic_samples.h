@@ -4,12 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <random>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "continuum/snapshot.h"
+#include "coupling/averaging/segments.h"
 #include "coupling/bands/band.h"
+#include "coupling/bands/band_projection.h"
 #include "coupling/cells/mesh_cells.h"
 #include "coupling/fields/strain_increment.h"
 #include "discrete/snapshot.h"
@@ -53,6 +58,75 @@ namespace diptych::coupling::synthetic
     return mesh;
   }
 
+  // Cuts every cell whose centre satisfies `chosen` into four, by the middles of its edges and its centre. Its neighbours then
+  // have hanging nodes. children[c]: the cells that replace cell c.
+  struct Refined
+  {
+    QuadMesh                               mesh;
+    std::vector<std::vector<unsigned int>> children;
+  };
+  inline Refined refined(const QuadMesh &coarse, const std::function<bool(const Eigen::Vector2d &)> &chosen)
+  {
+    Refined result;
+    result.mesh.node = coarse.node;
+    std::map<std::pair<unsigned int, unsigned int>, unsigned int> middle;
+    const auto                                                    middle_of = [&](const unsigned int a, const unsigned int b) {
+      const auto [place, is_new] = middle.insert({std::minmax(a, b), result.mesh.node.size()});
+      if (is_new)
+        result.mesh.node.push_back(0.5 * (coarse.node[a] + coarse.node[b]));
+      return place->second;
+    };
+    for (unsigned int c = 0; c < coarse.cell.size(); ++c)
+      {
+        const auto &n = coarse.cell[c];
+        result.children.emplace_back();
+        const auto add = [&](const std::array<unsigned int, 4> &cell) {
+          result.children.back().push_back(result.mesh.cell.size());
+          result.mesh.cell.push_back(cell);
+        };
+        if (!chosen(cell_centre(coarse, c)))
+          {
+            add(n);
+            continue;
+          }
+        const unsigned int centre = result.mesh.node.size();
+        result.mesh.node.push_back(cell_centre(coarse, c));
+        for (unsigned int k = 0; k < 4; ++k)
+          add({{n[k], middle_of(n[k], n[(k + 1) % 4]), centre, middle_of(n[(k + 3) % 4], n[k])}});
+      }
+    triangulate(result.mesh);
+    return result;
+  }
+
+  // columns x rows cells over a box, of which the `divided` ones are cut into four, and then every node moves. A displacement
+  // that is not linear moves a hanging node off the chord.
+  inline QuadMesh refined_mesh(const Eigen::Vector2d                                         &lower,
+                               const Eigen::Vector2d                                         &upper,
+                               const std::array<unsigned int, 2>                             &cells,
+                               const std::function<bool(const Eigen::Vector2d &)>            &divided,
+                               const std::function<Eigen::Vector2d(const Eigen::Vector2d &)> &displacement)
+  {
+    QuadMesh                           mesh    = refined(box_mesh(lower, upper, cells[0], cells[1]), divided).mesh;
+    const std::vector<Eigen::Vector2d> initial = mesh.node;
+    for (Eigen::Vector2d &x : mesh.node)
+      x += displacement(x);
+    triangulate(mesh, initial);
+    return mesh;
+  }
+
+  // Nine-node cells of a regular grid whose nodes are numbered row by row, as in the continuum's snapshots.
+  inline auto nine_node_cells(const unsigned int columns, const unsigned int rows)
+  {
+    decltype(continuum::Snapshot::cells) cells;
+    for (unsigned int r = 0; r < rows; ++r)
+      for (unsigned int c = 0; c < columns; ++c)
+        {
+          const unsigned int m = 2 * columns + 1, a = 2 * r * m + 2 * c, b = a + m, d = b + m;
+          cells.push_back({{a, a + 2, d + 2, d, a + 1, b + 2, d + 1, b, b + 1}});
+        }
+    return cells;
+  }
+
   struct Network
   {
     std::vector<Eigen::Vector2d>        position;
@@ -94,6 +168,15 @@ namespace diptych::coupling::synthetic
         network.contacts.push_back(contact);
       }
     return network;
+  }
+
+  // |sum over triangles - total| / |total|.
+  inline double loss(const MappedMoment &mapped)
+  {
+    Eigen::Matrix2d rest = mapped.total;
+    for (const Eigen::Matrix2d &moment : mapped.triangle_moment)
+      rest -= moment;
+    return rest.norm() / mapped.total.norm();
   }
 
   // True values of a band, defined as in struct Band, with lengths in units of the mean diameter 1.
@@ -163,6 +246,19 @@ namespace diptych::coupling::synthetic
         field.weight.push_back(M_PI * radius * radius);
       }
     return field;
+  }
+
+  // A field as the fit takes it: about the frame's middle, in units of the platen increment.
+  inline BandData band_data(const DisplacementField &field, const SampleFrame &frame)
+  {
+    BandData data;
+    for (std::size_t i = 0; i < field.position.size(); ++i)
+      {
+        data.x.push_back(field.position[i] - frame.centre);
+        data.u.push_back(field.increment[i] / frame.platen_increment.norm());
+      }
+    data.w = field.weight;
+    return data;
   }
 
   // Adds noise that is smooth over a length L: correlation exp(-pi r^2/L^2), whose integral over the plane is L^2 (one

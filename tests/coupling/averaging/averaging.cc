@@ -3,7 +3,6 @@
 #include "coupling/averaging/averaging.h"
 
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
 
 #include "benchmarks/homogenisation/airy_network.h"
 #include "tests/coupling/averaging/averaging_cases.h"
@@ -12,16 +11,6 @@ namespace
 {
   using namespace diptych::coupling;
   using namespace diptych::coupling::synthetic;
-
-  template <class Action> void for_each_case(Action &&action)
-  {
-    for (const NamedMesh &mesh : averaging_meshes())
-      for (const AveragingOptions &options : averaging_methods)
-        {
-          SCOPED_TRACE(name_of(options) + " on " + mesh.name);
-          action(options, mesh.mesh);
-        }
-  }
 
   // |sum over cells - sum over carriers| of every column, relative to the sum of the absolute values over carriers.
   double loss(const Columns &cells, const Columns &carriers)
@@ -52,30 +41,19 @@ namespace
     });
   }
 
-  // Some grains have an abscissa in another period than the mesh, and some contacts cross its sides.
-  TEST(Averaging, CellsOfAPeriodicSampleAddUpToTheGrains)
+  // Some grains have an abscissa in another period than the mesh, and some contacts cross its sides. The continuum can change its
+  // width. Its mesh is then a hundredth wider or narrower than the grains' cell, and its images overlap or leave gaps.
+  TEST(Averaging, CellsOfAPeriodicSampleAddUpToTheGrainsForAMeshOfAnyWidth)
   {
-    const Network still = random_network({0, 0}, {20, 30}, 600, 5);
-    // A grain at x moves to x - 7 or x + 13, so that the old sides lie in the middle.
-    Network moved = made_periodic(still, 20, 6);
-    for (Eigen::Vector2d &x : moved.position)
-      x.x() -= 7;
-    for (auto &c : moved.contacts)
-      c.point.x() -= 7;
-    const Carriers carriers = random_carriers(moved, 7);
-    for_each_case([&](const AveragingOptions &options, const QuadMesh &mesh) {
-      const CellSums sums = distribute(options, TargetCells(mesh, 20), carriers);
-      EXPECT_LT(loss(sums, carriers), 1e-12);
-    });
-  }
-
-  // The continuum can change its width. Its mesh is then a hundredth wider or narrower than the grains' cell, and its images
-  // overlap or leave gaps.
-  TEST(Averaging, CellsAddUpIfTheMeshIsNotAsWideAsThePeriod)
-  {
-    for (const double period : {19.8, 20.2})
+    for (const double period : {19.8, 20., 20.2})
       {
-        const Carriers carriers = random_carriers(made_periodic(random_network({0, 0}, {period, 30}, 600, 5), period, 6), 7);
+        // A grain at x moves to x - 7 or x - 7 + period, so that the old sides lie in the middle.
+        Network moved = made_periodic(random_network({0, 0}, {period, 30}, 600, 5), period, 6);
+        for (Eigen::Vector2d &x : moved.position)
+          x.x() -= 7;
+        for (auto &c : moved.contacts)
+          c.point.x() -= 7;
+        const Carriers carriers = random_carriers(moved, 7);
         for_each_case([&](const AveragingOptions &options, const QuadMesh &mesh) {
           EXPECT_LT(loss(distribute(options, TargetCells(mesh, period), carriers), carriers), 1e-12) << period;
         });
@@ -163,57 +141,41 @@ namespace
       }
   }
 
-  // Moving sample and mesh together leaves the sums unchanged.
-  TEST(Averaging, OriginDoesNotMatter)
+  // Sample and mesh are moved, or rotated by 0.7: scalars do not change, vectors and tensors rotate.
+  TEST(Averaging, MovingAndRotatingTheSampleMovesAndRotatesEveryTensor)
   {
-    const Network         network = random_network({0, 0}, {20, 30}, 500, 15);
-    const Eigen::Vector2d shift(-137.3, 81.7);
-    Network               moved = network;
-    for (Eigen::Vector2d &x : moved.position)
-      x += shift;
-    for (auto &c : moved.contacts)
-      c.point += shift;
-    for_each_case([&](const AveragingOptions &options, const QuadMesh &mesh) {
-      QuadMesh moved_mesh = mesh;
-      for (Eigen::Vector2d &x : moved_mesh.node)
-        x += shift;
-      const CellSums here  = distribute(options, TargetCells(mesh), random_carriers(network, 16));
-      const CellSums there = distribute(options, TargetCells(moved_mesh), random_carriers(moved, 16));
-      EXPECT_LT(difference(here, there), 1e-10);
-    });
-  }
-
-  // Sample and mesh are rotated by 0.7: scalars do not change, vectors and tensors rotate.
-  TEST(Averaging, RotatingTheSampleRotatesEveryTensor)
-  {
-    const Eigen::Matrix2d turn    = Eigen::Rotation2Dd(0.7).toRotationMatrix();
-    const Network         network = random_network({0, 0}, {20, 30}, 500, 17);
-    Network               turned  = network;
-    for (Eigen::Vector2d &x : turned.position)
-      x = turn * x;
-    for (auto &c : turned.contacts)
-      c.point = turn * c.point, c.force = turn * c.force;
-    const Carriers carriers                = random_carriers(network, 18);
-    Carriers       turned_carriers         = random_carriers(turned, 18); // rotates the moments with the forces and branches
-    turned_carriers.of_grains.rightCols(2) = carriers.of_grains.rightCols(2) * turn.transpose();
-    turned_carriers.tapered                = carriers.tapered * turn.transpose();
-    for_each_case([&](const AveragingOptions &options, const QuadMesh &mesh) {
-      QuadMesh turned_mesh = mesh;
-      for (Eigen::Vector2d &x : turned_mesh.node)
-        x = turn * x;
-      CellSums       expected         = distribute(options, TargetCells(mesh), carriers);
-      const CellSums sums             = distribute(options, TargetCells(turned_mesh), turned_carriers);
-      expected.of_grains.rightCols(2) = (expected.of_grains.rightCols(2) * turn.transpose()).eval();
-      expected.tapered                = (expected.tapered * turn.transpose()).eval();
-      for (Eigen::Index k = 0; k < expected.uniform.rows(); ++k)
-        {
-          Eigen::Matrix2d m;
-          m << expected.uniform(k, 0), expected.uniform(k, 1), expected.uniform(k, 2), expected.uniform(k, 3);
-          m = (turn * m * turn.transpose()).eval();
-          expected.uniform.row(k) << m(0, 0), m(0, 1), m(1, 0), m(1, 1);
-        }
-      EXPECT_LT(difference(expected, sums), 1e-10);
-    });
+    const Network  network  = random_network({0, 0}, {20, 30}, 500, 17);
+    const Carriers carriers = random_carriers(network, 18);
+    for (const auto &[angle, shift] : {std::pair{0., Eigen::Vector2d(-137.3, 81.7)}, {0.7, Eigen::Vector2d(0, 0)}})
+      {
+        const Eigen::Matrix2d turn  = Eigen::Rotation2Dd(angle).toRotationMatrix();
+        const auto            place = [&, to = shift](const Eigen::Vector2d &x) { return Eigen::Vector2d(turn * x + to); };
+        Network               moved = network;
+        for (Eigen::Vector2d &x : moved.position)
+          x = place(x);
+        for (auto &c : moved.contacts)
+          c.point = place(c.point), c.force = turn * c.force;
+        Carriers moved_carriers               = random_carriers(moved, 18); // rotates the moments with the forces and branches
+        moved_carriers.of_grains.rightCols(2) = carriers.of_grains.rightCols(2) * turn.transpose();
+        moved_carriers.tapered                = carriers.tapered * turn.transpose();
+        for_each_case([&](const AveragingOptions &options, const QuadMesh &mesh) {
+          QuadMesh moved_mesh = mesh;
+          for (Eigen::Vector2d &x : moved_mesh.node)
+            x = place(x);
+          CellSums       expected         = distribute(options, TargetCells(mesh), carriers);
+          const CellSums sums             = distribute(options, TargetCells(moved_mesh), moved_carriers);
+          expected.of_grains.rightCols(2) = (expected.of_grains.rightCols(2) * turn.transpose()).eval();
+          expected.tapered                = (expected.tapered * turn.transpose()).eval();
+          for (Eigen::Index k = 0; k < expected.uniform.rows(); ++k)
+            {
+              Eigen::Matrix2d m;
+              m << expected.uniform(k, 0), expected.uniform(k, 1), expected.uniform(k, 2), expected.uniform(k, 3);
+              m = (turn * m * turn.transpose()).eval();
+              expected.uniform.row(k) << m(0, 0), m(0, 1), m(1, 0), m(1, 1);
+            }
+          EXPECT_LT(difference(expected, sums), 1e-10);
+        });
+      }
   }
 
   // The grains' velocities are v = b + A x, weighted by mass. Every method must give b + A (centre of mass of the cell's grains)

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <map>
 #include <string>
-#include <utility>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "coupling/averaging/averaging.h"
 #include "discrete/choices.h"
@@ -24,46 +24,6 @@ namespace diptych::coupling::synthetic
     return o.method == AveragingMethod::kernel ? method + " " + discrete::name_of(o.kernel) : method;
   }
 
-  // Cuts every cell whose centre satisfies `chosen` into four, by the middles of its edges and its centre. Its neighbours then
-  // have hanging nodes. children[c]: the cells that replace cell c.
-  struct Refined
-  {
-    QuadMesh                               mesh;
-    std::vector<std::vector<unsigned int>> children;
-  };
-  template <class Chosen> Refined refined(const QuadMesh &coarse, Chosen &&chosen)
-  {
-    Refined result;
-    result.mesh.node = coarse.node;
-    std::map<std::pair<unsigned int, unsigned int>, unsigned int> middle;
-    const auto                                                    middle_of = [&](const unsigned int a, const unsigned int b) {
-      const auto [place, is_new] = middle.insert({std::minmax(a, b), result.mesh.node.size()});
-      if (is_new)
-        result.mesh.node.push_back(0.5 * (coarse.node[a] + coarse.node[b]));
-      return place->second;
-    };
-    for (unsigned int c = 0; c < coarse.cell.size(); ++c)
-      {
-        const auto &n = coarse.cell[c];
-        result.children.emplace_back();
-        const auto add = [&](const std::array<unsigned int, 4> &cell) {
-          result.children.back().push_back(result.mesh.cell.size());
-          result.mesh.cell.push_back(cell);
-        };
-        if (!chosen(cell_centre(coarse, c)))
-          {
-            add(n);
-            continue;
-          }
-        const unsigned int centre = result.mesh.node.size();
-        result.mesh.node.push_back(cell_centre(coarse, c));
-        for (unsigned int k = 0; k < 4; ++k)
-          add({{n[k], middle_of(n[k], n[(k + 1) % 4]), centre, middle_of(n[(k + 3) % 4], n[k])}});
-      }
-    triangulate(result.mesh);
-    return result;
-  }
-
   struct NamedMesh
   {
     std::string name;
@@ -77,6 +37,17 @@ namespace diptych::coupling::synthetic
     return {{"quads", quads},
             {"hanging nodes", refined(quads, [](const Eigen::Vector2d &x) { return x.x() > 8 && x.y() < x.x(); }).mesh},
             {"regular grid", regular_grid({0, 0}, {20, 30}, 2.4)}};
+  }
+
+  // Calls action(method, mesh) for every method on every mesh.
+  template <class Action> void for_each_case(const Action &action)
+  {
+    for (const NamedMesh &mesh : averaging_meshes())
+      for (const AveragingOptions &options : averaging_methods)
+        {
+          SCOPED_TRACE(name_of(options) + " on " + mesh.name);
+          action(options, mesh.mesh);
+        }
   }
 
   // Adds shifts across the sides of a cell of the given width to the network's contacts, and moves grains out of it by whole

@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/coupling/cells/refined_mesh.h"
 #include "tests/coupling/synthetic_samples.h"
 
 namespace

@@ -22,36 +22,34 @@ namespace diptych::coupling::synthetic
   }
 
   // Rows along x from (0, 0) on, every second one moved by 1/2, with discs of diameter 1. All contacts carry force. With equal
-  // forces each disc away from the lattice's rim is in equilibrium. force(direction, row of the lower disc).
-  template <class Force> GrainNetwork hexagonal_network(const int columns, const int rows, const Force &force)
+  // forces each disc away from the lattice's rim is in equilibrium. force(direction, row of the lower disc). The sides of a
+  // periodic lattice touch each other.
+  template <class Force>
+  GrainNetwork hexagonal_network(const int columns, const int rows, const Force &force, const bool is_periodic = false)
   {
     GrainNetwork network;
-    const auto   number = [columns](const int row, const int column) { return row * columns + column; };
-    for (int row = 0; row < rows; ++row)
-      for (int column = 0; column < columns; ++column)
-        {
-          network.position.emplace_back(column + 0.5 * (row % 2), row * std::sqrt(0.75));
-          network.radius.push_back(0.5);
-        }
-    network.moment.assign(network.position.size(), Eigen::Matrix2d::Zero());
-    const auto join = [&](const int i, const int j, const double size) {
-      const Eigen::Vector2d normal = (network.position[i] - network.position[j]).normalized();
-      network.forces.push_back({i, j, 0.5 * (network.position[i] + network.position[j]), normal, size * normal});
+    for (int k = 0; k < rows * columns; ++k)
+      network.position.emplace_back(k % columns + 0.5 * (k / columns % 2), k / columns * std::sqrt(0.75));
+    network.radius.assign(rows * columns, 0.5);
+    network.moment.assign(rows * columns, Eigen::Matrix2d::Zero());
+    const auto join = [&](const int i, const int row, const int column, const double size) {
+      if (row == rows || (!is_periodic && (column < 0 || column == columns)))
+        return;
+      const int             j      = row * columns + (column + columns) % columns;
+      const Eigen::Vector2d apart  = network.position[i] - network.position[j];
+      const double          shift  = is_periodic ? columns * std::round(apart.x() / columns) : 0;
+      const Eigen::Vector2d normal = (apart - Eigen::Vector2d(shift, 0)).normalized();
+      network.forces.push_back({i, j, network.position[i] - 0.5 * normal, normal, size * normal, shift});
       for (const int grain : {i, j}) // each grain has half a branch: f (x) n / 2
         network.moment[grain] += 0.5 * size * normal * normal.transpose();
     };
-    for (int row = 0; row < rows; ++row)
-      for (int column = 0; column < columns; ++column)
-        {
-          if (column + 1 < columns)
-            join(number(row, column), number(row, column + 1), force(0, row));
-          if (row + 1 == rows)
-            continue;
-          if (const int right = column + row % 2; right < columns)
-            join(number(row, column), number(row + 1, right), force(1, row));
-          if (const int left = column + row % 2 - 1; left >= 0)
-            join(number(row, column), number(row + 1, left), force(2, row));
-        }
+    for (int i = 0; i < rows * columns; ++i)
+      {
+        const int row = i / columns, right = i % columns + row % 2;
+        join(i, row, i % columns + 1, force(0, row));
+        join(i, row + 1, right, force(1, row));
+        join(i, row + 1, right - 1, force(2, row));
+      }
     network.contacts = network.forces;
     return network;
   }
@@ -60,5 +58,18 @@ namespace diptych::coupling::synthetic
   {
     const auto f = lattice_forces(stress);
     return hexagonal_network(columns, rows, [&](const int direction, int) { return f[direction]; });
+  }
+
+  inline Eigen::Matrix2d oblique_stress()
+  {
+    return (Eigen::Matrix2d() << 1, 0.3, 0.3, 2).finished();
+  }
+
+  // With periodic sides and unit forces. Each grain of area sqrt(3)/2 has three contacts with sum n (x) n = 3/2 1. Therefore
+  // sigma = sqrt(3) 1, and the solid fraction is pi / (2 sqrt 3) = 0.9069.
+  inline GrainNetwork periodic_lattice(const int columns, const int rows)
+  {
+    return hexagonal_network(
+      columns, rows, [](int, int) { return 1.; }, true);
   }
 } // namespace diptych::coupling::synthetic

@@ -6,8 +6,6 @@
 #include <numeric>
 #include <stdexcept>
 
-#include <gtest/gtest.h>
-
 #include "tests/coupling/averaging/averaging_cases.h"
 
 namespace

@@ -6,10 +6,9 @@
 #include <map>
 #include <stdexcept>
 
-#include <gtest/gtest.h>
-
 #include "coupling/averaging/disc_part.h"
 #include "tests/coupling/averaging/averaging_cases.h"
+#include "tests/coupling/averaging/hexagonal_lattice.h"
 
 namespace
 {
@@ -95,10 +94,7 @@ namespace
   // Equal discs on a hexagonal lattice of spacing 1 have regular hexagons of area sqrt(3)/2 inside the lattice.
   TEST(PowerCells, HexagonalLatticeHasHexagons)
   {
-    Discs discs;
-    for (int r = 0; r < 9; ++r)
-      for (int c = 0; c < 9; ++c)
-        discs.position.emplace_back(c + 0.5 * (r % 2), r * std::sqrt(3.) / 2), discs.radius.push_back(0.5);
+    const GrainNetwork           discs = synthetic::periodic_lattice(9, 9);
     const std::vector<PowerCell> cells = power_cells(discs.position, discs.radius, 81, {-1, -1}, {10, 8});
     EXPECT_NEAR(polygon_area(cells[40].corner), std::sqrt(3.) / 2, 1e-12);
   }

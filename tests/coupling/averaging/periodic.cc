@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/coupling/synthetic_samples.h"
+
 namespace
 {
   using namespace diptych;
@@ -14,18 +16,7 @@ namespace
   // Cells of 1 x 1 over [0, nx] x [0, ny].
   QuadMesh cells(const unsigned int nx, const unsigned int ny)
   {
-    QuadMesh mesh;
-    for (unsigned int j = 0; j <= ny; ++j)
-      for (unsigned int i = 0; i <= nx; ++i)
-        mesh.node.emplace_back(i, j);
-    for (unsigned int j = 0; j < ny; ++j)
-      for (unsigned int i = 0; i < nx; ++i)
-        {
-          const unsigned int first = j * (nx + 1) + i;
-          mesh.cell.push_back({{first, first + 1, first + nx + 2, first + nx + 1}});
-        }
-    triangulate(mesh);
-    return mesh;
+    return synthetic::box_mesh({0, 0}, {nx, ny}, nx, ny);
   }
 
   // n discs of diameter 1 side by side at half height, all pressed by `force`. The last one touches the first across the edge.
@@ -90,13 +81,9 @@ namespace
 
   TEST(PeriodicMapping, MeshWithHangingNodesKeepsNodalIdentityAndTotal)
   {
-    // [0, 2] x [0, 2]: four cells of 1 x 1, of which the last one is divided into four.
-    QuadMesh mesh;
-    mesh.node = {{0, 0}, {1, 0}, {2, 0},   {0, 1},   {1, 1},     {2, 1},   {0, 2},
-                 {1, 2}, {2, 2}, {1.5, 1}, {1, 1.5}, {1.5, 1.5}, {2, 1.5}, {1.5, 2}};
-    mesh.cell = {{{0, 1, 4, 3}},   {{1, 2, 5, 4}},    {{3, 4, 7, 6}},   {{4, 9, 11, 10}},
-                 {{9, 5, 12, 11}}, {{10, 11, 13, 7}}, {{11, 12, 8, 13}}};
-    triangulate(mesh);
+    // Four cells of 1 x 1, of which the last one is divided into four.
+    const auto         last = [](const Eigen::Vector2d &x) { return x.x() > 1 && x.y() > 1; };
+    const QuadMesh     mesh = synthetic::refined(cells(2, 2), last).mesh;
     discrete::Snapshot s;
     s.position                 = {{0.8, 0.9}, {1.6, 1.7}};
     s.radius                   = {0.5, 0.6};

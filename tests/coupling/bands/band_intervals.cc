@@ -26,18 +26,6 @@ namespace
     return field;
   }
 
-  BandData scaled(const DisplacementField &field)
-  {
-    BandData data;
-    for (std::size_t i = 0; i < field.position.size(); ++i)
-      {
-        data.x.push_back(field.position[i] - frame.centre);
-        data.u.push_back(field.increment[i] / frame.platen_increment.norm());
-      }
-    data.w = field.weight;
-    return data;
-  }
-
   BandFitOptions sample()
   {
     BandFitOptions options;
@@ -74,7 +62,7 @@ namespace
     std::array<double, 5> squares = {}, lengths = {};
     for (int k = 0; k < n; ++k)
       {
-        const BandData                data      = scaled(noisy_field(oblique, k % 2 ? 8 : 10, 0.05, k));
+        const BandData                data      = synthetic::band_data(noisy_field(oblique, k % 2 ? 8 : 10, 0.05, k), frame);
         const BandIntervals           band      = band_intervals(data, fitted(data, oblique), sample(), {10, 120, 1}, always)[0];
         const std::array<Interval, 5> intervals = {{band.angle_deg, band.half_width, band.offset, band.jump, band.dilation_deg}};
         for (int q = 0; q < 5; ++q)
@@ -128,7 +116,7 @@ namespace
     std::array<double, 3> ratio = {};
     for (const std::uint64_t seed : {7, 8, 9})
       {
-        const BandData              data      = scaled(noisy_field(oblique, 9, 0.03, seed));
+        const BandData              data      = synthetic::band_data(noisy_field(oblique, 9, 0.03, seed), frame);
         const BandFit               fit       = fitted(data, oblique);
         const BootstrapOptions      bootstrap = {10, 100, 3};
         const BandIntervals         cheap     = band_intervals(data, fit, sample(), bootstrap, always)[0];
@@ -196,7 +184,8 @@ namespace
                 2, 0.2);
   }
 
-  // Lengths are scaled by 0.01 with the mean diameter. Intervals of lengths scale with them; angles and jumps do not.
+  // Lengths are scaled by 0.01 with the mean diameter, displacements by 1e-4. Lengths and their intervals scale with them; angles
+  // and jumps do not.
   TEST(BandIntervals, UnitsDoNotMatter)
   {
     auto        field  = noisy_field(oblique, 9, 0.05, 3);
@@ -204,11 +193,17 @@ namespace
     const Band  large  = find_bands(field, sample).bands[0];
     for (auto &x : field.position)
       x *= 0.01;
+    for (auto &u : field.increment)
+      u *= 1e-4;
     sample.centre *= 0.01;
     sample.width *= 0.01;
     sample.height *= 0.01;
     sample.mean_diameter *= 0.01;
+    sample.platen_increment *= 1e-4;
     const Band small = find_bands(field, sample).bands[0];
+    EXPECT_NEAR(small.angle_deg, large.angle_deg, 1e-4);
+    EXPECT_NEAR(small.half_width, 0.01 * large.half_width, 1e-6);
+    EXPECT_NEAR(small.jump, large.jump, 1e-5);
     EXPECT_NEAR(length(small.interval.half_width), 0.01 * length(large.interval.half_width), 1e-5);
     EXPECT_NEAR(length(small.interval.offset), 0.01 * length(large.interval.offset), 1e-5);
     EXPECT_NEAR(length(small.interval.angle_deg), length(large.interval.angle_deg), 1e-3);
@@ -233,7 +228,7 @@ namespace
   TEST(BandIntervals, AreUnknownIfResamplesLoseTheBand)
   {
     const Truth         wide  = {-46, 20, 0, 0.9, 0};
-    const BandData      data  = scaled(noisy_field(wide, 10, 0.04, 9));
+    const BandData      data  = synthetic::band_data(noisy_field(wide, 10, 0.04, 9), frame);
     const BandFit       fit   = fitted(data, wide);
     const double        bound = largest_half_width(sample(), fit.shape[0].angle);
     const auto          holds = [&](const BandFit &refit, std::size_t) { return refit.shape[0].half_width < 0.999 * bound; };
@@ -265,7 +260,7 @@ namespace
   // Blocks of one correlation length miss a part of the covariance for any number of blocks, so all factors are above 1.
   TEST(BandIntervals, BlocksAloneAreTooNarrow)
   {
-    const BandData data    = scaled(noisy_field(oblique, 9, 0.05, 3));
+    const BandData data    = synthetic::band_data(noisy_field(oblique, 9, 0.05, 3), frame);
     const Tiles    tiles   = tiles_over({{-26, -37.5}, {26, 37.5}}, 0, 10);
     const auto     factors = bootstrap_factors(data, fitted(data, oblique), tiles, {10, 200, 1});
     for (const double factor : factors[0])

@@ -16,14 +16,7 @@ namespace
   {
     const SampleFrame frame = synthetic::frame_52_75();
     const auto        field = synthetic::grain_field(frame, {{-46, 6, 2, 0.9, 8}, {40, 5, -3, -0.4, 3}}, 0.2, 3, 500);
-    BandData          data;
-    for (std::size_t i = 0; i < field.position.size(); ++i)
-      {
-        data.x.push_back(field.position[i] - frame.centre);
-        data.u.push_back(field.increment[i] / frame.platen_increment.norm());
-      }
-    data.w = field.weight;
-    return data;
+    return synthetic::band_data(field, frame);
   }
 
   // The shapes with parameter k (angle, offset, log half width of each band) changed by `step`.

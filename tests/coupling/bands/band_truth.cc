@@ -246,6 +246,15 @@ namespace
         }
   }
 
+  void expect_same_band(const Band &a, const Band &b, const double turn = 0)
+  {
+    EXPECT_NEAR(b.angle_deg, a.angle_deg + turn, 0.01);
+    EXPECT_NEAR(b.half_width, a.half_width, 1e-3);
+    EXPECT_NEAR(b.offset, a.offset, 1e-3);
+    EXPECT_NEAR(b.jump, a.jump, 1e-3);
+    EXPECT_NEAR(b.dilation_deg, a.dilation_deg, 0.01);
+  }
+
   // A quarter turn of everything rotates the band by 90 degrees. The fit ends within its tolerance of 1e-4.
   TEST(BandTruth, QuarterTurnRotatesTheBandByNinetyDegrees)
   {
@@ -262,12 +271,8 @@ namespace
     const BandReport a = found(field, square), b = found(turned, turned_frame);
     ASSERT_EQ(a.bands.size(), 1u);
     ASSERT_EQ(b.bands.size(), 1u);
-    EXPECT_NEAR(b.bands[0].angle_deg, a.bands[0].angle_deg + 90, 0.01);
-    EXPECT_NEAR(b.bands[0].half_width, a.bands[0].half_width, 1e-3);
     // From -50 to 40 degrees the normal (sin 50, cos 50) becomes (-sin 40, cos 40), which is the rotated normal.
-    EXPECT_NEAR(b.bands[0].offset, a.bands[0].offset, 1e-3);
-    EXPECT_NEAR(b.bands[0].jump, a.bands[0].jump, 1e-3);
-    EXPECT_NEAR(b.bands[0].dilation_deg, a.bands[0].dilation_deg, 0.01);
+    expect_same_band(a.bands[0], b.bands[0], 90);
   }
 
   TEST(BandTruth, MirroredSampleFoldsToTheSameBand)
@@ -284,13 +289,8 @@ namespace
     ASSERT_EQ(a.bands.size(), 1u);
     ASSERT_EQ(b.bands.size(), 1u);
     EXPECT_LT(b.bands[0].angle_deg, -56);
-    const Band one = folded(a.bands[0]), other = folded(b.bands[0]);
-    EXPECT_NEAR(one.angle_deg, a.bands[0].angle_deg, 0); // already leans to the right
-    EXPECT_NEAR(other.angle_deg, one.angle_deg, 0.01);
-    EXPECT_NEAR(other.half_width, one.half_width, 1e-3);
-    EXPECT_NEAR(other.offset, one.offset, 1e-3);
-    EXPECT_NEAR(other.jump, one.jump, 1e-3);
-    EXPECT_NEAR(other.dilation_deg, one.dilation_deg, 0.01);
+    EXPECT_NEAR(folded(a.bands[0]).angle_deg, a.bands[0].angle_deg, 0); // already leans to the right
+    expect_same_band(folded(a.bands[0]), folded(b.bands[0]));
   }
 
   TEST(BandTruth, FoldingMirrorsTheIntervals)

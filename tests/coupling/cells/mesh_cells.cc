@@ -9,7 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/coupling/cells/refined_mesh.h"
 #include "tests/coupling/synthetic_samples.h"
 
 namespace

@@ -4,8 +4,6 @@
 #include <set>
 #include <sstream>
 
-#include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
 
 #include "coupling/comparison/comparison_arrays.h"
@@ -24,7 +22,7 @@ namespace
 
   struct Written
   {
-    files::Folder folder{"comparison"};
+    files::Folder folder;
     json          document;
     std::string   csv;
 
@@ -35,7 +33,7 @@ namespace
       write_comparison(folder.path, {example_scene(), c});
       write_comparison_h5(folder.path, {example_scene(), c}, results);
       std::ifstream(folder / "comparison.json") >> document;
-      csv = files::contents_of(folder / "comparison.csv");
+      csv = files::read_text(folder / "comparison.csv");
     }
   };
 
@@ -124,14 +122,14 @@ namespace
   // Steps of the panels reach a stage to within rounding errors; the table names the stage, comparison.json what was reached.
   TEST(ComparisonOutput, TheTableNamesTheStageThatTheSceneAskedFor)
   {
-    const files::Folder folder("stages");
+    const files::Folder folder;
     Comparison          c = compare(example_scene(), example_results());
     c.windows[0].to       = 0.0199999999998;
     write_comparison(folder.path, {example_scene(), c});
     json document;
     std::ifstream(folder / "comparison.json") >> document;
     EXPECT_EQ(document["windows"][0]["to"], 0.0199999999998);
-    const std::string csv = files::contents_of(folder / "comparison.csv");
+    const std::string csv = files::read_text(folder / "comparison.csv");
     EXPECT_NE(csv.find("\n0.0,0.02,continuum,"), std::string::npos);
     EXPECT_EQ(csv.find("0.0199999999998"), std::string::npos);
   }
@@ -173,7 +171,7 @@ namespace
 
   TEST(ComparisonOutput, EmptyFolderHasNoResults)
   {
-    const files::Folder folder("no_results");
-    files::expect_error_naming({folder.path}, [&] { (void)load_results(folder.path); });
+    const files::Folder folder;
+    files::expect_refused({folder.path}, [&] { (void)load_results(folder.path); });
   }
 } // namespace

@@ -92,7 +92,7 @@ namespace diptych::coupling::synthetic
   inline continuum::Snapshot example_nodes(const int stage)
   {
     continuum::Snapshot s;
-    constexpr int       columns = example_columns / 2, rows = example_rows / 2, width = 2 * columns + 1;
+    constexpr int       columns = example_columns / 2, rows = example_rows / 2;
     s.progress = s.axial_strain = s.shear_strain = 0.01 * stage;
     s.time                                       = 10 * stage;
     for (int r = 0; r <= 2 * rows; ++r)
@@ -107,13 +107,8 @@ namespace diptych::coupling::synthetic
     state.stress.diagonal() << continuum_over_grains * sigma_xx, continuum_over_grains * sigma_yy, 1;
     state.area        = 4;
     state.dissipation = 0.02 * stage;
-    for (int r = 0; r < rows; ++r)
-      for (int c = 0; c < columns; ++c)
-        {
-          const unsigned int a = 2 * r * width + 2 * c, b = a + width, d = b + width;
-          s.cells.push_back({a, a + 2, d + 2, d, a + 1, b + 2, d + 1, b, b + 1});
-          s.cell_state.push_back(state);
-        }
+    s.cells           = nine_node_cells(columns, rows);
+    s.cell_state.assign(s.cells.size(), state);
     s.mean_stress        = state.stress;
     s.upper_platen_force = {0, -continuum_over_grains * sigma_yy * example_columns};
     s.lower_platen_force = -s.upper_platen_force;

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/coupling/synthetic_samples.h"
+
 namespace
 {
   using namespace diptych;
@@ -25,18 +27,15 @@ namespace
           s.position.emplace_back(x + s.displacement.back());
           s.rotation.push_back(t * (1 + x.x() + x.y()));
         }
-    const auto node = [m](const int i, const int j) { return unsigned(j * m + i); };
-    for (int j = 0; j < 2 * n; j += 2)
-      for (int i = 0; i < 2 * n; i += 2)
-        {
-          s.cells.push_back({{node(i, j), node(i + 2, j), node(i + 2, j + 2), node(i, j + 2), node(i + 1, j), node(i + 2, j + 1),
-                              node(i + 1, j + 2), node(i, j + 1), node(i + 1, j + 1)}});
-          continuum::CellState state;
-          state.stress.diagonal() = Eigen::Vector3d(1, 2 + t, 1.5);
-          state.dissipation       = 10 * t + (i < n ? 0 : 1); // the right half had dissipated more before
-          state.couple_stress     = {t, 0};
-          s.cell_state.push_back(state);
-        }
+    s.cells = synthetic::nine_node_cells(n, n);
+    for (int k = 0; k < n * n; ++k)
+      {
+        continuum::CellState state;
+        state.stress.diagonal() = Eigen::Vector3d(1, 2 + t, 1.5);
+        state.dissipation       = 10 * t + (k % n < n / 2 ? 0 : 1); // the right half had dissipated more before
+        state.couple_stress     = {t, 0};
+        s.cell_state.push_back(state);
+      }
     return s;
   }
 

@@ -6,11 +6,10 @@
 #include <functional>
 #include <stdexcept>
 
-#include <gtest/gtest.h>
-
 #include "benchmarks/homogenisation/airy_network.h"
 #include "discrete/contacts/internal_moment.h"
 #include "tests/coupling/averaging/averaging_cases.h"
+#include "tests/coupling/averaging/hexagonal_lattice.h"
 
 namespace
 {
@@ -46,32 +45,19 @@ namespace
     return snapshot_of(network.position, network.radius, network.contacts);
   }
 
-  // Hexagonal lattice of discs of diameter 1, rows x columns, with periodic sides and unit normal forces.
-  discrete::Snapshot hexagonal(const int columns, const int rows)
+  // Hexagonal lattice, 12 x rows, and cells of whole lattice periods over it.
+  discrete::Snapshot hexagonal(const int rows)
   {
-    const double                        row_height = std::sqrt(3.) / 2;
-    std::vector<Eigen::Vector2d>        position;
-    std::vector<discrete::ContactForce> contacts;
-    for (int r = 0; r < rows; ++r)
-      for (int c = 0; c < columns; ++c)
-        position.emplace_back(c + 0.5 * (r % 2) + 0.1, (r + 0.5) * row_height);
-    const auto touch = [&](const int i, const int row, const int column) {
-      const int             j     = row * columns + (column + columns) % columns;
-      const double          shift = columns * std::round((position[i].x() - position[j].x()) / columns);
-      const Eigen::Vector2d n     = position[i] - position[j] - Eigen::Vector2d(shift, 0);
-      contacts.push_back({i, j, position[i] - 0.5 * n, n, n, shift});
-    };
-    for (int r = 0; r < rows; ++r)
-      for (int c = 0; c < columns; ++c)
-        {
-          const int i = r * columns + c;
-          touch(i, r, c + 1);
-          if (r + 1 < rows)
-            touch(i, r + 1, c - 1 + r % 2), touch(i, r + 1, c + r % 2);
-        }
-    discrete::Snapshot s = snapshot_of(position, std::vector<double>(position.size(), 0.5), contacts);
-    s.cell_width         = columns;
+    const GrainNetwork network = periodic_lattice(12, rows);
+    discrete::Snapshot s       = snapshot_of(network.position, network.radius, network.forces);
+    s.cell_width               = 12;
     return s;
+  }
+
+  QuadMesh hexagonal_mesh(const unsigned int rows)
+  {
+    const double row_height = std::sqrt(3.) / 2;
+    return box_mesh({-0.1, -0.5 * row_height}, {11.9, (rows - 0.5) * row_height}, 6, rows / 2);
   }
 
   using VectorField = std::function<Eigen::Vector2d(const Eigen::Vector2d &)>;
@@ -98,38 +84,35 @@ namespace
     const discrete::Snapshot from = disordered(1);
     const discrete::Snapshot to   = moved(
         from, [&](const Eigen::Vector2d &x) { return Eigen::Vector2d(gradient * x); }, spin);
-    for (const NamedMesh &mesh : averaging_meshes())
-      for (const AveragingOptions &options : averaging_methods)
-        {
-          SCOPED_TRACE(name_of(options) + " on " + mesh.name);
-          const GrainFields f       = grain_fields(mesh.mesh, from, to, options);
-          int               covered = 0;
-          for (std::size_t k = 0; k < mesh.mesh.cell.size(); ++k)
-            if (f.covered[k])
+    for_each_case([&](const AveragingOptions &options, const QuadMesh &mesh) {
+      const GrainFields f       = grain_fields(mesh, from, to, options);
+      int               covered = 0;
+      for (std::size_t k = 0; k < mesh.cell.size(); ++k)
+        if (f.covered[k])
+          {
+            ++covered;
+            EXPECT_LT((f.displacement_gradient[k] - gradient).norm(), 1e-12);
+            EXPECT_NEAR(f.shear_strain_increment[k], std::hypot(0.05, 0.04), 1e-12);
+            EXPECT_NEAR(f.spin_increment[k], spin, 1e-12);
+            if (!std::isnan(f.rotation_increment[k])) // for centroid: a cell without a centre
               {
-                ++covered;
-                EXPECT_LT((f.displacement_gradient[k] - gradient).norm(), 1e-12);
-                EXPECT_NEAR(f.shear_strain_increment[k], std::hypot(0.05, 0.04), 1e-12);
-                EXPECT_NEAR(f.spin_increment[k], spin, 1e-12);
-                if (!std::isnan(f.rotation_increment[k])) // for centroid: a cell without a centre
-                  {
-                    EXPECT_NEAR(f.rotation_increment[k], spin, 1e-12);
-                    EXPECT_NEAR(f.relative_rotation[k], 0, 1e-12);
-                    EXPECT_NEAR(f.granular_temperature[k], 0, 1e-24);
-                  }
+                EXPECT_NEAR(f.rotation_increment[k], spin, 1e-12);
+                EXPECT_NEAR(f.relative_rotation[k], 0, 1e-12);
+                EXPECT_NEAR(f.granular_temperature[k], 0, 1e-24);
               }
-          EXPECT_GT(covered, 100);
-        }
+          }
+      EXPECT_GT(covered, 100);
+    });
   }
 
   // The same across the sides of a periodic sample: a shear u_x = a y, and all grains shifted by a period.
   TEST(GrainFields, ReproducesShearAtTheSidesOfAPeriodicSample)
   {
-    const discrete::Snapshot from = hexagonal(12, 20);
+    const discrete::Snapshot from = hexagonal(20);
     discrete::Snapshot       to   = moved(from, [](const Eigen::Vector2d &x) { return Eigen::Vector2d(0.1 * x.y(), 0); });
     for (std::size_t i = 0; i < to.position.size(); i += 3)
       to.position[i].x() += 12, to.contacts.clear(), to.window_forces.clear();
-    const GrainFields f = grain_fields(box_mesh({0, 0}, {12, 20 * std::sqrt(3.) / 2}, 6, 10), from, to, {});
+    const GrainFields f = grain_fields(hexagonal_mesh(20), from, to, {});
     for (std::size_t k = 0; k < 60; ++k)
       {
         EXPECT_NEAR(f.displacement_gradient[k](0, 1), 0.1, 1e-12);
@@ -147,19 +130,19 @@ namespace
     discrete::Snapshot       flying = still;
     for (Eigen::Vector2d &v : flying.velocity)
       v += common;
-    for (const NamedMesh &mesh : {averaging_meshes()[1]})
-      for (const AveragingOptions &options : averaging_methods)
-        {
-          SCOPED_TRACE(name_of(options) + " on " + mesh.name);
-          const GrainFields a = grain_fields(mesh.mesh, from, still, options), b = grain_fields(mesh.mesh, from, flying, options);
-          for (std::size_t k = 0; k < a.covered.size(); ++k)
-            if (a.covered[k] && !std::isnan(a.granular_temperature[k]))
-              {
-                EXPECT_LT((b.velocity[k] - a.velocity[k] - common).norm(), 1e-11);
-                EXPECT_NEAR(b.granular_temperature[k], a.granular_temperature[k], 1e-11);
-                EXPECT_EQ(b.stress[k], a.stress[k]);
-              }
-        }
+    const QuadMesh mesh = averaging_meshes()[1].mesh;
+    for (const AveragingOptions &options : averaging_methods)
+      {
+        SCOPED_TRACE(name_of(options));
+        const GrainFields a = grain_fields(mesh, from, still, options), b = grain_fields(mesh, from, flying, options);
+        for (std::size_t k = 0; k < a.covered.size(); ++k)
+          if (a.covered[k] && !std::isnan(a.granular_temperature[k]))
+            {
+              EXPECT_LT((b.velocity[k] - a.velocity[k] - common).norm(), 1e-11);
+              EXPECT_NEAR(b.granular_temperature[k], a.granular_temperature[k], 1e-11);
+              EXPECT_EQ(b.stress[k], a.stress[k]);
+            }
+      }
   }
 
   // Velocities are independent normal components of deviation 2 on a shear, so |v'|^2/2 has the mean 4 and the deviation 4. With
@@ -201,41 +184,38 @@ namespace
     for (const auto &c : s.contacts)
       ends += c.j < int(s.position.size()) ? 2 : 1;
 
-    for (const NamedMesh &mesh : averaging_meshes())
-      for (const AveragingOptions &options : averaging_methods)
+    for_each_case([&](const AveragingOptions &options, const QuadMesh &mesh) {
+      const GrainFields         f    = grain_fields(mesh, s, s, options);
+      const std::vector<double> area = cell_areas(mesh);
+      EXPECT_LT(f.total_relative_error, 1e-12);
+      EXPECT_NEAR(f.outside_share, 0, 1e-12);
+      double sum_spin = 0, sum_dissipation = 0, sum_solid = 0, sum_ends = 0, count = 0;
+      bool   complete = true; // true if every cell has a value
+      for (std::size_t k = 0; k < area.size(); ++k)
         {
-          SCOPED_TRACE(name_of(options) + " on " + mesh.name);
-          const GrainFields         f    = grain_fields(mesh.mesh, s, s, options);
-          const std::vector<double> area = cell_areas(mesh.mesh);
-          EXPECT_LT(f.total_relative_error, 1e-12);
-          EXPECT_NEAR(f.outside_share, 0, 1e-12);
-          double sum_spin = 0, sum_dissipation = 0, sum_solid = 0, sum_ends = 0, count = 0;
-          bool   complete = true; // true if every cell has a value
-          for (std::size_t k = 0; k < area.size(); ++k)
-            {
-              complete = complete && f.covered[k] && !std::isnan(f.coordination_number[k]);
-              sum_spin += area[k] * 0.5 * (f.contact_stress[k] - f.stress[k]).trace();
-              sum_dissipation += area[k] * f.dissipation[k];
-              sum_solid += area[k] * f.solid_fraction[k];
-              sum_ends += f.grain_count[k] * f.coordination_number[k];
-              count += f.grain_count[k];
-            }
-          EXPECT_NEAR(sum_solid, solid, 1e-10 * solid);
-          EXPECT_NEAR(count, double(s.position.size()), 1e-9);
-          if (!complete)
-            continue;
-          EXPECT_NEAR(sum_spin, spin_term, 1e-10 * spin_term);
-          EXPECT_NEAR(sum_dissipation, dissipated, 1e-10 * dissipated);
-          EXPECT_NEAR(sum_ends, ends, 1e-10 * ends);
+          complete = complete && f.covered[k] && !std::isnan(f.coordination_number[k]);
+          sum_spin += area[k] * 0.5 * (f.contact_stress[k] - f.stress[k]).trace();
+          sum_dissipation += area[k] * f.dissipation[k];
+          sum_solid += area[k] * f.solid_fraction[k];
+          sum_ends += f.grain_count[k] * f.coordination_number[k];
+          count += f.grain_count[k];
         }
+      EXPECT_NEAR(sum_solid, solid, 1e-10 * solid);
+      EXPECT_NEAR(count, double(s.position.size()), 1e-9);
+      if (!complete)
+        return;
+      EXPECT_NEAR(sum_spin, spin_term, 1e-10 * spin_term);
+      EXPECT_NEAR(sum_dissipation, dissipated, 1e-10 * dissipated);
+      EXPECT_NEAR(sum_ends, ends, 1e-10 * ends);
+    });
   }
 
   // A lattice far from its ends: six contacts per grain, with normals in three directions 60 degrees apart. F = 1/2 1, the solid
   // fraction is pi / (2 sqrt 3), and there is no couple stress.
   TEST(GrainFields, HexagonalLattice)
   {
-    const discrete::Snapshot s    = hexagonal(12, 40);
-    const QuadMesh           mesh = box_mesh({0, 0}, {12, 40 * std::sqrt(3.) / 2}, 6, 20);
+    const discrete::Snapshot s    = hexagonal(40);
+    const QuadMesh           mesh = hexagonal_mesh(40);
     for (AveragingOptions options : averaging_methods)
       {
         options.width = 0.7;

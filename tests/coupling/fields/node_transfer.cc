@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "coupling/fields/strain_increment.h"
+#include "tests/coupling/synthetic_samples.h"
 
 namespace
 {
@@ -33,11 +34,7 @@ namespace
           s.position.emplace_back(x + s.displacement.back());
           s.weight.push_back(1);
         }
-    const auto node = [&](const int i, const int j) { return unsigned(j * m + i); };
-    for (int j = 0; j < 2 * n; j += 2)
-      for (int i = 0; i < 2 * n; i += 2)
-        s.cells.push_back({{node(i, j), node(i + 2, j), node(i + 2, j + 2), node(i, j + 2), node(i + 1, j), node(i + 2, j + 1),
-                            node(i + 1, j + 2), node(i, j + 1), node(i + 1, j + 1)}});
+    s.cells = synthetic::nine_node_cells(n, n);
     return s;
   }
 

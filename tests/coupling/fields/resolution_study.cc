@@ -5,10 +5,9 @@
 
 #include <cmath>
 
-#include <gtest/gtest.h>
-
 #include "benchmarks/homogenisation/airy_network.h"
 #include "tests/coupling/averaging/averaging_cases.h"
+#include "tests/coupling/averaging/hexagonal_lattice.h"
 
 namespace
 {
@@ -53,23 +52,12 @@ namespace
   {
     const double       row_height = std::sqrt(3.) / 2;
     const int          columns = 12, rows = 44;
+    const GrainNetwork network = synthetic::periodic_lattice(columns, rows);
     discrete::Snapshot s;
-    for (int r = 0; r < rows; ++r)
-      for (int c = 0; c < columns; ++c)
-        s.position.emplace_back(c + 0.5 * (r % 2), (r + 0.5) * row_height), s.radius.push_back(0.5);
-    s.cell_width = columns;
-    for (int r = 0; r < rows; ++r)
-      for (int c = 0; c < columns; ++c)
-        for (const auto &[dr, dc] : {std::pair(0, 1), std::pair(1, r % 2), std::pair(1, r % 2 - 1)})
-          if (r + dr < rows)
-            {
-              const int             i = r * columns + c, j = (r + dr) * columns + (c + dc + columns) % columns;
-              const double          shift = columns * std::round((s.position[i].x() - s.position[j].x()) / columns);
-              const Eigen::Vector2d n     = s.position[i] - s.position[j] - Eigen::Vector2d(shift, 0);
-              s.window_forces.push_back({i, j, s.position[i] - 0.5 * n, n, n, shift});
-            }
-    const QuadMesh        mesh   = synthetic::box_mesh({0, 0}, {columns, rows * row_height}, 6, 22);
-    const double          middle = 0.5 * rows * row_height;
+    s.position = network.position, s.radius = network.radius, s.window_forces = network.forces, s.cell_width = columns;
+    const Eigen::Vector2d lower(0, -0.5 * row_height), size(columns, rows * row_height);
+    const QuadMesh        mesh   = synthetic::box_mesh(lower, lower + size, 6, 22);
+    const double          middle = 0.5 * (rows - 1) * row_height;
     const ResolutionStudy study  = resolution_study(mesh, s, {{"middle", {5, middle}}, {"side", {12, middle + 0.3}}});
     for (const ResolutionRow &r : study.kernel)
       for (const PointStress &p : r.points)

@@ -2,19 +2,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/panels/continuum_loading.h"
 
-#include <filesystem>
-#include <fstream>
-
-#include <unistd.h>
-
-#include <gtest/gtest.h>
-
 #include "continuum/mesh/mesh.h"
+#include "discrete/files/text_file.h"
+#include "tests/files.h"
 
 namespace
 {
   using namespace diptych;
   using namespace diptych::coupling;
+  using namespace diptych::tests;
   using diptych::discrete::LoadingMode;
 
   const ContinuumSample sample{75, 50, 0.8}; // height, width of the platen, solid fraction
@@ -31,19 +27,6 @@ namespace
   double at(const continuum::Drive &drive, const double progress)
   {
     return drive.value ? drive.value(progress) : 0;
-  }
-
-  std::string refusal_of(const Scene &scene)
-  {
-    try
-      {
-        require_continuum(scene);
-      }
-    catch (const SceneError &error)
-      {
-        return error.what();
-      }
-    return "";
   }
 
   TEST(ContinuumLoading, DescentGoesDownByTheHeightAndSidewaysByItsRatio)
@@ -75,10 +58,11 @@ namespace
 
   TEST(ContinuumLoading, VelocitiesOfATableAreIntegratedExactly)
   {
-    const auto path = std::filesystem::path(testing::TempDir()) / ("drive" + std::to_string(::getpid()) + ".csv");
-    std::ofstream(path) << "time,velocity\n1,0\n3,4\n4,-2\n";
+    const Folder folder;
+    discrete::write_text(folder / "drive.csv", "time,velocity\n1,0\n3,4\n4,-2\n");
+    discrete::write_text(folder / "early.csv", "time,velocity\n-1,1\n1,3\n");
     Scene scene                    = scene_with(LoadingMode::time);
-    scene.discrete.drives.upper_x  = "velocity " + path.string();
+    scene.discrete.drives.upper_x  = "velocity " + folder / "drive.csv";
     scene.discrete.drives.lower_y  = "velocity 0.5";
     scene.discrete.drives.upper_y  = "force -3";
     const continuum::Loading moved = continuum_loading(scene, sample);
@@ -88,19 +72,11 @@ namespace
     EXPECT_DOUBLE_EQ(at(moved.platens[0][1], 3), 1.5);
     EXPECT_TRUE(moved.platens[1][1].is_force);
     EXPECT_EQ(at(moved.platens[1][1], 7), -3);
-    std::filesystem::remove(path);
-  }
 
-  TEST(ContinuumLoading, TableThatBeginsBeforeTheStartIsIntegratedFromTheStart)
-  {
-    const auto path = std::filesystem::path(testing::TempDir()) / ("early" + std::to_string(::getpid()) + ".csv");
-    std::ofstream(path) << "time,velocity\n-1,1\n1,3\n";
-    Scene scene                   = scene_with(LoadingMode::time);
-    scene.discrete.drives.lower_x = "velocity " + path.string();
-    const auto drive              = continuum_loading(scene, sample).platens[0][0]; // int_0^1 (2 + t) = 2.5
-    EXPECT_NEAR(at(drive, 0), 0, 1e-15);
-    EXPECT_NEAR(at(drive, 1), 2.5, 1e-12);
-    std::filesystem::remove(path);
+    scene.discrete.drives.lower_x = "velocity " + folder / "early.csv"; // from the start of the loading: int_0^1 (2 + t) = 2.5
+    const auto early              = continuum_loading(scene, sample).platens[0][0];
+    EXPECT_NEAR(at(early, 0), 0, 1e-15);
+    EXPECT_NEAR(at(early, 1), 2.5, 1e-12);
   }
 
   TEST(ContinuumLoading, InOtherModesAWallFollowsTheTimeOfTheProgress)
@@ -192,46 +168,39 @@ namespace
       {"continuum/mesh", [](Scene &s) { s.continuum.mesh = "somewhere"; }},
       {"continuum/initial_stress",
        [](Scene &s) { s.continuum.mesh = "rectangle", s.continuum.initial_stress = continuum::InitialStress::mapped; }}};
-    EXPECT_EQ(refusal_of(scene_with(LoadingMode::descent)), "");
+    EXPECT_NO_THROW(require_continuum(scene_with(LoadingMode::descent)));
     for (const auto &[key, change] : refused)
       {
         Scene scene = scene_with(LoadingMode::descent);
         change(scene);
-        EXPECT_EQ(refusal_of(scene).rfind(key, 0), 0u) << key << " is not the first key of the message: " << refusal_of(scene);
+        const std::string told = refusal<SceneError>([&] { require_continuum(scene); });
+        EXPECT_EQ(told.rfind(key, 0), 0u) << key << " is not the first key of the message: " << told;
       }
   }
 
   TEST(ContinuumLoading, ComparisonNeedsAPlatenThatMovesInEveryStage)
   {
-    const auto refusal = [](const Scene &scene) -> std::string {
-      try
-        {
-          require_platen_travel(scene);
-        }
-      catch (const SceneError &error)
-        {
-          return error.what();
-        }
-      return "";
+    const auto check   = [](const Scene &scene) { require_platen_travel(scene); };
+    const auto refused = [&](const Scene &scene, const std::string &word) {
+      expect_refused<SceneError>({word}, [&] { check(scene); });
     };
     Scene scene          = scene_with(LoadingMode::time);
     scene.loading.stages = {0.5, 1};
-    EXPECT_NE(refusal(scene).find("rests from time 0 to 0.5"), std::string::npos) << refusal(scene);
+    refused(scene, "rests from time 0 to 0.5");
     scene.discrete.drives.upper_y = "velocity 0";
-    EXPECT_NE(refusal(scene).find("discrete/drive_upper_y"), std::string::npos) << refusal(scene);
-    scene.discrete.drives.upper_y = "force -3";
-    EXPECT_EQ(refusal(scene), "");
-    scene.discrete.drives.upper_y = "velocity -0.1";
-    EXPECT_EQ(refusal(scene), "");
-
-    const std::filesystem::path table = std::filesystem::temp_directory_path() / ("diptych_rest_" + std::to_string(::getpid()));
-    std::ofstream(table) << "time,velocity\n0,-0.1\n0.4,-0.1\n0.45,0\n2,0\n";
-    scene.discrete.drives.upper_y = "velocity " + table.string();
-    EXPECT_NE(refusal(scene).find("rests from time 0.5 to 1"), std::string::npos) << refusal(scene);
+    refused(scene, "discrete/drive_upper_y");
+    for (const char *moving : {"force -3", "velocity -0.1"})
+      {
+        scene.discrete.drives.upper_y = moving;
+        EXPECT_NO_THROW(check(scene));
+      }
+    const Folder folder;
+    discrete::write_text(folder / "rest.csv", "time,velocity\n0,-0.1\n0.4,-0.1\n0.45,0\n2,0\n");
+    scene.discrete.drives.upper_y = "velocity " + folder / "rest.csv";
+    refused(scene, "rests from time 0.5 to 1");
     scene.loading.stages = {0.3, 1};
-    EXPECT_EQ(refusal(scene), "");
-    std::filesystem::remove(table);
-    EXPECT_EQ(refusal(scene_with(LoadingMode::descent)), "");
+    EXPECT_NO_THROW(check(scene));
+    EXPECT_NO_THROW(check(scene_with(LoadingMode::descent)));
   }
 
   TEST(ContinuumLoading, MeasuresAMeshWithItsPlaten)

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/coupling/synthetic_samples.h"
+
 namespace
 {
   using namespace diptych;
@@ -15,17 +17,11 @@ namespace
   // Nine-node cells of 1 x 1 over [0, nx] x [0, ny].
   continuum::Snapshot cells(const unsigned int nx, const unsigned int ny = 2)
   {
-    const unsigned int  m = 2 * nx + 1;
     continuum::Snapshot s;
     for (unsigned int j = 0; j < 2 * ny + 1; ++j)
-      for (unsigned int i = 0; i < m; ++i)
+      for (unsigned int i = 0; i < 2 * nx + 1; ++i)
         s.position.emplace_back(0.5 * i, 0.5 * j);
-    for (unsigned int j = 0; j < 2 * ny; j += 2)
-      for (unsigned int i = 0; i < 2 * nx; i += 2)
-        {
-          const unsigned int a = j * m + i;
-          s.cells.push_back({{a, a + 2, a + 2 + 2 * m, a + 2 * m, a + 1, a + 2 + m, a + 1 + 2 * m, a + m, a + 1 + m}});
-        }
+    s.cells = synthetic::nine_node_cells(nx, ny);
     return s;
   }
 

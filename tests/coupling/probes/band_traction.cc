@@ -13,12 +13,18 @@
 namespace
 {
   using namespace diptych::coupling;
+  using synthetic::oblique_stress;
 
-  Eigen::Matrix2d known_stress()
+  // Six strips about the middle, 7 rows high and 40 long.
+  TractionStrips strips_of_whole_rows()
   {
-    Eigen::Matrix2d stress;
-    stress << 1, 0.3, 0.3, 2;
-    return stress;
+    TractionStrips strips;
+    strips.origin = {26, 37.5};
+    for (int k = -3; k <= 3; ++k)
+      strips.edges.push_back(7 * k * std::sqrt(0.75) + 0.1);
+    strips.from.assign(6, -20);
+    strips.to.assign(6, 20);
+    return strips;
   }
 
   // The number of branches of one direction that a line of length L crosses is L times their density, to less than one, because
@@ -26,12 +32,12 @@ namespace
   // differs from sigma.n by less than sum |f_k| / L.
   TEST(BandTraction, LatticeHasUniformTractionToOneBranchPerLine)
   {
-    const GrainNetwork    network = synthetic::hexagonal_network(53, 88, known_stress());
+    const GrainNetwork    network = synthetic::hexagonal_network(53, 88, oblique_stress());
     const SampleFrame     frame   = synthetic::frame_52_75();
     const double          angle   = -40;
     const TractionStrips  strips  = traction_strips(synthetic::box_52_75, frame, angle, strip_edges(frame, angle, 2));
     const BandTraction    result  = grain_band_traction(strips, network, 5);
-    const auto            forces  = synthetic::lattice_forces(known_stress());
+    const auto            forces  = synthetic::lattice_forces(oblique_stress());
     const Eigen::Vector2d s(std::cos(angle * M_PI / 180), std::sin(angle * M_PI / 180)), n(-s.y(), s.x());
     int                   carrying = 0;
     ASSERT_EQ(result.normal.size(), 16u);
@@ -41,8 +47,8 @@ namespace
           ++carrying;
           const double bound = (std::abs(forces[0]) + std::abs(forces[1]) + std::abs(forces[2])) /
                                (strips.to[k] - strips.from[k]);
-          EXPECT_LT(std::abs(result.normal[k] - n.dot(known_stress() * n)), bound);
-          EXPECT_LT(std::abs(result.shear[k] - s.dot(known_stress() * n)), bound);
+          EXPECT_LT(std::abs(result.normal[k] - n.dot(oblique_stress() * n)), bound);
+          EXPECT_LT(std::abs(result.shear[k] - s.dot(oblique_stress() * n)), bound);
         }
     EXPECT_GE(carrying, 10);
     EXPECT_LT(result.variation_normal, 0.05);
@@ -56,13 +62,7 @@ namespace
     std::mt19937_64 random(2);
     const auto      network = synthetic::hexagonal_network(
            53, 88, [&](const int k, int) { return k == 0 ? synthetic::uniform(random, 0.2, 3) : 0.7; });
-    TractionStrips strips;
-    strips.origin = {26, 37.5};
-    for (int k = -3; k <= 3; ++k)
-      strips.edges.push_back(7 * k * std::sqrt(0.75) + 0.1);
-    strips.from.assign(6, -20);
-    strips.to.assign(6, 20);
-    const BandTraction result = grain_band_traction(strips, network, 5);
+    const BandTraction result = grain_band_traction(strips_of_whole_rows(), network, 5);
     for (int k = 0; k < 6; ++k)
       {
         EXPECT_NEAR(result.normal[k], 2 * 0.7 * std::sqrt(0.75), 1e-12);
@@ -122,16 +122,10 @@ namespace
     double          squares = 0, errors = 0;
     for (int sample = 0; sample < 30; ++sample)
       {
-        auto network = synthetic::hexagonal_network(53, 88, known_stress());
+        auto network = synthetic::hexagonal_network(53, 88, oblique_stress());
         for (auto &contact : network.forces)
           contact.force *= 1 + 0.8 * synthetic::normal(random);
-        TractionStrips strips;
-        strips.origin = {26, 37.5};
-        for (int k = -3; k <= 3; ++k)
-          strips.edges.push_back(7 * k * std::sqrt(0.75) + 0.1);
-        strips.from.assign(6, -20);
-        strips.to.assign(6, 20);
-        const BandTraction result = grain_band_traction(strips, network, 5);
+        const BandTraction result = grain_band_traction(strips_of_whole_rows(), network, 5);
         for (int k = 0; k < 6; ++k)
           {
             squares += std::pow(result.normal[k] - 2, 2);
@@ -148,7 +142,7 @@ namespace
     EXPECT_TRUE(std::isnan(strips.from[0])); // the sample ends at 44.9
     EXPECT_TRUE(std::isnan(strips.from[1]));
     EXPECT_FALSE(std::isnan(strips.from[3]));
-    const BandTraction result = grain_band_traction(strips, synthetic::hexagonal_network(53, 88, known_stress()), 5);
+    const BandTraction result = grain_band_traction(strips, synthetic::hexagonal_network(53, 88, oblique_stress()), 5);
     EXPECT_TRUE(std::isnan(result.normal[0]));
     EXPECT_GT(result.normal[3], 0);
     EXPECT_THROW(traction_strips(synthetic::box_52_75, frame, 45, {1, 0}), std::invalid_argument);

@@ -5,9 +5,9 @@
 #include <numeric>
 #include <stdexcept>
 
-#include <gtest/gtest.h>
-
+#include "tests/coupling/averaging/hexagonal_lattice.h"
 #include "tests/coupling/synthetic_samples.h"
+#include "tests/files.h"
 
 namespace
 {
@@ -88,23 +88,14 @@ namespace
   // sqrt(3)/2. In spite of its rim, a probe gives S up to the scatter of its measured solid fraction.
   TEST(Probes, UniformMomentDensityGivesItsStress)
   {
-    Eigen::Matrix2d stress;
-    stress << 1, 0.3, 0.3, 2;
-    std::vector<Eigen::Vector2d> position;
-    std::vector<double>          radius;
-    std::vector<Eigen::Matrix2d> moment;
-    for (int r = 0; r < 90; ++r)
-      for (int c = 0; c < 55; ++c)
-        {
-          position.push_back({c + 0.5 * (r % 2), r * std::sqrt(0.75)});
-          radius.push_back(0.5);
-          moment.push_back(stress * std::sqrt(0.75));
-        }
+    const Eigen::Matrix2d              stress  = synthetic::oblique_stress();
+    const GrainNetwork                 lattice = synthetic::hexagonal_network(55, 90, stress);
+    const std::vector<Eigen::Matrix2d> moment(lattice.position.size(), stress * std::sqrt(0.75));
     const QuadMesh                     mesh = synthetic::box_mesh({0, 0}, {52, 75}, 26, 37, 0.2);
     const std::vector<Eigen::Matrix2d> in_cells(mesh.cell.size(), stress);
     for (const auto &probe : place_probes(synthetic::box_52_75, synthetic::frame_52_75(), {oblique_band()}))
       {
-        const auto of_grains = grain_probe_stress(probe, position, radius, moment);
+        const auto of_grains = grain_probe_stress(probe, lattice.position, lattice.radius, moment);
         EXPECT_LT((of_grains.stress - stress).norm(), 0.01 * stress.norm());
         EXPECT_NEAR(of_grains.t_over_s, probe_stress(stress, 1).t_over_s, 1e-12);
         EXPECT_GT(of_grains.count, 50);
@@ -162,26 +153,14 @@ namespace
 
   TEST(Probes, MessagesForWrongNumbersHaveTheKey)
   {
-    const auto message = [](const ProbeOptions &options) -> std::string {
-      try
-        {
-          place_probes(synthetic::box_52_75, synthetic::frame_52_75(), {}, options);
-        }
-      catch (const std::invalid_argument &error)
-        {
-          return error.what();
-        }
-      return "";
+    const auto refused = [](const std::vector<double> &rectangles, const std::vector<double> &circle, const std::string &fault) {
+      ProbeOptions options;
+      options.probe_rectangles = rectangles, options.probe_circle = circle;
+      diptych::tests::expect_refused({fault}, [&] { place_probes(synthetic::box_52_75, synthetic::frame_52_75(), {}, options); });
     };
-    ProbeOptions options;
-    EXPECT_EQ(message(options), "");
-    options.probe_rectangles = {1, 2, 3, 4};
-    EXPECT_NE(message(options).find("probe_rectangles: 4 numbers"), std::string::npos);
-    options.probe_rectangles = {1, 2, 3, 0, 5};
-    EXPECT_NE(message(options).find("probe_rectangles: length and thickness of probe 1"), std::string::npos);
-    options              = {};
-    options.probe_circle = {1, 2, -3};
-    EXPECT_NE(message(options).find("probe_circle: the radius"), std::string::npos);
+    refused({1, 2, 3, 4}, {}, "probe_rectangles: 4 numbers");
+    refused({1, 2, 3, 0, 5}, {}, "probe_rectangles: length and thickness of probe 1");
+    refused({}, {1, 2, -3}, "probe_circle: the radius");
   }
 
   TEST(Probes, EmptyProbeHasNoStress)

@@ -1,17 +1,13 @@
 // diptych: tests of the step study on synthetic histories
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
-#include <filesystem>
 #include <fstream>
-
-#include <unistd.h>
-
-#include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "coupling/program/step_comparison.h"
 #include "discrete/files/table_file.h"
+#include "tests/files.h"
 
 namespace
 {
@@ -38,6 +34,12 @@ namespace
     return {{0.1, history(100)}, {0.05, history(200)}, {0.025, history(400)}};
   }
 
+  void scale(StepRun &run, const std::string &name, const double factor)
+  {
+    for (double &value : run.history[name])
+      value *= factor;
+  }
+
   const StepComparison::Quantity &quantity(const StepComparison &comparison, const std::string &name)
   {
     for (const StepComparison::Quantity &q : comparison.quantities)
@@ -56,17 +58,22 @@ namespace
     return table;
   }
 
-  bool says(const StepComparison &comparison, const std::string &words)
+  StepComparison compared(const std::vector<StepRun> &runs, const Walk walk = Walk::axial_strain, const double window = 0.005)
   {
-    return comparison.verdict.find(words) != std::string::npos;
+    return compare_steps(runs, window, walk);
+  }
+
+  void expect_says(const StepComparison &comparison, const std::string &words)
+  {
+    diptych::tests::expect_words(comparison.verdict, {words});
   }
 
   // Straight lines are the same for rows at other strains.
   TEST(StepComparison, EqualRunsDoNotDifferForRowsAtOtherStrains)
   {
-    const StepComparison c = compare_steps(three_runs(), 0.005, Walk::axial_strain);
+    const StepComparison c = compared(three_runs());
     EXPECT_LT(c.largest, 1e-12);
-    EXPECT_TRUE(says(c, "the step does not matter")) << c.verdict;
+    expect_says(c, "the step does not matter");
     ASSERT_EQ(c.quantities.size(), 4u);
     for (const StepComparison::Quantity &q : c.quantities)
       {
@@ -79,17 +86,15 @@ namespace
   TEST(StepComparison, TenPerCentMoreWorkMattersAndIsReportedWithItsStrain)
   {
     std::vector<StepRun> runs = three_runs();
-    for (double &work : runs[0].history["external_work"])
-      work *= 1.1;
-    for (double &work : runs[1].history["external_work"])
-      work *= 0.96;
-    const StepComparison c = compare_steps(runs, 0.005, Walk::axial_strain);
+    scale(runs[0], "external_work", 1.1);
+    scale(runs[1], "external_work", 0.96);
+    const StepComparison c = compared(runs);
     EXPECT_NEAR(c.largest, 0.1, 1e-9);
     EXPECT_NEAR(quantity(c, "external_work").largest_difference[1], 0.04, 1e-9);
     EXPECT_NEAR(quantity(c, "external_work").at_progress, 0.04, 1e-9);
     EXPECT_LT(quantity(c, "friction_dissipation").largest_difference[0], 1e-12);
-    EXPECT_TRUE(says(c, "step 0.1 against 0.025: the step matters")) << c.verdict;
-    EXPECT_TRUE(says(c, "10 % (external_work, at 4 % axial strain")) << c.verdict;
+    expect_says(c, "step 0.1 against 0.025: the step matters");
+    expect_says(c, "10 % (external_work, at 4 % axial strain");
   }
 
   // A triangular bump of dissipation about 2 %, 1 % wide and 0.1 high. The reported strain is that of its top.
@@ -101,10 +106,10 @@ namespace
         const double strain = runs[0].history["progress"][k];
         runs[0].history["impact_dissipation"][k] += 0.1 * std::max(0., 1 - std::abs(strain - 0.02) / 0.005);
       }
-    const StepComparison c = compare_steps(runs, 0.005, Walk::axial_strain);
+    const StepComparison c = compared(runs);
     EXPECT_NEAR(quantity(c, "impact_dissipation").at_progress, 0.02, 2e-4);
     EXPECT_NEAR(c.largest, 0.1 / 0.4, 0.01); // dissipations are relative to the work
-    EXPECT_TRUE(says(c, "impact_dissipation, at 2")) << c.verdict;
+    expect_says(c, "impact_dissipation, at 2");
   }
 
   // Stress ratios that jump by +-30 % from row to row have equal means over windows of many rows. 0.5 % are 12 rows, of which
@@ -114,22 +119,21 @@ namespace
     std::vector<StepRun> runs = three_runs();
     for (std::size_t k = 0; k < 100; ++k)
       runs[0].history["stress_ratio"][k] *= k % 2 ? 1.3 : 0.7;
-    const StepComparison c = compare_steps(runs, 0.005, Walk::axial_strain);
+    const StepComparison c = compared(runs);
     EXPECT_LT(c.largest, 0.3 / 12);
-    EXPECT_TRUE(says(c, "does not matter")) << c.verdict;
+    expect_says(c, "does not matter");
     // Without the mean they would fail: a window of one row shows the scatter.
-    EXPECT_GT(compare_steps(runs, 0.0004, Walk::axial_strain).largest, 0.1);
+    EXPECT_GT(compared(runs, Walk::axial_strain, 0.0004).largest, 0.1);
   }
 
   // A lasting shift is not scatter.
   TEST(StepComparison, AShiftedStressRatioMatters)
   {
     std::vector<StepRun> runs = three_runs();
-    for (double &ratio : runs[0].history["stress_ratio"])
-      ratio *= 1.06;
-    const StepComparison c = compare_steps(runs, 0.005, Walk::axial_strain);
+    scale(runs[0], "stress_ratio", 1.06);
+    const StepComparison c = compared(runs);
     EXPECT_NEAR(c.largest, 0.06, 1e-9);
-    EXPECT_TRUE(says(c, "matters, largest difference 6 % (stress_ratio")) << c.verdict;
+    expect_says(c, "matters, largest difference 6 % (stress_ratio");
   }
 
   // The verdict names the loading variable.
@@ -138,36 +142,33 @@ namespace
     std::vector<StepRun> runs = three_runs();
     for (double &work : runs[0].history["external_work"])
       work *= work > 0.2 ? 2 : 1; // the first half is unchanged
-    const StepComparison c = compare_steps(runs, 0.005, Walk::shear_strain);
-    EXPECT_TRUE(says(c, "the step matters")) << c.verdict;
-    EXPECT_TRUE(says(c, "% shear strain")) << c.verdict;
+    const StepComparison c = compared(runs, Walk::shear_strain);
+    expect_says(c, "the step matters");
+    expect_says(c, "% shear strain");
     EXPECT_NEAR(quantity(c, "external_work").largest_difference[0], 1, 1e-6);
-    EXPECT_TRUE(says(compare_steps(runs, 0.005, Walk::time), "at time 0.0")) << compare_steps(runs, 0.005, Walk::time).verdict;
+    expect_says(compared(runs, Walk::time), "at time 0.0");
   }
 
   TEST(StepComparison, RejectsASingleRun)
   {
-    EXPECT_THROW((void)compare_steps({{0.1, history(10)}}, 0.005, Walk::axial_strain), std::invalid_argument);
+    EXPECT_THROW((void)compared({{0.1, history(10)}}), std::invalid_argument);
   }
 
   TEST(StepComparison, FilesHoldEveryRowAndTheVerdict)
   {
-    const std::filesystem::path directory = std::filesystem::path(testing::TempDir()) /
-                                            ("step_comparison" + std::to_string(::getpid()));
-    std::filesystem::create_directories(directory);
-    const std::vector<StepRun> runs = three_runs();
-    const StepComparison       c    = compare_steps(runs, 0.005, Walk::axial_strain);
-    write_step_comparison(directory.string(), runs, c);
-    const HistoryTable table = table_of((directory / "study_step.csv").string());
+    const diptych::tests::Folder folder;
+    const std::vector<StepRun>   runs = three_runs();
+    const StepComparison         c    = compared(runs);
+    write_step_comparison(folder.path, runs, c);
+    const HistoryTable table = table_of(folder / "study_step.csv");
     EXPECT_EQ(column(table, "step").size(), 700u);
     EXPECT_EQ(column(table, "step").front(), 0.1);
     EXPECT_EQ(column(table, "step").back(), 0.025);
     EXPECT_NEAR(column(table, "external_work").back(), 0.4, 1e-9);
-    const nlohmann::json root = nlohmann::json::parse(std::ifstream(directory / "study_step.json"));
+    const nlohmann::json root = nlohmann::json::parse(std::ifstream(folder / "study_step.json"));
     EXPECT_EQ(root["verdict"], c.verdict);
     EXPECT_EQ(root["steps"], (std::vector<double>{0.1, 0.05, 0.025}));
     EXPECT_EQ(root["quantities"].size(), 4u);
     EXPECT_EQ(root["margin"], 0.05);
-    std::filesystem::remove_all(directory);
   }
 } // namespace

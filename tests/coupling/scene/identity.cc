@@ -1,31 +1,23 @@
 // diptych: what makes two scenes the same, what a scene's keys are warned about, where its files are
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <filesystem>
-#include <fstream>
-
-#include <gtest/gtest.h>
-
-#include <unistd.h>
-
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
+#include "discrete/files/text_file.h"
+#include "tests/files.h"
 
 namespace
 {
   using namespace diptych::coupling;
-  namespace fs = std::filesystem;
+  using namespace diptych::tests;
 
-  struct SceneFolder
+  struct SceneFolder : Folder
   {
-    fs::path path = fs::path(testing::TempDir()) / ("identity" + std::to_string(::getpid()));
-
-    SceneFolder() { fs::create_directories(path / "data"); }
-    ~SceneFolder() { fs::remove_all(path); }
+    SceneFolder() { std::filesystem::create_directories(path + "/data"); }
 
     std::string put(const std::string &name, const std::string &text) const
     {
-      std::ofstream(path / name) << text;
-      return (path / name).string();
+      diptych::discrete::write_text(*this / name, text);
+      return *this / name;
     }
   };
 
@@ -38,8 +30,7 @@ namespace
   void expect_one(const std::vector<std::string> &found, const std::vector<std::string> &words)
   {
     ASSERT_EQ(found.size(), 1u);
-    for (const std::string &word : words)
-      EXPECT_NE(found[0].find(word), std::string::npos) << "'" << word << "' is missing in: " << found[0];
+    expect_words(found[0], words);
   }
 
   // Help texts, comments, order and formatting of an echo are not part of it; values are.
@@ -69,7 +60,7 @@ namespace
     Scene       other           = plain;
     other.discrete.law.friction = 0.3;
     const std::string told      = first_difference(sample_identity(other), sample_identity(plain));
-    EXPECT_NE(told.find("discrete/friction = '0.3' here, '0.4' there"), std::string::npos) << told;
+    expect_words(told, {"discrete/friction = '0.3' here, '0.4' there"});
 
     other                                    = plain;
     other.continuum.material.internal_length = 2;
@@ -110,6 +101,9 @@ namespace
     expect_one(warnings("", {"loading/mode=time", "comparison/window_edges=0,10", "comparison/averaging_strain=0.01"}),
                {"averaging_strain", "whole stage"});
     expect_one(warnings("", {"sample/left_wall=-3"}), {"left_wall", "is empty"});
+    expect_one(warnings("", {"continuum/weak_spot_x=0.3"}), {"weak_spot_x", "weak_spot_strain = 0"});
+    expect_one(warnings("", {"continuum/rectangle_width=3"}), {"rectangle_width", "mesh = outline"});
+    expect_one(warnings("", {"continuum/law=linear_elastic", "continuum/softening_strain=0.1"}), {"law = linear_elastic"});
     expect_one(warnings("", {"discrete/method=penalty", "discrete/penetration_correction=none"}), {"penetration_correction"});
     // an echo holds every key, and only what was changed in it is somebody's wish
     EXPECT_TRUE(warnings(resolved_text(Scene())).empty());
@@ -147,15 +141,8 @@ namespace
       rows += std::to_string(x) + ",0.5,0.5\n";
     folder.put("data/grains.csv", rows);
     const std::string scene = folder.put("mine.prm", "subsection sample\n  set file = data/grains.csv\nend\n");
-    EXPECT_EQ(read_scene(scene, {}).sample.file, (folder.path / "data/grains.csv").string());
-    try
-      {
-        read_scene(scene, {"sample/file=data/grains.csv"});
-        FAIL() << "there is no data/ in the working directory";
-      }
-    catch (const SceneError &error)
-      {
-        EXPECT_NE(std::string(error.what()).find((fs::current_path() / "data/grains.csv").string()), std::string::npos);
-      }
+    EXPECT_EQ(read_scene(scene, {}).sample.file, folder / "data/grains.csv");
+    const std::string missing = (std::filesystem::current_path() / "data/grains.csv").string();
+    expect_refused<SceneError>({missing}, [&] { read_scene(scene, {"sample/file=data/grains.csv"}); });
   }
 } // namespace

@@ -1,29 +1,25 @@
 // diptych: scene files: every wrong word is named with its place and its nearest neighbour
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <filesystem>
-#include <fstream>
-
-#include <unistd.h>
-
-#include <gtest/gtest.h>
-
 #include "coupling/scene/scene_file.h"
+#include "discrete/files/text_file.h"
+#include "tests/files.h"
 
 namespace
 {
   using namespace diptych::coupling;
+  using namespace diptych::tests;
 
   // A scene file that lives as long as the test.
   struct SceneFile
   {
+    Folder      folder;
     std::string path;
 
     explicit SceneFile(const std::string &text, const std::string &ending = ".prm")
-        : path((std::filesystem::path(testing::TempDir()) / ("scene_test" + std::to_string(::getpid()) + ending)).string())
+        : path(folder / "scene_test" + ending)
     {
-      std::ofstream(path) << (text.empty() ? "# all defaults\n" : text); // without a word it would be refused
+      diptych::discrete::write_text(path, text.empty() ? "# all defaults\n" : text); // without a word it would be refused
     }
-    ~SceneFile() { std::filesystem::remove(path); }
   };
 
   std::string error_of(const std::string              &text,
@@ -31,21 +27,7 @@ namespace
                        const std::string              &ending    = ".prm")
   {
     const SceneFile file(text, ending);
-    try
-      {
-        read_scene(file.path, overrides);
-      }
-    catch (const SceneError &error)
-      {
-        return error.what();
-      }
-    return "";
-  }
-
-  void expect_words(const std::string &text, const std::vector<std::string> &words)
-  {
-    for (const std::string &word : words)
-      EXPECT_NE(text.find(word), std::string::npos) << "'" << word << "' is missing in: " << text;
+    return refusal<SceneError>([&] { read_scene(file.path, overrides); });
   }
 
   TEST(Scene, ReadsSectionsAndKeepsDefaults)

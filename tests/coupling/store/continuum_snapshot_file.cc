@@ -8,8 +8,6 @@
 
 #include <hdf5.h>
 
-#include <gtest/gtest.h>
-
 #include "discrete/files/table_file.h"
 #include "tests/coupling/store/examples.h"
 
@@ -62,7 +60,7 @@ namespace
         const hid_t file = H5Fopen(h5.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
         ASSERT_GE(H5Ldelete(file, ("stage_0001/" + name).c_str(), H5P_DEFAULT), 0);
         H5Fclose(file);
-        expect_error_naming({h5, "stage_0001", name}, [&] { (void)read_continuum_snapshots(h5); });
+        expect_refused({h5, "stage_0001", name}, [&] { (void)read_continuum_snapshots(h5); });
       }
   }
 
@@ -71,19 +69,19 @@ namespace
     const Folder      folder;
     const std::string h5   = folder / "continuum.h5";
     const auto        read = [&] { (void)read_continuum_snapshots(h5); };
-    expect_error_naming({h5, "missing"}, read);
-    put(h5, "no HDF5");
-    expect_error_naming({h5}, read);
+    expect_refused({h5, "missing"}, read);
+    write_text(h5, "no HDF5");
+    expect_refused({h5}, read);
 
     const Snapshot        s = example(2, 0, true);
     ContinuumSnapshotFile file(folder / "continuum");
     file.add(s);
     file.close();
-    const std::string whole = contents_of(h5);
+    const std::string whole = read_text(h5);
     for (const double share : {0., 0.2, 0.99})
       {
-        put(h5, whole.substr(0, std::size_t(share * whole.size())));
-        expect_error_naming({h5}, read);
+        write_text(h5, whole.substr(0, std::size_t(share * whole.size())));
+        expect_refused({h5}, read);
       }
 
     std::string       damaged = whole;
@@ -91,11 +89,11 @@ namespace
         std::string(reinterpret_cast<const char *>(&s.cell_state[1].dissipation), sizeof(double)));
     ASSERT_NE(place, std::string::npos);
     damaged[place] ^= 1;
-    put(h5, damaged);
-    expect_error_naming({h5, "stage_0000", "cells/dissipation"}, read);
+    write_text(h5, damaged);
+    expect_refused({h5, "stage_0000", "cells/dissipation"}, read);
 
     H5Fclose(H5Fcreate(h5.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
-    expect_error_naming({h5, "stage_0000"}, read);
+    expect_refused({h5, "stage_0000"}, read);
   }
 
   TEST(ContinuumSnapshotFile, WhatIsNoSnapshotIsNotWritten)
@@ -103,14 +101,14 @@ namespace
     const Folder          folder;
     ContinuumSnapshotFile file(folder / "continuum");
     file.add(example(1, 0, true));
-    const std::string before = contents_of(folder / "continuum.h5");
+    const std::string before = read_text(folder / "continuum.h5");
     for (const int which : {0, 1, 2})
       {
         Snapshot s = example(1, 0.1, true);
         which == 0 ? s.rotation.pop_back() : which == 1 ? s.displacement.pop_back() : s.cell_state.pop_back();
         EXPECT_THROW(file.add(s), std::invalid_argument) << which;
       }
-    EXPECT_EQ(contents_of(folder / "continuum.h5"), before);
+    EXPECT_EQ(read_text(folder / "continuum.h5"), before);
     EXPECT_FALSE(fs::exists(folder / "continuum/stage_0001.vtu"));
   }
 
@@ -122,15 +120,15 @@ namespace
     Snapshot              s      = example(1, 0, true);
     s.cell_state[0].stress(1, 0) = std::nan("");
     file.add(s);
-    expect_error_naming({folder / "continuum.h5", "stage_0000", "cells/stress"},
-                        [&] { (void)read_continuum_snapshots(folder / "continuum.h5"); });
+    expect_refused({folder / "continuum.h5", "stage_0000", "cells/stress"},
+                   [&] { (void)read_continuum_snapshots(folder / "continuum.h5"); });
   }
 
   // What a run with these stages leaves, and what is left of one that was killed and went on from two of them.
   TEST(ContinuumSnapshotFile, AnInterruptedRunLeavesTheFilesOfAnUninterruptedOne)
   {
     const auto   stage = [](const int k) { return example(k + 1, 0.01 * k, k < 2); }; // refined from stage to stage
-    const Folder whole("whole"), parts("parts");
+    const Folder whole, parts;
     {
       ContinuumSnapshotFile file(whole / "continuum");
       for (const int k : {0, 1, 2, 3})
@@ -155,7 +153,7 @@ namespace
     for (const std::string &name : names[0])
       if (fs::path(name).extension() != ".h5" && name != "continuum")
         {
-          EXPECT_EQ(contents_of(whole / name), contents_of(parts / name)) << name;
+          EXPECT_EQ(read_text(whole / name), read_text(parts / name)) << name;
         }
     const auto x = read_continuum_snapshots(whole / "continuum.h5"), y = read_continuum_snapshots(parts / "continuum.h5");
     ASSERT_EQ(x.size(), y.size());
@@ -213,7 +211,7 @@ namespace
     const std::string first = "step,axial_strain,stress_ratio,volumetric_strain,sxx,sxy,syy,szz,lower_fx,lower_fy,upper_fx,"
                               "upper_fy,newton_iterations,linear_iterations,factorisations,cut_backs,plastic_share,"
                               "share_zz_not_intermediate,max_equivalent_plastic_strain,assembly_cpu_s,solve_cpu_s,";
-    EXPECT_EQ(contents_of(folder / "continuum.csv").substr(0, first.size()), first);
+    EXPECT_EQ(read_text(folder / "continuum.csv").substr(0, first.size()), first);
   }
 
   const std::map<std::string, std::string> node_fields = {{"displacement", "Vector"},
@@ -233,21 +231,6 @@ namespace
                                                           {"friction_angle", "Scalar"},
                                                           {"solid_fraction", "Scalar"}};
 
-  std::string extents_in(const hid_t file, const std::string &path)
-  {
-    const hid_t set = H5Dopen2(file, path.c_str(), H5P_DEFAULT);
-    if (set < 0)
-      return "no such dataset";
-    const hid_t space    = H5Dget_space(set);
-    hsize_t     sizes[3] = {0, 0, 0};
-    const int   rank     = H5Sget_simple_extent_dims(space, sizes, nullptr);
-    std::string text     = std::to_string(sizes[0]);
-    for (int k = 1; k < rank; ++k)
-      text += " " + std::to_string(sizes[k]);
-    H5Sclose(space), H5Dclose(set);
-    return text;
-  }
-
   // ParaView takes names, kinds and extents from the .xdmf and the numbers from the .h5.
   TEST(ContinuumSnapshotFile, XdmfListsEveryFieldWithTheExtentsOfItsDataset)
   {
@@ -258,7 +241,7 @@ namespace
       file.add(example(3, 0.3, false));
       file.close();
     }
-    const std::string xdmf = contents_of(folder / "continuum.xdmf");
+    const std::string xdmf = read_text(folder / "continuum.xdmf");
 
     std::set<std::string> listed, expected;
     const std::regex      attribute("<Attribute Name=\"(\\w+)\" AttributeType=\"(\\w+)\" Center=\"(\\w+)\"><DataItem[^>]*>"
@@ -279,12 +262,16 @@ namespace
       }
     EXPECT_EQ(listed, expected);
 
-    const hid_t      file = H5Fopen((folder / "continuum.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-    const std::regex item("<DataItem [^>]*Dimensions=\"([0-9 ]+)\">continuum.h5:/([^<]+)<");
-    std::size_t      n_items = 0;
+    const discrete::Hdf5Reader file(folder / "continuum.h5");
+    const std::regex           item("<DataItem [^>]*Dimensions=\"([0-9 ]+)\">continuum.h5:/([^<]+)<");
+    std::size_t                n_items = 0;
     for (std::sregex_iterator m(xdmf.begin(), xdmf.end(), item), end; m != end; ++m, ++n_items)
-      EXPECT_EQ((*m)[1], extents_in(file, (*m)[2])) << (*m)[2];
-    H5Fclose(file);
+      {
+        std::string extents;
+        for (const std::size_t n : file.extents((*m)[2]))
+          extents += (extents.empty() ? "" : " ") + std::to_string(n);
+        EXPECT_EQ((*m)[1], extents) << (*m)[2];
+      }
     EXPECT_EQ(n_items, expected.size() + 2 * 2); // and topology and geometry of both stages
     EXPECT_NE(xdmf.find("<Time Value=\"0.1\"/>"), std::string::npos);
     EXPECT_NE(xdmf.find("/cells/stress<"), std::string::npos);

@@ -2,22 +2,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
-#include <unistd.h>
-
-#include <gtest/gtest.h>
 
 #include "continuum/history.h"
 #include "continuum/snapshot_fields.h"
+#include "discrete/files/text_file.h"
+#include "tests/coupling/synthetic_samples.h"
+#include "tests/files.h"
 
 namespace diptych::coupling::files
 {
@@ -26,19 +18,10 @@ namespace diptych::coupling::files
   using continuum::HistoryRow;
   using continuum::Snapshot;
 
-  struct Folder
-  {
-    std::string path;
-
-    explicit Folder(const std::string &name = "")
-        : path((fs::path(testing::TempDir()) / ("diptych_files" + name + std::to_string(::getpid()))).string())
-    {
-      fs::remove_all(path);
-      fs::create_directory(path);
-    }
-    ~Folder() { fs::remove_all(path); }
-    std::string operator/(const std::string &name) const { return path + "/" + name; }
-  };
+  using diptych::tests::expect_refused;
+  using diptych::tests::Folder;
+  using discrete::read_text;
+  using discrete::write_text;
 
   // No two values are alike, so that no two fields can be mistaken for each other.
   struct Numbers
@@ -72,13 +55,10 @@ namespace diptych::coupling::files
         if (cosserat)
           s.rotation.push_back(next());
       }
-    for (unsigned int k = 0; k < n * n; ++k)
-      {
-        const unsigned int a = 2 * (k % n) + 2 * side * (k / n), b = a + side, c = b + side;
-        s.cells.push_back({a, a + 2, c + 2, c, a + 1, b + 2, c + 1, b, b + 1});
-        s.cell_state.emplace_back();
-        visit_cell_fields(s.cell_state.back(), [&](const char *, auto &value, const char *, const char *) { next(value); });
-      }
+    s.cells = synthetic::nine_node_cells(n, n);
+    s.cell_state.resize(n * n);
+    for (CellState &state : s.cell_state)
+      visit_cell_fields(state, [&](const char *, auto &value, const char *, const char *) { next(value); });
     return s;
   }
 
@@ -145,29 +125,4 @@ namespace diptych::coupling::files
       expect_same(states[c], y.cell_state[c]);
   }
 
-  inline std::string contents_of(const std::string &path)
-  {
-    std::ifstream in(path, std::ios::binary);
-    EXPECT_TRUE(in) << path;
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
-
-  inline void put(const std::string &path, const std::string &contents)
-  {
-    std::ofstream(path, std::ios::binary | std::ios::trunc) << contents;
-  }
-
-  template <class Action> void expect_error_naming(const std::vector<std::string> &names, Action &&action)
-  {
-    try
-      {
-        action();
-        FAIL() << "no error";
-      }
-    catch (const std::invalid_argument &error)
-      {
-        for (const std::string &name : names)
-          EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << "no '" << name << "' in: " << error.what();
-      }
-  }
 } // namespace diptych::coupling::files

@@ -4,59 +4,43 @@
 
 #include <chrono>
 #include <csignal>
-#include <filesystem>
 #include <fstream>
 #include <thread>
 
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "coupling/processes/child_process.h"
 #include "discrete/files/text_file.h"
+#include "tests/files.h"
 
 namespace
 {
   namespace fs = std::filesystem;
-  using diptych::coupling::FolderLock;
+  using namespace diptych::coupling;
+  using namespace diptych::discrete;
+  using namespace diptych::tests;
 
   constexpr char lock_name[] = ".diptych.lock";
 
   struct Lock : testing::Test
   {
-    fs::path top = fs::path(testing::TempDir()) / ("folder_lock" + std::to_string(getpid()));
-    fs::path out = top / "results" / "one";
+    const Folder folder;
+    fs::path     top = folder.path, out = top / "results" / "one";
 
-    void     SetUp() override { fs::create_directories(top); }
-    void     TearDown() override { fs::remove_all(top); }
     fs::path file() const { return out / lock_name; }
 
     // The message that another process gets when it asks for the folder; empty if it got it.
     std::string asked_by_another() const
     {
-      int ends[2];
-      if (pipe(ends) != 0)
-        return "no pipe";
       const pid_t child = fork();
       if (child == 0)
         {
-          std::string told;
-          try
-            {
-              const FolderLock lock(out);
-            }
-          catch (const std::runtime_error &error)
-            {
-              told = error.what();
-            }
-          _exit(write(ends[1], told.data(), told.size()) == ssize_t(told.size()) ? 0 : 1);
+          write_text(top / "told", refusal<std::runtime_error>([&] { FolderLock{out}; }));
+          _exit(0);
         }
-      close(ends[1]);
-      std::string told(4096, '\0');
-      told.resize(std::size_t(std::max<ssize_t>(0, read(ends[0], told.data(), told.size()))));
-      close(ends[0]);
       waitpid(child, nullptr, 0);
-      return told;
+      return read_text(top / "told");
     }
   };
 
@@ -64,8 +48,7 @@ namespace
   {
     const FolderLock  lock(out);
     const std::string told = asked_by_another();
-    EXPECT_NE(told.find(out.string()), std::string::npos) << told;
-    EXPECT_NE(told.find("process " + std::to_string(getpid())), std::string::npos) << told;
+    expect_words(told, {out.string(), "process " + std::to_string(getpid())});
   }
 
   TEST_F(Lock, IsGivenBack)
@@ -95,10 +78,7 @@ namespace
     fs::create_directories(out);
     std::ofstream(file()) << "process 1 on nowhere since yesterday";
     const FolderLock lock(out);
-    std::ifstream    in(file());
-    std::string      held;
-    std::getline(in, held);
-    EXPECT_NE(held.find(std::to_string(getpid())), std::string::npos) << held;
+    expect_words(read_text(file()), {std::to_string(getpid())});
   }
 
   // A worker of a killed study still writes its checkpoint.
@@ -112,7 +92,7 @@ namespace
         const fs::path    begun   = top / "begun";
         const std::string program = "trap '' TERM; touch '" + begun.string() + "'; sleep 1; touch '" + end.string() +
                                     "'; exec sleep 0.2";
-        std::thread([&] { (void)diptych::coupling::run_program({"/bin/sh", "-c", program}); }).detach();
+        std::thread([&] { (void)run_program({"/bin/sh", "-c", program}); }).detach();
         while (!fs::exists(begun))
           std::this_thread::sleep_for(std::chrono::milliseconds(5));
         kill(getpid(), SIGKILL);
@@ -123,7 +103,7 @@ namespace
     const FolderLock  lock(out);
     const std::string told = testing::internal::GetCapturedStderr();
     EXPECT_TRUE(fs::exists(end)) << "the program still wrote";
-    EXPECT_NE(told.find("workers of process " + std::to_string(killed)), std::string::npos) << told;
+    expect_words(told, {"workers of process " + std::to_string(killed)});
     waitpid(killed, nullptr, 0);
   }
 
@@ -135,7 +115,7 @@ namespace
     lock.set_aside(aside);
     EXPECT_TRUE(fs::exists(aside / "rows.csv"));
     EXPECT_FALSE(fs::exists(aside / lock_name));
-    EXPECT_TRUE(diptych::coupling::is_empty_folder(out));
+    EXPECT_TRUE(is_empty_folder(out));
     EXPECT_NE(asked_by_another(), "");
   }
 
@@ -144,7 +124,7 @@ namespace
     {
       const FolderLock lock(out);
       EXPECT_TRUE(fs::is_directory(out));
-      EXPECT_TRUE(diptych::coupling::is_empty_folder(out));
+      EXPECT_TRUE(is_empty_folder(out));
     }
     EXPECT_FALSE(fs::exists(out));
     EXPECT_TRUE(fs::exists(top));
@@ -153,22 +133,14 @@ namespace
   // A disk that is not mounted just now leaves such a link.
   TEST_F(Lock, ABrokenLinkStays)
   {
-    std::filesystem::create_symlink("nowhere/folder", top / "results");
+    fs::create_symlink("nowhere/folder", top / "results");
     EXPECT_THROW(FolderLock{out}, std::invalid_argument);
-    EXPECT_TRUE(std::filesystem::is_symlink(top / "results"));
+    EXPECT_TRUE(fs::is_symlink(top / "results"));
   }
 
   TEST_F(Lock, AFileInThePlaceOfTheFolderIsNamed)
   {
     std::ofstream(top / "results") << "a file";
-    try
-      {
-        const FolderLock lock(out);
-        FAIL() << "it was taken";
-      }
-    catch (const std::invalid_argument &error)
-      {
-        EXPECT_NE(std::string(error.what()).find((top / "results").string()), std::string::npos) << error.what();
-      }
+    expect_refused({(top / "results").string()}, [&] { FolderLock{out}; });
   }
 } // namespace

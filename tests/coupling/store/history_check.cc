@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <functional>
 
-#include <gtest/gtest.h>
-
 #include "continuum/history.h"
 #include "tests/coupling/comparison/example_results.h"
 #include "tests/coupling/store/examples.h"
@@ -36,9 +34,7 @@ namespace
   {
     Rows rows = forty_rows();
     change(rows);
-    files::expect_error_naming({"mine.csv", told}, [&] {
-      check_history(rows, three_snapshots(), {"mine.csv", finished, false});
-    });
+    files::expect_refused({"mine.csv", told}, [&] { check_history(rows, three_snapshots(), {"mine.csv", finished, false}); });
   }
 
   TEST(HistoryCheck, ATableThatLacksWhatAFinishedRunWroteIsRefused)

@@ -3,13 +3,12 @@
 #include "coupling/scene/scene.h"
 #include "coupling/store/provenance.h"
 
-#include <filesystem>
 #include <fstream>
 
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <unistd.h>
+#include "discrete/files/text_file.h"
+#include "tests/files.h"
 
 namespace
 {
@@ -19,26 +18,18 @@ namespace
 
   struct Provenance : testing::Test
   {
-    fs::path folder = fs::path(testing::TempDir()) / ("provenance" + std::to_string(getpid()));
+    const diptych::tests::Folder scratch;
+    const fs::path               folder = scratch.path;
 
-    void SetUp() override { fs::create_directories(folder); }
-    void TearDown() override { fs::remove_all(folder); }
-
-    void expect_refused(const std::string &text)
+    void expect_record_refused(const std::string &text)
     {
-      std::ofstream(folder / "provenance.json") << text;
-      try
-        {
-          (void)read_run_facts(folder);
-          (void)recorded_scene(folder);
-          ADD_FAILURE() << "it was taken: " << text.substr(0, 100);
-        }
-      catch (const std::invalid_argument &error)
-        {
-          const std::string told = error.what();
-          EXPECT_NE(told.find((folder / "provenance.json").string()), std::string::npos) << told;
-          EXPECT_EQ(told.find("[json.exception"), std::string::npos) << told;
-        }
+      diptych::discrete::write_text(folder / "provenance.json", text);
+      const std::string told = diptych::tests::refusal([&] {
+        (void)read_run_facts(folder);
+        (void)recorded_scene(folder);
+      });
+      diptych::tests::expect_words(told, {(folder / "provenance.json").string()});
+      EXPECT_EQ(told.find("[json.exception"), std::string::npos) << told;
     }
   };
 
@@ -57,8 +48,8 @@ namespace
   {
     for (const char *text :
          {"", "{", "[]", "null", "1", "NaN", "{}", R"({"a": [1, 2]})", R"({"program": "another"})", R"({"program": "diptych"})"})
-      expect_refused(text);
-    expect_refused(std::string(60000, '['));
+      expect_record_refused(text);
+    expect_record_refused(std::string(60000, '['));
     fs::remove(folder / "provenance.json");
     const json whole = recorded(folder);
     for (const auto &[key, value] : whole.items())
@@ -66,16 +57,16 @@ namespace
         {
           json changed = whole;
           changed.erase(key);
-          expect_refused(changed.dump());
+          expect_record_refused(changed.dump());
           changed[key] = 7;
-          expect_refused(changed.dump());
+          expect_record_refused(changed.dump());
         }
     for (const char *text : {R"({"discrete": {"finished": "yes"}})", R"({"discrete": {"step": []}})", R"({"discrete": []})",
                              R"({"continuum": 3})", R"({"phases": [3, {"name": 7}]})", R"({"scene": {}})", R"({"seeds": ["a"]})"})
       {
         json changed = whole;
         changed.update(json::parse(text));
-        expect_refused(changed.dump());
+        expect_record_refused(changed.dump());
       }
   }
 

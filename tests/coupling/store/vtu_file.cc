@@ -5,8 +5,6 @@
 #include <map>
 #include <regex>
 
-#include <gtest/gtest.h>
-
 #include "coupling/store/continuum_snapshot_file.h"
 #include "tests/coupling/store/examples.h"
 
@@ -82,7 +80,7 @@ namespace
           of_cells.values[0] = std::nan("");
           grid.fields        = {of_nodes, of_cells};
           write_vtu(folder / "a.vtu", grid);
-          const std::string vtu    = contents_of(folder / "a.vtu");
+          const std::string vtu    = read_text(folder / "a.vtu");
           const auto        arrays = arrays_of(vtu);
           EXPECT_NE(vtu.find("byte_order=\"LittleEndian\" header_type=\"UInt64\""), std::string::npos);
           EXPECT_NE(vtu.find("NumberOfPoints=\"" + std::to_string(n) + "\" NumberOfCells=\"2\""), std::string::npos);
@@ -104,7 +102,7 @@ namespace
     ContinuumSnapshotFile file(folder / "continuum");
     const Snapshot        s = example(2, 0.1, true);
     file.add(s);
-    const auto nine = arrays_of(contents_of(folder / "continuum/stage_0000.vtu"));
+    const auto nine = arrays_of(read_text(folder / "continuum/stage_0000.vtu"));
     EXPECT_EQ(nine.at("offsets").type, "Int32");
     EXPECT_EQ(nine.at("offsets").as<std::int32_t>(), (std::vector<std::int32_t>{9, 18, 27, 36}));
     EXPECT_EQ(nine.at("types").type, "UInt8");
@@ -118,7 +116,7 @@ namespace
     EXPECT_EQ(nine.at("couple_stress").as<double>()[2], 0);
 
     write_vtu(folder / "four.vtu", {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {0, 1, 2, 3}, VtkCell::quadrilateral, {}});
-    const auto four = arrays_of(contents_of(folder / "four.vtu"));
+    const auto four = arrays_of(read_text(folder / "four.vtu"));
     EXPECT_EQ(four.at("offsets").as<std::int32_t>(), (std::vector<std::int32_t>{4}));
     EXPECT_EQ(four.at("types").as<std::uint8_t>(), std::vector<std::uint8_t>(1, 9));
   }
