@@ -6,7 +6,7 @@ import os
 import bases
 import damage
 from bases import BOTH, LONG, LONG_NODES, QUICK, TINY
-from judge import OWN_STATE
+from judge import OWN_STATE, digest
 
 CHECKPOINTS = (  # base, the same run without interruption, damaged files, a command that reads them
     ("stopped_grains", "long_grains", ("checkpoint.h5", "checkpoint.h5", "discrete.h5", "discrete.csv"), ["discrete", QUICK, *LONG, "--resume"]),
@@ -39,7 +39,7 @@ def results(case):
     base, endings, commands = case.dice.choices(RESULTS, (10, 4, 1, 1, 1))[0]
     out, command = case.copy(base), case.dice.choice(commands)
     words = ["out" if word == "OUT" else word for word in command] + ["--quiet"]
-    name = case.dice.choice(sorted(path for path in files_of(out) if path.endswith(endings) and os.path.basename(path) not in OWN_STATE))
+    name = case.dice.choice(sorted(path for path in digest(out) if path.endswith(endings) and os.path.basename(path) not in OWN_STATE))
     case.damage(os.path.join(out, name), (damage.flip_bit,) * 12 + damage.BYTES)
     to = "theirs" if "theirs" in words else "out"
     outcome = case.run(*words, output=case.path(to), patience=60, names=(os.path.basename(name), "out"), codes=(0, 2))
@@ -47,10 +47,6 @@ def results(case):
         whole = bases.whole(case.keep, f"{base}_{commands.index(command)}", lambda _: words, base, to)
         is_untouched = outcome.before.get("out/" + name) == outcome.after.get("out/" + name)
         case.expect_same(whole, case.path(to), without=(name,) if is_untouched else ())
-
-
-def files_of(folder):
-    return [os.path.relpath(os.path.join(root, name), folder) for root, _, names in os.walk(folder) for name in names]
 
 
 KINDS = {"checkpoints": checkpoints, "results": results}

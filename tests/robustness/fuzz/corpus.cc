@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <iostream>
-#include <iterator>
 #include <vector>
 
+#include "discrete/files/text_file.h"
 #include "fuzz.h"
 
 int main(const int argc, char **argv)
@@ -17,8 +17,7 @@ int main(const int argc, char **argv)
   for (const std::string &file : files)
     {
       std::cout << file << std::endl; // the last one named is the one that a finding is about
-      std::ifstream     in(file, std::ios::binary);
-      const std::string bytes(std::istreambuf_iterator<char>(in), {});
+      const std::string bytes = diptych::discrete::read_text(file);
       LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t *>(bytes.data()), bytes.size());
     }
   std::cout << files.size() << " inputs" << std::endl;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "discrete/files/hdf5_library.h"
+#include "discrete/files/text_file.h"
 #include "discrete/problem_files/fclib.h"
 #include "discrete/solvers/solver.h"
 #include "fuzz.h"
@@ -13,16 +14,11 @@ namespace
 {
   using namespace diptych;
 
-  std::string content_of(const char *path)
-  {
-    std::ifstream in(path, std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(in), {});
-  }
-
   // 100 grains, or twelve: three times as many inputs in the same time, and more of the bytes are the format's own.
   const std::string &whole_problem(const bool is_little)
   {
-    static const std::string small = content_of(DIPTYCH_SMALL_PROBLEM), little = content_of(DIPTYCH_LITTLE_PROBLEM);
+    static const std::string small  = discrete::read_text(DIPTYCH_SMALL_PROBLEM),
+                             little = discrete::read_text(DIPTYCH_LITTLE_PROBLEM);
     return is_little ? little : small;
   }
 
