@@ -63,8 +63,9 @@ namespace diptych::coupling
                                                                             : ContinuumResults(),
                     facts.phases};
     check_meshes(continuum_h5(of_continuum), results.continuum);
-    for (const std::string &checked : {folder, of_continuum}) // last: what was found wrong before says more
-      check_files(checked);
+    check_files(folder, "discrete"); // last: what was found wrong before says more
+    check_files(of_continuum, "continuum");
+    check_files(of_continuum, "continuum_coarse");
     return results;
   }
 } // namespace diptych::coupling
