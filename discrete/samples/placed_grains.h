@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "discrete/files/out_of_memory.h"
+#include "discrete/files/wrong_keys.h"
 #include "discrete/samples/sample_file.h"
 #include "discrete/samples/sample_options.h"
 
@@ -28,6 +29,10 @@ namespace diptych::discrete
     try
       {
         return read(file);
+      }
+    catch (const WrongKeys &)
+      {
+        throw;
       }
     catch (const std::exception &error)
       {
