@@ -25,7 +25,6 @@ namespace diptych::discrete
     return "unknown";
   }
 
-  // Value with this name, or nothing if the enum has no such name.
   template <class E> std::optional<E> value_of(const std::string &name)
   {
     for (const auto &[choice, its_name] : choices(E()))

@@ -10,7 +10,7 @@
 
 namespace diptych::continuum
 {
-  // gmsh is a global: it lives as long as one call of ours, and is closed on every way out. Without messages.
+  // gmsh is a global: a session lasts for one call of ours, prints no messages and closes on every way out.
   struct GmshSession
   {
     GmshSession();
@@ -19,8 +19,7 @@ namespace diptych::continuum
     GmshSession &operator=(const GmshSession &) = delete;
   };
 
-  // Do `action` and put `what: ` in front of the message of every error, which becomes an `Error`. gmsh throws ints, strings or
-  // exceptions, depending on the place.
+  // Runs `action`. An error of any type (gmsh throws ints, strings or exceptions) becomes an `Error` with `what: ` before it.
   template <class Error, class Action> auto guarded(const std::string &what, Action &&action)
   {
     try

@@ -23,7 +23,6 @@ namespace diptych::continuum
 
   constexpr std::array<BoundaryId, 5> all_boundary_ids{lower_platen, upper_platen, left_side, right_side, free_edge};
 
-  // Name of the physical line of an id.
   const char *name_of(BoundaryId id);
 
   struct QuadMesh
@@ -65,9 +64,8 @@ namespace diptych::continuum
     bool         sides_match   = false; // both sides carry vertices at equal heights (within 1e-9 of the mesh's height)
   };
 
-  // Counts and measures of a sound mesh.
   MeshSummary summarise(const QuadMesh &mesh);
 
-  // Least sine of a corner over all cells; not positive where one is clockwise, folded or a triangle in disguise.
+  // Least sine of a corner over all cells; not positive if a cell is clockwise, folded or flat.
   double worst_corner(const QuadMesh &mesh);
 } // namespace diptych::continuum

@@ -78,9 +78,9 @@ namespace diptych::continuum
     [[nodiscard]] Status prepare();
     void                 resume(const Checkpoint &checkpoint);
 
-    // Loads up to stage 1, 2, ... number of stages. A step that does not converge is halved. If that does not help, the panel
-    // keeps its last accepted state and the report gives the reason. A stop on request between two Newton iterations restores
-    // the state before that step. A later call continues with the same bits as an uninterrupted panel.
+    // Loads up to stage 1, 2, ... number of stages. A step that does not converge is halved; if that does not help, the panel
+    // keeps its last accepted state and the report gives the reason. A later call continues with the same bits, also after a
+    // stop.
     [[nodiscard]] Status advance_to(int stage);
 
     // State of the last accepted step. Complete only on the first process.

@@ -13,7 +13,6 @@ namespace diptych::coupling
 {
   namespace
   {
-    // Sums over the carriers of their quantities times N_a.
     class NodalLoads
     {
     public:
@@ -23,7 +22,6 @@ namespace diptych::coupling
             unknowns(unknowns)
       {}
 
-      // Adds N_a(x) times share times the row to the columns from `first` on.
       template <class Row>
       void add(const unsigned int     triangle,
                const Eigen::Vector2d &x,

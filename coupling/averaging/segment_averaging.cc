@@ -94,7 +94,6 @@ namespace diptych::coupling
         mapped.triangle_moment.assign(ground.mesh.triangle.size(), Eigen::Matrix2d::Zero());
       }
 
-      // moment: -force (x) (to - from).
       void add(const Eigen::Matrix2d                    &moment,
                const Eigen::Vector2d                    &from,
                const Eigen::Vector2d                    &to,
@@ -129,7 +128,6 @@ namespace diptych::coupling
       bool                         has_left      = false; // a half branch lay beyond the collar
     };
 
-    // Adds the half branches to the sums.
     void cut_halves(const TargetCells &target, const Carriers &carriers, CellSums &sums)
     {
       const bool                         uniform = carriers.uniform.cols() > 0, tapered = carriers.tapered.cols() > 0;

@@ -45,7 +45,6 @@ namespace diptych::coupling
       return data;
     }
 
-    // Empty if band b of a fit is a band, else the reason why it is not.
     std::string objection(const BandFit &fit, const std::size_t b, const BandFitOptions &sample, const double minimum_jump)
     {
       const BandShape &shape = fit.shape[b];
@@ -63,7 +62,6 @@ namespace diptych::coupling
       return "";
     }
 
-    // The objection to the first transition that is not a band.
     std::string objection(const BandFit &fit, const BandFitOptions &sample, const double minimum_jump)
     {
       std::string text;
@@ -160,7 +158,6 @@ namespace diptych::coupling
       return fit;
     }
 
-    // Converts lengths of the intervals from mean diameters.
     Band reported_band(const BandIntervals &numbers, const double mean_diameter)
     {
       Band band;
@@ -199,7 +196,6 @@ namespace diptych::coupling
       return fit;
     }
 
-    // The best fits with no, one and two bands, up to the allowed number.
     std::vector<BandFit> fits_of(const BandData &data, const BandFitOptions &sample, const BandOptions &options)
     {
       const BandData       blocks = block_means(data, std::min(4., std::min(sample.width, sample.height) / 10));

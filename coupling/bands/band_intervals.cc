@@ -70,9 +70,8 @@ namespace diptych::coupling
       return deviations;
     }
 
-    // A refit with fixed weights moves too little. For a misfit r beyond the threshold k, Huber's force psi is k r/|r|. Its
-    // derivative is zero along r and equals the weight k/|r| across it, half the weight on average. The refit counts the whole
-    // weight.
+    // A refit with fixed weights moves too little. Beyond the threshold k, the derivative of Huber's force k r/|r| is zero
+    // along r and the weight k/|r| across it: half the weight on average. The refit counts the whole weight.
     double fixed_weight_factor(const std::vector<double> &plain, const std::vector<double> &huber)
     {
       double whole = 0, moving = 0;

@@ -20,6 +20,5 @@ namespace diptych::coupling
   // interrupted_grains(), with the name of a damaged file.
   void check_earlier_grains(const std::string &directory, const std::string &sample);
 
-  // Throws std::invalid_argument if `file` has fewer stages than a checkpoint needs.
   void check_stage_count(const std::string &file, std::size_t found, std::size_t needed);
 } // namespace diptych::coupling

@@ -49,7 +49,7 @@ namespace diptych::coupling
                            side_names[int(high)] + " one");
     }
 
-    // A wall that the sample is not between lies somewhere else, or is turned.
+    // A wall with grains on both sides is in the wrong place or faces the wrong way.
     void refuse_walls_across(const ArrivedFrame &f)
     {
       for (const int side : {0, 1, 2, 3})
@@ -209,8 +209,7 @@ namespace diptych::coupling
                 largest             = std::max(largest, f.radius[i] - (side % 2 == 0 ? height : -height));
               }
         }
-      // Each grain searches those that are not larger. One large grain among many small ones then does not make all pairs
-      // neighbours.
+      // Each grain searches those that are not larger, so that one large grain does not make all pairs neighbours.
       const PointBins bins(f.position, 2 * mean);
       std::size_t     n_overlaps = 0;
       for (unsigned int i = 0; i < f.position.size(); ++i)

@@ -6,7 +6,6 @@
 
 namespace diptych::coupling
 {
-  // Adds a note to arrival.remarks, unless it is there.
   void remark_once(Arrival &arrival, const std::string &text);
 
   // Fills contacts, status and walls of `to`; its grains are already there, in the order of arrival.id. Repeated pairs are

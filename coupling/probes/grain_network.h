@@ -12,7 +12,6 @@ namespace diptych::coupling
 {
   struct GrainNetwork
   {
-    // n_grains entries each.
     std::vector<Eigen::Vector2d> position; // [length]
     std::vector<double>          radius;   // [length]
     std::vector<Eigen::Matrix2d> moment;   // internal moments, positive in compression [pressure * length^2]

@@ -98,7 +98,7 @@ namespace diptych::coupling
         good = true;
       }
     catch (const std::invalid_argument &)
-      {} // `good` says it
+      {} // `good` stays false
   }
 
   void SetKey::operator()(const char *key, continuum::MeshOption &value, const char *, const char *)

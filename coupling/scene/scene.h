@@ -14,7 +14,6 @@
 
 namespace diptych::coupling
 {
-  // Loading of the sample, the same in both panels.
   struct LoadingOptions
   {
     double pressure                 = 1;

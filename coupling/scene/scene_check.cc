@@ -83,7 +83,6 @@ namespace diptych::coupling
         check_windows(scene, last);
     }
 
-    // Value by section/key.
     std::map<std::string, std::string> values_of(const Scene &scene)
     {
       std::map<std::string, std::string> values;
@@ -114,7 +113,6 @@ namespace diptych::coupling
       return !(at > 0 && joins(at - 1)) && !joins(at + length);
     }
 
-    // Position at which a message names a key; npos if it does not.
     std::size_t place_of(const std::string &key, const std::string &message)
     {
       for (std::size_t at = message.find(key); at != std::string::npos; at = message.find(key, at + 1))
@@ -231,7 +229,7 @@ namespace diptych::coupling
       return keys;
     }
 
-    // Frames of another code: nothing is prepared and nothing computed on the left.
+    // Keys without effect for frames of another code, because the discrete panel computes nothing.
     void add_unread_of_imported(const Scene &scene, std::vector<Unused> &keys)
     {
       if (scene.discrete.method.method != discrete::Method::imported)

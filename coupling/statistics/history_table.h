@@ -37,7 +37,6 @@ namespace diptych::coupling
   // values continue beyond the ends. So rows at uneven distances are weighted by the range that they represent.
   double mean_over_progress(const HistoryTable &table, const std::string &name, double from, double to);
 
-  // The same mean over any ascending column.
   struct ColumnPair
   {
     std::string abscissa, ordinate;

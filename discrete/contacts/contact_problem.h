@@ -26,12 +26,11 @@ namespace diptych::discrete
   {
     // The velocities depend on these members. They fill one cache line, because they are read separately from the rest.
     double nx, ny;
-    int    i = 0, j = 0; // i is a grain
-    int    image = 0;    // j enters as its image this many cell widths away, which moves with the width
-    int    cell  = -1;   // body whose x is d width/dt, if the image moves; -1 otherwise
-    double ki, kj;       // r^2/I of each side, 2/m for a disc, 0 for a wall [1/mass]
-    double jx, jy;       // inverse mass of body j along x and y; they differ only for walls with one free component [1/mass]
-    // Terms of the contact law.
+    int    i = 0, j = 0;    // i is a grain
+    int    image = 0;       // j enters as its image this many cell widths away, which moves with the width
+    int    cell  = -1;      // body whose x is d width/dt, if the image moves; -1 otherwise
+    double ki, kj;          // r^2/I of each side, 2/m for a disc, 0 for a wall [1/mass]
+    double jx, jy;          // inverse mass of body j along x and y; they differ only for walls with one free component [1/mass]
     double normal_term;     // c_n of  0 <= u_n' + c_n  _|_  r_n >= 0   [length/time]
     double tangential_term; // c_t = e_t u_t of the friction law        [length/time]
     double friction;        // mu

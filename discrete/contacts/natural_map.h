@@ -21,7 +21,6 @@ namespace diptych::discrete
   // recomputed from r. Returns 0 if both r and P(r) vanish and infinity if only r vanishes.
   double natural_map_residual(const ContactProblem &problem, const std::vector<Impulse> &impulses);
 
-  // The same for given velocities v = v_free + M^-1 H r.
   double natural_map_residual(const ContactProblem            &problem,
                               const std::vector<BodyVelocity> &v,
                               const std::vector<Impulse>      &impulses);

@@ -14,7 +14,6 @@ namespace diptych::discrete
       hid_t       from, to, links; // `links`: how names of `from` are followed
       std::string from_path, to_path;
 
-      // Any type, texts of variable length too.
       void attributes(const std::string &object) const
       {
         const Id source(H5Oopen(from, object.c_str(), links), H5Oclose),
@@ -84,7 +83,7 @@ namespace diptych::discrete
     else if (info.type == H5O_TYPE_DATASET)
       copy.array(Id(from.opened(name), H5Dclose), name);
     else
-      return; // a type by itself: nothing that a reader asks for
+      return; // a type by itself holds no values
     copy.attributes(name);
   }
 } // namespace diptych::discrete

@@ -23,7 +23,6 @@ namespace diptych::discrete
     // Appends to the first n stages of an existing file. Throws std::invalid_argument if it has fewer.
     StagedFile(std::string path_without_ending, std::size_t n);
 
-    // `write` writes the stage into the given group.
     void add(const std::function<void(Hdf5Writer &, const std::string &group)> &write);
 
     std::size_t size() const { return n_stages; }

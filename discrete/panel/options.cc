@@ -12,7 +12,6 @@ namespace diptych::discrete
 {
   namespace
   {
-    // Collects the keys of one section that have no effect under a condition.
     struct Unused
     {
       std::string             section;

@@ -33,7 +33,6 @@ namespace diptych::discrete
     long         interval   = 1; // steps between two rows of the history
   };
 
-  // Optional callbacks.
   struct Hooks
   {
     std::function<bool()> stop_requested; // called before every step, also during the preparation

@@ -31,10 +31,8 @@ namespace diptych::discrete
     std::vector<XdmfCollection> collections = {{"grains", {}}, {"contacts", {}}, {"window", {}}};
   };
 
-  // Writes a whole file at once.
   void write_snapshots(const std::string &path_without_ending, const std::vector<Snapshot> &snapshots);
 
-  // Restores window forces and all that the comparison needs. Throws std::invalid_argument with file and dataset if a dataset is
-  // missing, damaged, not finite, out of range or of the wrong length.
+  // Throws std::invalid_argument with file and dataset if a dataset is missing, damaged, not finite, out of range or too short.
   std::vector<Snapshot> read_snapshots(const std::string &h5_path);
 } // namespace diptych::discrete

@@ -38,8 +38,7 @@ namespace diptych::discrete
   };
 
   // n >= 1 radii, ascending: the quantiles (k + 1/2)/n of the distribution by number. All seeds of a sample therefore have the
-  // same radii, and only the places are random. Throws std::invalid_argument with parameter, value and range if the distribution
-  // is not valid (see validate).
+  // same radii at random places. Throws as validate().
   std::vector<double> radius_quantiles(const RadiusDistribution &distribution, int n, RadiusScale scale = RadiusScale::as_given);
 
   // Throws std::invalid_argument with parameter, value and range unless 0 < min <= max, or the table obeys the comments above.

@@ -23,7 +23,6 @@ namespace diptych::discrete
     std::vector<PairImpulse> impulses;         // closed contacts, ascending in (i, j); sign as in State; may be empty
   };
 
-  // Grains and the place of each grain in its file.
   struct GrainFile
   {
     std::string                path;
@@ -49,8 +48,7 @@ namespace diptych::discrete
   // mass/length^2 per unit thickness). Throws std::invalid_argument with file, line, column, value and range (see read_csv).
   GrainFile read_grains_csv(const std::string &path, double density, const CheckStop &check_stop = {});
 
-  // Writes such a file with all columns. The numbers read back with the same bits; rotations and masses are lost. Throws
-  // std::runtime_error if the file cannot be written.
+  // Writes such a file with all columns. The numbers read back with the same bits; rotations and masses are lost.
   void write_grains_csv(const std::string &path, const Grains &grains);
 
   // Grains of one stage (default: the last) of a file of write_snapshots. If grains/fixed is absent, all grains are free. Throws
@@ -63,7 +61,6 @@ namespace diptych::discrete
   // radius. Fixed grains may overlap each other and straddle walls, as in rough bottoms, because neither gives way.
   void check_grains(const GrainFile &file, const SampleBox &box, double allowed_overlap);
 
-  // CSV file with the columns `time` (ascending) and `column`; other columns are ignored. Throws std::invalid_argument with file,
-  // line, column, value and range.
+  // CSV file with the columns `time` (ascending) and `column`; others are ignored. Throws std::invalid_argument with the place.
   TimeTable read_time_table(const std::string &path, const std::string &column);
 } // namespace diptych::discrete

@@ -50,7 +50,6 @@ namespace diptych::discrete
     }
   } // namespace
 
-  // True for two discs, or a disc and a body with prescribed motion.
   bool BatchedContacts::fits_a_batch(const ContactRow &c) const
   {
     const double wi = problem_.free_velocity[c.i].inverse_mass, wj = problem_.free_velocity[c.j].inverse_mass;

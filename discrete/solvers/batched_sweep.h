@@ -50,7 +50,6 @@ namespace diptych::discrete
   private:
     static constexpr int idle_every = 5;
 
-    // Unit of work of one thread.
     struct Part
     {
       std::vector<ContactBatch>          batches;

@@ -12,7 +12,6 @@ namespace diptych::discrete
 {
   namespace
   {
-    // m (v^2 + s^2/2)/2, since I omega^2 = m s^2/2.
     double kinetic(const double mass, const BodyVelocity &v)
     {
       return 0.5 * mass * (v.x * v.x + v.y * v.y + 0.5 * v.surface * v.surface);
