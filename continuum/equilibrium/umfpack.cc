@@ -12,8 +12,8 @@ namespace diptych::continuum
 {
   namespace
   {
-    // OpenBLAS would distribute the small dense blocks over all cores: a third more CPU time (33000 unknowns, two cores)
-    // without gain, and bits that depend on the number of threads. Other BLAS libraries neither have nor need this function.
+    // OpenBLAS would distribute the small dense blocks over all cores. That costs a third more CPU time (33000 unknowns, two
+    // cores), and the bits depend on the number of threads. Other BLAS libraries neither have nor need this function.
     void use_one_blas_thread()
     {
       if (void *function = dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))

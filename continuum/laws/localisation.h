@@ -15,8 +15,8 @@ namespace diptych::continuum
   };
 
   // The least determinant over all directions n in the plane. Both tangents have the same unit; `tangent` need not be
-  // symmetric, and `elastic` is isotropic. Only the block xx, yy, xy enters, also for a Cosserat law: couple stress and skew
-  // stress keep that problem elliptic, and the classical block is the law that they regularise. A coaxial state has two minima,
+  // symmetric, and `elastic` is isotropic. Only the block xx, yy, xy enters, also for a Cosserat law. Its couple stress and
+  // skew stress keep the problem elliptic; the classical block is the law that they regularise. A coaxial state has two minima,
   // symmetric about the principal axes. If they agree within 1e-9, the function returns the larger angle. The angle is 0 if no
   // direction is distinguished, as in the elastic range. The determinant is NaN if a value of the tangent is not finite.
   Localisation localisation(const Tangent &tangent, const Tangent &elastic);

@@ -89,7 +89,7 @@ namespace diptych::continuum
 
   // Computes the in-plane shear and pressure with their derivatives. A trial shear separates the in-plane trial stresses; a
   // trial pressure lowers both, and sigma_zz by lateral/plane_bulk of that. If they are equal, sigma_zz is an outer stress, and
-  // the final in-plane stresses are equal too: final shear / trial shear = 0 is the limit.
+  // the final ones are equal too. The limit of final shear / trial shear is then 0.
   ConeReturn MohrCoulomb::plane_part(const Trial &trial, const PrincipalReturn &principal) const
   {
     const Places    p = places(trial.shear, trial.pressure, trial.state.stress_zz);

@@ -44,9 +44,9 @@ namespace diptych::continuum
       }
   }
 
-  // Mesh of gmsh's open model, not yet checked. Points that carry nothing (centres of arcs) and physical lines of other
-  // names are left out. Throws std::invalid_argument for elements other than four-node quadrilaterals and two-node lines, for
-  // two lines of one name, and for vertices that are not finite or not in the plane z = 0.
+  // Mesh of gmsh's open model, not yet checked. Points that carry nothing (centres of arcs) and physical lines of other names
+  // are left out. Throws std::invalid_argument for elements other than four-node quadrilaterals and two-node lines and for two
+  // lines of one name. Vertices must be finite and in the plane z = 0.
   QuadMesh mesh_of_open_model();
 
   // True if gmsh's open model has at least one two-dimensional element, and all are four-node quadrilaterals.

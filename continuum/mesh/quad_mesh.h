@@ -10,8 +10,8 @@
 
 namespace diptych::continuum
 {
-  // Ids of the lines that bound every mesh of the continuum panel. In mesh files they are the numbers of physical lines, whose
-  // names are those of the enumerators, and "free" for free_edge, the only one that a mesh may lack.
+  // Ids of the lines that bound every mesh of the continuum panel. In mesh files they are the numbers of physical lines. The
+  // lines have the names of the enumerators; free_edge is called "free". A mesh may lack only that one.
   enum BoundaryId : unsigned int
   {
     lower_platen = 1,
@@ -47,9 +47,9 @@ namespace diptych::continuum
   };
   Turn turn_of(const std::array<Eigen::Vector2d, 4> &corners);
 
-  // Throws std::invalid_argument with fault and place for: no cell; a clockwise, folded or flat cell; overlapping cells; more
-  // than one piece (cells that share only a corner are not connected); a vertex without a cell; a line inside the mesh; an edge
-  // on two lines; a missing line (except free_edge); a boundary edge without a line.
+  // Throws std::invalid_argument with fault and place. Cells: none, clockwise, folded, flat or overlapping; more than one piece
+  // (a common corner does not connect); a vertex without a cell. Lines: inside the mesh, missing (except free_edge); an edge on
+  // two lines; a boundary edge without a line.
   void check(const QuadMesh &mesh);
 
   struct MeshSummary

@@ -16,12 +16,12 @@ namespace diptych::coupling
 
   BandNumbers band_numbers(const BandFit &fit, std::size_t band);
 
-  // Factors for the deviations of a block bootstrap over the tiles, one set per band.
-  // Block deviations are too small: blocks as small as the correlation length miss correlations between neighbours, residuals
-  // are smaller than errors, and a small number of blocks makes the variance uncertain. Simulated errors with the correlation
-  // exp(-pi r^2/L^2), L = bootstrap.block (one independent sample per square of side L), are put through the linearised fit.
-  // The factor is the 95 % quantile of |error of a number| / (deviation from the blocks of the residuals), divided by 1.96.
-  // This is the calibration of an interval by simulation (Loh 1987). No factor is below 1.
+  // Factors for the deviations of a block bootstrap over the tiles, one set per band. Block deviations are too small. Blocks as
+  // small as the correlation length miss correlations between neighbours. Residuals are smaller than errors, and a small number
+  // of blocks makes the variance uncertain. Simulated errors are put through the linearised fit. Their correlation is exp(-pi
+  // r^2/L^2) with L = bootstrap.block: one independent sample per square of side L. The factor is the 95 % quantile of |error
+  // of a number| / (deviation from the blocks of the residuals), divided by 1.96. This is the calibration of an interval by
+  // simulation (Loh 1987). No factor is below 1.
   [[nodiscard]] std::vector<BandNumbers> bootstrap_factors(const BandData         &data,
                                                            const BandFit          &fit,
                                                            const Tiles            &tiles,

@@ -57,8 +57,8 @@ namespace diptych::coupling
                                    const std::vector<StudyPoint> &points,
                                    KernelShape                    kernel = KernelShape::gauss);
 
-  // The widest range of widths (by ratio, at least a factor of two) in which s and t/s of every point stay within 5 % of their
-  // mean. The mean is over the rows in the range, and the ends of the range are widths of rows. Of equally wide ranges, the one
+  // The widest range of widths (by ratio) in which s and t/s of every point stay within 5 % of their mean; at least a factor of
+  // two. The mean is over the rows in the range, and the ends of the range are widths of rows. Of equally wide ranges, the one
   // of smallest widths is taken. A mean t/s below 0.1 counts as 0.1. Empty without points.
   std::optional<std::array<double, 2>> find_plateau(const std::vector<ResolutionRow> &rows);
 } // namespace diptych::coupling

@@ -46,8 +46,8 @@ namespace diptych::coupling
                       const std::vector<Band>            &bands,
                       const ProbeOptions                 &options);
 
-  // Uses the mean forces, since the preceding snapshot, of contacts whose branch crosses the diameter. The mean stress, -sum f
-  // (x) (branch within the circle) / area, equals the mean of the tractions over all parallel chords, so no grain is cut.
+  // Uses the mean forces, since the preceding snapshot, of contacts whose branch crosses the diameter. The mean stress is -sum
+  // f (x) (branch within the circle) / area. It equals the mean of the tractions over all parallel chords, so no grain is cut.
   // The interval of relative_l2 comes from blocks of neighbouring angles, options.block long at the rim. It is rather too
   // narrow, because nearer to the centre all diameters share contacts. The errors treat blocks along the diameter as
   // independent; in equilibrium they are not, so relative_l2 stays below independent_blocks.

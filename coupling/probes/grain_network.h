@@ -25,8 +25,8 @@ namespace diptych::coupling
   // whole periods to within half a period of the outline's middle.
   GrainNetwork grain_network(const discrete::Snapshot &snapshot);
 
-  // The line along which a contact transmits its force. It runs from the centre of grain i to that of j (or of the image of j
-  // that touches i), or to the contact point at a platen or wall.
+  // The line along which a contact transmits its force. It runs from the centre of grain i to that of j (or of its image that
+  // touches i). At a platen or wall it ends at the contact point.
   struct Branch
   {
     Eigen::Vector2d from, to; // [length]

@@ -16,7 +16,7 @@ namespace diptych::coupling
   {
     Progress *open_progress = nullptr; // the one with a phase under way
 
-    // "40 %, 12 s elapsed, 18 s remaining"; at the first per cent and at the end nothing is said of the time that remains.
+    // "40 %, 12 s elapsed, 18 s remaining"; without the last part at the first per cent and at the end.
     std::string state_text(const int percent, const double fraction, const double elapsed)
     {
       std::string text = std::to_string(percent) + " %, " + duration_text(elapsed) + " elapsed";

@@ -7,8 +7,8 @@
 
 namespace diptych::coupling
 {
-  // On a terminal one line that is rewritten (bar, per cent, time elapsed and remaining); in a log one plain line per tenth of a
-  // phase. Writes to standard error, so that standard output stays clean.
+  // On a terminal, rewrites one line (bar, per cent, time elapsed and remaining). In a log, writes one plain line per tenth of
+  // a phase. Writes to standard error, so that standard output stays clean.
   class Progress
   {
   public:

@@ -43,8 +43,8 @@ namespace diptych::coupling
   };
   double mean_over(const HistoryTable &table, const ColumnPair &names, double from, double to);
 
-  // T/S = (mean of t) / (mean of s) over the range [from, to] of the progress, from the columns sxx, sxy, syx (if present) and
-  // syy. Unlike the mean of t/s it gives less weight to moments of small load. NaN if the history does not reach `to`.
+  // T/S = (mean of t) / (mean of s) over the range [from, to] of the progress. Columns: sxx, sxy, syx (if present) and syy.
+  // Unlike the mean of t/s it gives less weight to moments of small load. NaN if the history does not reach `to`.
   double ratio_of_means(const HistoryTable &table, double from, double to);
 
   // For each row, the mean over the preceding `width` of progress; NaN before the first full width. Needs O(rows) operations.

@@ -110,7 +110,7 @@ namespace diptych::discrete
   double sample_height(const State &state);
   double sample_width(const State &state);
 
-  // Throws std::invalid_argument in three cases: a wall whose contacts would couple their normal and tangential parts (state.h),
-  // a pressure on a wall without neighbouring walls, or a mass that is not positive.
+  // Throws std::invalid_argument for a mass that is not positive and for a pressure on a wall without neighbouring walls. Also
+  // for a wall whose contacts would couple their normal and tangential parts (state.h).
   void validate_walls(const State &state);
 } // namespace diptych::discrete

@@ -38,10 +38,10 @@ namespace diptych::discrete
     double inverse_wtt;     // 1 / (1/m_i + 1/m_j + k_i + k_j)          [mass]
   };
 
-  // Find impulses r and velocities v = v_free + M^-1 H r such that every contact obeys Signorini's condition and Coulomb's law
-  // (discrete/README.md, Method). For discs and walls the coupling W_nt between the normal and tangential part of one contact
-  // vanishes. Each contact by itself therefore has a closed solution (contact_law.h). Across the edge of a cell with free width
-  // W_nt is small but not zero.
+  // Unknowns are the impulses r; the velocities are v = v_free + M^-1 H r. Every contact obeys Signorini's condition and
+  // Coulomb's law (discrete/README.md, Method). For discs and walls the coupling W_nt between the normal and tangential part of
+  // one contact vanishes. Each contact by itself therefore has a closed solution (contact_law.h). Across the edge of a cell
+  // with free width W_nt is small but not zero.
   struct ContactProblem
   {
     std::vector<BodyVelocity> free_velocity; // grains first, then walls, then the cell if its width changes (x = d width/dt)

@@ -26,8 +26,8 @@ namespace diptych::discrete
       check_stop();
   }
 
-  // Throws std::invalid_argument if `path` exists and is not a regular file: opening a FIFO waits for its writer, and a device
-  // may have no end.
+  // Throws std::invalid_argument if `path` exists and is not a regular file. A FIFO would wait for its writer; a device may
+  // have no end.
   void require_regular_file(const std::string &path);
 
   // Reads at most `most_bytes` bytes of UTF-8 without zeros from a regular file of unknown origin; a byte order mark is left

@@ -14,9 +14,9 @@ namespace diptych::discrete
 {
   namespace
   {
-    // Sum of all grains' moments about their centres, and the norms that give the skew share. For a grain that is part of a
-    // platen, a force contributes (height above the surface of the platen) x force, consistent with the forces on the platens.
-    // Forces along a rigid platen are unknown.
+    // Sum of all grains' moments about their centres, and the norms that give the skew share. A force on a grain of a platen
+    // contributes (height above the platen's surface) x force, like the forces on the platens. Forces along a rigid platen are
+    // unknown.
     struct MomentSums
     {
       Eigen::Matrix2d total       = Eigen::Matrix2d::Zero();

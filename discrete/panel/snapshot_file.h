@@ -11,8 +11,8 @@
 
 namespace diptych::discrete
 {
-  // PATH.h5 with one group stage_NNNN per snapshot (fields: snapshot_fields.h), and PATH.xdmf for ParaView with grains, contacts
-  // and window forces as points. Adding a snapshot does not touch the earlier ones.
+  // PATH.h5 has one group stage_NNNN per snapshot (fields: snapshot_fields.h). PATH.xdmf shows grains, contacts and window
+  // forces as points in ParaView. Adding a snapshot does not touch the earlier ones.
   class SnapshotFile
   {
   public:

@@ -135,8 +135,8 @@ namespace diptych::discrete
     return true;
   }
 
-  // First fit. A batch takes, from a window of 64 waiting rows, the oldest ones that share no moving body. As far as the window
-  // allows, they also share no moving body with the previous batch, because then the sweep need not wait for its velocities.
+  // First fit. A batch takes, from a window of 64 waiting rows, the oldest ones that share no moving body. If possible they
+  // share no moving body with the previous batch either: then the sweep need not wait for its velocities.
   BatchedContacts::Part BatchedContacts::make_part(const std::vector<int> &rows)
   {
     std::vector<int> own; // immovable bodies, each with a private copy

@@ -125,8 +125,7 @@ namespace diptych::discrete
         }
     }
 
-    // The width of the cell is a body under -pressure x height, or it has a prescribed motion that works against the impulses
-    // across the edge.
+    // A free width of the cell is a body under -pressure x height. A prescribed one works against the impulses across the edge.
     void add_cell(const SolvedStep &s, StepEnergies &e)
     {
       if (!s.state.cell || !s.state.cell->moves())
