@@ -1,4 +1,4 @@
-// diptych: meshes out of gmsh's open model
+// diptych: meshes from gmsh's open model
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 

@@ -1,4 +1,4 @@
-// diptych: a mesh of quadrilaterals as plain data, and what makes one sound
+// diptych: a mesh of quadrilaterals as plain data, and its checks
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/mesh/quad_mesh.h"
 

@@ -1,4 +1,4 @@
-// diptych: a mesh of quadrilaterals as plain data, and what makes one sound
+// diptych: a mesh of quadrilaterals as plain data, and its checks
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -38,7 +38,7 @@ namespace diptych::continuum
     std::vector<Edge>                        boundary; // in any order and direction
   };
 
-  // Order of the corners of a quadrilateral. `folded` also stands for concave and flat ones.
+  // Order of the corners of a quadrilateral. `folded` includes concave and flat ones.
   enum class Turn
   {
     counter_clockwise,

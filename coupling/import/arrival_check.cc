@@ -89,7 +89,7 @@ namespace diptych::coupling
           }
     }
 
-    // Root mean square over all grains, and the largest, of what is left of the forces / mean contact force.
+    // Root mean square over all grains, and the largest, of the resultant force / mean contact force.
     struct Residual
     {
       double      rms = 0, worst = -1;

@@ -93,7 +93,7 @@ namespace diptych::coupling
     if (terminal && is_done)
       std::fprintf(stderr, "\r\033[K%s: done in %s\n", phase.c_str(), duration_text(elapsed()).c_str());
     else if (terminal)
-      std::fprintf(stderr, "\n"); // what was reached stays
+      std::fprintf(stderr, "\n"); // the last state stays visible
     else if (is_done && tenths < 10)
       std::fprintf(stderr, "%s: %s\n", phase.c_str(), state_text(100, 1, elapsed()).c_str());
     phase.clear();

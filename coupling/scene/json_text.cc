@@ -37,7 +37,7 @@ namespace diptych::coupling
       const std::string          &text;
       std::map<std::string, int> &lines;
       std::size_t                 at   = 0;
-      int                         line = 1; // that `at` stands on
+      int                         line = 1; // line of `at`
 
       void pass(const std::string &quoted)
       {
@@ -80,7 +80,7 @@ namespace diptych::coupling
 
   Place JsonText::place(const std::string &pointer) const
   {
-    // A member without a line of its own has that of the member that holds it.
+    // A member without a line has that of the member that holds it.
     for (std::string name = pointer; !name.empty(); name.erase(name.rfind('/')))
       if (const auto found = lines.find(name); found != lines.end())
         return {file, found->second};

@@ -1,4 +1,4 @@
-// diptych: objects of other people's HDF5 files copied by what they hold
+// diptych: copies objects of foreign HDF5 files value by value
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/files/hdf5_file.h"
 #include "discrete/files/hdf5_library.h"

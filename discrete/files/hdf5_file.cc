@@ -192,7 +192,7 @@ namespace diptych::discrete
     if (descriptor >= 0)
       ::close(descriptor);
     if (error == 0)
-      file_ = H5Fopen(part.c_str(), H5F_ACC_RDWR, access); // closing cuts off what is left over
+      file_ = H5Fopen(part.c_str(), H5F_ACC_RDWR, access); // closing cuts off the unused space
     if (file_ < 0)
       {
         std::remove(part.c_str());

@@ -1,4 +1,4 @@
-// diptych: arrays and numbers of an HDF5 file, not believed before they are checked
+// diptych: arrays and numbers of an HDF5 file, checked before use
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/files/hdf5_file.h"
 

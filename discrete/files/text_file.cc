@@ -92,7 +92,7 @@ namespace diptych::discrete
   void require_regular_file(const std::string &path)
   {
     std::error_code none;
-    const auto      kind = std::filesystem::status(path, none).type(); // of what a link leads to
+    const auto      kind = std::filesystem::status(path, none).type(); // follows links
     if (kind == std::filesystem::file_type::directory)
       throw std::invalid_argument(path + ": cannot be read: " + std::strerror(EISDIR));
     if (std::filesystem::exists(std::filesystem::file_status(kind)) && kind != std::filesystem::file_type::regular)

@@ -28,7 +28,7 @@ namespace diptych::discrete
     double momentum_residual = 0; // |sum m dv - h F - impulses of walls and fixed grains| / (sum |r| + sum m |v|)
   };
 
-  // A solved step: positions at mid-step, velocities before and after, and what acted.
+  // A solved step: positions at mid-step, velocities before and after, contacts and forces.
   struct SolvedStep
   {
     const State                        &state;
