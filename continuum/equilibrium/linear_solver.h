@@ -58,8 +58,9 @@ namespace diptych::continuum
 
     KeptPreconditioner kept() const;
 
-    // A step stopped on request must change nothing. remember() saves preconditioner and counts, put_back() restores them and
-    // forget_memory() drops them. Matrices are copied only when replaced; the preconditioner is rebuilt when it is needed.
+    // A step stopped on request must change nothing. `remember()` saves preconditioner and counts. They are restored by
+    // put_back() and dropped by forget_memory(). Matrices are copied only when replaced; the preconditioner is rebuilt when it
+    // is needed.
     void remember();
     void put_back();
     void forget_memory() { memory.reset(); }

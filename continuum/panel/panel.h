@@ -73,7 +73,7 @@ namespace diptych::continuum
     // As set_initial_stress(), for solid_fraction_start = auto, with one number per cell [-].
     void set_initial_solid_fraction(const std::vector<double> &solid_fraction);
 
-    // To be called once. prepare() finds equilibrium at rest. On any number of processes, resume() continues from the
+    // To be called once. `prepare()` finds equilibrium at rest. On any number of processes, resume() continues from the
     // checkpoint of the first one. Throws std::invalid_argument if it belongs to another mesh.
     [[nodiscard]] Status prepare();
     void                 resume(const Checkpoint &checkpoint);

@@ -26,8 +26,8 @@ namespace diptych::coupling
   // that all `points` lie inside. Empty if the boundary is not star-shaped, that is, if no place inside sees every boundary edge.
   std::optional<CollaredMesh> with_collar(const QuadMesh &mesh, const std::vector<Eigen::Vector2d> &points);
 
-  // Joins the edges of the lower and upper boundary to images below and above; left and right nodes of equal height are one
-  // unknown. Empty if the distance of the sides is not the period (to 1e-6), or a boundary is not a function of x. points: as
+  // Joins the edges of the lower and upper boundary to images below and above. Left and right nodes of equal height are one
+  // unknown. Empty if the distance of the sides is not the period (to 1e-6), or a boundary is not a function of x. `points`: as
   // the grains store them, possibly whole periods left or right of the mesh.
   std::optional<CollaredMesh> with_periodic_collar(const QuadMesh                     &mesh,
                                                    double                              period,

@@ -20,7 +20,7 @@ namespace diptych::coupling
   };
   Unknowns number_unknowns(const TargetCells &target);
 
-  // M + l^2 K: consistent mass matrix and Laplacian without flux through the boundary. length: l.
+  // M + l^2 K: consistent mass matrix and Laplacian without flux through the boundary. `length`: l.
   Eigen::SparseMatrix<double> helmholtz_matrix(const QuadMesh &mesh, const Unknowns &unknowns, double length);
 
   // N_a at x for the three nodes of a triangle of target.images. Outside the triangle, negative values become zero and the

@@ -27,7 +27,7 @@ namespace diptych::coupling
   MappedGrains map_grains(const QuadMesh &mesh, const discrete::Snapshot &grains);
 
   // Residual of the nodal identity for the last step (`contacts`), with nodal_applied_forces() in place of the sums of contact
-  // forces. It vanishes by the grains' balance of momentum. acceleration: in the last step [length/time^2]. NaN as in
+  // forces. It vanishes by the grains' balance of momentum. `acceleration`: in the last step [length/time^2]. NaN as in
   // MappedGrains.
   double momentum_residual(const QuadMesh                     &mesh,
                            const discrete::Snapshot           &grains,

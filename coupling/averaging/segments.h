@@ -23,10 +23,10 @@ namespace diptych::coupling
     double                       outside_weight = 0; // the same sum for the segments outside the mesh
   };
 
-  // |K| sigma_K = -sum_c f (x) (segment in K). The branch x_i - contact point - x_j of each contact is cut by the triangles K,
-  // and f is the force on i. The segment points from x_i to x_j, or to the image of x_j that touches i. A body j >=
-  // position.size() is a platen, with x_i - contact point only. Parts outside the mesh go to the nearest boundary cell, so that
-  // sum_K |K| sigma_K = total to round-off. position: grain centres [length].
+  // |K| sigma_K = -sum_c f (x) (segment in K). The triangles K cut the branch x_i - contact point - x_j of each contact. The
+  // force on i is f. The segment points from x_i to x_j, or to the image of x_j that touches i. A body j >= position.size() is
+  // a platen, with x_i - contact point only. Parts outside the mesh go to the nearest boundary cell, so that sum_K |K| sigma_K
+  // = total to round-off. `position`: grain centres [length].
   MappedMoment map_segments(const QuadMesh                            &mesh,
                             const TriangleSearch                      &search,
                             const std::vector<Eigen::Vector2d>        &position,
@@ -41,7 +41,7 @@ namespace diptych::coupling
                      const std::vector<double>          &mean_spin_term,
                      MappedMoment                       &mapped);
 
-  // |sum over triangles - expected| / |expected| of the symmetric parts (Frobenius norm). expected: the sum of the grains'
+  // |sum over triangles - expected| / |expected| of the symmetric parts (Frobenius norm). `expected`: the sum of the grains'
   // internal moments, or mapped.total.
   double total_relative_error(const MappedMoment &mapped, const Eigen::Matrix2d &expected);
 
@@ -65,7 +65,7 @@ namespace diptych::coupling
                                                     const std::vector<discrete::ContactForce> &contacts);
 
   // The same from the last step: sum_i N_a(x_i) (m_i a_i - F_i) - sum_platens N_a(x_c) f. F_i is the containing action plus
-  // gravity, f the force of the last step (Snapshot::contacts). acceleration: a_i = change of the velocity in this step / step
+  // gravity, f the force of the last step (Snapshot::contacts). `acceleration`: a_i = change of the velocity in this step / step
   // [length/time^2]. A fixed grain enters with its contact forces.
   std::vector<Eigen::Vector2d> nodal_applied_forces(const QuadMesh                     &mesh,
                                                     const TriangleSearch               &search,

@@ -70,8 +70,8 @@ namespace diptych::coupling
       return text;
     }
 
-    // Starts are compared on block means, which cost a tenth. The best one without objection is then fitted to all points; if
-    // there is an objection to every start, the best of them is. A fit without objection is preferred to one that explains more.
+    // Starts are compared on block means, which cost a tenth. The best one without objection is then fitted to all points. If
+    // there is an objection to every start, the best one is. A fit without objection is preferred to one that explains more.
     BandFit best_fit(const BandData            &data,
                      const BandData            &blocks,
                      const std::vector<Shapes> &starts,
@@ -175,7 +175,8 @@ namespace diptych::coupling
       return band;
     }
 
-    // A refit must still be a band, but its jump may be arbitrarily weak: half a jump is a possible value of the resampling.
+    // A refit must still be a band. Its jump may be arbitrarily weak, because half a jump is a possible value of the
+    // resampling.
     std::vector<BandIntervals> intervals_of(const BandData       &data,
                                             const BandFit        &fit,
                                             const BandFitOptions &sample,

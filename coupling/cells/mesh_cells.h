@@ -19,8 +19,8 @@ namespace diptych::coupling
   };
 
   // Quadrilaterals with straight edges and counter-clockwise corners, divided into triangles. A cell without hanging nodes has
-  // the triangles 0-1-2 and 0-2-3. A cell beside smaller ones is a polygon: its neighbours' corners on its edges are its hanging
-  // nodes, and it has more triangles. Neighbouring triangles therefore always share whole edges.
+  // the triangles 0-1-2 and 0-2-3. A cell beside smaller ones is a polygon with more triangles. Its neighbours' corners on its
+  // edges are its hanging nodes. Neighbouring triangles therefore always share whole edges.
   struct QuadMesh
   {
     std::vector<Eigen::Vector2d>             node; // [length]

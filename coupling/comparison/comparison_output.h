@@ -33,6 +33,6 @@ namespace diptych::coupling
 
   // fields.vtu: the last stage of both panels on the continuum's mesh in its current position. It has every field of CellFields
   // under its name in comparison.h5, and the difference of the stresses. Tensors are 3x3 tensors (positive in compression), and
-  // vectors have three components. grid.vtu: the same on the regular grid.
+  // vectors have three components. `grid.vtu`: the same on the regular grid.
   void write_fields_vtu(const std::string &directory, const Comparison &c);
 } // namespace diptych::coupling

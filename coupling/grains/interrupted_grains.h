@@ -9,7 +9,7 @@
 
 namespace diptych::coupling
 {
-  // The checkpoint of a folder; empty if there is none. sample: text_of(sample_identity(scene)). Throws SceneError if the
+  // The checkpoint of a folder; empty if there is none. `sample`: text_of(sample_identity(scene)). Throws SceneError if the
   // checkpoint belongs to another scene, std::invalid_argument with its name if it is damaged.
   std::optional<discrete::StoredCheckpoint> interrupted_grains(const std::string &directory, const std::string &sample);
 

@@ -15,10 +15,10 @@ namespace diptych::coupling
   namespace
   {
     // Values above these limits cause a warning. The balance is relative to the mean contact force. It is 1e-6 if a code writes
-    // nine digits of the forces that it integrated, and 0.02 if it evaluates them again after the step. In slow motion without
-    // resultants the rms over all grains stays below 0.3. The worst grain of tests/foreign and of an exported moreau_quick has
-    // 0.044. Contacts of rigid grains have gaps up to 0.002 mean diameters. Contact points of soft ones lie up to half an
-    // overlap off.
+    // nine digits of the forces that it integrated. It is 0.02 if the code evaluates them again after the step. In slow motion
+    // without resultants the rms over all grains stays below 0.3. The worst grain of tests/foreign and of an exported
+    // moreau_quick has 0.044. Contacts of rigid grains have gaps up to 0.002 mean diameters. Contact points of soft ones lie up
+    // to half an overlap off.
     constexpr double doubtful_balance = 0.05, doubtful_motion = 0.3, doubtful_grain = 3, doubtful_stress = 0.05,
                      doubtful_overlap = 0.05, doubtful_overlap_told = 0.005, doubtful_wall_force = 0.03,
                      doubtful_wall_place = 0.02, doubtful_apart = 0.05;

@@ -94,7 +94,7 @@ namespace diptych::coupling
       return sum / length;
     }
 
-    // Forces across equal blocks of a diameter, from -radius to radius along it, of the side behind the normal on the other side.
+    // Forces across equal blocks of a diameter, from -radius to radius along it. The side behind the normal exerts them.
     std::vector<Eigen::Vector2d> block_forces(const Circle              &circle,
                                               const Diameter            &d,
                                               const std::vector<Branch> &all,

@@ -39,8 +39,8 @@ namespace diptych::coupling
   };
 
   // The circle of options.probe_circle, reduced where the sample ends. Without it, the largest circle about the middle of the
-  // first band (or of the sample) that stays platen_gap away from the outline. Radius 0 if less than minimum_side / 2 is left.
-  // Throws as check_probe_options() does.
+  // first band (or of the sample), platen_gap away from the outline. Radius 0 if less than minimum_side / 2 is left. Throws as
+  // check_probe_options() does.
   Circle place_circle(const std::vector<Eigen::Vector2d> &outline,
                       const SampleFrame                  &frame,
                       const std::vector<Band>            &bands,

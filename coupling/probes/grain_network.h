@@ -21,8 +21,8 @@ namespace diptych::coupling
     double                              period = 0;
   };
 
-  // Moments and forces are means since the preceding snapshot. In a periodic sample, grains and their contact points are moved by
-  // whole periods to within half a period of the outline's middle.
+  // Moments and forces are means since the preceding snapshot. In a periodic sample, whole periods move grains and contact
+  // points to within half a period of the outline's middle.
   GrainNetwork grain_network(const discrete::Snapshot &snapshot);
 
   // The line along which a contact transmits its force. It runs from the centre of grain i to that of j (or of its image that

@@ -17,7 +17,7 @@ namespace diptych::coupling
     Progress(const Progress &)            = delete;
     Progress &operator=(const Progress &) = delete;
 
-    // A new phase name starts a new clock and completes the phase before. fraction: 0 .. 1, of the phase.
+    // A new phase name starts a new clock and completes the phase before. `fraction`: 0 .. 1, of the phase.
     void update(const std::string &phase, double fraction);
     void finish(bool is_complete = true); // ends the present phase; after a stop on request it is never complete
 

@@ -27,7 +27,7 @@ namespace diptych::coupling
   // Column by name. Throws std::invalid_argument if it is missing.
   const std::vector<double> &column(const HistoryTable &table, const std::string &name);
 
-  // True if progress > from. progress is a sum of steps, and their rounding does not count.
+  // True if progress > from. `progress` is a sum of steps, and their rounding does not count.
   inline bool is_beyond(const double progress, const double from)
   {
     return progress > from + 1e-9 * std::abs(from);

@@ -15,7 +15,7 @@ namespace diptych::discrete
     double band_height = 3; // height of a horizontal layer [mean diameters]
     int    end_grains  = 5; // at each end of a layer
   };
-  // Two smooth rigid walls. walls[2] on the left does not move; walls[3] on the right is free or moves at a given speed.
+  // Two smooth rigid walls. The left one, walls[2], does not move. The right one, walls[3], is free or moves at a given speed.
   struct RigidSides
   {
     std::optional<double> velocity =

@@ -13,7 +13,7 @@
 namespace diptych::discrete
 {
   // Values of Grains::fixed. A held grain keeps its velocity and spin under any force. A grain of a platen moves with the
-  // platen without turning; forces on it act on the platen, which keeps its own mass.
+  // platen without turning. Forces on it act on the platen, which keeps its own mass.
   inline constexpr std::uint8_t held_grain = 1, lower_platen_grain = 2, upper_platen_grain = 3;
 
   // Rigid discs of unit thickness. One entry per grain in every vector.
@@ -131,7 +131,7 @@ namespace diptych::discrete
     double                      time = 0;
   };
 
-  // Number of cell widths to the image of j nearest to grain i: that image is at x_j + image x width. 0 without a cell.
+  // Number of cell widths to the image of j nearest to grain i, which is at x_j + image x width. Without a cell: 0.
   inline int nearest_image(const std::optional<PeriodicCell> &cell, const double xi, const double xj)
   {
     return cell ? int(std::lround((xi - xj) / cell->width)) : 0;

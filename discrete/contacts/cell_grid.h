@@ -89,7 +89,7 @@ namespace diptych::discrete
     CountedBins       bins_;
   };
 
-  // Grids by grain size, the largest grains first. Within a grid the largest radius is less than four times the smallest, and a
+  // Grids by grain size, the largest grains first. Within a grid the largest radius is less than four times the smallest. A
   // cell is as wide as the largest diameter. Most samples need one grid.
   struct SizedGrid
   {

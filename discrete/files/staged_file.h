@@ -12,7 +12,7 @@ namespace diptych::discrete
   std::string stage_name(std::size_t stage); // name of its group, "stage_0003"
 
   // PATH.h5 with one group per stage. Until close(), each stage is a separate file in the folder PATH, and PATH.h5 holds links to
-  // them. So no earlier byte is written again, and a killed program leaves a file that any HDF5 reader opens. close() joins all
+  // them. So no earlier byte is written again, and a killed program leaves a file that any HDF5 reader opens. `close()` joins all
   // stages in PATH.h5. Functions throw std::runtime_error with the file's name.
   class StagedFile
   {

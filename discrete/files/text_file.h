@@ -34,7 +34,7 @@ namespace diptych::discrete
   // out. Throws std::invalid_argument with the file's name, and with the line of a byte that is not valid UTF-8.
   std::string read_input(const std::string &path, std::size_t most_bytes, const CheckStop &check_stop = {});
 
-  // Index of the first byte that is zero or not valid UTF-8 (cut or overlong sequences, surrogates); npos if all bytes are valid.
+  // Index of the first byte that is zero or not valid UTF-8 (cut or overlong sequences, surrogates), or npos.
   std::size_t first_non_utf8(const std::string &text);
 
   // Appends complete lines to a file in one write; no earlier byte changes. If the write fails, a partly written line is removed.

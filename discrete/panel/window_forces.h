@@ -8,7 +8,7 @@
 namespace diptych::discrete
 {
   // Sums of impulse, friction dissipation and spin term since the last reset. Contacts of rigid grains open and close within a
-  // few steps, so forces of single steps scatter; only their mean gives the stress.
+  // few steps. Forces of single steps therefore scatter; only their mean gives the stress.
   struct WindowForces
   {
     struct PairSum

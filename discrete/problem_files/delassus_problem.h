@@ -12,7 +12,7 @@
 
 namespace diptych::discrete
 {
-  // Influence of the impulse of one contact on the relative velocity of another [1/mass]. nt is the normal velocity due to a
+  // Influence of the impulse of one contact on the relative velocity of another [1/mass]. `nt` is the normal velocity due to a
   // tangential impulse. The members are stored column by column, because a sweep reads them in this order.
   struct DelassusBlock
   {
@@ -20,7 +20,7 @@ namespace diptych::discrete
   };
 
   // u = W r + q [length/time] with the laws 0 <= u_n _|_ r_n >= 0, |r_t| <= mu r_n, sliding against u_t. W = H^T M^-1 H is
-  // symmetric and positive semi-definite. q contains the gap and restitution terms of the contacts.
+  // symmetric and positive semi-definite. `q` contains the gap and restitution terms of the contacts.
   struct DelassusProblem
   {
     std::vector<std::size_t>      row_begin = {0}; // (contacts + 1): blocks of contact k are row_begin[k] .. row_begin[k+1] - 1

@@ -44,7 +44,7 @@ namespace diptych::discrete
   // Throws std::invalid_argument with parameter, value and range unless 0 < min <= max, or the table obeys the comments above.
   void validate(const RadiusDistribution &distribution);
 
-  // CSV file with the columns `radius` and `passing`. passing is a fraction if its last value is 1, and per cent if it is 100.
+  // CSV file with the columns `radius` and `passing`. `passing` is a fraction if its last value is 1, and per cent if it is 100.
   // Throws std::invalid_argument with file, line, column, value and range.
   RadiusTable read_radius_table(const std::string &path);
 } // namespace diptych::discrete

@@ -89,7 +89,7 @@ namespace diptych::discrete
       n_blocks /= 2;
   }
 
-  // Returns false if a contact would join blocks that are not neighbours, or if a body has contacts in two gaps between blocks.
+  // False: a contact would join blocks that are not neighbours, or a body has contacts in two gaps between blocks.
   bool BatchedContacts::cut(const std::vector<int> &rows, const int n_blocks)
   {
     const std::size_t n_bodies = problem_.free_velocity.size();

@@ -15,7 +15,7 @@ namespace diptych::discrete
   using StopTest = std::function<bool(const SolveReport &, const std::function<std::vector<Impulse>()> &impulses)>;
 
   // Solves in place from the given first guess (one impulse per contact). If the residual is already below the tolerance, this
-  // costs one check and no sweep. psor gives the same bits for every size of the team. nsgs uses one thread.
+  // costs one check and no sweep. `psor` gives the same bits for every size of the team. `nsgs` uses one thread.
   SolveReport solve(const ContactProblem &problem,
                     const SolverOptions  &options,
                     std::vector<Impulse> &impulses,

@@ -37,7 +37,7 @@ namespace diptych::discrete
     AccuracyOptions accuracy    = {};
   };
 
-  // Result of the rule. An accuracy above 0.05 counts as 0.05. d is the mean diameter, rho the density of the grains.
+  // Result of the rule. An accuracy above 0.05 counts as 0.05. Symbols: mean diameter d, density rho of the grains.
   struct StepChoice
   {
     double      step;  // the smallest bound [time]
@@ -65,7 +65,7 @@ namespace diptych::discrete
   };
   StepChoice step_at_rest(const SampleScales &sample, const FlowState &flow);
 
-  // Tolerance that the user gave. auto: the tolerance that causes a relative error of the dilation of 1.25 accuracy, or 1e-3
+  // Tolerance that the user gave. `auto`: the tolerance that causes a relative error of the dilation of 1.25 accuracy, or 1e-3
   // accuracy without strain or pressure.
   double choose_tolerance(const State &state, const StepSetting &setting, const FlowState &flow);
 
