@@ -232,7 +232,8 @@ namespace diptych::coupling
         compare->add_option("DIR", line.target, "result folder")->required();
         add_set(compare);
         add_quiet(compare);
-        CLI::App *report = add(Command::report, "draw report.html of a result folder or an ensemble again");
+        CLI::App *report = add(Command::report,
+                               "draw report.html again, of a result folder, an ensemble, a study or a calibration");
         report->add_option("DIR", line.target, "result folder")->required();
         add_quiet(report);
       }
