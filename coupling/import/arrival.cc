@@ -71,7 +71,6 @@ namespace diptych::coupling
       remark_once(arrival, "the grains have weight; the continuum of a run has none");
     }
 
-    // All frames must have the grains of the first one.
     void require_same_grains(const std::vector<long> &ids, const std::vector<ForeignGrain> &grains, const ForeignFrame &frame)
     {
       std::set<long> here;
@@ -109,7 +108,7 @@ namespace diptych::coupling
       throw SceneError("import " + sample.format + ": " + option + " would have no effect: " + why);
     }
 
-    // A user who gives an option without effect believes that it counts.
+    // An option without effect is refused, because its user believes that it counts.
     void require_effect(const ForeignSample &sample, const ForeignOptions &options)
     {
       if (options.pressure && sample.frames.size() == 1)
@@ -131,7 +130,6 @@ namespace diptych::coupling
       return highest_3 < 1.001 * lowest_3 && highest_2 > 1.01 * lowest_2;
     }
 
-    // Mass per area of the discs, for inertial numbers and weights.
     double density_of(const ArrivedFrame &frame, const ForeignSample &sample, const ForeignOptions &options)
     {
       double mass = 0, area = 0;

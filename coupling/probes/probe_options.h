@@ -46,8 +46,7 @@ namespace diptych::coupling
             "number of resamples for the 95 % intervals of the probes; below 40 there are none");
   }
 
-  // Throws WrongKeys with the key, probe_rectangles or probe_circle, if it has a wrong number of values
-  // or a size that is not positive.
+  // Throws WrongKeys if probe_rectangles or probe_circle has a wrong number of values or a size <= 0.
   inline void check_probe_options(const ProbeOptions &options)
   {
     const std::vector<double> &rectangles = options.probe_rectangles, &circle = options.probe_circle;

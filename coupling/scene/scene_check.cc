@@ -92,7 +92,6 @@ namespace diptych::coupling
         check_windows(scene, last);
     }
 
-    // Value by section/key.
     std::map<std::string, std::string> values_of(const Scene &scene)
     {
       std::map<std::string, std::string> values;
@@ -226,7 +225,7 @@ namespace diptych::coupling
       return keys;
     }
 
-    // Frames of another code: nothing is prepared and nothing computed on the left.
+    // Keys without effect for frames of another code, because the discrete panel computes nothing.
     void add_unread_of_imported(const Scene &scene, std::vector<Unused> &keys)
     {
       if (scene.discrete.method.method != discrete::Method::imported)

@@ -13,7 +13,6 @@ namespace diptych::discrete
 {
   namespace
   {
-    // Collects the keys of one section that have no effect under a condition.
     struct Unused
     {
       std::string             section;

@@ -55,7 +55,6 @@ namespace diptych::discrete
       return area;
     }
 
-    // Radii of a thousand grains of the distribution. [length]
     std::vector<double> typical_radii(const SampleOptions &o)
     {
       std::vector<double> radius = radius_quantiles(distribution(o), 1000, RadiusScale::mean_diameter_one);
@@ -64,7 +63,6 @@ namespace diptych::discrete
       return radius;
     }
 
-    // Width and height of the sample from the grain area and the keys.
     Eigen::Vector2d sample_size(const SampleOptions &o, const double area)
     {
       const double whole = area / o.solid_fraction;
@@ -119,7 +117,6 @@ namespace diptych::discrete
       return sorted;
     }
 
-    // Stops everything and removes all forces on walls and cell.
     void bring_to_rest(State &state)
     {
       stop(state);
@@ -130,7 +127,6 @@ namespace diptych::discrete
       state.time = 0;
     }
 
-    // Throws std::invalid_argument if no free grain remains.
     void roughen_platens(State &state)
     {
       Grains   &g = state.grains;
@@ -171,7 +167,6 @@ namespace diptych::discrete
       return disc_area(state.grains.radius) / outline_area(make_outline(state, mean_diameter));
     }
 
-    // Takes steps until the sample is at rest, and then further ones that remove the overlaps.
     PreparedSample compact(State                                start,
                            const SampleOptions                 &options,
                            StepSetting                          setting,
@@ -309,7 +304,6 @@ namespace diptych::discrete
       return sample;
     }
 
-    // A generated sample must have enough grains and room for them.
     void check_size(const SampleOptions &o)
     {
       constexpr double fewest = 10, most = 1e7;
