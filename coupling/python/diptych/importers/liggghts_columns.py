@@ -44,7 +44,8 @@ def named(section: Section, kind: str, options: Options) -> Table | None:
 
 
 def pair(table: Table, keyword: str, first: int) -> np.ndarray:
-    return table.vectors([f"{keyword}.{first}"], [f"{keyword}.{first + 1}"])
+    """(n, 2) from the columns `first` and `first` + 1 of a keyword."""
+    return table.vectors(f"{keyword}.{first}", f"{keyword}.{first + 1}")
 
 
 def _fits(table: Table | None, kind: str, frame: Frame) -> bool:
@@ -84,6 +85,6 @@ def kinds_of(sections: list[Section], frames: dict[int, Frame], options: Options
             raise refused(section.table.path,
                           f"step {section.step}: {len(section.table.columns)} columns are neither contacts nor "
                           "wall contacts of these grains; give the compute's keywords: --columns contacts=pos,id,force,... "
-                          "or --columns walls=pos,id,force,...", section.table.lines[0] if len(section.table.lines) else 0)
+                          "or --columns walls=pos,id,force,...", section.head() + 1)
         kinds[group] = next((kind for kind in fitting if kind not in kinds.values()), fitting[0])
     return kinds

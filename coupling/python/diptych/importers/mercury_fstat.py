@@ -8,14 +8,16 @@ import numpy as np
 
 from .frames import Frame, Wall, contacts_of, refused
 from .table_files import read_table
-from .text import float_of, floats_of, read_lines
+from .tables import Table
+from .text import float_of, read_lines
 
 SAME_TIME = 1e-8  # relative; files have ten digits
+COLUMNS = "time i j cx cy cz overlap tangential_overlap fn ft nx ny nz tx ty tz".split()
 
 
 def add_fstat(path: str, frames: list[Frame]) -> None:
     """Three comments before a frame, the first "# TIME 1"; rows of 16 numbers."""
-    rows: dict[int, list[list[float]]] = {}
+    found: dict[int, tuple[list[list[str]], list[int]]] = {}  # rows and their lines
     index, comments, done = -1, 0, False
     for k, line in enumerate(read_lines(path), 1):
         words = line.split()
@@ -27,38 +29,36 @@ def add_fstat(path: str, frames: list[Frame]) -> None:
                 if not near:
                     raise refused(path,
                                   "expected '# TIME 1' with the time of a frame of the .data file; the frames do not match", k)
-                index, done = near[0], near[0] in rows  # runs that were chained write a frame again
-                rows.setdefault(index, [])
+                index, done = near[0], near[0] in found  # runs that were chained write a frame again
+                found.setdefault(index, ([], []))
         elif words and not done:
-            if len(words) != 16 or index < 0:
-                raise refused(path, f"{len(words)} entries; a contact has 16, below a head '# TIME 1'", k)
-            values = floats_of(path, k, words, "a number of a contact")
-            if abs(values[0] - frames[index].time) > SAME_TIME * abs(values[0]):
-                raise refused(path, "the time differs from that of the frame's head", k)
-            rows[index].append([*values, k])
-    for index, values in rows.items():
-        _take_rows(path, np.array(values).reshape(-1, 17), frames[index])
+            if len(words) != len(COLUMNS) or index < 0:
+                raise refused(path, f"{len(words)} entries; a contact has {len(COLUMNS)}, below a head '# TIME 1'", k)
+            found[index][0].append(words)
+            found[index][1].append(k)
+    for index, (rows, lines) in found.items():
+        _take_rows(Table(path, COLUMNS, rows, lines), frames[index])
 
 
-def _take_rows(path: str, rows: np.ndarray, frame: Frame) -> None:
-    """Columns: time i j c(3) overlap, tangential overlap, fn ft n(3) t(3), line. Wall k is j = -k-1; the force acts on it."""
-    normal, point, overlap = rows[:, 10:12], rows[:, 3:5], rows[:, 6]
-    bad = np.flatnonzero(abs(np.sum(normal**2, axis=1) - 1) > 1e-5)
-    if len(bad):
-        raise refused(path, f"nx, ny are not a unit normal: {normal[bad[0]]}", int(rows[bad[0], 16]))
-    force, wall = rows[:, 8:9] * normal + rows[:, 9:10] * rows[:, 13:15], np.full(len(rows), -1)
-    for number in dict.fromkeys(rows[rows[:, 2] < 0, 2]):
-        of = np.flatnonzero(rows[:, 2] == number)
+def _take_rows(table: Table, frame: Frame) -> None:
+    """Wall k is j = -k-1; the force acts on it."""
+    time, second, overlap = table.numbers("time"), table.whole("j"), table.numbers("overlap")
+    normal, point = table.vectors("nx", "ny"), table.vectors("cx", "cy")
+    table.refuse(abs(time - frame.time) > SAME_TIME * abs(time), lambda k: "the time differs from that of the frame's head")
+    table.refuse(abs(np.sum(normal**2, axis=1) - 1) > 1e-5, lambda k: f"nx, ny are not a unit normal: {normal[k]}")
+    force = table.numbers("fn")[:, None] * normal + table.numbers("ft")[:, None] * table.vectors("tx", "ty")
+    wall = np.full(len(second), -1)
+    for number in dict.fromkeys(second[second < 0].tolist()):
+        of = np.flatnonzero(second == number)
         axis = int(abs(normal[of[0], 1]) > abs(normal[of[0], 0]))
         outward = int(normal[of[0], axis] > 0)
         # The face lies half an overlap before the contact point.
         place = np.mean(point[of, axis] - 0.5 * overlap[of] * normal[of, axis])
         wall[of] = len(frame.walls)
-        frame.walls.append(Wall(f"wall {int(-number - 1)}", (("left", "right"), ("lower", "upper"))[axis][outward],
-                                float(place)))
-    frame.contact_file = path
-    frame.contacts = contacts_of(rows[:, 1].astype(int), rows[:, 2].astype(int), np.where(wall[:, None] >= 0, -force, force),
-                                 wall, point=point, overlap=overlap, line=rows[:, 16].astype(int))
+        frame.walls.append(Wall(f"wall {-number - 1}", (("left", "right"), ("lower", "upper"))[axis][outward], float(place)))
+    frame.contact_file = table.path
+    frame.contacts = contacts_of(table.whole("i"), second, np.where(wall[:, None] >= 0, -force, force), wall, point=point,
+                                 overlap=overlap, line=table.lines)
 
 
 def require_both_halves(frame: Frame) -> None:
@@ -81,5 +81,5 @@ def check_counts(path: str, frames: list[Frame]) -> None:
             continue
         walls = int(np.sum(frame.contacts["wall"] >= 0))
         found = (len(frame.contacts["wall"]) - walls) // 2 + walls
-        for row in np.flatnonzero((abs(times - frame.time) <= 1e-5 * abs(frame.time)) & (counts != found)):
-            raise refused(path, f"counts {counts[row]} contacts; {frame.contact_file} has {found}", table.lines[row])
+        table.refuse((abs(times - frame.time) <= 1e-5 * abs(frame.time)) & (counts != found),
+                     lambda k: f"counts {counts[k]} contacts; {frame.contact_file} has {found}")

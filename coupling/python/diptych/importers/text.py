@@ -25,8 +25,6 @@ def read_lines(path: str) -> list[str]:
         text = data.decode("utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
     except (EOFError, gzip.BadGzipFile, zlib.error) as error:
         raise refused(path, f"cannot be unpacked ({error}); is it truncated?") from error
-    except OSError as error:
-        raise refused(path, f"cannot be read ({error.strerror})") from error
     except UnicodeDecodeError:
         text = data.decode("latin-1")
     if "\0" in text:
