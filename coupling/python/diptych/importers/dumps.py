@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Sections of `dump custom` (kind ATOMS) and `dump local` (kind ENTRIES)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Frames of grains, contacts and walls, in the units of the files. Forces and masses are those of the whole thickness."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 from typing import Any, Callable, Sequence

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """LAMMPS, discs in two dimensions."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

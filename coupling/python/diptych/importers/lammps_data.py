@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Data files: places, radii and velocities."""
 
-from __future__ import annotations
-
 from typing import Callable
 
 import numpy as np
@@ -12,8 +10,10 @@ from .frames import Frame, Options, refuse_where, refused, rows_of
 from .tables import Table, grains_of, rows_below
 from .text import floats_of, int_of, read_lines
 
+STYLES = {"sphere": ["id", "type", "diameter", "density", "x", "y", "z"],
+          "bpm/sphere": ["id", "molecule", "type", "diameter", "density", "x", "y", "z"]}
 OWN = {"sphere": ["diameter", "density"], "bpm/sphere": ["molecule", "diameter", "density"], "bond": ["molecule"],
-       "molecular": ["molecule"], "charge": ["q"], "atomic": []}  # columns of a style besides id, type, x, y, z
+       "molecular": ["molecule"], "charge": ["q"], "atomic": []}  # columns of a style in hybrid, behind id, type, x, y, z
 
 
 def is_data_file(path: str) -> bool:
@@ -23,13 +23,10 @@ def is_data_file(path: str) -> bool:
 
 def _columns(path: str, line: int, styles: list[str], width: int, options: Options) -> list[str]:
     """Columns of the section Atoms, from the comment that names the style; image flags may follow."""
-    wanted = options.columns_of("particles")
-    if wanted is None and (styles or ["sphere"])[0] == "sphere":
-        wanted = ["id", "type", "diameter", "density", "x", "y", "z"]
-    elif wanted is None and styles[0] == "bpm/sphere":
-        wanted = ["id", "molecule", "type", "diameter", "density", "x", "y", "z"]
-    elif wanted is None and styles[0] == "hybrid" and len(styles) > 1 and all(style in OWN for style in styles[1:]):
-        wanted = ["id", "type", "x", "y", "z", *(name for style in styles[1:] for name in OWN[style])]
+    style, *others = styles or ["sphere"]
+    wanted = options.columns_of("particles") or STYLES.get(style)
+    if not wanted and style == "hybrid" and all(other in OWN for other in others):
+        wanted = ["id", "type", "x", "y", "z", *(name for other in others for name in OWN[other])]
     if wanted is None or "diameter" not in wanted and "radius" not in wanted:
         raise refused(path,
                       f"the columns of atom_style {' '.join(styles)} are not known here, or have no radii; name them with "

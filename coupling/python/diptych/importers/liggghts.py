@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """LIGGGHTS, one layer of spheres."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from .dumps import Section, add_section, is_dump, read_dump, require_same_steps

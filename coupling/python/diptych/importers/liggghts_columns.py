@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Dumps of compute pair/gran/local and wall/gran/local name none of their columns."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np
@@ -53,18 +51,16 @@ def _fits(table: Table | None, kind: str, frame: Frame) -> bool:
 
     Contacts have two grains and a flag; walls have mesh and triangle, counted from 0, and the grain in the third column.
     """
-    if table is None or not len(table.rows):
-        return table is not None
-    ids = [("id.1", 1), ("id.2", 4)] if kind == "contacts" else [("id.3", 4)]
-    for column, place in ids:
+    if table is None:
+        return False
+    for column, place in [("id.1", 1), ("id.2", 4)] if kind == "contacts" else [("id.3", 4)]:
         rows = rows_of(frame.grains["id"], table.numbers(column))
-        if np.mean(rows < 0) > 0.1:
-            return False
+        is_there = rows >= 0
         if table.has("pos.1"):
-            off = np.linalg.norm(frame.grains["position"][rows] - pair(table, "pos", place),
-                                 axis=1) > frame.grains["radius"][rows]
-            if np.mean(off) > 0.1:
-                return False
+            off = np.linalg.norm(frame.grains["position"][rows] - pair(table, "pos", place), axis=1)
+            is_there &= off <= frame.grains["radius"][rows]
+        if np.sum(is_there) < 0.9 * len(rows):
+            return False
     return True
 
 

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """LMGC90, discs DISKx between walls JONCx."""
 
-from __future__ import annotations
-
 import os
 import re
 from typing import Callable
@@ -30,16 +28,11 @@ def _instant(path: str, lines: list[str]) -> tuple[int, float]:
 def _motions(path: str) -> tuple[int, float, np.ndarray, np.ndarray]:
     """Step, time, and (n, 3) displacement and velocity of every body, in the order of the file."""
     lines = read_lines(path)
-    step, time = _instant(path, lines)
-    x, v = [], []
-    for k, line in enumerate(lines, 1):
-        if "X(1)=" in line:
-            x.append([field(path, k, line, rf"X\({axis}\)=") for axis in (1, 2, 3)])
-        elif "V(1)=" in line and len(v) < len(x):
-            v.append([field(path, k, line, rf"V\({axis}\)=") for axis in (1, 2, 3)])
+    x, v = (np.array([[field(path, k, line, rf"{name}\({axis}\)=") for axis in (1, 2, 3)]
+                      for k, line in enumerate(lines, 1) if name + "(1)=" in line]).reshape(-1, 3) for name in "XV")
     if len(x) != len(v):
         raise refused(path, f"{len(x)} bodies have X, but {len(v)} have V; is the file truncated?", len(lines))
-    return step, time, np.array(x).reshape(-1, 3), np.array(v).reshape(-1, 3)
+    return *_instant(path, lines), x, v
 
 
 def _contacts(path: str, frame: Frame, bodies: Bodies) -> None:

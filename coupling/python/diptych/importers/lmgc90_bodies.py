@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """RBDY2 bodies with one contactor each: a disc (DISKx) or a wall (JONCx)."""
 
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import dataclass

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Contacts of .fstat files. Pairs of free grains occur in two rows."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from .frames import Frame, Wall, contacts_of, refused

@@ -2,14 +2,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Restart files: walls, particles and interactions, as lines "Name key value value key value"."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
+from typing import Callable
 
 import numpy as np
 
-from .frames import Frame, Wall, contacts_of, refused
+from .frames import Frame, Wall, contacts_of, refuse_where, refused
 from .text import floats_of, int_of, read_lines
 
 
@@ -62,35 +61,36 @@ def _wall(line: _Line) -> tuple[int, Wall]:
                         force=tuple(line.after("force", 3)[:2]))
 
 
-def _grains(lines: list[_Line], masses_of: object) -> tuple[dict[str, np.ndarray], bool]:
-    vectors = {key: np.array([line.after(key, 3) for line in lines]).reshape(-1, 3)
-               for key in ("position", "velocity", "force", "angularVelocity")}
-    turn = np.array([line.after("orientation", 4) for line in lines]).reshape(-1, 4)
-    radius, inverse = (np.array([line.after(key)[0] for line in lines]) for key in ("radius", "invMass"))
-    for values, what in ((radius > 0, "a radius must be positive"), (inverse >= 0, "invMass is negative")):
-        if not np.all(values):
-            raise refused(lines[0].path, what, lines[int(np.argmin(values))].number)
-    grains = {"id": np.array([line.after("id")[0] if "id" in line.words else k for k, line in enumerate(lines)]).astype(int),
-              "position": vectors["position"][:, :2], "velocity": vectors["velocity"][:, :2],
-              "resultant": vectors["force"][:, :2],
-              "spin": vectors["angularVelocity"][:, 2], "rotation": 2 * np.arctan2(turn[:, 3], turn[:, 0]), "radius": radius,
-              "mass": np.where(inverse > 0, 1 / np.where(inverse > 0, inverse, 1), masses_of(radius)),
-              "line": np.array([line.number for line in lines])}
+def _after(lines: list[_Line], key: str, n: int) -> np.ndarray:
+    """(lines, n) numbers behind a key."""
+    return np.array([line.after(key, n) for line in lines]).reshape(-1, n)
+
+
+def _grains(lines: list[_Line], masses_of: Callable[[np.ndarray], np.ndarray]) -> tuple[dict[str, np.ndarray], bool]:
+    numbers = np.array([line.number for line in lines])
+    turn, radius, inverse = _after(lines, "orientation", 4), _after(lines, "radius", 1)[:, 0], _after(lines, "invMass", 1)[:, 0]
+    refuse_where(lines[0].path, radius <= 0, numbers, lambda k: "a radius must be positive")
+    refuse_where(lines[0].path, inverse < 0, numbers, lambda k: "invMass is negative")
+    ids = [line.after("id")[0] if "id" in line.words else k for k, line in enumerate(lines)]
+    grains = {"id": np.array(ids).astype(int), "radius": radius, "line": numbers,
+              "position": _after(lines, "position", 3)[:, :2], "velocity": _after(lines, "velocity", 3)[:, :2],
+              "spin": _after(lines, "angularVelocity", 3)[:, 2], "rotation": 2 * np.arctan2(turn[:, 3], turn[:, 0]),
+              "resultant": _after(lines, "force", 3)[:, :2],
+              "mass": np.where(inverse > 0, 1 / np.where(inverse > 0, inverse, 1), masses_of(radius))}
     return grains, bool(np.any(inverse == 0))
 
 
 def _contacts(lines: list[_Line], walls: dict[int, int]) -> dict[str, np.ndarray]:
-    pairs, wall = [], []
-    for line in lines:
-        at_wall = "particleWallIds" in line.words
-        pairs.append([int(number) for number in line.after("particleWallIds" if at_wall else "particleIds", 2)])
-        wall.append(walls.get(pairs[-1][1], -2) if at_wall else -1)
-        if wall[-1] == -2:
-            raise refused(line.path, f"wall {pairs[-1][1]} does not exist", line.number)
-    ends = np.array(pairs, dtype=int).reshape(-1, 2)
-    force, point = (np.array([line.after(key, 3)[:2] for line in lines]).reshape(-1, 2) for key in ("force", "contactPoint"))
-    return contacts_of(ends[:, 0], ends[:, 1], force, np.array(wall, dtype=int), point=point,
-                       line=np.array([line.number for line in lines], dtype=int))
+    """`walls`: index of each wall by its number."""
+    is_wall = np.array(["particleWallIds" in line.words for line in lines], dtype=bool)
+    ends = np.array([line.after("particleWallIds" if at_wall else "particleIds", 2) for line, at_wall in zip(lines, is_wall)])
+    first, second = ends.reshape(-1, 2).astype(int).T
+    numbers = np.array([line.number for line in lines], dtype=int)
+    wall = np.array([walls.get(number, -2) if at_wall else -1 for number, at_wall in zip(second.tolist(), is_wall)], dtype=int)
+    for k in np.flatnonzero(wall == -2):
+        raise refused(lines[k].path, f"wall {second[k]} does not exist", lines[k].number)
+    return contacts_of(first, second, _after(lines, "force", 3)[:, :2], wall, line=numbers,
+                       point=_after(lines, "contactPoint", 3)[:, :2])
 
 
 def read_restart(path: str) -> Restart:

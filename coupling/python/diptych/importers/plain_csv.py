@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Plain tables. The last number in a file's name is the frame, or the column `frame`."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from .frames import Frame, Options, Wall, acting, contacts_of, refused

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Reads files with the reader of a format. The compiled module checks the frames."""
 
-from __future__ import annotations
-
 import importlib
 import json
 import os

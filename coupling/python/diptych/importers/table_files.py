@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Files of tables: separated by semicolons, tabs, commas or blanks, with or without names of their columns."""
 
-from __future__ import annotations
-
 import csv
 import re
 from typing import Callable, Sequence

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Tables with named columns. Cells are converted when a column is used, so that other columns may hold text or nothing."""
 
-from __future__ import annotations
-
 from typing import Any, Callable, Sequence
 
 import numpy as np
@@ -84,7 +82,7 @@ class Table:
         parts = self.optional(options, *x), self.optional(options, *y)
         return None if parts[0] is None or parts[1] is None else np.column_stack(parts)
 
-    def part(self, mask: Any) -> Table:
+    def part(self, mask: Any) -> "Table":
         """The rows that a mask or a list of indices chooses."""
         index = np.arange(len(self.rows))[mask]
         return Table(self.path, self.columns, [self.rows[k] for k in index], self.lines[index])

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Text files as lists of lines."""
 
-from __future__ import annotations
-
 import gzip
 import os
 import re
@@ -30,7 +28,7 @@ def read_lines(path: str) -> list[str]:
     if "\0" in text:
         raise refused(path, "contains a byte 0; a text file is needed")
     if not text.strip():
-        raise refused(path, "is empty")
+        raise refused(path, "is empty; leave it out, or write at least the names of its columns")
     return text.replace("\r\n", "\n").replace("\r", "\n").rstrip("\n").split("\n")
 
 

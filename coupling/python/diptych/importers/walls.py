@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Tables of walls, one row a frame: step, time or frame; width and height, or some of left_x, right_x, lower_y, upper_y."""
 
-from __future__ import annotations
-
 from typing import Callable
 
 import numpy as np

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Yade, one layer of spheres between Wall bodies."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """VTKRecorder's .vtu of spheres and .vtp of interactions, in pairs."""
 
-from __future__ import annotations
-
 import tempfile
 import xml.etree.ElementTree as ElementTree
 from typing import Any
