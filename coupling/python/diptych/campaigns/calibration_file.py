@@ -95,8 +95,8 @@ def read_curve(file: str, bins: Sequence[tuple[float, float]] = ()) -> pd.DataFr
     allowed = ["axial_strain", *CURVE_COLUMNS, *CURVE_COLUMNS.values()]
     table = pd.DataFrame({name: rows.numbers(name) for name in allowed if rows.has(name)})
     if not {"axial_strain", *CURVE_COLUMNS} & set(table) > {"axial_strain"}:
-        raise SceneError(f"{file}: its columns are {', '.join(rows.columns)}; the line above the numbers must name axial_strain "
-                         f"and stress_ratio or volumetric_strain; used are {', '.join(allowed)}")
+        raise SceneError(f"{file}: its columns are {', '.join(rows.columns)}; the line above the numbers must name "
+                         f"axial_strain and stress_ratio or volumetric_strain; used are {', '.join(allowed)}")
     for name in table.filter(like="deviation"):
         rows.refuse(table[name] <= 0, lambda k: f"{name} = {table[name][k]:g} must be positive")
     strain = table["axial_strain"].to_numpy()
@@ -108,8 +108,8 @@ def read_curve(file: str, bins: Sequence[tuple[float, float]] = ()) -> pd.DataFr
         raise SceneError(f"{file}: stress_ratio must be t/s = (s1 - s2) / (s1 + s2), positive in compression and below 1")
     for low, high in bins:
         if not np.any((strain >= low) & (strain <= high)):
-            print(f"diptych: warning: {file}: no row lies in the bin from {low:g} to {high:g}; its mean is interpolated between the "
-                  "rows beside it, or it does not count", file=sys.stderr)
+            print(f"diptych: warning: {file}: no row lies in the bin from {low:g} to {high:g}; its mean is interpolated between "
+                  "the rows beside it, or it does not count", file=sys.stderr)
     return table.rename(columns={"axial_strain": "progress"})
 
 

@@ -59,8 +59,8 @@ def main(words: Sequence[str] | None = None) -> int:
         if format.endswith(".py"):
             runpy.run_path(format)
             if not registered:
-                raise SceneError(f'{format} registers no reader; write @importers.register("NAME") above the function that takes '
-                                 "the options and returns frames")
+                raise SceneError(f"{format} registers no reader; write @importers.register('NAME') above the function that "
+                                 "takes the options and returns frames")
             format = next(reversed(registered))
         options = Options(command=" ".join(["diptych import", *words]), **given)
         frames = read_frames(format, options)

@@ -57,8 +57,8 @@ def read_data(path: str, options: Options) -> Frame:
             table = _section(path, lines, k, count, lambda width: _columns(path, k + 1, words[2:], width, options))
             grains = grains_of(table, options)
             if table.has("density") and options.density is None:
-                options.note(f"{path}: its densities were not used, because the script decides whether they are those of spheres "
-                             "or of discs (set ... density/disc); --density gives the discs a mass per area")
+                options.note(f"{path}: its densities were not used, because the script decides whether they are those of "
+                             "spheres or of discs (set ... density/disc); --density gives the discs a mass per area")
         elif words[:1] == ["Velocities"] and grains:
             table = _section(path, lines, k, count, lambda width: ["id", "vx", "vy", "vz", "wx", "wy", "wz"][:width])
             order = rows_of(table.whole("id"), grains["id"])

@@ -96,6 +96,6 @@ def add_wall_tables(frames: list[Frame], options: Options) -> None:
         for table, row in rows[1:]:
             for name, word in zip(table.columns, table.rows[row]):
                 if known.get(name) != word:
-                    raise refused(table.path, f"frame {frame.name} has another {name} in line {first.lines[at]} of {first.path}",
-                                  table.lines[row])
+                    raise refused(table.path, f"frame {frame.name} has another {name} in line {first.lines[at]} of "
+                                  f"{first.path}", table.lines[row])
         _add_row(first, at, frame, options)
