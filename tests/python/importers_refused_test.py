@@ -60,7 +60,7 @@ def test_contradictions_are_refused_with_their_reason(name, file, change, reason
     ("lammps", {"columns": ["grains=id"]}, "is not KIND=NAME"), ("yade", {"thickness": None}, "--thickness"),
     ("lammps", {"columns": ["contacts=index,patom1"]}, "10 columns, not 2"),
     ("plain_csv", {"gravity": (0, -9.81)}, "give --density"),
-    ("lammps", {"columns": ["contacts=index,patom1,patom2,force,dist,fx,fy,p1,p2,p4"]}, "contacts.dump, line 10"),
+    ("lammps", {"columns": ["contacts=index,patom1,patom2,dist,force,fx,p1,fy,p2,p4"]}, "contacts.dump, line 10"),
     ("liggghts", {"columns": ["contacts=force,pos,id,force_normal,force_tangential,contactArea,delta,contactPoint"]},
      "--columns contacts")])
 def test_options_without_effect_or_sense_are_refused(name, option, reason, copy):

@@ -23,15 +23,6 @@ def truth_of(name, frame):
         return json.load(file)["frames"][frame.split(" ")[-1].lstrip("_")]
 
 
-def wall_contacts(truth):
-    for key in ("contacts_wall", "contact_rows_wall", "contacts_wall_with_force", "contacts_wall_rows_and_with_force"):
-        if key in truth:
-            found = truth[key]
-            found = found.values() if isinstance(found, dict) else found if isinstance(found, list) else [found]
-            return sum(one[1] if isinstance(one, list) else one for one in found)
-    raise AssertionError("no wall contacts in the truth")
-
-
 @pytest.mark.parametrize("name", FORMATS)
 def test_counts_masses_and_stresses_are_those_of_the_files(name, copy):
     record = checked(copy(name))
@@ -39,9 +30,9 @@ def test_counts_masses_and_stresses_are_those_of_the_files(name, copy):
         assert len(record["frames"]) == len(json.load(file)["frames"])
     for frame in record["frames"]:
         truth = truth_of(name, frame["frame"])
-        assert frame["contacts"] == truth.get("contacts_grain_grain", truth.get("contacts_grain_grain_with_force"))
-        assert sum(frame[side + "_contacts"] for side in ("lower", "upper", "left", "right")) == wall_contacts(truth)
-        assert frame["grains"] == truth.get("grains", 400)
+        assert frame["contacts"] == truth["contacts_grain_grain"]
+        assert sum(frame[side + "_contacts"] for side in ("lower", "upper", "left", "right")) == truth["contacts_wall"]
+        assert frame["grains"] == truth["grains"]
         if name != "plain_csv":
             assert frame["mass"] == pytest.approx(truth["mass"], rel=1e-6)
         stress, size = -np.array(truth["mean_stress_from_contacts"]), np.abs(truth["mean_stress_from_contacts"]).max()
@@ -118,17 +109,13 @@ def test_a_static_stack_is_in_balance_with_its_weight(tmp_path):
     assert any("--gravity" in text and "-9.81" in text for text in doubt)
     assert importers.check("lmgc90", sorted(light.glob("*")), gravity=(0, -9.81))["frames"] == record["frames"]
     # The stress of the walls does not depend on the origin.
-    frames = importers.read("lmgc90", files)
-    assert np.allclose(frame["wall_stress"], moved(frames, (7.0, -3.0))["frames"][0]["wall_stress"], rtol=1e-9, atol=1e-3)
-
-
-def moved(frames, by):
-    for frame in frames:
-        frame.grains["position"] = frame.grains["position"] + by
-        frame.contacts["point"] = frame.contacts["point"] + by
-        for wall in frame.walls:
-            wall.place += by[wall.side in ("lower", "upper")]
-    return json.loads(diptych._diptych.check_frames("moved", frames, [], importers.Options([])))
+    [moved] = importers.read("lmgc90", files)
+    for values in (moved.grains["position"], moved.contacts["point"]):
+        values += (7.0, -3.0)
+    for wall in moved.walls:
+        wall.place += (7.0, -3.0)[wall.side in ("lower", "upper")]
+    again = json.loads(diptych._diptych.check_frames("moved", [moved], [], importers.Options([])))["frames"][0]
+    assert np.allclose(frame["wall_stress"], again["wall_stress"], rtol=1e-9, atol=1e-3)
 
 
 def test_a_restart_of_2015_has_the_normals_of_its_walls():
@@ -184,12 +171,18 @@ def test_a_first_frame_without_grains_is_left_out(copy):
     assert len(record["frames"]) == 4 and any("has no grains" in text for text in record["remarks"])
 
 
-def test_lammps_walls_are_found_without_a_table_and_forces_without_their_tangential_part_reported(copy):
+@pytest.mark.parametrize("name, pattern", [("lammps", "walls.txt"), ("liggghts", "*.stl"), ("yade", "walls_*")])
+def test_walls_are_found_from_their_contacts(name, pattern, copy):
+    kind, files, options = copy(name)
+    without = checked((kind, [file for file in files if not file.match(pattern)], options))
+    assert np.allclose(stresses(without), stresses(checked((kind, files, options))), rtol=1e-4, atol=1e-2)
+
+
+def test_lammps_forces_without_their_tangential_part_are_reported(copy):
     plain = checked(copy("lammps"))
-    assert np.allclose(stresses(checked(copy("lammps", {"walls.txt": None}))), stresses(plain), rtol=1e-4, atol=1e-2)
     normal = checked(copy("lammps"), columns=["contacts=index,patom1,patom2,dist,force,fx,fy,-,-,-"])
-    assert any("tangential forces" in text for text in normal["lacking"]) and any("resultant" in text
-                                                                                  for text in normal["doubtful"])
+    assert any("tangential forces" in text for text in normal["lacking"])
+    assert any("resultant" in text for text in normal["doubtful"])
     # fx, fy of compute pair/local alone: 1448 instead of 1386 (README of the set).
     assert stresses(normal)[1, 0, 0] / stresses(plain)[1, 0, 0] > 1.03
 
@@ -210,22 +203,15 @@ def test_liggghts_rows_may_have_multisphere_ids_and_any_number_of_history_values
     assert np.array_equal(stresses(checked(copy("liggghts", changes), columns=words)), stresses(checked(copy("liggghts"))))
 
 
-def test_liggghts_plates_without_stl_and_forces_on_plates(copy):
-    plain = checked(copy("liggghts"))
+def test_liggghts_forces_on_plates(copy):
     kind, files, options = copy("liggghts")
-    without = checked((kind, [file for file in files if file.suffix != ".stl"], options))
-    assert np.allclose(stresses(without), stresses(plain), rtol=1e-4, atol=1e-2)
     forces = checked((kind, [*files, FOREIGN / "liggghts" / "walls.txt"], options))
     assert any("act on the walls" in text for text in forces["remarks"])
     assert max(frame["wall_force_difference"] for frame in forces["frames"]) < 0.01
 
 
-def test_yade_walls_without_their_file_and_the_recorder(copy):
-    plain = checked(copy("yade"))
-    kind, files, options = copy("yade")
-    without = checked((kind, [file for file in files if "walls_" not in file.name], options))
-    assert np.allclose(stresses(without), stresses(plain), rtol=1e-4, atol=1e-2)
-    recorder = checked(("yade", sorted((FOREIGN / "yade").glob("rec-[si]*.vt?")), options), walls_touch=True)
+def test_the_recorder_of_yade():
+    recorder = importers.check("yade", sorted((FOREIGN / "yade").glob("rec-[si]*.vt?")), thickness=1.0, walls_touch=True)
     assert recorder["frames"][-1]["contacts"] == 600 and any("tangential" in text for text in recorder["lacking"])
     packed, ascii_ = (importers.read("yade", sorted((FOREIGN / "yade").glob(pattern)))[0].contacts["force"]
                       for pattern in ("rec-[si]*.136447.vt?", "rec-ascii-*"))

@@ -10,7 +10,6 @@ import numpy as np
 
 from ..errors import SceneError
 
-SIDES = ("lower", "upper", "left", "right")
 GRAINS = ("id", "position", "radius", "mass", "velocity", "spin", "rotation", "resultant", "line")
 CONTACTS = ("first", "second", "wall", "force", "point", "overlap", "slides", "line")
 

@@ -5,26 +5,15 @@
 import numpy as np
 
 from .dumps import Section, add_section, is_dump, read_dump, require_same_steps
-from .frames import Frame, Options, Wall, contacts_of, joined, refused, rows_of
+from .frames import Frame, Options, Wall, contacts_of, joined, refused
 from .liggghts_columns import group_of, kinds_of, named, pair
 from .tables import Table
 from .text import number_in_name
 from .walls import sorted_files, wall_of
 
 
-def _check_places(table: Table, frame: Frame) -> None:
-    rows = rows_of(frame.grains["id"], table.whole("id.1"))
-    place = frame.grains["position"][rows]
-    size, miss = np.linalg.norm(place, axis=1), np.linalg.norm(place - pair(table, "pos", 1), axis=1)
-    table.refuse((rows >= 0) & (miss > 1e-5 * (size + np.mean(size))),
-                 lambda k: f"grain {table.whole('id.1')[k]} has another position in the dump of the grains; are these files of "
-                 "different frames, or columns of another meaning (--columns contacts=pos,id,force,...)?")
-
-
 def _contacts(table: Table, frame: Frame, options: Options) -> dict[str, np.ndarray]:
     table.refuse(table.numbers("id.3") != 0, lambda k: "a contact across a periodic edge; walls are needed")
-    if len(table.rows) and table.has("pos.1"):
-        _check_places(table, frame)
     frame.contact_file = table.path
     return contacts_of(table.whole("id.1"), table.whole("id.2"), pair(table, "force", 1), line=table.lines,
                        point=pair(table, "contactPoint", 1) if table.has("contactPoint.1") else None,

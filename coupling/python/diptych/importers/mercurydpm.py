@@ -6,15 +6,17 @@ import re
 
 import numpy as np
 
-from .frames import Frame, Options, refused
-from .mercury_fstat import add_fstat, check_counts, require_both_halves
+from .frames import Frame, Options, Wall, contacts_of, refused
 from .mercury_restart import Restart, read_restart
-from .tables import grains_of, rows_below
+from .table_files import read_table
+from .tables import Table, grains_of, rows_below
 from .text import float_of, int_of, read_lines
 from .walls import sorted_files
 
 COLUMNS = {6: "x y vx vy r angle omega info".split(),
            8: "x y z vx vy vz r angle_x angle_y angle omega_x omega_y omega info".split()}
+CONTACTS = "time i j cx cy cz overlap tangential_overlap fn ft nx ny nz tx ty tz".split()
+SAME_TIME = 1e-8  # relative; files have ten digits
 
 
 def _data_frames(path: str, options: Options) -> list[Frame]:
@@ -39,6 +41,76 @@ def _data_frames(path: str, options: Options) -> list[Frame]:
     return list(frames.values())
 
 
+def _add_fstat(path: str, frames: list[Frame]) -> None:
+    """Three comments before a frame, the first "# TIME 1"; rows of 16 numbers."""
+    found: dict[int, tuple[list[list[str]], list[int]]] = {}  # rows and their lines
+    index, comments, done = -1, 0, False
+    for k, line in enumerate(read_lines(path), 1):
+        words = line.split()
+        if words[:1] == ["#"]:
+            comments += 1
+            if comments % 3 == 1:
+                time = float_of(path, k, words[1], "time") if len(words) == 3 else float("nan")
+                near = [n for n, frame in enumerate(frames) if abs(frame.time - time) <= SAME_TIME * abs(time)]
+                if not near:
+                    raise refused(path,
+                                  "expected '# TIME 1' with the time of a frame of the .data file; the frames do not match", k)
+                index, done = near[0], near[0] in found  # runs that were chained write a frame again
+                found.setdefault(index, ([], []))
+        elif words and not done:
+            if len(words) != len(CONTACTS) or index < 0:
+                raise refused(path, f"{len(words)} entries; a contact has {len(CONTACTS)}, below a head '# TIME 1'", k)
+            found[index][0].append(words)
+            found[index][1].append(k)
+    for index, (rows, lines) in found.items():
+        _take_rows(Table(path, CONTACTS, rows, lines), frames[index])
+
+
+def _take_rows(table: Table, frame: Frame) -> None:
+    """Wall k is j = -k-1; the force acts on it."""
+    time, second, overlap = table.numbers("time"), table.whole("j"), table.numbers("overlap")
+    normal, point = table.vectors("nx", "ny"), table.vectors("cx", "cy")
+    table.refuse(abs(time - frame.time) > SAME_TIME * abs(time), lambda k: "the time differs from that of the frame's head")
+    table.refuse(abs(np.sum(normal**2, axis=1) - 1) > 1e-5, lambda k: f"nx, ny are not a unit normal: {normal[k]}")
+    force = table.numbers("fn")[:, None] * normal + table.numbers("ft")[:, None] * table.vectors("tx", "ty")
+    wall = np.full(len(second), -1)
+    for number in dict.fromkeys(second[second < 0].tolist()):
+        of = np.flatnonzero(second == number)
+        axis = int(abs(normal[of[0], 1]) > abs(normal[of[0], 0]))
+        outward = int(normal[of[0], axis] > 0)
+        # The face lies half an overlap before the contact point.
+        place = np.mean(point[of, axis] - 0.5 * overlap[of] * normal[of, axis])
+        wall[of] = len(frame.walls)
+        frame.walls.append(Wall(f"wall {-number - 1}", (("left", "right"), ("lower", "upper"))[axis][outward], float(place)))
+    frame.contact_file = table.path
+    frame.contacts = contacts_of(table.whole("i"), second, np.where(wall[:, None] >= 0, -force, force), wall, point=point,
+                                 overlap=overlap, line=table.lines)
+
+
+def _require_both_halves(frame: Frame) -> None:
+    """A contact of two free grains occurs as (i, j) and as (j, i)."""
+    pairs = frame.contacts["wall"] < 0
+    ends = np.sort(np.column_stack([frame.contacts[name][pairs] for name in ("first", "second")]), axis=1)
+    found, times = np.unique(ends, axis=0, return_counts=True)
+    for (first, second), count in zip(found[times != 2], times[times != 2]):
+        raise refused(frame.contact_file,
+                      f"frame {frame.name}: the contact of {first} and {second} occurs {count} times, not twice; is the "
+                      "file truncated? (With fixed grains, add the .restart file.)")
+
+
+def _check_counts(path: str, frames: list[Frame]) -> None:
+    """The .ene file contains the number of contacts of every frame."""
+    table = read_table(path)
+    times, counts = table.numbers("time"), table.whole("collisions")
+    for frame in frames:
+        if frame.contacts is None:
+            continue
+        walls = int(np.sum(frame.contacts["wall"] >= 0))
+        found = (len(frame.contacts["wall"]) - walls) // 2 + walls
+        table.refuse((abs(times - frame.time) <= 1e-5 * abs(frame.time)) & (counts != found),
+                     lambda k: f"counts {counts[k]} contacts; {frame.contact_file} has {found}")
+
+
 def read(options: Options) -> list[Frame]:
     """Frames of .data and .fstat, else of .restart files. Raises SceneError."""
     found = sorted_files(options, **{kind: re.compile(rf"\.{kind}(\.\d+)?(\.gz)?$").search
@@ -50,12 +122,12 @@ def read(options: Options) -> list[Frame]:
     restarts: list[Restart] = [read_restart(path) for path in found["restart"]]
     frames = [frame for path in found["data"] for frame in _data_frames(path, options)]
     for path in found["fstat"]:
-        add_fstat(path, frames)
+        _add_fstat(path, frames)
     for frame in frames:
         if frame.contacts is not None and not any(restart.has_fixed for restart in restarts):
-            require_both_halves(frame)
+            _require_both_halves(frame)
     for path in found["ene"]:
-        check_counts(path, frames)
+        _check_counts(path, frames)
     frames = frames or [restart.frame for restart in restarts]
     frames.sort(key=lambda frame: frame.time)
     for frame in frames:

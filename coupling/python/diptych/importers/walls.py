@@ -6,7 +6,7 @@ from typing import Callable
 
 import numpy as np
 
-from .frames import SIDES, Frame, Options, Wall, refused
+from .frames import Frame, Options, Wall, refused
 from .table_files import read_table, table_of_kind
 from .tables import Table
 
@@ -67,9 +67,9 @@ def _add_row(table: Table, row: int, frame: Frame, options: Options) -> None:
                 raise refused(table.path, f"column {name} = {size:g} must be positive", table.lines[row])
             wall_of(frame, side).place = size
         wall_of(frame, "lower").place = wall_of(frame, "left").place = 0.0
-    for side in SIDES:
-        if table.has(PLACES[side]):
-            wall_of(frame, side).place = table.numbers(PLACES[side])[row]
+    for side, place in PLACES.items():
+        if table.has(place):
+            wall_of(frame, side).place = table.numbers(place)[row]
         force = table.optional_vectors(options, [side + "_fx"], [side + "_fy"])
         if force is not None:
             wall_of(frame, side).force = tuple(force[row])

@@ -47,12 +47,9 @@ def _spheres(path: str) -> dict[str, np.ndarray]:
         if name not in found:
             raise refused(path, f"lacks the array {name} of its points; its arrays are {', '.join(found)}")
     grains = {"id": np.ravel(found["id"]), "position": mesh.points[:, :2], "radius": np.ravel(found["radii"])}
-    if "mass" in found:
-        grains["mass"] = np.ravel(found["mass"])
-    if "linVelVec" in found:
-        grains["velocity"] = found["linVelVec"][:, :2]
-    if "angVelVec" in found:
-        grains["spin"] = found["angVelVec"][:, 2]
+    for name, array, part in (("mass", "mass", 0), ("velocity", "linVelVec", slice(2)), ("spin", "angVelVec", 2)):
+        if array in found:
+            grains[name] = found[array].reshape(len(mesh.points), -1)[:, part]
     return grains
 
 
