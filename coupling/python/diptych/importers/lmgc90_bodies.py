@@ -72,8 +72,8 @@ def read_bodies(path: str, densities: dict[str, float], options: Options) -> Bod
         raise refused(path, "contains no body RBDY2")
     for number, block in enumerate(blocks, 1):
         if "place" not in block or "size" not in block:
-            raise refused(path, f"body {number} has no position (coo1, coo2), nor the radius of a disc (byrd) nor the half axes "
-                          "of a wall (axe1, axe2); is the file truncated?", block["line"])
+            raise refused(path, f"body {number} has no position (coo1, coo2), nor the radius of a disc (byrd) nor the half "
+                          "axes of a wall (axe1, axe2); is the file truncated?", block["line"])
     if [block["number"] for block in blocks] != [str(k) for k in range(1, len(blocks) + 1)]:
         options.note(f"{path}: bodies are counted in the order of the file, because their numbers are not 1, 2, 3, ...")
     is_wall, size = np.array([block["is_wall"] for block in blocks]), np.array([block["size"] for block in blocks])

@@ -40,12 +40,11 @@ def _add_walls(table: Table, frame: Frame) -> dict[int, int]:
     frame.walls = [Wall(row[table.find("name")], place=place[k, axis[k]], force=tuple(force[k]))
                    for k, row in enumerate(table.rows)]
     for number, line in enumerate(read_lines(table.path), 1):
-        words = line.split() if line.startswith("#") else []
-        for word, value in zip(words, words[1:]):
-            if word == "time":
-                frame.time = float_of(table.path, number, value, "time")
-            elif word == "iter":
-                frame.step = int_of(table.path, number, value, "iter")
+        told = dict(re.findall(r"\b(time|iter) (\S+)", line) if line.startswith("#") else [])
+        if "time" in told:
+            frame.time = float_of(table.path, number, told["time"], "time")
+        if "iter" in told:
+            frame.step = int_of(table.path, number, told["iter"], "iter")
     return {int(number): k for k, number in enumerate(ids)}
 
 

@@ -60,8 +60,6 @@ def _interactions(path: str, frame: Frame) -> dict[str, np.ndarray]:
     if "forceN" not in mesh.cell_data:
         raise refused(path, "lacks the array forceN of its lines")
     force = np.ravel(np.concatenate(mesh.cell_data["forceN"]))
-    if ends.shape != (len(force), 2) or len(ends) and not 0 <= ends.min() <= ends.max() < len(mesh.points):
-        raise refused(path, f"{len(ends)} lines do not join two points each, or do not belong to {len(force)} forces")
     row_at = {tuple(place): row for row, place in enumerate(frame.grains["position"].tolist())}
     rows = np.array([row_at.get(tuple(place), -1) for place in mesh.points[:, :2].tolist()])[ends]
     if np.any(rows < 0):
