@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# diptych: pages and pictures of results; usage: draw.py page|ensemble|study|calibration|step-study DIR
+# diptych: pages and pictures of results; usage: draw.py page|ensemble|study|calibration|step-study DIR [NEXT]
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Exit codes: 0 done, 2 wrong input (usage, missing or broken file, another format), 4 a module is missing or a file cannot be written.
 A new page replaces the old one only when it is complete."""
@@ -19,11 +19,12 @@ INPUTS = {"page": "comparison.json, comparison.h5, discrete.csv, continuum.csv, 
          "step-study": "study_step.json, study_step.csv"}  # what to draw -> its input files
 
 
-def draw(what, folder):
-    """Each branch imports only the modules that it needs."""
+def draw(what, folder, next_folder):
+    """Each branch imports only the modules that it needs. Only a page reads next_folder, which holds files newer than those of folder,
+    and is written to it."""
     if what == "page":
         from diptych_report.page import result_page
-        result_page.draw(folder)
+        result_page.draw(folder, next_folder)
     elif what == "ensemble":
         from diptych_report.page import ensemble_page
         ensemble_page.draw(folder)
@@ -40,12 +41,12 @@ def draw(what, folder):
 
 
 def main(arguments):
-    if len(arguments) != 2 or arguments[0] not in INPUTS:
-        print(f"report: usage: draw.py {'|'.join(INPUTS)} DIR", file=sys.stderr)
+    if len(arguments) not in (2, 3) or arguments[0] not in INPUTS:
+        print(f"report: usage: draw.py {'|'.join(INPUTS)} DIR [NEXT]", file=sys.stderr)
         return 2
     gc.disable()  # saves a tenth of the time: figures are thousands of small objects, and the program ends soon
     try:
-        draw(*arguments)
+        draw(arguments[0], arguments[1], arguments[-1])
     except InputError as error:
         print(f"report: {error}", file=sys.stderr)
         return 2

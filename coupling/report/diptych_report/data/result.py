@@ -67,18 +67,25 @@ class Result:
         return [i for i in self.increments if i.kind == "stage"]
 
 
-def load(folder):
-    """The result of a folder. Raises InputError if a required file is missing, broken or has another format."""
-    require(folder, REQUIRED)
-    comparison = read_json(os.path.join(folder, "comparison.json"))
+def load(folder, next_folder):
+    """The result of a folder. Files in next_folder take the place of older ones. Raises InputError if a required file is missing,
+    broken or has another format."""
+    def path_of(name):
+        newer = os.path.join(next_folder, name)
+        return newer if os.path.isfile(newer) else os.path.join(folder, name)
+
+    missing = [name for name in REQUIRED if not os.path.isfile(path_of(name))]
+    if missing:
+        raise InputError(f"{folder}: missing {', '.join(missing)}")
+    comparison = read_json(path_of("comparison.json"))
     if comparison.get("format") != FORMAT:
         raise InputError(f"{folder}/comparison.json: format {comparison.get('format')!r}, but this report reads format {FORMAT}; "
                          "`diptych compare` writes it")
     units = Units(comparison.get("mean_diameter") or 1.0, comparison.get("pressure") or 1.0)
     numbers = Descriptions(comparison.pop("numbers", {}))
     comparison = numbers.shown_in(comparison, units)
-    histories = {panel: read_csv(os.path.join(folder, panel + ".csv")) for panel in PANEL_NAMES}
-    path = os.path.join(folder, "comparison.h5")
+    histories = {panel: read_csv(path_of(panel + ".csv")) for panel in PANEL_NAMES}
+    path = path_of("comparison.h5")
     try:
         with open_arrays(path) as file:
             increments, arrays = read(comparison, file, units)
@@ -88,8 +95,8 @@ def load(folder):
                     columns.update({name: values for name, values in means.items() if name not in columns})
     except (KeyError, TypeError) as error:
         raise InputError(f"{folder}/comparison.json, {path}: a stage or a window is incomplete: {error}") from error
-    return Result(comparison, read_provenance(os.path.join(folder, "provenance.json")), histories, increments, units, numbers, arrays,
-                  read_text(os.path.join(folder, "scene.prm")), imported_of(folder))
+    return Result(comparison, read_provenance(path_of("provenance.json")), histories, increments, units, numbers, arrays,
+                  read_text(path_of("scene.prm")), imported_of(folder))
 
 
 def imported_of(folder):
