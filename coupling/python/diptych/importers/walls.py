@@ -7,7 +7,7 @@ from typing import Callable
 import numpy as np
 
 from .frames import Frame, Options, Wall, refused
-from .table_files import read_table, table_of_kind
+from .table_files import table_of_kind
 from .tables import Table
 
 PLACES = {"lower": "lower_y", "upper": "upper_y", "left": "left_x", "right": "right_x"}
