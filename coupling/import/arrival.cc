@@ -213,7 +213,7 @@ namespace diptych::coupling
       {
         ForeignFrame &from = sample.frames[k];
         require_same_grains(arrival.id, grains[k], from);
-        if (k > 0 && !from.has_contacts)
+        if (k > 0 && from.contacts.empty())
           throw SceneError(from.grain_file + ": frame " + from.name +
                            " has no contacts; every frame after the first needs them for its stresses");
         ArrivedFrame frame;

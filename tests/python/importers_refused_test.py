@@ -32,6 +32,7 @@ REFUSED = [  # set, file, change, words of the message: the file, its line, the 
     ("plain_csv", "contacts_1.csv", lambda text: text + "49,69,1,1\n", "twice with different forces"),
     ("plain_csv", "contacts_1.csv", lambda text: text + "1,NA,1,1\n", "column j = 'NA' is not a number"),
     ("plain_csv", "contacts_1.csv", lambda text: text + "1,2,,1\n", "column fx is empty"),
+    ("plain_csv", "contacts_2.csv", lambda text: text.splitlines()[0], "every frame after the first needs them"),
     ("plain_csv", "particles_1.csv", once("\n2,", "\n1,"), "grain 1 occurs twice"),
     ("plain_csv", "particles_1.csv", lambda text: text[:text.rstrip().rfind("\n") + 1], "lacks grain"),
     ("plain_csv", "particles_1.csv", once("id,x,y,r,vx", "id,x,y,r,d"), "contradict each other"),
