@@ -308,16 +308,14 @@ namespace diptych::discrete
     {
       constexpr double fewest = 10, most = 1e7;
       if (const double n = expected_grains(o); !(n >= fewest && n <= most))
-        throw WrongKeys({"sample/width", "sample/height"}, "sample/width = " + exact_text(o.width) +
-                                                             " and sample/height = " + exact_text(o.height) + " hold " +
-                                                             exact_text(std::round(n)) + " grains; allowed: 10 to 1e+07");
+        throw WrongKeys({"sample/width", "sample/height"},
+                        "sample/width and sample/height hold " + exact_text(std::round(n)) + " grains; allowed: 10 to 1e+07");
       const Eigen::Vector2d size = expected_size(o);
       if (const double least = 2 * typical_radii(o).back(); !(size.minCoeff() >= least))
         throw WrongKeys({"sample/width", "sample/height", "sample/width_over_height"},
-                        "sample/width = " + exact_text(o.width) + ", sample/height = " + exact_text(o.height) +
-                          " and sample/width_over_height = " + exact_text(o.width_over_height) + " make a sample of " +
-                          exact_text(size.x()) + " x " + exact_text(size.y()) +
-                          "; both must be at least the diameter of the largest grain, " + exact_text(least));
+                        "sample/width, height and width_over_height make a sample of " + exact_text(size.x()) + " x " +
+                          exact_text(size.y()) + "; both must be at least the diameter of the largest grain, " +
+                          exact_text(least));
     }
   } // namespace
 
