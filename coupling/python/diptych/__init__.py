@@ -13,7 +13,7 @@ strain, angles are degrees from the horizontal, forces act on the first body.
 from . import requirements  # noqa: F401  first: it explains a failed import
 from ._diptych import Contacts, ContinuumSnapshot, DiscreteSnapshot, __version__
 from .arrays import Band, BandReport, History, Interval, Mesh, Record, StressMap
-from .errors import NotConverged, SceneError, SceneWarning
+from .errors import NotConverged, SceneError, SceneWarning, Stopped
 from .laws import biaxial, integrate, principal
 from .operators import contacts, find_bands, grid, increment, map_stress, probe, shear_strain, strips, theory_lines
 from .panels import ContinuumPanel, DiscretePanel
@@ -35,7 +35,7 @@ def __getattr__(name: str) -> object:
 
 __all__ = [
     "Band", "BandReport", "CalibrationResult", "Campaign", "Comparison", "Contacts", "ContinuumPanel", "ContinuumSnapshot", "DiscretePanel",
-    "DiscreteSnapshot", "History", "Interval", "Mesh", "NotConverged", "PanelResults", "PlanResult", "Record", "Results", "SceneError", "SceneWarning", "StressMap",
+    "DiscreteSnapshot", "History", "Interval", "Mesh", "NotConverged", "PanelResults", "PlanResult", "Record", "Results", "SceneError", "SceneWarning", "Stopped", "StressMap",
     "__version__", "benchmarks_dir", "biaxial", "calibrate", "compare", "contacts", "ensemble", "find_bands", "grid", "increment", "integrate",
     "keys", "load", "map_stress", "notebooks_dir", "plan", "principal", "probe", "scene", "shear_strain", "solve", "strips", "study", "theory_lines",
 ]

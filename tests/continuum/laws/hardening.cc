@@ -1,11 +1,14 @@
 // diptych: strength as a function of plastic strain, and refused parameters
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
+#include <gtest/gtest.h>
+
 #include "continuum/laws/yield_cone.h"
+#include "continuum/require.h"
 #include "tests/continuum/laws/law_states.h"
-#include "tests/files.h"
 
 namespace
 {
@@ -100,7 +103,15 @@ namespace
         LawOptions options;
         EXPECT_NO_THROW(validate(options));
         change(options);
-        diptych::tests::expect_refused({key}, [&] { validate(options); });
+        try
+          {
+            validate(options);
+            FAIL() << "no error for " << key;
+          }
+        catch (const WrongKeys &error)
+          {
+            EXPECT_EQ(std::count(error.keys.begin(), error.keys.end(), key), 1) << key << ": " << error.what();
+          }
         EXPECT_THROW(Hardening{options}, std::invalid_argument) << key;
       }
     EXPECT_NO_THROW(validate(constant(0, 0, 1)));
