@@ -73,7 +73,7 @@ namespace
     EXPECT_EQ(complaint("a,b\n# nothing\n"), ": holds no line of numbers below the header; allowed: 1 or more");
     EXPECT_EQ(complaint("# x\na,c\n1,2\n"), ", line 2: column 'b' is missing");
     EXPECT_EQ(complaint("a,b,bb\n1,2,3\n"), ", line 1: unknown column 'bb'; the nearest is 'b'");
-    EXPECT_EQ(complaint("a,b,a\n1,2,3\n"), ", line 1: column 'a' is named twice");
+    EXPECT_EQ(complaint("a,b,a\n1,2,3\n"), ", line 1: column 'a' occurs twice");
     EXPECT_EQ(complaint("a,,b\n1,2,3\n"), ", line 1: column 2 has no name");
     EXPECT_EQ(complaint("1,2\n3,4\n"), ", line 1: '1' is a number, not a column's name; the header line is missing");
   }
@@ -192,7 +192,7 @@ namespace
         }
       catch (const std::invalid_argument &error)
         {
-          EXPECT_NE(std::string(error.what()).find(file + ": is no regular file"), std::string::npos) << error.what();
+          EXPECT_NE(std::string(error.what()).find(file + ": is not a regular file"), std::string::npos) << error.what();
         }
     std::filesystem::remove(pipe);
   }
