@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import h5py
 import numpy as np
 
-from diptych_report.data.input_error import InputError
+from diptych_report import InputError
 from diptych_report.data.numbers import Description
 from diptych_report.data.walk import Walk, walk_of
 

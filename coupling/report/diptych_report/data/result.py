@@ -1,14 +1,11 @@
 # diptych: reads a result folder, with lengths in d and stresses in P
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Reads comparison.json, comparison.h5, discrete.csv, continuum.csv, provenance.json, and the optional scene.prm and import.json."""
-
 import os
 from dataclasses import dataclass
 
 import numpy as np
 
-from diptych_report.data.arrays import open_arrays
-from diptych_report.data.files import InputError, read_csv, read_json, read_provenance, read_text, require
+from diptych_report.data.files import open_arrays, read_csv, read_json, read_provenance, read_text, require
 from diptych_report.data.increments import read, read_arrays
 from diptych_report.data.numbers import Descriptions, Units, plain
 from diptych_report.data.panels import PANEL_NAMES
@@ -70,28 +67,16 @@ class Result:
 def load(folder):
     """The result of a folder. Raises InputError if a required file is missing, broken or has another format."""
     require(folder, REQUIRED)
-    comparison = read_json(os.path.join(folder, "comparison.json"))
-    if comparison.get("format") != FORMAT:
-        raise InputError(f"{folder}/comparison.json: format {comparison.get('format')!r}, but this report reads format {FORMAT}; "
-                         "`diptych compare` writes it")
+    comparison = read_json(os.path.join(folder, "comparison.json"), FORMAT)
     units = Units(comparison.get("mean_diameter") or 1.0, comparison.get("pressure") or 1.0)
     numbers = Descriptions(comparison.pop("numbers", {}))
     comparison = numbers.shown_in(comparison, units)
     histories = {panel: read_csv(os.path.join(folder, panel + ".csv")) for panel in PANEL_NAMES}
-    path = os.path.join(folder, "comparison.h5")
-    try:
-        with open_arrays(path) as file:
-            increments, arrays = read(comparison, file, units)
-            for panel, columns in histories.items():
-                if f"histories/{panel}" in file:
-                    means = read_arrays(file[f"histories/{panel}"], units, arrays)
-                    columns.update({name: values for name, values in means.items() if name not in columns})
-    except (KeyError, TypeError) as error:
-        raise InputError(f"{folder}/comparison.json, {path}: a stage or a window is incomplete: {error}") from error
+    with open_arrays(os.path.join(folder, "comparison.h5")) as file:
+        increments, arrays = read(comparison, file, units)
+        for panel, columns in histories.items():
+            if f"histories/{panel}" in file:
+                columns.update(read_arrays(file[f"histories/{panel}"], units, arrays))
+    imported = os.path.join(folder, "import.json")
     return Result(comparison, read_provenance(os.path.join(folder, "provenance.json")), histories, increments, units, numbers, arrays,
-                  read_text(os.path.join(folder, "scene.prm")), imported_of(folder))
-
-
-def imported_of(folder):
-    path = os.path.join(folder, "import.json")
-    return read_json(path) if os.path.exists(path) else {}
+                  read_text(os.path.join(folder, "scene.prm")), read_json(imported) if os.path.exists(imported) else {})

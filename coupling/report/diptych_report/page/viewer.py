@@ -19,8 +19,8 @@ from diptych_report.page.store import Store
 
 
 def data(result):
-    """The object, or None if no increment has arrays. Its "arrays" are entries of a Store; the rest refers to them by index."""
-    drawn = [i for i in result.increments if i.arrays]
+    """The object, or None without increments. Its "arrays" are entries of a Store; the rest refers to them by index."""
+    drawn = result.increments
     if not drawn:
         return None
     store = Store()

@@ -9,14 +9,9 @@ const decoded = new Map();
 function values(id) {
   if (id === null || id === undefined) return null;
   if (!decoded.has(id)) {
-    const entry = data.arrays[id], text = atob(entry.data), out = new Float32Array(entry.size);
-    const step = (entry.high - entry.low) / 4094;
-    for (let k = 0; k < out.length; ++k) { // two codes of 12 bits in three bytes
-      const at = 3 * (k >> 1), middle = text.charCodeAt(at + 1);
-      const code = k % 2 ? (middle >> 4) + 16 * text.charCodeAt(at + 2) : text.charCodeAt(at) + 256 * (middle & 15);
-      out[k] = code === 4095 ? NaN : entry.low + code * step;
-    }
-    decoded.set(id, out);
+    const { low, high, data: text } = data.arrays[id];
+    const codes = new Uint16Array(Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)).buffer);
+    decoded.set(id, Float32Array.from(codes, (code) => code === 65535 ? NaN : low + code * (high - low) / 65534));
   }
   return decoded.get(id);
 }
