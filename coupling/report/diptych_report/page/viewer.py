@@ -54,15 +54,12 @@ def _table(name):
 
 def _frame(increment, store):
     """Places of grains, cells, outline and bands."""
-    arrays, state = increment.arrays, increment.state
-    position, radius = arrays.get("discrete/position"), arrays.get("discrete/radius")
-    grains = position is not None and radius is not None
+    position, state = increment.arrays["discrete/position"], increment.state
     return {"key": increment.key, "kind": increment.kind, "label": increment.label, "title": increment.title,
             "end": f"{increment.end:.9g}",
-            "discs": {"x": store.add(position[:, 0]), "y": store.add(position[:, 1]),
-                      "r": store.add(radius)} if grains else None,
+            "discs": {"x": store.add(position[:, 0]), "y": store.add(position[:, 1]), "r": store.add(increment.arrays["discrete/radius"])},
             "cells": store.add(corners(increment, "cells")), "grid": store.add(corners(increment, "grid")),
-            "centre": None if increment.centre is None else short(increment.centre),
+            "centre": short(increment.centre),
             "outline": [short(state[side]) for side in ("outline/left", "outline/right") if len(state.get(side, ()))],
             "bands": {panel: [[or_none(plain(band.get(key))) for key in ("angle_deg", "offset_d", "width_10_90_d", "jump")]
                               for band in increment.bands(panel)] if "bands" in increment.panel(panel) else None

@@ -137,7 +137,7 @@ function drawBands(view, increment, panel, onColour) {
   const c = view.c, far = 4 * (data.box[1] - data.box[0] + data.box[3] - data.box[2]);
   const bands = increment.bands[panel] || [], strongest = Math.max(0, ...bands.map((band) => Math.abs(band[3] || 0)));
   for (const [angle, offset, width, jump] of bands) {
-    if (angle === null || !increment.centre) continue;
+    if (angle === null) continue;
     const a = angle * Math.PI / 180, half = (width || 0) / 2;
     c.globalAlpha = Math.abs(jump || 0) < 0.5 * strongest ? 0.45 : 1;
     for (const shift of half > 0 ? [0, -half, half] : [0]) {
