@@ -111,7 +111,8 @@ def probes(increment):
     for panel in PANEL_NAMES:
         record = increment.end_panel(panel)
         rectangles = [{"name": p["name"], "polygon": short(p["polygon"]),
-                       **{key: or_none(plain(p[key])) for key in ("s1", "s2", "direction_deg", "t_over_s")}} for p in record.get("probes") or []]
+                       **{key: or_none(plain(p[key])) for key in ("s1", "s2", "direction_deg", "t_over_s")}}
+                      for p in record.get("probes") or [] if p["polygon"]]
         circle = record.get("circular_probe")
         found[panel] = {"rectangles": rectangles, "circle": short([*circle["centre"], circle["radius"]]) if circle else None}
     return found
