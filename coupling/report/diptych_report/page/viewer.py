@@ -62,8 +62,7 @@ def _frame(increment, store):
             "centre": short(increment.centre),
             "outline": [short(state[side]) for side in ("outline/left", "outline/right") if len(state.get(side, ()))],
             "bands": {panel: [[or_none(plain(band.get(key))) for key in ("angle_deg", "offset_d", "width_10_90_d", "jump")]
-                              for band in increment.bands(panel)] if "bands" in increment.panel(panel) else None
-                      for panel in PANEL_NAMES}}
+                              for band in increment.bands(panel)] for panel in PANEL_NAMES}}
 
 
 def _values(quantity, increment, result, rules, store):
