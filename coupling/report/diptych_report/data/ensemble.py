@@ -49,9 +49,6 @@ class Ensemble:
     def span(self, value):
         return self.walk.text(value).replace(" ", "\u00a0")
 
-    def quantity(self, name):
-        return self.quantities.get(name)
-
 
 def load(folder):
     """The ensemble of a folder. Raises InputError if ensemble.json is missing, broken or has another format."""

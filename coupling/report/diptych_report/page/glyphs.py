@@ -13,14 +13,10 @@ PRINCIPAL = ("major_stress", "minor_stress", "stress_direction")
 
 
 def short(values):
-    """Nested lists of numbers with five digits."""
+    """Nested lists of numbers with five digits; None stays."""
     if isinstance(values, (list, tuple, np.ndarray)):
         return [short(value) for value in values]
-    return float(f"{values:.5g}")
-
-
-def or_none(number):
-    return None if number is None else short(number)
+    return None if values is None else float(f"{values:.5g}")
 
 
 def thinned(position):
@@ -111,7 +107,7 @@ def probes(increment):
     for panel in PANEL_NAMES:
         record = increment.end_panel(panel)
         rectangles = [{"name": p["name"], "polygon": short(p["polygon"]),
-                       **{key: or_none(plain(p[key])) for key in ("s1", "s2", "direction_deg", "t_over_s")}}
+                       **{key: short(plain(p[key])) for key in ("s1", "s2", "direction_deg", "t_over_s")}}
                       for p in record.get("probes") or [] if p["polygon"]]
         circle = record.get("circular_probe")
         found[panel] = {"rectangles": rectangles, "circle": short([*circle["centre"], circle["radius"]]) if circle else None}

@@ -69,10 +69,8 @@ def draw(folder):
 
 
 def page(result):
-    maps = viewer.data(result)
     return template("result.html").render(
-        comparison=result.comparison, imported=result.imported, parts=parts(result), maps=maps,
-        map_json=viewer.as_json(maps) if maps else "",
+        comparison=result.comparison, imported=result.imported, parts=parts(result), maps=viewer.data(result),
         curves=histories.figures(result) + ledgers.figures(result),
         solver=ledgers.solver(result), trends=trends.figures(result),
         resolution=resolution.figures(result), resolution_verdict=paragraph(resolution.verdict(result)),

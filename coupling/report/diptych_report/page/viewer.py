@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The browser draws the maps (draw.js). So a map of 4000 grains takes 8 kB per quantity and is sharp on screens and on paper."""
 
-import json
-
 import matplotlib
 import matplotlib.colors
 import numpy as np
@@ -12,7 +10,7 @@ from diptych_report.charts.style import NO_VALUE, PANEL_COLOURS
 from diptych_report.data.numbers import plain
 from diptych_report.data.panels import PANEL_NAMES
 from diptych_report.page import glyphs
-from diptych_report.page.glyphs import or_none, short
+from diptych_report.page.glyphs import short
 from diptych_report.page.limits import box, limits
 from diptych_report.page.quantities import PLACES, QUANTITIES, corners
 from diptych_report.page.store import Store
@@ -37,11 +35,6 @@ def data(result):
             "increments": increments, "arrays": store.entries}
 
 
-def as_json(value):
-    """JSON text that is safe inside a <script> of HTML."""
-    return json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
-
-
 def _quantity(quantity, places, result):
     return {"key": quantity.key, "group": quantity.group, "title": quantity.full_title(result), "label": quantity.label(result),
             "map": quantity.colour_map, "home": quantity.home if quantity.home in places else places[0], "places": places,
@@ -61,7 +54,7 @@ def _frame(increment, store):
             "cells": store.add(corners(increment, "cells")), "grid": store.add(corners(increment, "grid")),
             "centre": short(increment.centre),
             "outline": [short(state[side]) for side in ("outline/left", "outline/right") if len(state.get(side, ()))],
-            "bands": {panel: [[or_none(plain(band.get(key))) for key in ("angle_deg", "offset_d", "width_10_90_d", "jump")]
+            "bands": {panel: [[short(plain(band.get(key))) for key in ("angle_deg", "offset_d", "width_10_90_d", "jump")]
                               for band in increment.bands(panel)] for panel in PANEL_NAMES}}
 
 

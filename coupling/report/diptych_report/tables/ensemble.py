@@ -37,7 +37,7 @@ def text_of(results, verdict):
 def panel_quantities(results, verdict):
     place, key = place_of(verdict)
     names = {p: f"{place} {p} band {key}" if place else f"{p}_summary {key}" for p in PANEL_NAMES}
-    return {p: results.quantity(name) for p, name in names.items()}
+    return {p: results.quantities.get(name) for p, name in names.items()}
 
 
 def with_interval(record, unit):
@@ -114,7 +114,7 @@ def members(results):
     record = results.record
     failed = {member["seed"]: member for member in record["failed"]}
     place = {seed: k for k, seed in enumerate(record["done"])}
-    peaks = [results.quantity(f"{p}_summary peak_stress_ratio") for p in PANEL_NAMES]
+    peaks = [results.quantities.get(f"{p}_summary peak_stress_ratio") for p in PANEL_NAMES]
     rows = []
     for seed in record["seeds"]:
         row = {"seed": seed, "log": f"seed_{seed}.log", "report": None, "values": ["–", "–"]}
