@@ -71,11 +71,11 @@ def read(comparison, file, units):
     """
     walk = walk_of(comparison.get("walk"))
     increments, groups = [], {}
-    for k, window in enumerate(comparison.get("windows") or []):
+    for k, window in enumerate(comparison["windows"]):
         increments.append(Increment(f"window-{k}", "window", window["from"], window["to"], window, walk))
         groups[f"window-{k}"] = f"window_{k}"
     start = 0.0
-    for k, stage in enumerate(comparison.get("stages") or []):
+    for k, stage in enumerate(comparison["stages"]):
         increments.append(Increment(f"stage-{k}", "stage", start, stage["progress"], stage, walk))
         groups[f"stage-{k}"] = f"stage_{k + 1:04d}"
         start = stage["progress"]

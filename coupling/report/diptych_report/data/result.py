@@ -7,7 +7,7 @@ import numpy as np
 
 from diptych_report.data.files import open_arrays, read_csv, read_json, read_provenance, read_text, require
 from diptych_report.data.increments import read, read_arrays
-from diptych_report.data.numbers import Descriptions, Units, plain
+from diptych_report.data.numbers import Descriptions, Units
 from diptych_report.data.panels import PANEL_NAMES
 from diptych_report.data.walk import Walk, walk_of
 
@@ -39,8 +39,7 @@ class Result:
     @property
     def averaging(self):
         """The range of the running means as text."""
-        width = plain(self.comparison.get("averaging_width"))
-        return "a part of the loading" if width is None else f"the last {self.walk.text(width)} of {self.walk.word}"
+        return f"the last {self.walk.text(self.comparison['averaging_width'])} of {self.walk.word}"
 
     def part(self, key):
         """A group of the comparison, or {}."""
@@ -48,9 +47,8 @@ class Result:
 
     def history(self, panel, name):
         """(progress, values) of the rows with finite numbers; None: no such column, or fewer than two rows."""
-        columns = self.histories[panel]
-        progress, values = columns.get("progress"), columns.get(name)
-        if progress is None or values is None or len(progress) != len(values):
+        progress, values = self.histories[panel]["progress"], self.histories[panel].get(name)
+        if values is None:
             return None
         good = np.isfinite(progress) & np.isfinite(values)
         return (progress[good], values[good]) if good.sum() > 1 else None
@@ -68,15 +66,14 @@ def load(folder):
     """The result of a folder. Raises InputError if a required file is missing, broken or has another format."""
     require(folder, REQUIRED)
     comparison = read_json(os.path.join(folder, "comparison.json"), FORMAT)
-    units = Units(comparison.get("mean_diameter") or 1.0, comparison.get("pressure") or 1.0)
-    numbers = Descriptions(comparison.pop("numbers", {}))
+    units = Units(comparison["mean_diameter"], comparison["pressure"])
+    numbers = Descriptions(comparison.pop("numbers"))
     comparison = numbers.shown_in(comparison, units)
     histories = {panel: read_csv(os.path.join(folder, panel + ".csv")) for panel in PANEL_NAMES}
     with open_arrays(os.path.join(folder, "comparison.h5")) as file:
         increments, arrays = read(comparison, file, units)
         for panel, columns in histories.items():
-            if f"histories/{panel}" in file:
-                columns.update(read_arrays(file[f"histories/{panel}"], units, arrays))
+            columns.update(read_arrays(file[f"histories/{panel}"], units, arrays))
     imported = os.path.join(folder, "import.json")
     return Result(comparison, read_provenance(os.path.join(folder, "provenance.json")), histories, increments, units, numbers, arrays,
                   read_text(os.path.join(folder, "scene.prm")), read_json(imported) if os.path.exists(imported) else {})

@@ -12,12 +12,12 @@ from diptych_report.tables import accounts, accuracy, bands, stage, summary, wor
 def end_of(increments):
     """Progress at which the page opens: the end of the last window, or of the last stage if there is no window."""
     windows = [i for i in increments if i.kind == "window"]
-    return (windows or increments)[-1].end if increments else 0.0
+    return (windows or increments)[-1].end
 
 
 def opens_at(increments, end):
-    """The first increment that reaches `end`; windows come before stages. None without increments."""
-    return next((i for i in increments if i.end >= end - 1e-9), increments[-1] if increments else None)
+    """The first increment that reaches `end`, or the last one; windows come before stages."""
+    return next((i for i in increments if i.end >= end - 1e-9), increments[-1])
 
 
 class Part:

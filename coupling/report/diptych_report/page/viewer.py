@@ -17,11 +17,8 @@ from diptych_report.page.store import Store
 
 
 def data(result):
-    """The object, or None without increments. Its "arrays" are entries of a Store; the rest refers to them by index."""
-    drawn = result.increments
-    if not drawn:
-        return None
-    store = Store()
+    """The object. Its "arrays" are entries of a Store; the rest refers to them by index."""
+    drawn, store = result.increments, Store()
     rules = {(q.key, place): limits(q, place, drawn, result) for q in QUANTITIES for place in PLACES}
     places = {q.key: [place for place in PLACES if rules[q.key, place]] for q in QUANTITIES}
     used = [q for q in QUANTITIES if places[q.key]]
