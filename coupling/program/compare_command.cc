@@ -37,30 +37,27 @@ namespace diptych::coupling
         }
     }
 
-    int comparison_of(const CommandLine &line, const Scene &scene, const Results &results)
+    RunOrigin origin_of(const CommandLine &line, const Scene &scene)
     {
-      const std::string &directory = scene.output.directory;
-      Progress           progress(line.quiet);
+      return {scene.name, {scene.sample.seed}, line.text};
+    }
+
+    // Writes the comparison to the folder `next`.
+    int comparison_of(const CommandLine &line, const Scene &scene, const Results &results, const std::string &next)
+    {
+      Progress progress(line.quiet);
       progress.update("comparing", 0);
-      const PhaseTimer  timer("comparison");
-      Comparison        c    = compared(scene, results, progress);
-      const std::string next = next_comparison(directory);
-      remove_results(directory, {"next_comparison"}); // of a comparison that did not finish
-      make_folder(next);
+      const PhaseTimer timer("comparison");
+      Comparison       c = compared(scene, results, progress);
+      if (next == next_comparison(scene.output.directory))
+        ResultFolder(scene).open_next_comparison(line.text);
+      complete_record(scene.output.directory, next);
       write_comparison_h5(next, {scene, c}, results);
       write_fields_vtu(next, c);
-      std::vector<PhaseCost> phases = read_run_facts(directory).phases;
-      phases.erase(
-        std::remove_if(phases.begin(), phases.end(), [](const PhaseCost &phase) { return phase.name == "comparison"; }),
-        phases.end());
-      phases.push_back(timer.stop());
-      c.cost = summary_of(phases);
+      record_phases(next, origin_of(line, scene), {timer.stop()});
+      c.cost = summary_of(read_run_facts(next).phases);
       write_comparison(next, {scene, c});
-      discrete::write_text(scene_prm(next), resolved_text(scene));
-      take_next_comparison(directory);
-      record_phases(directory, {scene.name, {scene.sample.seed}, line.text}, {phases.back()});
-      ResultFolder(scene).record_compared(line.text);
-      record_files(directory, "comparison");
+      record_files(next, "comparison");
       progress.finish();
       for (const StageRecord &stage : c.stages)
         if (!(stage.mapping.total_relative_error < 1e-12))
@@ -102,14 +99,36 @@ namespace diptych::coupling
                        "`diptych continuum`");
   }
 
-  int compare_and_report(const CommandLine &line, const Scene &scene, const Results &results)
+  int compare_and_report(const CommandLine &line, const Scene &scene, const Results &results, const std::string &next)
   {
-    if (const int code = comparison_of(line, scene, results); code != done || !scene.output.report)
-      return code;
-    const PhaseTimer timer("report");
-    draw_page(line, Drawing::page, scene.output.directory);
-    record_phases(scene.output.directory, {scene.name, {scene.sample.seed}, line.text}, {timer.stop()});
-    return done;
+    const std::string &directory = scene.output.directory;
+    const bool         replaces  = std::filesystem::exists(comparison_json(directory));
+    const int          code      = comparison_of(line, scene, results, next);
+    const bool         draws     = code == done && scene.output.report;
+    try
+      {
+        const PhaseTimer timer(report_phase);
+        if (draws)
+          {
+            Progress progress(line.quiet);
+            progress.update("drawing the report", 0);
+            draw(Drawing::page, directory, next);
+            progress.finish();
+            record_phases(next, origin_of(line, scene), {timer.stop()});
+          }
+      }
+    catch (const std::exception &)
+      {
+        if (!replaces) // a comparison without its page is better than none
+          take(directory, next);
+        throw;
+      }
+    take(directory, next);
+    if (replaces)
+      say(line, "the new comparison has replaced the earlier one in " + directory);
+    if (draws)
+      say(line, "report: " + report_file(directory));
+    return code;
   }
 
   int compare_again(const CommandLine &line)
@@ -117,7 +136,11 @@ namespace diptych::coupling
     if (std::filesystem::exists(import_json(line.target)) && !std::filesystem::exists(continuum_csv(line.target)))
       throw SceneError(line.target + ": holds an imported sample and no continuum yet; diptych run " + line.target +
                        "/scene.prm computes it beside the grains and compares");
-    const Scene scene = scene_of_folder(line);
-    return writing(line.target, [&](FolderLock &) { return compare_and_report(line, scene, load_results(line.target)); });
+    return writing(line.target, [&](FolderLock &) {
+      finish_move(line.target);
+      check_scene_file(line.target);
+      const Scene scene = scene_of_folder(line);
+      return compare_and_report(line, scene, load_results(line.target), next_comparison(line.target));
+    });
   }
 } // namespace diptych::coupling

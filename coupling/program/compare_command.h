@@ -11,9 +11,9 @@ namespace diptych::coupling
   // Throws SceneError if the panels of a scene cannot be compared. Writes nothing.
   void check_comparable(const Scene &scene);
 
-  // Compares both panels' results, writes the comparison to scene.output.directory and draws the report if the scene asks for it.
-  // Returns an ExitCode.
-  int compare_and_report(const CommandLine &line, const Scene &scene, const Results &results);
+  // Compares both panels' results and draws the report if the scene asks for it. Both are written to the folder `next`; then all
+  // that it holds is moved to scene.output.directory. Returns an ExitCode.
+  int compare_and_report(const CommandLine &line, const Scene &scene, const Results &results, const std::string &next);
 
   int compare_again(const CommandLine &line); // compare DIR: a result folder or an ensemble
 } // namespace diptych::coupling

@@ -208,33 +208,26 @@ namespace diptych::coupling
     return code;
   }
 
-  int continuum_beside_grains(const CommandLine &line, const Scene &scene, const SceneChanges &changes, ContinuumTask task)
+  std::string continuum_folder(const CommandLine &line, const Scene &scene, const SceneChanges &changes)
+  {
+    const std::string &directory = scene.output.directory;
+    if (changes.continuum.empty() || !std::filesystem::exists(continuum_h5(directory)))
+      return directory;
+    say(line, "the continuum in " + directory + " belongs to other keys (" + changes.continuum +
+                "): it is computed again and replaced");
+    return next_continuum(directory);
+  }
+
+  int continuum_beside_grains(const CommandLine &line, const Scene &scene, const std::string &folder, ContinuumTask task)
   {
     const std::string &directory = scene.output.directory;
     if (task.grains_file.empty() && std::filesystem::exists(discrete_h5(directory)))
       task.grains_file = discrete_h5(directory);
-    const bool replaces = on_first_process(
-      [&] { return int(!changes.continuum.empty() && std::filesystem::exists(continuum_h5(directory))); });
-    if (!replaces)
-      return continuum_panel(line, scene, task);
-    on_first_process([&] {
-      say(line, "the continuum in " + directory + " belongs to other keys (" + changes.continuum +
-                  "): it is computed again and replaced");
-      return 0;
-    });
     Scene next            = scene;
-    next.output.directory = next_folder(directory);
-    task.resume           = on_first_process([&] { return int(ResultFolder(scene).open_next_continuum(line.text)); });
-    const int code        = continuum_panel(line, next, task);
-    if (code == done)
-      on_first_process([&] {
-        const bool had_comparison = std::filesystem::exists(comparison_json(directory));
-        replace_continuum(directory);
-        say(line, "the new continuum has replaced the earlier one in " + directory + " (" + changes.continuum + ")" +
-                    (had_comparison ? "; the comparison with the earlier one was removed" : ""));
-        return 0;
-      });
-    return code;
+    next.output.directory = folder;
+    if (folder != directory)
+      task.resume = on_first_process([&] { return int(ResultFolder(scene).open_next_continuum(line.text)); });
+    return continuum_panel(line, next, task);
   }
 
   int run_continuum(const CommandLine &line)
@@ -244,19 +237,30 @@ namespace diptych::coupling
     announce_resources(line, scene, {false, true});
     std::optional<FolderLock> lock;
     return keeping(scene.output.directory, [&] {
-      ContinuumTask task;
-      SceneChanges  changes;
-      on_first_process([&] {
-        lock.emplace(scene.output.directory);
-        changes = ResultFolder(scene).open(*lock, opening_of(line, true), [&](const SceneChanges &found) {
+      const std::string &directory = scene.output.directory;
+      ContinuumTask      task;
+      std::string        folder;
+      const bool         replaces = on_first_process([&] {
+        lock.emplace(directory);
+        const SceneChanges changes = ResultFolder(scene).open(*lock, opening_of(line, true), [&](const SceneChanges &found) {
           if (found.continuum.empty())
             check_earlier_continuum(scene);
           else if (scene.sample.target_solid_fraction > 0 && scene.continuum.mesh.kind == continuum::MeshOption::Kind::outline)
             task.prepared = prepared_grains(scene, line.quiet); // shows whether the solid fraction can be reached
         });
-        return 0;
+        folder                     = continuum_folder(line, scene, changes);
+        return int(folder != directory);
       });
-      return continuum_beside_grains(line, scene, changes, task);
+      const int          code     = continuum_beside_grains(line, scene, replaces ? next_continuum(directory) : directory, task);
+      if (code == done && replaces)
+        on_first_process([&] {
+          const bool had_comparison = std::filesystem::exists(comparison_json(directory));
+          take(directory, folder);
+          say(line, "the new continuum has replaced the earlier one in " + directory +
+                      (had_comparison ? "; the comparison with the earlier one was removed" : ""));
+          return 0;
+        });
+      return code;
     });
   }
 } // namespace diptych::coupling

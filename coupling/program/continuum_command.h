@@ -29,9 +29,12 @@ namespace diptych::coupling
   // mesh file). Collective. Returns an ExitCode.
   int continuum_panel(const CommandLine &line, const Scene &scene, const ContinuumTask &task);
 
-  // As continuum_panel(), beside the grains in scene.output.directory. A continuum with other keys is replaced once the new one
-  // is complete. Collective. Returns an ExitCode.
-  int continuum_beside_grains(const CommandLine &line, const Scene &scene, const SceneChanges &changes, ContinuumTask task = {});
+  // Folder to which the continuum is written: scene.output.directory, or next_continuum() if that holds one with other keys,
+  // which stays until the new one is complete.
+  std::string continuum_folder(const CommandLine &line, const Scene &scene, const SceneChanges &changes);
+
+  // As continuum_panel(), to that folder, with the grains in scene.output.directory. Collective. Returns an ExitCode.
+  int continuum_beside_grains(const CommandLine &line, const Scene &scene, const std::string &folder, ContinuumTask task);
 
   int run_continuum(const CommandLine &line); // continuum SCENE; on all processes together
 } // namespace diptych::coupling

@@ -314,6 +314,11 @@ namespace diptych::coupling
       check_study(scene);
     if (scene.discrete.method.method == discrete::Method::imported)
       (void)load_imported(scene);
+    if (!line.resume && !line.overwrite && !line.study_of_step && ResultFolder(scene).holds_finished_grains())
+      {
+        say(line, scene.output.directory + " holds the finished grains of this scene; --overwrite runs them again");
+        return done;
+      }
     if (!line.study_of_step)
       announce_resources(line, scene, {true, false});
     else

@@ -62,35 +62,28 @@ namespace diptych::coupling
     return fs::absolute(report_html(directory)).lexically_normal().string();
   }
 
-  void draw(const Drawing drawing, const std::string &directory)
+  void draw(const Drawing drawing, const std::string &directory, const std::string &next)
   {
-    const std::string script = drawing_script();
-    int               code   = 0;
+    const std::string  script = drawing_script();
+    const std::string &into   = next.empty() ? directory : next;
+    int                code   = 0;
     try
       {
-        code = run_program({python, script, word_of(drawing), directory});
+        code = run_program({python, script, word_of(drawing), directory, into});
       }
     catch (const StoppedOnRequest &)
       {
-        remove_parts(directory);
-        throw StoppedOnRequest("drawing the report: stopped on request; to draw it: diptych report " + directory);
+        remove_parts(into);
+        throw StoppedOnRequest("drawing the report: stopped on request; to draw it: diptych " +
+                               std::string(next.empty() ? "report " : "compare ") + directory);
       }
     if (code != 0)
-      remove_parts(directory);
+      remove_parts(into);
     if (code == wrong_input)
       throw std::invalid_argument(directory + ": the report could not be drawn");
     if (code != 0)
       throw std::runtime_error("the report could not be drawn: " + std::string(python) + " " + script + " " + word_of(drawing) +
                                " " + directory + " ended with exit code " + std::to_string(code));
-  }
-
-  void draw_page(const CommandLine &line, const Drawing drawing, const std::string &directory)
-  {
-    Progress progress(line.quiet);
-    progress.update("drawing the report", 0);
-    draw(drawing, directory);
-    progress.finish();
-    say(line, "report: " + report_file(directory));
   }
 
   int report_again(const CommandLine &line)
@@ -111,7 +104,11 @@ namespace diptych::coupling
     if (drawing == Drawing::ensemble)
       check_files(line.target, "ensemble");
     return writing(line.target, [&](FolderLock &) {
-      draw_page(line, drawing, line.target);
+      Progress progress(line.quiet);
+      progress.update("drawing the report", 0);
+      draw(drawing, line.target);
+      progress.finish();
+      say(line, "report: " + report_file(line.target));
       return int(done);
     });
   }

@@ -19,11 +19,9 @@ namespace diptych::coupling
 
   std::string report_file(const std::string &directory); // absolute path of the page of a folder
 
-  // Runs the Python package on a folder in a child process. Throws std::runtime_error if it fails.
-  void draw(Drawing drawing, const std::string &directory);
-
-  // As draw(), with progress; then prints the path of the page.
-  void draw_page(const CommandLine &line, Drawing drawing, const std::string &directory);
+  // Draws the results of a folder, in a child process. Files in the folder `next`, if given, take the place of older ones, and
+  // the page is written there. Throws std::runtime_error if it fails.
+  void draw(Drawing drawing, const std::string &directory, const std::string &next = "");
 
   int report_again(const CommandLine &line); // report DIR: comparison, ensemble or study
 } // namespace diptych::coupling

@@ -149,6 +149,15 @@ namespace diptych::coupling
         {}
       return path;
     }
+
+    double bytes_in(const std::string &directory)
+    {
+      double          sum = 0;
+      std::error_code none;
+      for (const fs::directory_entry &entry : fs::recursive_directory_iterator(directory, none))
+        sum += entry.is_regular_file(none) ? double(entry.file_size(none)) : 0;
+      return sum;
+    }
   } // namespace
 
   ResourceEstimate estimate_resources(const Scene &scene, const RunParts &parts)
@@ -171,11 +180,13 @@ namespace diptych::coupling
     return estimate;
   }
 
-  void require_resources(const Scene &asked_scene, const RunParts &parts)
+  void require_resources(const Scene &asked_scene, const RunParts &parts, const bool resume)
   {
-    const Scene            scene    = with_first_meshes(asked_scene, parts);
-    const ResourceEstimate estimate = estimate_resources(scene, parts);
-    const double           memory   = memory_of_process(parts);
+    const Scene      scene    = with_first_meshes(asked_scene, parts);
+    ResourceEstimate estimate = estimate_resources(scene, parts);
+    if (resume)
+      estimate.disk -= bytes_in(scene.output.directory);
+    const double      memory = memory_of_process(parts);
     const std::string asked = "the scene asks for " + counted(n_grains(scene)) + " grains, " + counted(n_elements(scene, parts)) +
                               " elements and " + counted(n_rows(scene, parts)) + " rows of discrete.csv, ";
     const std::string keys = " (sample/grains, continuum/element_size, discrete/history_interval)";
@@ -191,7 +202,7 @@ namespace diptych::coupling
 
   void announce_resources(const CommandLine &line, const Scene &scene, const RunParts &parts)
   {
-    require_resources(scene, parts);
+    require_resources(scene, parts, line.resume);
     if (!line.resume)
       say(line, scene.name + ": " + resource_text(scene, parts));
   }

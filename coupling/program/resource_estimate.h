@@ -32,12 +32,12 @@ namespace diptych::coupling
   ResourceEstimate estimate_resources(const Scene &scene, const RunParts &parts);
 
   // Throws std::runtime_error with the needed and the available size if memory or disk space is too small. With refinement =
-  // adaptive it checks for the first mesh.
-  void require_resources(const Scene &scene, const RunParts &parts);
+  // adaptive it checks for the first mesh. A continued run needs the disk space that its folder does not fill yet.
+  void require_resources(const Scene &scene, const RunParts &parts, bool resume = false);
 
   // The known parts of "2000 grains, 647 steps; about 10.1 MB of memory, 30.8 MB of files, 3 s to 10 s of CPU time".
   std::string resource_text(const Scene &scene, const RunParts &parts);
 
-  // Prints resource_text() and calls require_resources(). A continued run needs less, so it prints nothing.
+  // Calls require_resources(), and prints resource_text() unless the run is continued.
   void announce_resources(const CommandLine &line, const Scene &scene, const RunParts &parts);
 } // namespace diptych::coupling

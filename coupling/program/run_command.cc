@@ -38,10 +38,13 @@ namespace diptych::coupling
     }
 
     // Panels that ran in this process hand over what they computed; what was finished before is read.
-    Results results_of(const Scene &scene, std::optional<DiscreteResults> &grains, ContinuumRun &continuum)
+    Results results_of(const Scene                    &scene,
+                       const std::string              &of_continuum,
+                       std::optional<DiscreteResults> &grains,
+                       ContinuumRun                   &continuum)
     {
       if (!grains || !continuum.fine || continuum.coarse.has_value() != (continuum_parts(scene).size() > 1))
-        return load_results(scene.output.directory);
+        return load_results(scene.output.directory, of_continuum);
       return {std::move(*grains), std::move(*continuum.fine), std::move(continuum.coarse).value_or(ContinuumResults()),
               read_run_facts(scene.output.directory).phases};
     }
@@ -79,11 +82,14 @@ namespace diptych::coupling
       if (const int code = discrete_panel(line, scene, std::move(prepared), &grains); code != done)
         return code;
       return after_the_grains(scene, [&] {
-        ContinuumRun  continuum;
-        ContinuumTask task;
-        task.results   = &continuum;
-        const int code = continuum_beside_grains(line, scene, changes, task);
-        return code == done ? compare_and_report(line, scene, results_of(scene, grains, continuum)) : code;
+        const std::string &directory = scene.output.directory, folder = continuum_folder(line, scene, changes);
+        ContinuumRun       continuum;
+        ContinuumTask      task;
+        task.results = &continuum;
+        if (const int code = continuum_beside_grains(line, scene, folder, task); code != done)
+          return code;
+        return compare_and_report(line, scene, results_of(scene, folder, grains, continuum),
+                                  folder == directory ? next_comparison(directory) : folder);
       });
     });
   }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# diptych: pages and pictures of results; usage: draw.py page|ensemble|study|calibration|step-study DIR
+# diptych: pages and pictures of results; usage: draw.py page|ensemble|study|calibration|step-study DIR [NEXT]
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Exit codes: 0 done, 2 wrong input (usage, missing or broken file, another format), 4 a module is missing or a file cannot be written.
 A new page replaces the old one only when it is complete."""
@@ -14,7 +14,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 from diptych_report import InputError  # noqa: E402
 
-# what to draw -> (module with draw(folder), its input files)
+# what to draw -> (module with draw(folder), its input files); only a page also takes a folder of newer files
 DRAWINGS = {
     "page": ("page.result_page", "comparison.json, comparison.h5, discrete.csv, continuum.csv, provenance.json"),
     "ensemble": ("page.ensemble_page", "ensemble.json, ensemble.h5"),
@@ -25,13 +25,14 @@ DRAWINGS = {
 
 
 def main(arguments):
-    if len(arguments) != 2 or arguments[0] not in DRAWINGS:
-        print(f"report: usage: draw.py {'|'.join(DRAWINGS)} DIR", file=sys.stderr)
+    if len(arguments) not in (2, 3) or arguments[0] not in DRAWINGS:
+        print(f"report: usage: draw.py {'|'.join(DRAWINGS)} DIR [NEXT]", file=sys.stderr)
         return 2
     module, inputs = DRAWINGS[arguments[0]]
     gc.disable()  # saves a tenth of the time: figures are thousands of small objects, and the program ends soon
     try:
-        importlib.import_module("diptych_report." + module).draw(arguments[1])
+        folders = arguments[1:] if arguments[0] == "page" else arguments[1:2]
+        importlib.import_module("diptych_report." + module).draw(*folders)
     except InputError as error:
         print(f"report: {error}", file=sys.stderr)
         return 2

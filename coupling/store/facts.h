@@ -130,10 +130,11 @@ namespace diptych::coupling
     v({"snapshots", "-", "checksum of the .h5 file as the run wrote it", Kind::setting}, s.snapshots);
   }
 
-  // Hashes of a scene's values and of the contents of its files (FNV-1a, 64 bits, hexadecimal). Empty: not known.
+  // Hashes of a scene's values and of the contents of its files, and of the text of scene.prm (FNV-1a, 64 bits, hexadecimal).
+  // Empty: not known.
   struct SceneHashes
   {
-    std::string sample, continuum, comparison;
+    std::string sample, continuum, comparison, text;
   };
 
   template <class Hashes, class Visitor, std::enable_if_t<std::is_same_v<std::remove_const_t<Hashes>, SceneHashes>, int> = 0>
@@ -142,6 +143,7 @@ namespace diptych::coupling
     v({"sample", "-", "hash of sample, loading and discrete", Kind::setting}, h.sample);
     v({"continuum", "-", "hash of these and of continuum", Kind::setting}, h.continuum);
     v({"comparison", "-", "hash of these and of comparison, without seed and margins", Kind::setting}, h.comparison);
+    v({"text", "-", "hash of scene.prm as the run wrote it", Kind::setting}, h.text);
   }
 
   // The contents of provenance.json.

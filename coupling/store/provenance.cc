@@ -293,19 +293,35 @@ namespace diptych::coupling
     write_record(directory, record);
   }
 
-  void take_continuum_facts(const std::string &directory, const std::string &from)
+  void complete_record(const std::string &directory, const std::string &next)
   {
-    json       record = read_record(directory);
-    const json other  = read_record(from);
-    for (const char *entry : {"continuum", "continuum_files", "continuum_coarse", "continuum_coarse_files", "hashes"})
-      if (other.contains(entry))
-        record[entry] = other[entry];
-      else
+    const json earlier = read_record(directory), added = read_record(next);
+    json       record = earlier;
+    for (const char *entry : {"comparison_files", "phases"})
+      record.erase(entry);
+    if (added.contains("continuum"))
+      for (const char *entry : {"continuum", "continuum_files", "continuum_coarse", "continuum_coarse_files"})
         record.erase(entry);
-    record.erase("comparison_files");
-    for (const json &phase : other.at("phases"))
-      put_phase(record, phase);
-    write_record(directory, record);
+    record.update(added);
+    for (const char *entry : {"discrete", "discrete_files"})
+      if (earlier.contains(entry))
+        record[entry] = earlier[entry];
+    record["phases"] = json::array();
+    for (const json *phases : {&earlier.at("phases"), &added.at("phases")})
+      for (const json &phase : *phases)
+        if (phases == &added.at("phases") || phase.value("name", "") != report_phase)
+          put_phase(record, phase);
+    write_record(next, record);
+  }
+
+  void copy_record(const std::string &from, const std::string &to)
+  {
+    write_record(to, read_record(from));
+  }
+
+  bool has_report(const RunFacts &facts)
+  {
+    return std::any_of(facts.phases.begin(), facts.phases.end(), [](const PhaseCost &p) { return p.name == report_phase; });
   }
 
   RunFacts read_run_facts(const std::string &directory)

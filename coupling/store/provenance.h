@@ -25,6 +25,8 @@ namespace diptych::coupling
   // CPU seconds of all threads of the process; `children` adds those of its child processes (the report).
   double cpu_seconds(bool children = false);
 
+  constexpr const char *report_phase = "report";
+
   // Command, scene and seeds that produced the results of a folder.
   struct RunOrigin
   {
@@ -51,9 +53,14 @@ namespace diptych::coupling
   // Records the scene of the folder's results and its hashes, which later commands compare.
   void record_scene(const std::string &directory, const RunOrigin &origin, const SceneHashes &hashes);
 
-  // Replaces the facts, checksums, hashes and phases of the continuum recorded in `directory` by those recorded in the folder
-  // `from`.
-  void take_continuum_facts(const std::string &directory, const std::string &from);
+  // Adds to the record of the folder `next` what the record of `directory` says of parts that `next` does not hold. The
+  // comparison and the report of `directory` are not among them.
+  void complete_record(const std::string &directory, const std::string &next);
+
+  // Writes the record of the folder `from` to the folder `to`.
+  void copy_record(const std::string &from, const std::string &to);
+
+  bool has_report(const RunFacts &facts); // true if they record that the report was drawn
 
   // Removes the facts and checksums of a part, or its checksums only, before the part is computed again.
   void forget_fact(const std::string &directory, const std::string &part);

@@ -21,8 +21,8 @@ namespace diptych::coupling
   {
     namespace fs = std::filesystem;
 
-    const std::vector<std::string> comparison_files = {"comparison.json", "comparison.csv", "comparison.h5",
-                                                       "fields.vtu",      "grid.vtu",       "report.html"};
+    const std::vector<std::string> comparison_files = {"comparison.json", "comparison.csv", "comparison.h5", "fields.vtu",
+                                                       "grid.vtu"};
 
     // Absolute, without a slash at its end.
     fs::path plain_path(const std::string &directory)
@@ -40,7 +40,7 @@ namespace diptych::coupling
     SceneHashes hashes_of(const Scene &scene)
     {
       const auto hash = [](const Identity &identity) { return hexadecimal(digest_of(text_of(identity))); };
-      return {hash(sample_identity(scene)), hash(continuum_identity(scene)), hash(member_identity(scene))};
+      return {hash(sample_identity(scene)), hash(continuum_identity(scene)), hash(member_identity(scene)), ""};
     }
 
     // The first key whose value differs between the scene and scene.prm. If all agree, one of the scene's files has changed.
@@ -53,10 +53,15 @@ namespace diptych::coupling
       return difference.empty() ? "an input file has changed since" : difference;
     }
 
-    // Folder of the next continuum once all its parts are complete.
-    std::string whole_next_folder(const std::string &directory)
+    // Name of a next folder once it is complete, and once all is moved from it.
+    std::string complete_folder(const std::string &directory)
     {
-      return directory + "/next_whole";
+      return directory + "/next_complete";
+    }
+
+    std::string moved_folder(const std::string &directory)
+    {
+      return directory + "/next_moved";
     }
 
     bool has_continuum(const std::string &directory)
@@ -94,7 +99,8 @@ namespace diptych::coupling
     if (!fs::exists(directory) || is_empty_folder(directory))
       return;
     if (!is_result_folder(directory))
-      throw SceneError("the folder '" + directory + "' holds other files and no results. Name a new or an empty folder.");
+      throw SceneError("the folder '" + directory +
+                       "' holds files, but no results of diptych (no provenance.json). Name a new or " + "an empty folder.");
     if (!opening.resume && !opening.overwrite)
       throw SceneError("the folder '" + directory + "' holds results. Add " +
                        (opening.can_resume ? "--resume to continue them, " : "") + "--overwrite to rename them to " +
@@ -135,17 +141,12 @@ namespace diptych::coupling
     return changes;
   }
 
-  void ResultFolder::write_scene(const std::string &folder, const std::string &command) const
+  void ResultFolder::write_scene(const std::string &folder, const std::string &command, SceneHashes hashes) const
   {
-    record_scene(folder, {scene.name, {scene.sample.seed}, command}, hashes_of(scene));
-    discrete::write_text(scene_prm(folder), resolved_text(scene));
-  }
-
-  void ResultFolder::record_compared(const std::string &command) const
-  {
-    SceneHashes hashes = read_run_facts(directory).hashes;
-    hashes.comparison  = hashes_of(scene).comparison;
-    record_scene(directory, {scene.name, {scene.sample.seed}, command}, hashes);
+    const std::string text = resolved_text(scene);
+    hashes.text            = hexadecimal(digest_of(text));
+    record_scene(folder, {scene.name, {scene.sample.seed}, command}, hashes);
+    discrete::write_text(scene_prm(folder), text);
   }
 
   SceneChanges ResultFolder::open(FolderLock                                      &lock,
@@ -164,7 +165,7 @@ namespace diptych::coupling
     SceneChanges changes;
     if (keeps_results)
       {
-        finish_replacement(directory);
+        finish_move(directory);
         changes = this->changes();
       }
     if (check)
@@ -178,65 +179,43 @@ namespace diptych::coupling
       }
     // scene.prm describes a finished continuum or comparison until a new one replaces it.
     if (is_empty || opening.overwrite || (!changes.continuum.empty() && !has_continuum(directory)))
-      write_scene(directory, opening.command);
+      write_scene(directory, opening.command, hashes_of(scene));
     return changes;
+  }
+
+  bool ResultFolder::holds_finished_grains() const
+  {
+    if (!fs::exists(directory + "/provenance.json") || !changes().sample.empty() || !read_run_facts(directory).discrete.finished)
+      return false;
+    check_files(directory, "discrete");
+    return true;
   }
 
   bool ResultFolder::holds_finished_run() const
   {
-    if (!fs::exists(directory + "/provenance.json"))
+    if (!holds_finished_grains())
       return false;
     const RunFacts     facts   = read_run_facts(directory);
     const SceneChanges changes = this->changes();
-    if (!changes.sample.empty() || !changes.continuum.empty() || !changes.comparison.empty() || !facts.discrete.finished ||
-        !facts.continuum.finished || facts.comparison_files.table.empty() ||
-        (scene.output.report && !fs::exists(report_html(directory))))
+    if (!changes.continuum.empty() || !changes.comparison.empty() || !facts.continuum.finished ||
+        facts.comparison_files.table.empty() || (scene.output.report && !fs::exists(report_html(directory))))
       return false;
     check_files(directory);
     check_files(directory, "comparison");
     return true;
   }
 
-  std::string next_folder(const std::string &directory)
+  void check_scene_file(const std::string &directory)
+  {
+    const std::string recorded = read_run_facts(directory).hashes.text, file = scene_prm(directory);
+    if (!recorded.empty() && sum_over(file) != recorded)
+      throw std::invalid_argument(file + " was changed after the run had written it (checksum in provenance.json). Keys of " +
+                                  "comparison/ are changed with --set.");
+  }
+
+  std::string next_continuum(const std::string &directory)
   {
     return directory + "/next";
-  }
-
-  bool ResultFolder::open_next_continuum(const std::string &command) const
-  {
-    const std::string next = next_folder(directory);
-    if (fs::exists(next + "/provenance.json") && changes_in(next).continuum.empty())
-      return true;
-    remove_results(directory, {"next"});
-    make_folder(next);
-    write_scene(next, command);
-    return false;
-  }
-
-  void finish_replacement(const std::string &directory)
-  {
-    const std::string next = whole_next_folder(directory);
-    if (!fs::exists(next))
-      return;
-    remove_results(directory, comparison_files);
-    for (const char *name :
-         {"continuum.csv", "continuum.h5", "continuum.xdmf", "continuum.pvd", "continuum", "coarse", "sample.msh", "scene.prm"})
-      if (fs::exists(next + "/" + name))
-        {
-          remove_results(directory, {name});
-          fs::rename(next + "/" + name, directory + "/" + name);
-        }
-    remove_results(directory, {"continuum_checkpoint.h5"});
-    if (read_run_facts(next).continuum_coarse.cells == 0)
-      remove_results(directory, {"coarse"});
-    take_continuum_facts(directory, next);
-    fs::remove_all(next);
-  }
-
-  void replace_continuum(const std::string &directory)
-  {
-    fs::rename(next_folder(directory), whole_next_folder(directory));
-    finish_replacement(directory);
   }
 
   std::string next_comparison(const std::string &directory)
@@ -244,14 +223,58 @@ namespace diptych::coupling
     return directory + "/next_comparison";
   }
 
-  void take_next_comparison(const std::string &directory)
+  bool ResultFolder::open_next_continuum(const std::string &command) const
   {
-    const std::string next = next_comparison(directory);
-    forget_files(directory, "comparison");
-    remove_results(directory, {"report.html"}); // shows the earlier comparison; a new report is not always drawn
-    for (const fs::directory_entry &entry : fs::directory_iterator(next))
-      fs::rename(entry.path(), directory + "/" + entry.path().filename().string());
+    const std::string next = next_continuum(directory);
+    if (fs::exists(next + "/provenance.json") && changes_in(next).continuum.empty())
+      return true;
+    remove_results(directory, {"next"});
+    make_folder(next);
+    write_scene(next, command, hashes_of(scene));
+    return false;
+  }
+
+  void ResultFolder::open_next_comparison(const std::string &command) const
+  {
     remove_results(directory, {"next_comparison"});
+    make_folder(next_comparison(directory));
+    SceneHashes hashes = read_run_facts(directory).hashes; // those of the computed panels stay
+    hashes.comparison  = hashes_of(scene).comparison;
+    write_scene(next_comparison(directory), command, hashes);
+  }
+
+  void take(const std::string &directory, const std::string &next)
+  {
+    complete_record(directory, next);
+    remove_results(directory, {"next_moved"});
+    fs::rename(next, complete_folder(directory));
+    finish_move(directory);
+  }
+
+  void finish_move(const std::string &directory)
+  {
+    const std::string next = complete_folder(directory);
+    if (!fs::exists(next))
+      return;
+    const RunFacts facts = read_run_facts(next);
+    if (facts.comparison_files.table.empty())
+      remove_results(directory, comparison_files);
+    if (!has_report(facts))
+      remove_results(directory, {"report.html"});
+    if (facts.continuum_coarse.cells == 0)
+      remove_results(directory, {"coarse"});
+    if (facts.continuum.finished)
+      remove_results(directory, {"continuum_checkpoint.h5"});
+    for (const fs::directory_entry &entry :
+         std::vector<fs::directory_entry>(fs::directory_iterator(next), fs::directory_iterator()))
+      if (const std::string name = entry.path().filename().string(); name != "provenance.json")
+        {
+          remove_results(directory, {name});
+          fs::rename(entry.path(), directory + "/" + name);
+        }
+    copy_record(next, directory);
+    fs::rename(next, moved_folder(directory)); // until then, a killed process does all of this again
+    remove_results(directory, {"next_moved"});
   }
 
   void remove_results(const std::string &directory, const std::vector<std::string> &names)

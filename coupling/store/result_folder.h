@@ -9,6 +9,7 @@
 
 #include "coupling/scene/scene.h"
 #include "coupling/scene/scene_error.h"
+#include "coupling/store/facts.h"
 #include "coupling/store/folder_lock.h"
 
 namespace diptych::coupling
@@ -68,38 +69,40 @@ namespace diptych::coupling
                       const Opening                                   &opening,
                       const std::function<void(const SceneChanges &)> &check = {}) const;
 
-    // Records in provenance.json that the comparison now belongs to this scene. The hashes of the computed panels stay.
-    void record_compared(const std::string &command) const;
-
-    // True if the folder holds all results of the scene, computed from this scene and its present input files. Throws
-    // std::invalid_argument with the name of a result file that was changed later.
+    // True if the folder holds the finished grains, or all results of the scene, computed from this scene and its present input
+    // files. Both throw std::invalid_argument with the name of a result file that was changed later.
+    bool holds_finished_grains() const;
     bool holds_finished_run() const;
 
-    // Prepares next_folder(). Returns true if it holds an interrupted run of the same scene that can continue.
+    // Prepares next_continuum(). Returns true if it holds an interrupted run of the same scene that can continue.
     bool open_next_continuum(const std::string &command) const;
+
+    // Prepares next_comparison(), empty but for scene.prm and provenance.json.
+    void open_next_comparison(const std::string &command) const;
 
   private:
     SceneChanges changes_in(const std::string &folder) const;
 
-    // Writes the resolved scene to FOLDER/scene.prm and its hashes to provenance.json.
-    void write_scene(const std::string &folder, const std::string &command) const;
+    // Writes the resolved scene to FOLDER/scene.prm, and to provenance.json its hashes.
+    void write_scene(const std::string &folder, const std::string &command, SceneHashes hashes) const;
 
     const Scene       &scene;
     const std::string &directory;
   };
 
-  // DIRECTORY/next, where a continuum that replaces an earlier one is computed. It has a separate scene.prm and provenance.json.
-  std::string next_folder(const std::string &directory);
+  // Throws std::invalid_argument if scene.prm was changed after a run had written it.
+  void check_scene_file(const std::string &directory);
 
-  // Moves the complete continuum from next_folder() to its place and removes the comparison with the old one.
-  void replace_continuum(const std::string &directory);
-
-  // Completes a replacement that a killed run has left half done. Does nothing if there is none.
-  void finish_replacement(const std::string &directory);
-
-  // A comparison is written to DIRECTORY/next_comparison, together with its scene. Then it is moved to its place.
+  // Folders in which new results are computed beside earlier ones: DIRECTORY/next for a continuum with its comparison,
+  // DIRECTORY/next_comparison for a comparison alone. Each has a separate scene.prm and provenance.json.
+  std::string next_continuum(const std::string &directory);
   std::string next_comparison(const std::string &directory);
-  void        take_next_comparison(const std::string &directory);
+
+  // Moves all results from one of these folders to their place. Removes a comparison or a report that they make untrue.
+  void take(const std::string &directory, const std::string &next);
+
+  // Completes a move that a killed run has left half done. Does nothing if there is none.
+  void finish_move(const std::string &directory);
 
   // Removes the named files and folders, which a run has written.
   void remove_results(const std::string &directory, const std::vector<std::string> &names);

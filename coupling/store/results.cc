@@ -54,14 +54,18 @@ namespace diptych::coupling
     }
   } // namespace
 
-  Results load_results(const std::string &folder)
+  Results load_results(const std::string &folder, const std::string &of_continuum)
   {
-    const RunFacts facts  = read_run_facts(folder);
-    const bool     coarse = std::filesystem::exists(continuum_h5(coarse_folder(folder)));
-    Results        results{discrete_results(folder, facts.discrete), continuum_results(folder, facts.continuum),
-                    coarse ? continuum_results(coarse_folder(folder), facts.continuum_coarse) : ContinuumResults(), facts.phases};
-    check_meshes(continuum_h5(folder), results.continuum);
-    check_files(folder); // last: what was found wrong before says more
+    const std::string coarse = coarse_folder(of_continuum);
+    const RunFacts    facts = read_run_facts(folder), of = read_run_facts(of_continuum);
+    Results           results{discrete_results(folder, facts.discrete), continuum_results(of_continuum, of.continuum),
+                    std::filesystem::exists(continuum_h5(coarse)) ? continuum_results(coarse, of.continuum_coarse)
+                                                                            : ContinuumResults(),
+                    facts.phases};
+    check_meshes(continuum_h5(of_continuum), results.continuum);
+    check_files(folder, "discrete"); // last: what was found wrong before says more
+    check_files(of_continuum, "continuum");
+    check_files(of_continuum, "continuum_coarse");
     return results;
   }
 } // namespace diptych::coupling

@@ -51,6 +51,10 @@ namespace diptych::coupling
 
   // Reads a result folder: discrete.h5 and .csv, continuum.h5 and .csv, coarse/continuum.h5 and .csv, provenance.json. Throws
   // std::invalid_argument with the name of a file that is missing, damaged or from another run. Examples: a table without the
-  // last step of a stage, a mesh turned inside out.
-  Results load_results(const std::string &folder);
+  // last step of a stage, a mesh turned inside out. The continuum is read from the folder `of_continuum`.
+  Results        load_results(const std::string &folder, const std::string &of_continuum);
+  inline Results load_results(const std::string &folder)
+  {
+    return load_results(folder, folder);
+  }
 } // namespace diptych::coupling

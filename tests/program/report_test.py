@@ -241,7 +241,7 @@ class OtherFolders(unittest.TestCase):
                 file["mine"] = [1.0]
 
         self.refused(lambda path: None, r"usage: draw\.py page\|ensemble\|study\|calibration\|step-study", "figure")
-        self.refused(lambda path: os.remove(path("continuum.csv")), r".*missing continuum\.csv")
+        self.refused(lambda path: os.remove(path("continuum.csv")), r"missing: .*continuum\.csv")
         self.refused(lambda path: write_json(path(""), "comparison.json", {"format": 1}), r".*comparison\.json: format 1, .*format 2")
         self.refused(lambda path: write_json(path(""), "provenance.json", {"a": [1, 2]}), r".*provenance\.json")
         self.refused(lambda path: os.truncate(path("provenance.json"), 9), r".*provenance\.json")

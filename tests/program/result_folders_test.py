@@ -132,7 +132,8 @@ class GoneOn(Folders):
         before = {name: content(os.path.join(self.folder, name)) for name in listing(self.folder)}
         words = [word for word in self.words("run") if word != "--quiet"]
         self.assertIn("finished run of this scene", self.expect(0, words).stdout)
-        self.assertIn("not run again", self.expect(0, [word for word in self.words("continuum") if word != "--quiet"]).stdout)
+        for command, answer in (("continuum", "not run again"), ("discrete", "finished grains of this scene")):
+            self.assertIn(answer, self.expect(0, [word for word in self.words(command) if word != "--quiet"]).stdout)
         self.assertEqual({name: content(os.path.join(self.folder, name)) for name in listing(self.folder)}, before)
 
     def test_another_continuum_takes_the_place_of_the_first(self):
@@ -152,15 +153,24 @@ class GoneOn(Folders):
     def test_until_it_is_complete_the_first_continuum_stays(self):
         """Killed at any moment, the folder is that of the first continuum, and --resume ends with the second one's bits."""
         first, second = self.curve(self.folder), self.curve(self.truth())
-        process = start(*self.words("continuum", *OTHER, *setting(continuum_checkpoint_minutes=0)), cwd=self.work)
-        while process.poll() is None and not os.path.exists(os.path.join(self.folder, "next", "continuum_checkpoint.h5")):
-            time.sleep(0.002)
-        process.kill()
-        process.wait()
-        self.assertEqual(self.curve(self.folder), first)
-        self.expect(0, ["compare", self.folder, "--quiet"])
-        self.expect(0, self.words("run", "--resume", *OTHER, *setting(continuum_checkpoint_minutes=0)))
+        comparison = content(os.path.join(self.folder, "comparison.json"))
+        words = self.words("run", "--resume", *OTHER, *setting(continuum_checkpoint_minutes=0))
+        for name in ("continuum_checkpoint.h5", "comparison.json"):
+            process = start(*words, cwd=self.work)
+            while process.poll() is None and not os.path.exists(os.path.join(self.folder, "next", name)):
+                time.sleep(0.002)
+            process.kill()
+            process.wait()
+            self.assertEqual((self.curve(self.folder), content(os.path.join(self.folder, "comparison.json"))), (first, comparison))
+        self.expect(0, words)
         self.assertEqual(self.curve(self.folder), second)
+        self.assertNotEqual(content(os.path.join(self.folder, "comparison.json")), comparison)
+        self.assertNotIn("next", os.listdir(self.folder))
+
+    def test_a_changed_scene_file_is_noticed(self):
+        scene = os.path.join(self.folder, "scene.prm")
+        write(scene, content(scene).decode().replace("set max_bands = 2", "set max_bands = 1"))
+        self.expect(2, ["compare", self.folder], scene, "was changed")
 
     def test_another_comparison_needs_no_panel_again(self):
         panels = {name: content(os.path.join(self.folder, name)) for name in ("discrete.h5", "continuum.h5")}

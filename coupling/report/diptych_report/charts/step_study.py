@@ -24,8 +24,9 @@ LOGARITHMIC = ("kinetic_energy", "max_penetration")
 
 def draw(folder):
     """Writes study_step.png, in the units of the scene. Raises InputError if study_step.csv or study_step.json is missing or broken."""
-    require(folder, ("study_step.csv", "study_step.json"))
-    record, table = (read(os.path.join(folder, "study_step" + end)) for read, end in ((read_json, ".json"), (read_csv, ".csv")))
+    paths = [os.path.join(folder, name) for name in ("study_step.json", "study_step.csv")]
+    require(paths)
+    record, table = read_json(paths[0]), read_csv(paths[1])
     runs = [(step, {name: column[table["step"] == step] for name, column in table.items()}) for step in record["steps"]]
     set_up()
     figure = Figure(figsize=(10.5, 6.4))

@@ -12,11 +12,11 @@ import numpy as np
 from diptych_report import InputError
 
 
-def require(folder, names):
+def require(paths):
     """Raises InputError with the missing files."""
-    missing = [name for name in names if not os.path.isfile(os.path.join(folder, name))]
+    missing = [path for path in paths if not os.path.isfile(path)]
     if missing:
-        raise InputError(f"{folder}: missing {', '.join(missing)}")
+        raise InputError(f"missing: {', '.join(missing)}")
 
 
 def read_json(path, format=None):

@@ -62,18 +62,23 @@ class Result:
         return [i for i in self.increments if i.kind == "stage"]
 
 
-def load(folder):
-    """The result of a folder. Raises InputError if a required file is missing, broken or has another format."""
-    require(folder, REQUIRED)
-    comparison = read_json(os.path.join(folder, "comparison.json"), FORMAT)
+def load(folder, next_folder):
+    """The result of a folder. Files in next_folder take the place of older ones. Raises InputError if a required file is missing,
+    broken or has another format."""
+    def path_of(name):
+        newer = os.path.join(next_folder, name)
+        return newer if os.path.isfile(newer) else os.path.join(folder, name)
+
+    require([path_of(name) for name in REQUIRED])
+    comparison = read_json(path_of("comparison.json"), FORMAT)
     units = Units(comparison["mean_diameter"], comparison["pressure"])
     numbers = Descriptions(comparison.pop("numbers"))
     comparison = numbers.shown_in(comparison, units)
-    histories = {panel: read_csv(os.path.join(folder, panel + ".csv")) for panel in PANEL_NAMES}
-    with open_arrays(os.path.join(folder, "comparison.h5")) as file:
+    histories = {panel: read_csv(path_of(panel + ".csv")) for panel in PANEL_NAMES}
+    with open_arrays(path_of("comparison.h5")) as file:
         increments, arrays = read(comparison, file, units)
         for panel, columns in histories.items():
             columns.update(read_arrays(file[f"histories/{panel}"], units, arrays))
     imported = os.path.join(folder, "import.json")
-    return Result(comparison, read_provenance(os.path.join(folder, "provenance.json")), histories, increments, units, numbers, arrays,
-                  read_text(os.path.join(folder, "scene.prm")), read_json(imported) if os.path.exists(imported) else {})
+    return Result(comparison, read_provenance(path_of("provenance.json")), histories, increments, units, numbers, arrays,
+                  read_text(path_of("scene.prm")), read_json(imported) if os.path.exists(imported) else {})

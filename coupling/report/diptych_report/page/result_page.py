@@ -61,11 +61,12 @@ def paragraph(sentence):
     return [wording.typeset(sentence[0].upper() + sentence[1:].rstrip(".") + ".")] if sentence else []
 
 
-def draw(folder):
-    """Raises InputError if a file of the folder is missing, broken or has another format."""
-    result = load(folder)
+def draw(folder, next_folder=None):
+    """Writes the page to next_folder, whose files take the place of older ones in folder; default: folder. Raises InputError if a file is missing,
+    broken or has another format."""
+    result = load(folder, next_folder or folder)
     style.set_up()
-    write(folder, page(result))
+    write(next_folder or folder, page(result))
 
 
 def page(result):
