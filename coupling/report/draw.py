@@ -40,8 +40,8 @@ def main(arguments):
         print(f"report: {error}", file=sys.stderr)
         return 4
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
-        print(f"report: {arguments[1]}: one of {inputs} has contents that this version does not write: {type(error).__name__}: {error}",
-              file=sys.stderr)
+        print(f"report: {arguments[1]}: one of {inputs} has contents that this version does not write: "
+              f"{type(error).__name__}: {error}", file=sys.stderr)
         return 2
     except ImportError as error:
         print(f"report: {sys.executable} lacks a module: {error}. Install python3-h5py, python3-matplotlib and python3-jinja2 (Debian)",

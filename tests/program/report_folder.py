@@ -200,7 +200,8 @@ def write_folder(folder):
         with open(os.path.join(folder, name), "w", encoding="utf-8") as stream:
             stream.write(columns + "\n")
             for k in range(1, 21):
-                row = [0.0005 * k, 0.3, -0.001 * k, 10, -10.05, 0.0005 * k, 0.0, k, "axial_strain", 20, 1e-5, 1.2, 0.1 * k, 0.1 * k]
+                row = [0.0005 * k, 0.3, -0.001 * k, 10, -10.05, 0.0005 * k, 0.0, k, "axial_strain", 20, 1e-5, 1.2,
+                       0.1 * k, 0.1 * k]
                 stream.write(",".join(map(str, row)) + "\n")
 
 

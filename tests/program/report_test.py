@@ -161,7 +161,7 @@ class CompleteFolder(unittest.TestCase):
         self.assertRegex(self.words, r'platen unbalance</th><td>3\.0 × 10⁻⁴</td><td>equilibrium: 0</td>')
 
     def test_the_page_needs_no_other_file(self):
-        self.assertEqual([link for link in re.findall(r' (?:src|href)="([^"]+)"', self.text) if not link.startswith("data:")], [])
+        self.assertIsNone(re.search(r' (?:src|href)="(?!data:)', self.text))
         self.assertIsNone(re.search(r"url\(|@import", self.text))
 
 
@@ -242,7 +242,7 @@ class OtherFolders(unittest.TestCase):
 
         self.refused(lambda path: None, r"usage: draw\.py page\|ensemble\|study\|calibration\|step-study", "figure")
         self.refused(lambda path: os.remove(path("continuum.csv")), r"missing: .*continuum\.csv")
-        self.refused(lambda path: write_json(path(""), "comparison.json", {"format": 1}), r".*comparison\.json: format 1, .*format 2")
+        self.refused(lambda path: write_json(path(""), "comparison.json", {"format": 1}), r".*comparison\.json: format 1, .* 2;")
         self.refused(lambda path: write_json(path(""), "provenance.json", {"a": [1, 2]}), r".*provenance\.json")
         self.refused(lambda path: os.truncate(path("provenance.json"), 9), r".*provenance\.json")
         self.refused(lambda path: os.truncate(path("comparison.h5"), 999), r".*comparison\.h5")

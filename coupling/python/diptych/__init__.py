@@ -15,8 +15,8 @@ import sys
 try:
     from ._diptych import Contacts, ContinuumSnapshot, DiscreteSnapshot, __version__
 except ImportError as error:
-    raise ImportError(f"diptych does not load in {sys.executable}: {error}. Use the Python of the build (Debian: /usr/bin/python3) "
-                      "with NumPy (python3-numpy).") from error
+    raise ImportError(f"diptych does not load in {sys.executable}: {error}. Use the Python of the build (Debian: /usr/bin/python3).") \
+        from error
 from .arrays import Band, BandReport, History, Interval, Mesh, Record, StressMap
 from .errors import NotConverged, SceneError, SceneWarning
 from .laws import biaxial, integrate, principal

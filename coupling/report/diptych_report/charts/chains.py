@@ -23,13 +23,14 @@ def distribution(increment):
     logarithmic(axes)
     axes.set(xlabel="major principal stress of a grain / mean", ylabel="share of grains above", xlim=(0, None))
     axes.legend(loc="best", title="10–90 % width of the band", title_fontsize=8.5)
-    return svg(figure, f"Distribution of the major principal stress of single grains inside and outside the band, {increment.title}.")
+    return svg(figure, "Distribution of the major principal stress of single grains inside and outside the band, "
+               f"{increment.title}.")
 
 
 def traction(increment):
     """Mean normal and shear traction on strips parallel to the band of the grains; uniform in equilibrium."""
-    stored = {panel: increment.panel(panel)["band_traction"] for panel in PANEL_NAMES if increment.panel(panel).get("band_traction")}
-    if not stored:
+    stored = {panel: increment.panel(panel).get("band_traction") for panel in PANEL_NAMES}
+    if not all(stored.values()):
         return None
     figure, both = frame("traction", (4.5, 3.9), [[0.15, 0.57 - 0.44 * k, 0.825, 0.385] for k in range(2)])
     for k, (part, axes) in enumerate(zip(("normal", "shear"), both)):

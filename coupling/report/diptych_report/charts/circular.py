@@ -23,7 +23,8 @@ def pair(increment):
                                 for c in stored.values() for sign in (-1, 1)])
         room = 0.08 * max(np.nanmax(every) - np.nanmin(every), 1e-6)
         spans[part] = (min(np.nanmin(every) - room, 0), np.nanmax(every) + room)
-    return Pair(*[_panel(increment, panel, stored[panel], spans) for panel in PANEL_NAMES], caption=_sampling(circles["discrete"]))
+    pictures = [_panel(increment, panel, stored[panel], spans) for panel in PANEL_NAMES]
+    return Pair(*pictures, caption=_sampling(circles["discrete"]))
 
 
 def _sampling(circle):

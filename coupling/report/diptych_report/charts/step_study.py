@@ -23,7 +23,7 @@ LOGARITHMIC = ("kinetic_energy", "max_penetration")
 
 
 def draw(folder):
-    """Writes study_step.png, in the units of the scene. Raises InputError if study_step.csv or study_step.json is missing or broken."""
+    """Writes study_step.png, in the units of the scene. Raises InputError if a file is missing or broken."""
     paths = [os.path.join(folder, name) for name in ("study_step.json", "study_step.csv")]
     require(paths)
     record, table = read_json(paths[0]), read_csv(paths[1])

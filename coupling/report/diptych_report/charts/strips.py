@@ -14,13 +14,14 @@ LARGEST_TURN = 10  # degrees; fits of bands with a larger angle to the strips ar
 def pair(increment):
     """Both panels on the same axes."""
     # edges [d] (n+1), mean (n), deviation (n); null becomes nan: an empty strip
-    profiles = {panel: [np.array(increment.panel(panel)["strips"][name], dtype=float) for name in ("edges_d", "mean", "deviation")]
-                for panel in PANEL_NAMES}
+    stored = {panel: increment.panel(panel)["strips"] for panel in PANEL_NAMES}
+    profiles = {panel: [np.array(strips[name], dtype=float) for name in ("edges_d", "mean", "deviation")]
+                for panel, strips in stored.items()}
     lowest = min(min(0.0, np.nanmin(mean)) for _, mean, _ in profiles.values())
     highest = max(max(1.0, np.nanmax(mean)) for _, mean, _ in profiles.values())
     reach = max(np.abs(edges).max() for edges, _, _ in profiles.values())
     box = (-reach, reach, lowest - 0.12, highest + 0.35)
-    angles = {panel: increment.panel(panel)["strips"]["angle_deg"] for panel in PANEL_NAMES}
+    angles = {panel: strips["angle_deg"] for panel, strips in stored.items()}
     pictures = [_panel(increment, panel, profiles[panel], box, angles[panel]) for panel in PANEL_NAMES]
     words = [f"{PANEL_NAMES[panel].lower()} {signed(f'{angle:.1f}°')}" for panel, angle in angles.items()]
     return Pair(*pictures, caption=f"Inclination of the strips: {', '.join(words)}; {increment.title}.")

@@ -29,7 +29,8 @@ def read_json(path, format=None):
     if not isinstance(value, dict):
         raise InputError(f"{path}: an object is expected")
     if format and value.get("format") != format:
-        raise InputError(f"{path}: format {value.get('format')!r}, but this report reads format {format}; compute it again with this version")
+        raise InputError(f"{path}: format {value.get('format')!r}, but this report reads format {format}; "
+                         "compute it again with this version")
     return value
 
 

@@ -65,7 +65,8 @@ def crosses(increment, store):
     state, found = increment.state, {}
     if not state:
         return found
-    places = {"discrete": ("discrete/", state["discrete/position"]), "continuum": ("cells/continuum_", state["cells/corners"].mean(axis=1))}
+    places = {"discrete": ("discrete/", state["discrete/position"]),
+              "continuum": ("cells/continuum_", state["cells/corners"].mean(axis=1))}
     for panel, (prefix, centre) in places.items():
         major, minor, angle = (state[prefix + name] for name in PRINCIPAL)
         known = np.flatnonzero(np.isfinite(major) & np.isfinite(minor) & np.isfinite(angle))

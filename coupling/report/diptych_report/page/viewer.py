@@ -47,7 +47,8 @@ def _frame(increment, store):
     position, state = increment.arrays["discrete/position"], increment.state
     return {"key": increment.key, "kind": increment.kind, "label": increment.label, "title": increment.title,
             "end": f"{increment.end:.9g}",
-            "discs": {"x": store.add(position[:, 0]), "y": store.add(position[:, 1]), "r": store.add(increment.arrays["discrete/radius"])},
+            "discs": {"x": store.add(position[:, 0]), "y": store.add(position[:, 1]),
+                      "r": store.add(increment.arrays["discrete/radius"])},
             "cells": store.add(corners(increment, "cells")), "grid": store.add(corners(increment, "grid")),
             "centre": short(increment.centre),
             "outline": [short(state[side]) for side in ("outline/left", "outline/right") if len(state.get(side, ()))],
