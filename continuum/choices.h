@@ -19,7 +19,6 @@ namespace diptych::continuum
     return "unknown";
   }
 
-  // The value with this name; empty if the enum has no such name.
   template <class E> std::optional<E> value_of(const std::string &name)
   {
     for (const auto &[choice, its_name] : choices(E()))

@@ -37,7 +37,7 @@ namespace diptych::continuum
     Walk            walk     = Walk::axial_strain;
   };
 
-  // The meaning of a column that may hold NaN. A plain text stands for a column whose numbers are finite.
+  // The meaning of a column that may hold NaN. A plain text means that all numbers are finite.
   struct ColumnMeaning
   {
     operator const char *() const { return text; }

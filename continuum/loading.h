@@ -71,6 +71,5 @@ namespace diptych::continuum
   // progress is descent / height, otherwise travel / height.
   Loading straight_loading(double pressure, const Eigen::Vector2d &travel, std::vector<double> stages);
 
-  // Throws std::invalid_argument, which states the value and what is allowed.
   void validate(const Loading &loading);
 } // namespace diptych::continuum

@@ -22,16 +22,20 @@ namespace diptych::continuum
 
   void validate(const Options &options)
   {
-    require(options.min_step > 0 && options.min_step <= options.initial_step && options.initial_step <= options.max_step,
-            "steps: 0 < min_step = ", options.min_step, " <= initial_step = ", options.initial_step,
-            " <= max_step = ", options.max_step, " is needed");
-    require(options.tolerance > 0 && options.tolerance < 1, "tolerance = ", options.tolerance, " must lie in (0, 1)");
-    require(options.max_newton_iterations > 0, "max_newton_iterations = ", options.max_newton_iterations, " must be positive");
-    require(!traits(options.law).is_cosserat || options.element != Displacement::q1_bbar, "element = ", name_of(options.element),
-            " with law = ", name_of(options.law), ": Cosserat laws need q2 (equal orders of displacement and rotation lock)");
-    require(options.mesh.kind != MeshOption::Kind::rectangle || (options.rectangle_width > 0 && options.rectangle_height > 0),
-            "rectangle_width = ", options.rectangle_width, ", rectangle_height = ", options.rectangle_height,
-            ": mesh = rectangle needs both");
+    require_keys(options.min_step > 0 && options.min_step <= options.initial_step && options.initial_step <= options.max_step,
+                 {"min_step", "initial_step", "max_step"}, "steps: 0 < min_step = ", options.min_step,
+                 " <= initial_step = ", options.initial_step, " <= max_step = ", options.max_step, " is needed");
+    require_keys(options.tolerance > 0 && options.tolerance < 1, {"tolerance"}, "tolerance = ", options.tolerance,
+                 " must lie in (0, 1)");
+    require_keys(options.max_newton_iterations > 0, {"max_newton_iterations"},
+                 "max_newton_iterations = ", options.max_newton_iterations, " must be positive");
+    require_keys(!traits(options.law).is_cosserat || options.element != Displacement::q1_bbar, {"element", "law"},
+                 "element = ", name_of(options.element), " with law = ", name_of(options.law),
+                 ": Cosserat laws need q2 (equal orders of displacement and rotation lock)");
+    require_keys(options.mesh.kind != MeshOption::Kind::rectangle ||
+                   (options.rectangle_width > 0 && options.rectangle_height > 0),
+                 {"rectangle_width", "rectangle_height", "mesh"}, "rectangle_width = ", options.rectangle_width,
+                 ", rectangle_height = ", options.rectangle_height, ": mesh = rectangle needs both");
     if (traits(options.law).is_plastic)
       validate(options.material);
     else

@@ -188,10 +188,8 @@ namespace diptych::continuum
     visit_parameters(o.material, visitor);
   }
 
-  // Throws std::invalid_argument, which states the key, its value and what is allowed.
   void validate(const Options &options);
 
-  // Keys that these options leave without effect.
   std::vector<UnusedKey> unused_keys(const Options &options);
 
   // A value that is allowed but implausible for a granular sample, such as a very high modulus. The panel warns of it. `words`

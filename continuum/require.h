@@ -4,6 +4,9 @@
 
 #include <sstream>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace diptych::continuum
 {
@@ -15,5 +18,26 @@ namespace diptych::continuum
     std::ostringstream message;
     (message << ... << text);
     throw std::invalid_argument(message.str());
+  }
+
+  // Keys of the section continuum whose values are not allowed together. The one that is probably wrong comes first.
+  struct WrongKeys : std::invalid_argument
+  {
+    WrongKeys(std::vector<std::string> keys, const std::string &text)
+        : std::invalid_argument(text),
+          keys(std::move(keys))
+    {}
+
+    std::vector<std::string> keys;
+  };
+
+  // As require(); throws WrongKeys.
+  template <class... Text> void require_keys(const bool holds, std::vector<std::string> keys, const Text &...text)
+  {
+    if (holds)
+      return;
+    std::ostringstream message;
+    (message << ... << text);
+    throw WrongKeys(std::move(keys), message.str());
   }
 } // namespace diptych::continuum

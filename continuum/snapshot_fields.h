@@ -21,7 +21,6 @@ namespace diptych::continuum
     visit("nodes/weight", s.weight, "length^2", "lumped area; the sum is the current area");
   }
 
-  // Area means over one cell.
   template <class AnyCell, class Visit> void visit_cell_fields(AnyCell &c, Visit &&visit)
   {
     visit("cells/stress", c.stress, "pressure", "Cauchy stress");
@@ -44,7 +43,6 @@ namespace diptych::continuum
     visit("cells/solid_fraction", c.solid_fraction, "-", "solid fraction if hardening = critical_state, otherwise 0");
   }
 
-  // Attributes of the stage's group.
   template <class AnySnapshot, class Visit> void visit_attributes(AnySnapshot &s, Visit &&visit)
   {
     visit("axial_strain", s.axial_strain, "-", "descent of the upper platen / initial height");

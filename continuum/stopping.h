@@ -6,12 +6,12 @@
 
 namespace diptych::continuum
 {
-  // Work that can be continued asks this and ends with a report. True: stop. Collective: on several processes all ask at the
-  // same places and get the same answer. Empty: never stops.
+  // Called by work that can be continued. True: stop and report. Collective: all processes call it at the same places and get
+  // the same answer. Empty: never stops.
   using StopRequest = std::function<bool()>;
 
-  // Work that leaves nothing to continue calls this now and then. It may throw to leave; the exception passes to the caller.
-  // Empty: never stops.
+  // Called regularly by work that leaves nothing to continue. It may throw to stop; the exception passes to the caller. Empty:
+  // never stops.
   using CheckStop = std::function<void()>;
 
   inline void call(const CheckStop &check_stop)

@@ -15,8 +15,8 @@ namespace diptych::discrete
     std::string &path;
   };
 
-  // Each enum that a scene can set has a function choices(E) with the only table of its names, in the order of help texts.
-  // Readers and writers of scenes find that function by argument-dependent lookup.
+  // Each enum that a scene can set has a function choices(E): the only table of its names. Readers and writers of scenes find
+  // that function by argument-dependent lookup.
   template <class E> std::string name_of(const E value)
   {
     for (const auto &[choice, name] : choices(value))
@@ -25,7 +25,6 @@ namespace diptych::discrete
     return "unknown";
   }
 
-  // Value with this name, or nothing if the enum has no such name.
   template <class E> std::optional<E> value_of(const std::string &name)
   {
     for (const auto &[choice, its_name] : choices(E()))

@@ -49,8 +49,8 @@ namespace diptych::discrete
     double mean_diameter = 1;
     double shear_strain  = 0; // travel of the upper platen to the right / initial height
 
-    // Accuracy of the last step's grain stress. stress_error: estimated rms error / rms value (NaN: not estimated, infinity:
-    // unknown). error_over_residual: measured once per run on a step that was solved further (NaN: not measured).
+    // Accuracy of the last step's grain stress. `stress_error`: estimated rms error / rms value (NaN: not estimated, infinity:
+    // unknown). `error_over_residual`: measured once per run on a step that was solved further (NaN: not measured).
     double stress_error = std::numeric_limits<double>::quiet_NaN(), error_over_residual = stress_error;
     double stress_change =
       stress_error; // relative change of the grain stress in the last doubling of the sweeps; known even if the error is not
@@ -88,7 +88,7 @@ namespace diptych::discrete
     Eigen::Vector2d upper_platen_displacement = Eigen::Vector2d::Zero();
     Eigen::Vector2d lower_platen_force = Eigen::Vector2d::Zero(), upper_platen_force = Eigen::Vector2d::Zero();
 
-    // Side walls: NaN without them. cell_width: 0 without a periodic cell.
+    // Side walls: NaN without them. `cell_width`: 0 without a periodic cell.
     double left_x = std::numeric_limits<double>::quiet_NaN(), right_x = left_x, cell_width = 0;
 
     Outline outline;

@@ -44,7 +44,7 @@ def row(name, record):
     for frame in record["frames"]:
         true = next(value for key, value in truth.items() if frame["frame"] in (key, "step " + key, "_" + key, "time " + key))
         contacts += frame["contacts"]
-        true_contacts += true.get("contacts_grain_grain", true.get("contacts_grain_grain_with_force"))
+        true_contacts += true["contacts_grain_grain"]
         if frame["mass"] is not None:
             mass = max(mass, abs(frame["mass"] / true["mass"] - 1))
         here, there = frame["contact_stress"], true["mean_stress_from_contacts"]

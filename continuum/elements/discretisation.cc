@@ -55,7 +55,6 @@ namespace diptych::continuum
       triangulation.create_triangulation(vertices, cells, lines);
     }
 
-    // d x / d unit coordinates at a point: J[i][j] = sum over nodes of x_i dN/d xi_j.
     Tensor<2, 2> jacobian(const ReferenceElement             &reference,
                           const unsigned int                  q,
                           const Cell                         &cell,

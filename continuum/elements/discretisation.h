@@ -52,7 +52,6 @@ namespace diptych::continuum
 
     MPI_Comm communicator() const { return triangulation.get_communicator(); }
 
-    // Makes new unknowns, nodes and edges for the present mesh, after a refinement.
     void distribute(const CheckStop &check_stop = {});
 
     // Adds dofs of other processes that this one reads. Local indices change.

@@ -19,7 +19,6 @@ namespace diptych::continuum
   // Entries of all dofs that this process reads, in the order of Discretisation::relevant. Collective.
   std::vector<double> relevant_values(const Discretisation &mesh, const DistributedVector &vector);
 
-  // Inverse of relevant_values().
   DistributedVector owned_values(const Discretisation &mesh, const std::vector<double> &relevant);
 
   // Sums the contributions of all processes to the relevant dofs. Collective.

@@ -37,7 +37,6 @@ namespace diptych::continuum
     q2_cosserat
   };
 
-  // Calls action(Element()) with the type that corresponds to `kind`.
   template <class Action> decltype(auto) with_element(const ElementKind kind, Action &&action)
   {
     switch (kind)

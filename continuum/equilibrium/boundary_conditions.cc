@@ -78,7 +78,6 @@ namespace diptych::continuum
     governed.insert(std::upper_bound(governed.begin(), governed.end(), rule.dof), rule.dof);
   }
 
-  // All dofs follow the first one.
   void BoundaryConditions::move_together(const std::vector<types::global_dof_index> &dofs)
   {
     for (std::size_t k = 1; k < dofs.size(); ++k)
@@ -111,8 +110,7 @@ namespace diptych::continuum
           add_rule({node.rotation, {}});
   }
 
-  // A sample between smooth platens could slide as a rigid body. This fixes the node of the lower platen that is nearest to its
-  // middle.
+  // A sample between smooth platens could slide as a rigid body: fixes the node of the lower platen nearest to its middle.
   void BoundaryConditions::pin_sideways()
   {
     double left = huge, right = -huge;

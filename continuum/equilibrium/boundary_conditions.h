@@ -13,7 +13,6 @@
 
 namespace diptych::continuum
 {
-  // Contact between platens and sample.
   struct PlatenGrip
   {
     bool rough          = true;  // both displacement components follow the platen; otherwise only the vertical one
@@ -21,8 +20,7 @@ namespace diptych::continuum
   };
 
   // Nodes of free sides that have reached the level of a platen. Platens are wider than the sample: material squeezed out
-  // beside a platen rolls onto its plane and moves with it from then on. Otherwise it would be extruded past the platen like
-  // paste.
+  // beside a platen rolls onto its plane and moves with it from then on.
   using SideContact = std::array<std::vector<Node>, 2>; // lower, upper platen
   struct PlatenPlane
   {

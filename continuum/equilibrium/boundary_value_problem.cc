@@ -95,8 +95,7 @@ namespace diptych::continuum
     ++structure_version;
   }
 
-  // Moves the shape to the committed displacement. Nodes of free sides that have reached the plane of a platen belong to it
-  // from now on.
+  // Moves the shape to the committed displacement. Nodes of free sides that have reached the plane of a platen join it.
   void BoundaryValueProblem::move_nodes()
   {
     (moves() ? current : moved) = geometry_at(mesh, positions(mesh, state.displacement));

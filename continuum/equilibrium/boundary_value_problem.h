@@ -43,9 +43,8 @@ namespace diptych::continuum
     std::array<Eigen::Vector2d, 2> platen_force{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}; // lower, upper; on the sample
   };
 
-  // sum over cells of int B^T sigma dA = side pressure + weight + reactions, on the initial shape or on that of the last
-  // accepted step. Only commit() changes the committed state. All other functions work on one trial state, which the next
-  // evaluate() overwrites.
+  // sum over cells of int B^T sigma dA = side pressure + weight + reactions, on the initial shape or that of the last accepted
+  // step. Only commit() changes the committed state; other functions work on one trial state, which evaluate() overwrites.
   class BoundaryValueProblem
   {
   public:

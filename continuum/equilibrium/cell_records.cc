@@ -42,7 +42,6 @@ namespace diptych::continuum
       return s;
     }
 
-    // Sum of weight x value.
     double interpolated(const std::vector<double> &weights, const double *values, const std::size_t stride)
     {
       double sum = 0;
@@ -51,8 +50,7 @@ namespace diptych::continuum
       return sum;
     }
 
-    // Weights that give the children's values at nodes and points from those of the parent: [child x node or point][parent's
-    // ...].
+    // Weights of the parent's values for each child's nodes and points: [child x node or point][parent's node or point].
     struct ChildWeights
     {
       std::vector<std::vector<double>> nodes, corners, points;
@@ -95,7 +93,6 @@ namespace diptych::continuum
       return kept;
     }
 
-    // The record of a child, interpolated from that of its parent.
     CellRecord child_record(const ReferenceElement &reference,
                             const ChildWeights     &children,
                             const CellRecord       &parent,

@@ -8,13 +8,12 @@
 
 namespace diptych::continuum
 {
-  // One row of numbers per cell: its refinement level, its nodal values of displacement and last increment in the order of
-  // Cell::dofs, and the state of every point. Records do not depend on how cells are distributed over processes.
+  // One row of numbers per cell: refinement level, nodal displacement and last increment (as in Cell::dofs), state of every
+  // point. Records do not depend on how cells are distributed over processes.
   using CellRecord = std::vector<double>;
 
   std::size_t record_length(const ReferenceElement &reference);
 
-  // One record per locally owned cell. `last_increment` is given on the relevant dofs.
   std::vector<CellRecord> make_records(const BoundaryValueProblem &problem, const std::vector<double> &last_increment);
 
   struct RestoredState

@@ -84,7 +84,6 @@ namespace diptych::continuum
     return report;
   }
 
-  // Restores the state before the step.
   std::string LoadDriver::give_up(DriverState before)
   {
     stopped = true;

@@ -19,7 +19,6 @@ namespace diptych::continuum
     int steps = 0, cut_backs = 0, newton_iterations = 0, refinements = 0;
   };
 
-  // State of the driver that a restart needs.
   struct DriverState
   {
     StepCounts          count;
@@ -29,9 +28,8 @@ namespace diptych::continuum
     Divisions           divisions;      // history of the mesh
   };
 
-  // Drives the problem along its loading path. A step that does not converge is halved and leaves no trace. After an easy step
-  // the next one is longer. If a step is stopped between two Newton iterations, problem, driver and solver return to their
-  // previous state, bit for bit.
+  // Drives the problem along its loading path. A step that does not converge is halved; after an easy step the next one is
+  // longer. A step stopped between two Newton iterations leaves problem, driver and solver unchanged, bit for bit.
   class LoadDriver
   {
   public:
@@ -48,7 +46,6 @@ namespace diptych::continuum
     // Whether the last of these two calls returned early because of a request to stop.
     bool was_stopped() const { return stopped; }
 
-    // Must be called after the mesh of the problem has changed.
     void restart(DriverState new_state);
 
     const DriverState  &state() const { return now; }

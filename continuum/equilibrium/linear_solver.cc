@@ -19,8 +19,7 @@ namespace diptych::continuum
   namespace
   {
     constexpr double reduction = 1e-2; // of the residual; a Newton iteration needs no more
-    // Number of allowed iterations, and the number above which a new preconditioner pays. A multigrid hierarchy always needs
-    // many.
+    // Number of allowed iterations, and the number above which a new preconditioner pays. Multigrid always needs many.
     struct Patience
     {
       unsigned int longest, comfortable;
@@ -35,7 +34,6 @@ namespace diptych::continuum
       return matrix.trilinos_matrix().Comm().NumProc() == 1;
     }
 
-    // All stored values, row by row.
     std::pair<double *, std::size_t> stored_values(const TrilinosWrappers::SparseMatrix &matrix)
     {
       int    *start = nullptr, *column = nullptr;

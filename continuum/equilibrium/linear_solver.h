@@ -40,8 +40,7 @@ namespace diptych::continuum
   };
 
   // The factors (or the multigrid hierarchy) of an earlier tangent precondition GMRES on the present one, from the right.
-  // Newton's method needs only a relative 1e-2. If GMRES took more than a few iterations, the next tangent is factorised. If
-  // GMRES failed, the present one is.
+  // Newton's method needs only a relative 1e-2. If GMRES takes more than a few iterations, the next tangent is factorised.
   class LinearSolver
   {
   public:
@@ -49,7 +48,6 @@ namespace diptych::continuum
 
     explicit LinearSolver(LinearMethod method);
 
-    // To be called after a change of the mesh.
     void restart(LinearMethod method, RigidModes modes);
 
     // Solves matrix * x = rhs; x is overwritten. False: no solution was found.
@@ -60,9 +58,9 @@ namespace diptych::continuum
 
     KeptPreconditioner kept() const;
 
-    // A step that is stopped on request must change nothing. remember() saves the preconditioner and the counts before a step,
-    // put_back() restores them, and forget_memory() drops the saved state. A matrix is copied only when it is replaced. The
-    // preconditioner is rebuilt from the copies when it is next needed.
+    // A step stopped on request must change nothing. `remember()` saves preconditioner and counts. They are restored by
+    // put_back() and dropped by forget_memory(). Matrices are copied only when replaced; the preconditioner is rebuilt when it
+    // is needed.
     void remember();
     void put_back();
     void forget_memory() { memory.reset(); }
@@ -71,7 +69,6 @@ namespace diptych::continuum
     // the kept matrices do not fit it.
     [[nodiscard]] bool take_up(const KeptPreconditioner &kept, const dealii::TrilinosWrappers::SparseMatrix &pattern);
 
-    // Continues the counts of an interrupted run.
     void go_on_counting(int iterations, int factorisations, double cpu_s)
     {
       n_iterations     = iterations;

@@ -14,7 +14,6 @@ namespace diptych::continuum
       return imbalance.n_failed == 0 && std::isfinite(imbalance.residual);
     }
 
-    // Adds all of `correction`. If that increases the residual, adds the half or quarter that leaves the smallest one.
     Imbalance add_with_line_search(BoundaryValueProblem    &problem,
                                    const DistributedVector &correction,
                                    const double             before,

@@ -16,8 +16,7 @@ namespace diptych::continuum
 
   namespace
   {
-    // Flags the cells above the threshold and all cells that share a vertex with one of them. Returns whether any process
-    // flagged a cell.
+    // Flags the cells above the threshold with their neighbours by a vertex. Returns whether any process flagged a cell.
     bool flag_cells(BoundaryValueProblem &problem, const RefinementRule &rule, const std::vector<double> &increments)
     {
       auto        &mesh    = problem.discretisation();

@@ -25,7 +25,7 @@ namespace diptych::continuum
   using Divisions    = std::vector<DividedCells>;
 
   // Divides elements with one ring of neighbours and transfers the state to the new mesh, where it is not exactly in
-  // equilibrium. `last_increment` is given on the relevant dofs, before and after. Returns nothing if the mesh does not change.
+  // equilibrium. `last_increment`: on the relevant dofs, before and after. Returns nothing if the mesh does not change.
   // Collective.
   [[nodiscard]] std::optional<DividedCells> refine(BoundaryValueProblem      &problem,
                                                    const RefinementRule      &rule,

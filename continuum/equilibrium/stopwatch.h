@@ -6,7 +6,6 @@
 
 namespace diptych::continuum
 {
-  // Adds the CPU time of its lifetime to a counter.
   struct Stopwatch
   {
     double      &seconds;

@@ -18,7 +18,6 @@ namespace diptych::continuum
   class TangentMatrix
   {
   public:
-    // Calls `check_stop` between its phases.
     void reinit(const Discretisation                    &mesh,
                 const dealii::AffineConstraints<double> &constraints,
                 const CheckStop                         &check_stop = {});

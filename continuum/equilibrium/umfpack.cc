@@ -12,9 +12,8 @@ namespace diptych::continuum
 {
   namespace
   {
-    // OpenBLAS would distribute the small dense blocks of the factors over all cores. This takes a third more CPU time (33000
-    // unknowns, two cores) without gain, and the bits depend on the number of threads. Other BLAS libraries do not have this
-    // function and do not need it.
+    // OpenBLAS would distribute the small dense blocks over all cores. That costs a third more CPU time (33000 unknowns, two
+    // cores), and the bits depend on the number of threads. Other BLAS libraries neither have nor need this function.
     void use_one_blas_thread()
     {
       if (void *function = dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))
@@ -54,8 +53,7 @@ namespace diptych::continuum
     analysed_values.clear();
   }
 
-  // Compressed rows are the compressed columns of the transpose. UMFPACK therefore factorises the transpose, and solve() uses
-  // the transposed system.
+  // Compressed rows are the compressed columns of the transpose, so UMFPACK factorises the transpose.
   void Umfpack::take_pattern(const dealii::TrilinosWrappers::SparseMatrix &matrix)
   {
     int    *start = nullptr, *column = nullptr;

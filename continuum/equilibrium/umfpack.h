@@ -24,7 +24,7 @@ namespace diptych::continuum
     void               solve(Vector &x, const Vector &b) const;
 
     // Entries of the matrix of the last symbolic analysis, and of the matrix of the last factorisation; empty if there is none.
-    // take_up() repeats both from these entries, with the same bits. False: the entries do not fit the pattern, or a
+    // `take_up()` repeats both from these entries, with the same bits. False: the entries do not fit the pattern, or a
     // factorisation failed.
     const std::vector<double> &analysed() const { return analysed_values; }
     const std::vector<double> &factorised() const { return values; }

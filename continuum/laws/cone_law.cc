@@ -8,7 +8,6 @@ namespace diptych::continuum
 {
   namespace
   {
-    // Entries of the deviatoric vector.
     enum
     {
       difference,

@@ -11,7 +11,6 @@ namespace diptych::continuum
 {
   namespace
   {
-    // One point of the path. A dot is the derivative by lambda at a fixed trial state.
     struct PathPoint
     {
       Cone   cone;

@@ -6,9 +6,9 @@
 
 namespace diptych::continuum
 {
-  // F = sqrt(t^2 + m.m/(2 l^2)) - s sin(phi) - c cos(phi) with t and s in the plane. sigma_zz stays elastic and does not enter
-  // the yield function. The law is therefore Mohr-Coulomb only where sigma_zz is the intermediate principal stress. The panel
-  // reports the share of the area where it is not. The plastic curvature contributes to the hardening variable.
+  // F = sqrt(t^2 + m.m/(2 l^2)) - s sin(phi) - c cos(phi) with t and s in the plane. The stress sigma_zz stays elastic and does
+  // not enter the yield function. The law is therefore Mohr-Coulomb only where sigma_zz is the intermediate principal stress.
+  // The panel reports the share of the area where it is not. The plastic curvature contributes to the hardening variable.
   class CosseratMohrCoulomb : public ConeLaw
   {
   public:

@@ -33,13 +33,12 @@ namespace diptych::continuum
   // eta_c. With the plastic shear strain g and the plastic volume strain eps_v, positive in compression:
   //   d eta / dg = (eta_p(nu) - eta) / g_r,   eta_p = eta_c + A nu_c ln(nu / nu_c),
   //   d eps_v / dg = -sin psi = -(eta - eta_c) / beta,   d ln nu = d eps_v.
-  // The logarithm equals nu - nu_c to first order and makes both equations linear. They are solved exactly, so the result does
-  // not depend on the length of the steps. The flow of a step uses the mean dilation over that step and thereby conserves mass.
-  // The only exception is the tip of the cone, where the volume opens without shear.
+  // The logarithm equals nu - nu_c to first order and makes both equations linear. They are solved exactly, for any length of
+  // the steps. The flow of a step uses the mean dilation over it and thereby conserves mass, except where the tip of the cone
+  // opens.
   class Hardening
   {
   public:
-    // Throws std::invalid_argument under the same conditions as validate(options).
     explicit Hardening(const LawOptions &options, const Units &units = {});
 
     // Strength at a state with an equivalent plastic strain >= 0. At a point of the table the rate is that of the following

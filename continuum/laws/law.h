@@ -57,7 +57,6 @@ namespace diptych::continuum
     double        dissipation = 0;               // plastic work per initial area [pressure]; from add_plastic_flow()
   };
 
-  // Answer of a law to a strain increment.
   struct MaterialUpdate
   {
     MaterialState state;

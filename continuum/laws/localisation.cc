@@ -104,7 +104,7 @@ namespace diptych::continuum
       return {phi, value};
     }
 
-    // Angle of the line perpendicular to n = (cos phi/2, sin phi/2). phi is at most slightly outside [0, 2 pi].
+    // Angle of the line perpendicular to n = (cos phi/2, sin phi/2). `phi` is at most slightly outside [0, 2 pi].
     double line_angle(const double phi)
     {
       const double angle = phi / 2 * 180 / pi - 90;

@@ -14,12 +14,10 @@ namespace diptych::continuum
     double angle_deg   = 0; // of the LINE (perpendicular to n) from the horizontal, anticlockwise [degrees], (-90, 90]
   };
 
-  // The least determinant over all directions n in the plane. `tangent` need not be symmetric, because the flow need not be
-  // associated. `elastic` is isotropic, so its determinant does not depend on the direction. Both have the same unit. Only the
-  // block xx, yy, xy enters, also for a Cosserat law. Couple stress and skew stress keep the Cosserat problem elliptic. The
-  // classical block is the law that they regularise, and its loss of ellipticity marks the onset of a band. A coaxial state has
-  // two minima, symmetric about the principal axes. If both determinants agree within 1e-9, the function returns the larger
-  // angle. It returns the angle 0 if no direction is distinguished, as in the elastic range. If a value of the tangent is not
-  // finite, the determinant is NaN.
+  // The least determinant over all directions n in the plane. Both tangents have the same unit; `tangent` need not be
+  // symmetric, and `elastic` is isotropic. Only the block xx, yy, xy enters, also for a Cosserat law. Its couple stress and
+  // skew stress keep the problem elliptic; the classical block is the law that they regularise. A coaxial state has two minima,
+  // symmetric about the principal axes. If they agree within 1e-9, the function returns the larger angle. The angle is 0 if no
+  // direction is distinguished, as in the elastic range. The determinant is NaN if a value of the tangent is not finite.
   Localisation localisation(const Tangent &tangent, const Tangent &elastic);
 } // namespace diptych::continuum

@@ -15,7 +15,6 @@ namespace diptych::continuum
   {
     constexpr double degree = 3.14159265358979323846 / 180;
 
-    // Logarithmic strain since the start, tension positive, and the corresponding state.
     struct Point
     {
       MaterialState state;

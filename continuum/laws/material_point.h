@@ -33,7 +33,6 @@ namespace diptych::continuum
     std::vector<MaterialPointRow> rows;             // the start, then every finished step
   };
 
-  // Throws std::invalid_argument, which states the value and its range.
   void validate(const MaterialPointPath &path);
 
   // Newton's iteration on the law's tangent finds the lateral strain of every step, to 1e-10 of the pressure. Throws under the

@@ -87,10 +87,9 @@ namespace diptych::continuum
     return answer;
   }
 
-  // Computes the in-plane shear and pressure with their derivatives. A trial shear separates the in-plane trial stresses. A
-  // trial pressure lowers both, and sigma_zz by lateral/plane_bulk of that. If the in-plane trial stresses are equal, sigma_zz
-  // is an outer stress, and plane, edge or apex keep the order. The final in-plane stresses are then equal too, so final shear
-  // / trial shear = 0 is the limit.
+  // Computes the in-plane shear and pressure with their derivatives. A trial shear separates the in-plane trial stresses; a
+  // trial pressure lowers both, and sigma_zz by lateral/plane_bulk of that. If they are equal, sigma_zz is an outer stress, and
+  // the final ones are equal too. The limit of final shear / trial shear is then 0.
   ConeReturn MohrCoulomb::plane_part(const Trial &trial, const PrincipalReturn &principal) const
   {
     const Places    p = places(trial.shear, trial.pressure, trial.state.stress_zz);

@@ -9,9 +9,8 @@ namespace diptych::continuum
 {
   // F = t - s sin(phi) - c cos(phi), t and s of the two outer principal stresses, g = t - s sin(psi). If sigma_zz is the
   // intermediate stress after the in-plane return, that return is exact, because sigma_zz then is elastic. Otherwise the stress
-  // returns in principal space to the plane of the outer two stresses, to an edge between two planes, or to the apex. The
-  // hardening variable grows by the multiplier, which is the plastic d(eps_1 - eps_3); on an edge by the sum of both
-  // multipliers.
+  // returns in principal space: to the plane of the outer two stresses, an edge or the apex. The hardening variable grows by
+  // the multiplier, which is the plastic d(eps_1 - eps_3); on an edge by the sum of both multipliers.
   class MohrCoulomb : public ConeLaw
   {
   public:

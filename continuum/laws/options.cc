@@ -14,16 +14,21 @@ namespace diptych::continuum
     // The comparison is also false for NaN.
     void require_range(const std::string &key, const double value, const double low, const double high)
     {
-      require(value >= low && value <= high, key, " = ", value, " must lie in [", low, ", ", high, "]");
+      require_keys(value >= low && value <= high, {key}, key, " = ", value, " must lie in [", low, ", ", high, "]");
     }
 
     constexpr double steepest = 60, greatest = 1e12; // [degrees], any other unit
 
-    void check_values(const std::string &place, const double friction, const double dilatancy, const double cohesion)
+    // keys: the dilatancy angle, the friction angle, the cohesion
+    void check_values(const std::string              &place,
+                      const std::vector<std::string> &keys,
+                      const double                    friction,
+                      const double                    dilatancy,
+                      const double                    cohesion)
     {
-      require(dilatancy <= friction, "dilatancy angle ", dilatancy, ' ', place, " must not exceed the friction angle ", friction,
-              " (plastic work would be negative)");
-      require(friction > 0 || cohesion > 0, "friction and cohesion are both zero ", place, ": one must be positive");
+      require_keys(dilatancy <= friction, keys, "dilatancy angle ", dilatancy, ' ', place, " must not exceed the friction angle ",
+                   friction, " (plastic work would be negative)");
+      require_keys(friction > 0 || cohesion > 0, keys, "friction and cohesion are both zero ", place, ": one must be positive");
     }
 
     void check_peak(const LawOptions &o)
@@ -31,7 +36,7 @@ namespace diptych::continuum
       require_range("friction_angle_peak", o.friction_angle_peak, 0, steepest);
       require_range("dilatancy_angle_peak", o.dilatancy_angle_peak, 0, steepest);
       require_range("cohesion", o.cohesion, 0, greatest);
-      check_values("at the peak (dilatancy_angle_peak, friction_angle_peak, cohesion)", o.friction_angle_peak,
+      check_values("at the peak", {"dilatancy_angle_peak", "friction_angle_peak", "cohesion"}, o.friction_angle_peak,
                    o.dilatancy_angle_peak, o.cohesion);
     }
 
@@ -43,12 +48,15 @@ namespace diptych::continuum
       require_range("dilatancy_angle_residual", o.dilatancy_angle_residual, 0, steepest);
       require_range("cohesion_residual", cohesion, 0, greatest);
       require_range("softening_strain", o.softening_strain, 1e-6, 1e6);
-      require(o.friction_angle_residual <= o.friction_angle_peak, "friction_angle_residual = ", o.friction_angle_residual,
-              " must not exceed friction_angle_peak = ", o.friction_angle_peak);
-      require(o.dilatancy_angle_residual <= o.dilatancy_angle_peak, "dilatancy_angle_residual = ", o.dilatancy_angle_residual,
-              " must not exceed dilatancy_angle_peak = ", o.dilatancy_angle_peak);
-      require(cohesion <= o.cohesion, "cohesion_residual = ", cohesion, " must not exceed cohesion = ", o.cohesion);
-      check_values("after long shear (dilatancy_angle_residual, friction_angle_residual, cohesion_residual)",
+      require_keys(o.friction_angle_residual <= o.friction_angle_peak, {"friction_angle_residual", "friction_angle_peak"},
+                   "friction_angle_residual = ", o.friction_angle_residual,
+                   " must not exceed friction_angle_peak = ", o.friction_angle_peak);
+      require_keys(o.dilatancy_angle_residual <= o.dilatancy_angle_peak, {"dilatancy_angle_residual", "dilatancy_angle_peak"},
+                   "dilatancy_angle_residual = ", o.dilatancy_angle_residual,
+                   " must not exceed dilatancy_angle_peak = ", o.dilatancy_angle_peak);
+      require_keys(cohesion <= o.cohesion, {"cohesion_residual", "cohesion"}, "cohesion_residual = ", cohesion,
+                   " must not exceed cohesion = ", o.cohesion);
+      check_values("after long shear", {"dilatancy_angle_residual", "friction_angle_residual", "cohesion_residual"},
                    o.friction_angle_residual, o.dilatancy_angle_residual, cohesion);
     }
 
@@ -58,9 +66,10 @@ namespace diptych::continuum
     {
       require_range("friction_angle_start", o.friction_angle_start, 0, steepest);
       require_range("mobilisation_strain", o.mobilisation_strain, 1e-6, 1e6);
-      require(o.friction_angle_start <= o.friction_angle_peak, "friction_angle_start = ", o.friction_angle_start,
-              " must not exceed friction_angle_peak = ", o.friction_angle_peak);
-      check_values("at the start (dilatancy_angle_peak, friction_angle_start, cohesion)", o.friction_angle_start,
+      require_keys(o.friction_angle_start <= o.friction_angle_peak, {"friction_angle_start", "friction_angle_peak"},
+                   "friction_angle_start = ", o.friction_angle_start,
+                   " must not exceed friction_angle_peak = ", o.friction_angle_peak);
+      check_values("at the start", {"dilatancy_angle_peak", "friction_angle_start", "cohesion"}, o.friction_angle_start,
                    o.dilatancy_angle_peak, o.cohesion);
       const double b = o.friction_angle_peak - o.friction_angle_residual - o.dilatancy_angle_peak + o.dilatancy_angle_residual;
       const double c = o.friction_angle_peak - o.friction_angle_start;
@@ -70,8 +79,10 @@ namespace diptych::continuum
         return;
       const double       softened = std::exp(-strain / o.softening_strain), lacks = c * std::exp(-strain / o.mobilisation_strain);
       std::ostringstream place;
-      place << "at a hardening variable of " << strain << " (friction_angle_*, dilatancy_angle_*, mobilisation_strain)";
+      place << "at a hardening variable of " << strain;
       check_values(place.str(),
+                   {"dilatancy_angle_peak", "friction_angle_peak", "dilatancy_angle_residual", "friction_angle_residual",
+                    "friction_angle_start", "mobilisation_strain"},
                    o.friction_angle_residual + (o.friction_angle_peak - o.friction_angle_residual) * softened - lacks,
                    o.dilatancy_angle_residual + (o.dilatancy_angle_peak - o.dilatancy_angle_residual) * softened, 1);
     }
@@ -93,9 +104,11 @@ namespace diptych::continuum
       for (const double ratio : {o.stress_ratio_start, possible})
         {
           const double sine = (ratio - o.critical_stress_ratio) / o.dilatancy_ratio;
-          require(sine <= std::max(ratio, 0.), "solid_fraction_start = ", start, ", stress_ratio_start = ", o.stress_ratio_start,
-                  ": at t/s = ", ratio, " the sine of the dilatancy angle, ", sine,
-                  ", exceeds t/s, so plastic work would be negative; increase dilatancy_ratio or critical_stress_ratio");
+          require_keys(sine <= std::max(ratio, 0.),
+                       {"solid_fraction_start", "stress_ratio_start", "dilatancy_ratio", "critical_stress_ratio"},
+                       "solid_fraction_start = ", start, ", stress_ratio_start = ", o.stress_ratio_start, ": at t/s = ", ratio,
+                       " the sine of the dilatancy angle, ", sine,
+                       ", exceeds t/s, so plastic work would be negative; increase dilatancy_ratio or critical_stress_ratio");
         }
     }
 
@@ -103,23 +116,26 @@ namespace diptych::continuum
     void check_table(const LawOptions &o)
     {
       const std::size_t n = o.table_strain.size();
-      require(n > 0, "hardening = table needs table_strain, a list that ascends from 0");
-      require(o.table_friction_angle.size() == n && o.table_dilatancy_angle.size() == n && o.table_cohesion.size() == n,
-              "table_strain, table_friction_angle, table_dilatancy_angle, table_cohesion have ", n, ", ",
-              o.table_friction_angle.size(), ", ", o.table_dilatancy_angle.size(), ", ", o.table_cohesion.size(),
-              " values: they must be equally long");
-      require(o.table_strain[0] == 0, "table_strain begins with ", o.table_strain[0], ": it must ascend from 0");
+      require_keys(n > 0, {"table_strain", "hardening"}, "hardening = table needs table_strain, a list that ascends from 0");
+      require_keys(o.table_friction_angle.size() == n && o.table_dilatancy_angle.size() == n && o.table_cohesion.size() == n,
+                   {"table_strain", "table_friction_angle", "table_dilatancy_angle", "table_cohesion"},
+                   "table_strain, table_friction_angle, table_dilatancy_angle, table_cohesion have ", n, ", ",
+                   o.table_friction_angle.size(), ", ", o.table_dilatancy_angle.size(), ", ", o.table_cohesion.size(),
+                   " values: they must be equally long");
+      require_keys(o.table_strain[0] == 0, {"table_strain"}, "table_strain begins with ", o.table_strain[0],
+                   ": it must ascend from 0");
       for (std::size_t k = 0; k < n; ++k)
         {
           require_range("table_strain", o.table_strain[k], 0, 1e6);
-          require(k == 0 || o.table_strain[k] > o.table_strain[k - 1], "table_strain = ", o.table_strain[k],
-                  " must be above the value before it");
+          require_keys(k == 0 || o.table_strain[k] > o.table_strain[k - 1], {"table_strain"},
+                       "table_strain = ", o.table_strain[k], " must be above the value before it");
           require_range("table_friction_angle", o.table_friction_angle[k], 0, steepest);
           require_range("table_dilatancy_angle", o.table_dilatancy_angle[k], 0, steepest);
           require_range("table_cohesion", o.table_cohesion[k], 0, greatest);
           std::ostringstream place;
-          place << "at table_strain = " << o.table_strain[k] << " (table_dilatancy_angle, table_friction_angle, table_cohesion)";
-          check_values(place.str(), o.table_friction_angle[k], o.table_dilatancy_angle[k], o.table_cohesion[k]);
+          place << "at table_strain = " << o.table_strain[k];
+          check_values(place.str(), {"table_dilatancy_angle", "table_friction_angle", "table_cohesion"},
+                       o.table_friction_angle[k], o.table_dilatancy_angle[k], o.table_cohesion[k]);
         }
     }
   } // namespace

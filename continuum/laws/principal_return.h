@@ -21,12 +21,12 @@ namespace diptych::continuum
     Verdict                  verdict = Verdict::reliable;
   };
 
-  // Returns a trial stress from outside the yield surface to the plane of the two outer stresses. If that fails, the stress
-  // returns to the edge with stress[1] = stress[2], the edge with stress[0] = stress[1], or the apex. All yield planes share
-  // one hardening variable, which grows by the sum of their multipliers. They share one viscous overstress, viscous_modulus
-  // times that sum. Opening at the apex does not harden. Method: de Souza Neto, Peric, Owen, Computational Methods for
-  // Plasticity (2008), chapter 8. The difference of the two multipliers of an edge follows from the condition that two trial
-  // stresses become equal. Only the sum remains to be solved for.
+  // Returns a trial stress from outside the yield surface to the plane of the two outer stresses. If that fails: to the edge
+  // with stress[1] = stress[2], the edge with stress[0] = stress[1], or the apex. All yield planes share one hardening
+  // variable, which grows by the sum of their multipliers, and one viscous overstress, viscous_modulus times that sum. Opening
+  // at the apex does not harden. Method: de Souza Neto, Peric, Owen, Computational Methods for Plasticity (2008), chapter 8.
+  // The difference of the two multipliers of an edge makes two trial stresses equal, so only their sum remains to be solved
+  // for.
   PrincipalReturn return_in_principal_space(const YieldCone      &cone,
                                             const ElasticModuli  &moduli,
                                             const HardeningState &start,

@@ -1,4 +1,4 @@
-// diptych: meshes out of gmsh's open model
+// diptych: meshes from gmsh's open model
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/mesh/gmsh_model.h"
 
@@ -37,7 +37,6 @@ namespace diptych::continuum
         throw std::invalid_argument("the mesh holds no quadrilateral");
     }
 
-    // Vertex lists of all elements of one type, of one entity or (-1) of all.
     std::vector<std::size_t> element_vertices(const int type, const int entity = -1)
     {
       std::vector<std::size_t> tags, vertices;
@@ -53,7 +52,7 @@ namespace diptych::continuum
       return {};
     }
 
-    // Number of the physical line that stands for an id.
+    // Number of the physical line of each id.
     std::map<BoundaryId, int> physical_lines()
     {
       std::map<BoundaryId, int> lines;

@@ -1,4 +1,4 @@
-// diptych: meshes out of gmsh's open model
+// diptych: meshes from gmsh's open model
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace diptych::continuum
 {
-  // gmsh is a global: it lives as long as one call of ours, and is closed on every way out. Without messages.
+  // gmsh is a global: a session lasts for one call of ours, prints no messages and closes on every way out.
   struct GmshSession
   {
     GmshSession();
@@ -19,8 +19,7 @@ namespace diptych::continuum
     GmshSession &operator=(const GmshSession &) = delete;
   };
 
-  // Do `action` and put `what: ` in front of the message of every error, which becomes an `Error`. gmsh throws ints, strings or
-  // exceptions, depending on the place.
+  // Runs `action`. An error of any type (gmsh throws ints, strings or exceptions) becomes an `Error` with `what: ` before it.
   template <class Error, class Action> auto guarded(const std::string &what, Action &&action)
   {
     try
@@ -45,9 +44,9 @@ namespace diptych::continuum
       }
   }
 
-  // Mesh of gmsh's open model, not yet checked. Points that carry nothing (centres of arcs) and physical lines of other
-  // names are left out. Throws std::invalid_argument for elements other than four-node quadrilaterals and two-node lines, for
-  // two lines of one name, and for vertices that are not finite or not in the plane z = 0.
+  // Mesh of gmsh's open model, not yet checked. Points that carry nothing (centres of arcs) and physical lines of other names
+  // are left out. Throws std::invalid_argument for elements other than four-node quadrilaterals and two-node lines and for two
+  // lines of one name. Vertices must be finite and in the plane z = 0.
   QuadMesh mesh_of_open_model();
 
   // True if gmsh's open model has at least one two-dimensional element, and all are four-node quadrilaterals.

@@ -97,7 +97,6 @@ namespace diptych::continuum
         ++n[equal_sides ? upper_platen : left_side];
     }
 
-    // The four edges of the sample, each from left to right or upward, cut into element edges.
     std::map<unsigned int, Polyline> boundary_of(const Outline &outline, const double element_size)
     {
       std::map<unsigned int, Polyline>     edges{{lower_platen, {outline.left.front(), outline.right.front()}},
@@ -113,7 +112,6 @@ namespace diptych::continuum
       return edges;
     }
 
-    // Lines of one edge as gmsh entities; points are shared through `points`.
     std::vector<int> add_lines(const Polyline &edge, const double element_size, std::map<std::pair<double, double>, int> &points)
     {
       std::vector<int> lines;

@@ -12,11 +12,11 @@ namespace diptych::continuum
 {
   // Every mesh returned here has passed check(). `check_stop` is called while gmsh works (mesh_child.h).
 
-  // Mesh the polygon left side - upper platen - right side - lower platen with quadrilaterals whose edges are about
+  // Meshes the polygon left side - upper platen - right side - lower platen with quadrilaterals whose edges are about
   // `element_size` [length] long. The sides are resampled at the element size along the given polylines; the platens are
-  // straight. Sides that are both straight and vertical get vertices at equal heights, as periodic sides need.
-  // Throws std::invalid_argument for an outline that is no sample (too few points, points not upward, sides crossing,
-  // platens not horizontal) and std::runtime_error when no all-quadrilateral mesh is found.
+  // straight. Sides that are both straight and vertical get vertices at equal heights, as periodic sides need. Throws
+  // std::invalid_argument for too few points, points not upward, crossing sides or inclined platens. Throws std::runtime_error
+  // if no all-quadrilateral mesh is found.
   QuadMesh outline_mesh(const Outline &outline, double element_size, const CheckStop &check_stop = {});
 
   // A rectangle with its lower left corner at the origin. [length]
@@ -28,9 +28,9 @@ namespace diptych::continuum
     double element_size = 0; // about, in both directions; at most the width and the height
   };
 
-  // Structured mesh: rows of equal height, columns of equal width below the platen and below each free part of the upper
-  // edge, so that the platen's ends are vertices and its width is exact; sides match.
-  // Throws std::invalid_argument naming the member and what is allowed.
+  // Structured mesh with rows of equal height. Columns have equal width below the platen and below each free part of the upper
+  // edge. So the platen's ends are vertices, its width is exact, and the sides match. Throws std::invalid_argument naming the
+  // member and what is allowed.
   QuadMesh rectangle_mesh(const Rectangle &rectangle);
 
   // The user's mesh: a .msh file, or a .geo script, which gmsh meshes first. gmsh opens the file in a child process with two
@@ -39,7 +39,7 @@ namespace diptych::continuum
   // Throws std::invalid_argument naming the file and the fault.
   QuadMesh read_mesh(const std::string &file, const CheckStop &check_stop = {});
 
-  // MSH 2.2 as deal.II's GridIn and gmsh read it, with the ids and names of BoundaryId and all digits; under a temporary name
-  // that is then renamed. Throws std::runtime_error naming the file.
+  // Writes MSH 2.2 for deal.II's GridIn and gmsh, with the ids and names of BoundaryId and all digits, to a temporary name,
+  // then renames it. Throws std::runtime_error naming the file.
   void write_mesh(const QuadMesh &mesh, const std::string &msh_file);
 } // namespace diptych::continuum

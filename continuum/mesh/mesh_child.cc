@@ -67,7 +67,7 @@ namespace diptych::continuum
         }
     }
 
-    // Runs in the child process. Its end closes the pipe, for whatever reason it ends.
+    // Runs in the child process. The pipe closes when the child ends, whatever the reason.
     [[noreturn]] void answer_and_end(const std::function<QuadMesh()> &make, const int pipe, const unsigned int most_cpu_seconds)
     {
       prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -114,7 +114,7 @@ namespace diptych::continuum
         close(pipe);
       }
 
-      // Waits for its end. Once.
+      // Waits for its end. Call it once.
       int status()
       {
         int status = 0;

@@ -16,10 +16,10 @@ namespace diptych::continuum
     using std::runtime_error::runtime_error;
   };
 
-  // Calls `make` in a child process (fork) and returns its mesh. Exceptions of `make` are thrown again here:
-  // std::invalid_argument as such, all others as std::runtime_error. `most_cpu_seconds` limits the CPU time of the child; 0 sets
-  // no limit. The child's standard input is empty and its output is dropped. Throws GmshEnded if the child crashed, exited or
-  // exceeded its limit (three times as many seconds of wall time count, too). Calls `check_stop` every 50 ms; if that throws, the
-  // child is killed and the exception passes on.
+  // Calls `make` in a child process (fork) with empty input and dropped output, and returns its mesh. Throws
+  // std::invalid_argument of `make` again as such, its other exceptions as std::runtime_error. `most_cpu_seconds` limits the
+  // CPU time of the child, and three times as many seconds its wall time; 0 sets no limit. Throws GmshEnded if the child
+  // crashed, exited or exceeded a limit. Calls `check_stop` every 50 ms; if that throws, the child is killed and the exception
+  // passes on.
   QuadMesh made_in_child(const std::function<QuadMesh()> &make, const CheckStop &check_stop, unsigned int most_cpu_seconds = 0);
 } // namespace diptych::continuum

@@ -1,4 +1,4 @@
-// diptych: meshes into the files that deal.II, gmsh and ParaView read
+// diptych: writes meshes to the files that deal.II, gmsh and ParaView read
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <filesystem>
 #include <fstream>
@@ -62,7 +62,7 @@ namespace diptych::continuum
       std::filesystem::rename(temporary, file, error);
     if (!out || error)
       {
-        std::error_code ignored; // what counts is that the mesh was not written
+        std::error_code ignored; // the error to report is the failed writing
         std::filesystem::remove(temporary, ignored);
         throw std::runtime_error("cannot write the mesh file " + file);
       }

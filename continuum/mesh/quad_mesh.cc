@@ -1,4 +1,4 @@
-// diptych: a mesh of quadrilaterals as plain data, and what makes one sound
+// diptych: a mesh of quadrilaterals as plain data, and its checks
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/mesh/quad_mesh.h"
 
@@ -67,7 +67,7 @@ namespace diptych::continuum
         }
     }
 
-    // Neighbours run along their common edge in opposite directions; so no edge is run along twice in one direction.
+    // Neighbours run along their common edge in opposite directions, so no directed edge occurs twice.
     CellOfEdge directed_edges(const QuadMesh &mesh)
     {
       CellOfEdge edges;
@@ -149,7 +149,6 @@ namespace diptych::continuum
                                       " boundary edges lie on no physical line, one of them" + at_middle(mesh, edge));
     }
 
-    // Heights of the vertices of one line, ascending.
     std::vector<double> heights(const QuadMesh &mesh, const BoundaryId id)
     {
       std::set<unsigned int> vertices;

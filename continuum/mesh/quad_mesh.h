@@ -1,4 +1,4 @@
-// diptych: a mesh of quadrilaterals as plain data, and what makes one sound
+// diptych: a mesh of quadrilaterals as plain data, and its checks
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -10,8 +10,8 @@
 
 namespace diptych::continuum
 {
-  // Ids of the lines that bound every mesh of the continuum panel. In mesh files they are the numbers of physical lines, whose
-  // names are those of the enumerators, and "free" for free_edge, the only one that a mesh may lack.
+  // Ids of the lines that bound every mesh of the continuum panel. In mesh files they are the numbers of physical lines. The
+  // lines have the names of the enumerators; free_edge is called "free". A mesh may lack only that one.
   enum BoundaryId : unsigned int
   {
     lower_platen = 1,
@@ -23,7 +23,6 @@ namespace diptych::continuum
 
   constexpr std::array<BoundaryId, 5> all_boundary_ids{lower_platen, upper_platen, left_side, right_side, free_edge};
 
-  // Name of the physical line of an id.
   const char *name_of(BoundaryId id);
 
   struct QuadMesh
@@ -39,7 +38,7 @@ namespace diptych::continuum
     std::vector<Edge>                        boundary; // in any order and direction
   };
 
-  // Order of the corners of a quadrilateral. `folded` also stands for concave and flat ones.
+  // Order of the corners of a quadrilateral. `folded` includes concave and flat ones.
   enum class Turn
   {
     counter_clockwise,
@@ -48,9 +47,9 @@ namespace diptych::continuum
   };
   Turn turn_of(const std::array<Eigen::Vector2d, 4> &corners);
 
-  // Throws std::invalid_argument with fault and place for: no cell; a clockwise, folded or flat cell; overlapping cells; more
-  // than one piece (cells that share only a corner are not connected); a vertex without a cell; a line inside the mesh; an edge
-  // on two lines; a missing line (except free_edge); a boundary edge without a line.
+  // Throws std::invalid_argument with fault and place. Cells: none, clockwise, folded, flat or overlapping; more than one piece
+  // (a common corner does not connect); a vertex without a cell. Lines: inside the mesh, missing (except free_edge); an edge on
+  // two lines; a boundary edge without a line.
   void check(const QuadMesh &mesh);
 
   struct MeshSummary
@@ -65,9 +64,8 @@ namespace diptych::continuum
     bool         sides_match   = false; // both sides carry vertices at equal heights (within 1e-9 of the mesh's height)
   };
 
-  // Counts and measures of a sound mesh.
   MeshSummary summarise(const QuadMesh &mesh);
 
-  // Least sine of a corner over all cells; not positive where one is clockwise, folded or a triangle in disguise.
+  // Least sine of a corner over all cells; not positive if a cell is clockwise, folded or flat.
   double worst_corner(const QuadMesh &mesh);
 } // namespace diptych::continuum

@@ -35,7 +35,6 @@ namespace diptych::continuum
     std::vector<std::vector<double>> rigid_modes;
   };
 
-  // Calls visit(name, member) for every entry.
   template <class AnyCheckpoint, class Visit> void visit_entries(AnyCheckpoint &c, Visit &&visit)
   {
     visit("cells", c.cells);

@@ -27,7 +27,6 @@ namespace diptych::continuum
       return mesh;
     }
 
-    // Checks that both platens are level, the upper one above the lower one, and the left side left of the right one.
     void check_places(const Discretisation &mesh)
     {
       std::array<Eigen::Vector2d, 5> mean;
@@ -48,7 +47,6 @@ namespace diptych::continuum
     }
   } // namespace
 
-  // A sample during its loading.
   class Panel::Course
   {
   public:
@@ -223,7 +221,6 @@ namespace diptych::continuum
         hooks_.on_progress("continuum", row.progress / loading_.stages.back());
     }
 
-    // Updates the position on the loading path and the counts.
     void describe()
     {
       const Progress now       = progress_of(problem_, loading_);

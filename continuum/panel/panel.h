@@ -73,14 +73,14 @@ namespace diptych::continuum
     // As set_initial_stress(), for solid_fraction_start = auto, with one number per cell [-].
     void set_initial_solid_fraction(const std::vector<double> &solid_fraction);
 
-    // To be called once. prepare() finds equilibrium at rest. resume() continues from a checkpoint on any number of processes:
-    // it uses that of the first process and throws std::invalid_argument if it belongs to another mesh.
+    // To be called once. `prepare()` finds equilibrium at rest. On any number of processes, resume() continues from the
+    // checkpoint of the first one. Throws std::invalid_argument if it belongs to another mesh.
     [[nodiscard]] Status prepare();
     void                 resume(const Checkpoint &checkpoint);
 
     // Loads up to stage 1, 2, ... number of stages. A step that does not converge is halved. If that does not help, the panel
-    // keeps its last accepted state and the report gives the reason. A stop on request between two Newton iterations restores
-    // the state before that step. A later call continues with the same bits as an uninterrupted panel.
+    // keeps its last accepted state, and the report gives the reason. A later call continues with the same bits, also after a
+    // stop.
     [[nodiscard]] Status advance_to(int stage);
 
     // State of the last accepted step. Complete only on the first process.

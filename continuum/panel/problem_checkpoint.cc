@@ -25,7 +25,6 @@ namespace diptych::continuum
       return ids;
     }
 
-    // The record of a cell, then determinant and angle of its points.
     std::size_t values_per_cell(const ReferenceElement &reference)
     {
       return record_length(reference) + 2 * reference.n_points;
@@ -48,7 +47,6 @@ namespace diptych::continuum
       return values;
     }
 
-    // Divisions by all processes, refinement by refinement.
     Divisions all_divisions(const Divisions &mine, const MPI_Comm communicator)
     {
       Divisions all(mine.size());

@@ -48,7 +48,6 @@ namespace diptych::continuum
              shear_radius(point.stress) * (1 + 1e-9) + 1e-6 * std::abs(mean); // equal stresses differ by round-off
     }
 
-    // d x / d unit coordinates at a point of a cell whose nodes are at x.
     Eigen::Matrix2d jacobian(const Discretisation               &mesh,
                              const Cell                         &cell,
                              const unsigned int                  q,
@@ -63,7 +62,6 @@ namespace diptych::continuum
       return J;
     }
 
-    // Positions of the nodes at the start and now.
     struct Shape
     {
       std::vector<Eigen::Vector2d> before, now;
@@ -78,7 +76,6 @@ namespace diptych::continuum
       return shape;
     }
 
-    // Means over one cell, weighted by current area.
     CellState cell_state(const BoundaryValueProblem &problem, const Shape &shape, const std::size_t c)
     {
       const auto      &mesh      = problem.discretisation();
@@ -210,7 +207,6 @@ namespace diptych::continuum
       return result;
     }
 
-    // Adds one cell of a message to the snapshot.
     void add_cell(Snapshot                                      &snapshot,
                   std::map<std::array<double, 3>, unsigned int> &node_of_key,
                   const double                                  *message,
@@ -253,7 +249,6 @@ namespace diptych::continuum
         matrix.data()[k] = sum(matrix.data()[k], communicator);
     }
 
-    // Sets the progress of a snapshot or a row.
     template <class Target> void set_progress(const BoundaryValueProblem &problem, const Loading &loading, Target &target)
     {
       const Progress now  = progress_of(problem, loading);
@@ -264,7 +259,6 @@ namespace diptych::continuum
       target.walk         = loading.walk;
     }
 
-    // Adds the sums over the points of all processes to a row of the history.
     void add_point_sums(const BoundaryValueProblem &problem, HistoryRow &row)
     {
       const auto &mesh     = problem.discretisation();

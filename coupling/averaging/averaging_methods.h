@@ -18,7 +18,6 @@ namespace diptych::coupling
   CellSums average_by_kernel(const TargetCells &target, const Carriers &carriers, KernelShape shape, double width);
   CellSums average_by_projection(const TargetCells &target, const Carriers &carriers, double width);
 
-  // Zeros with n_cells rows and the columns of the carriers.
   CellSums zero_sums(const TargetCells &target, const Carriers &carriers);
 
   // Shares of grains in cells as compressed rows; each row sums to one.
@@ -46,7 +45,6 @@ namespace diptych::coupling
     }
   };
 
-  // Sums over the shares of grains in each cell, and over their squares.
   struct JoinedGrains
   {
     std::vector<double> sum, squares; // n_cells
@@ -73,6 +71,5 @@ namespace diptych::coupling
   // CellSums::joined, or empty if it is not wanted. Several shares of one grain in one cell are added first.
   std::vector<double> joined_grains(const TargetCells &target, const Carriers &carriers, const GrainShares &shares);
 
-  // Distributes grains and their half branches by the grains' shares.
   CellSums sums_by_owner(const TargetCells &target, const Carriers &carriers, const GrainShares &shares);
 } // namespace diptych::coupling

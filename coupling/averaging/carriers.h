@@ -47,13 +47,11 @@ namespace diptych::coupling
     // (segments), the centre (centroid) or the whole power cell (laguerre). It is a quadrature point beyond the kernel's reach
     // (kernel) or outside the mesh (projection).
     double outside_share = 0;
-    // Only for segments with judge_nodes. Largest difference, over the largest force, between the two sides of the nodal identity
-    // at any node, with the collar's nodes. The sides are sum_K M_K grad N_a and the sum over halves of f (N_a(centre) -
-    // N_a(contact point)), to which a branch within the mesh telescopes. NaN if the mesh can have no collar, a half leaves it, or
-    // there is no force.
+    // Only for segments with judge_nodes: residual of the nodal identity (README.md), also at the collar's nodes, over the
+    // largest force. NaN if the mesh can have no collar, a half leaves it, or there is no force.
     double nodal_residual = NAN;
-    // Number of equal grains whose quantities a mean over the cell joins: (sum of the shares of grains)^2 / sum of their squares.
-    // n_cells entries, 0 for a cell without grains; empty if not wanted. The projection solves one system per cell for it.
+    // Number of equal grains that a mean over the cell joins: (sum of the shares of grains)^2 / sum of their squares. n_cells
+    // entries, 0 for a cell without grains; empty if not wanted. The projection solves one system per cell for it.
     std::vector<double> joined;
   };
 
@@ -67,8 +65,6 @@ namespace diptych::coupling
   Carriers moment_carriers(const std::vector<Eigen::Vector2d>        &position,
                            const std::vector<double>                 &radius,
                            const std::vector<discrete::ContactForce> &contacts);
-
-  // ---- implementation
 
   [[noreturn]] void refuse_contact(const discrete::ContactForce &contact);
 

@@ -22,8 +22,7 @@ namespace diptych::coupling
     double                    typical_solid_fraction = 0;
   };
 
-  // The typical solid fraction is the area-weighted median over the cells that hold any disc area. A cell is covered if its solid
-  // fraction is at least half the typical one. Overlaps of discs count twice.
+  // The typical solid fraction is the area-weighted median over the cells that hold disc area. Overlaps of discs count twice.
   CellCover cell_cover(const QuadMesh                     &mesh,
                        const TriangleSearch               &search,
                        const std::vector<Eigen::Vector2d> &position,

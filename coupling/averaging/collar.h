@@ -26,10 +26,9 @@ namespace diptych::coupling
   // that all `points` lie inside. Empty if the boundary is not star-shaped, that is, if no place inside sees every boundary edge.
   std::optional<CollaredMesh> with_collar(const QuadMesh &mesh, const std::vector<Eigen::Vector2d> &points);
 
-  // Joins the edges of the lower and upper boundary to their images below and above. Nodes at the same height on the left and
-  // right side are one unknown. The distance of the sides must be the period, with a relative tolerance of 1e-6. Empty if it is
-  // not, or if the lower or upper boundary is not a function of x. points: as the grains store them, possibly whole periods left
-  // or right of the mesh.
+  // Joins the edges of the lower and upper boundary to images below and above. Left and right nodes of equal height are one
+  // unknown. Empty if the distance of the sides is not the period (to 1e-6), or a boundary is not a function of x. `points`: as
+  // the grains store them, possibly whole periods left or right of the mesh.
   std::optional<CollaredMesh> with_periodic_collar(const QuadMesh                     &mesh,
                                                    double                              period,
                                                    const std::vector<Eigen::Vector2d> &points);

@@ -28,7 +28,7 @@ namespace diptych::coupling
       const Eigen::Vector2d u = (corner[1] - corner[0]) / n, v = (corner[2] - corner[0]) / n;
       const double          third = (u.x() * v.y() - u.y() * v.x()) / 6;
       const auto            part  = [&](const Eigen::Vector2d &middle, const double sign) {
-        // The vectors from the middle of a part to its corners are -(u+v)/3, (2u-v)/3 and (2v-u)/3; inverted parts have the
+        // The vectors from the middle of a part to its corners are -(u+v)/3, (2u-v)/3 and (2v-u)/3. Inverted parts have the
         // opposite signs.
         for (const Eigen::Vector2d &d : {Eigen::Vector2d(-u - v), Eigen::Vector2d(2 * u - v), Eigen::Vector2d(2 * v - u)})
           {

@@ -20,7 +20,6 @@ namespace diptych::coupling
   class Kernel
   {
   public:
-    // Throws std::invalid_argument for a width that is not positive.
     Kernel(KernelShape shape, double standard_deviation);
 
     double width() const { return deviation; } // w [length]
@@ -35,9 +34,8 @@ namespace diptych::coupling
     double deviation, radius, peak;
   };
 
-  // Quadrature points of a mesh, sorted into bins. Each triangle is divided into n^2 equal parts; n is the smallest number for
-  // which their longest edge is at most 1.5 w. Each part has the three-point rule of degree 2. Deep inside a mesh the sum over
-  // cells is then 1 within 1e-3, before it is scaled.
+  // Quadrature points of a mesh, sorted into bins. A triangle has n^2 equal parts, whose longest edge is at most 1.5 w, with
+  // the three-point rule of degree 2. Deep inside a mesh the sum over cells is then 1 within 1e-3, before it is scaled.
   class KernelQuadrature
   {
   public:
@@ -64,9 +62,8 @@ namespace diptych::coupling
     std::vector<double>       sum_of_cell;   // scratch space, zero between calls
   };
 
-  // Points and weights along a segment with the parameter t from 0 to 1. The segment is divided into parts no longer than w, with
-  // two Gauss points in each. The weights add up to one, also if multiplied by 2 (1 - t). This is the density of a quantity that
-  // decreases linearly along the segment.
+  // Points and weights along a segment with the parameter t from 0 to 1, in parts no longer than w with two Gauss points each.
+  // The weights add up to one, also if multiplied by 2 (1 - t), the density of a quantity that decreases linearly.
   struct SegmentRule
   {
     std::vector<double> t, weight;

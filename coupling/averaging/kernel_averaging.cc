@@ -9,8 +9,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    // Weights around x that add up to one. Returns false and uses the nearest boundary cell if the mesh is beyond the kernel's
-    // reach.
+    // Weights around x that add up to one. Returns false and uses the nearest boundary cell if no cell is within reach.
     bool unit_weights(const TargetCells         &target,
                       const Eigen::Vector2d     &x,
                       KernelQuadrature          &quadrature,

@@ -27,7 +27,6 @@ namespace diptych::coupling
       return power_cells(position, radius, carriers.position.size(), lower, upper);
     }
 
-    // Adds the shares of one power cell. Returns false if it has no area in the mesh.
     bool add_shares(const TargetCells &target, const PowerCell &cell, GrainShares &shares)
     {
       static thread_local std::vector<unsigned int>    triangles;

@@ -20,10 +20,10 @@ namespace diptych::coupling
   };
   Unknowns number_unknowns(const TargetCells &target);
 
-  // M + l^2 K: consistent mass matrix and Laplacian without flux through the boundary. length: l.
+  // M + l^2 K: consistent mass matrix and Laplacian without flux through the boundary. `length`: l.
   Eigen::SparseMatrix<double> helmholtz_matrix(const QuadMesh &mesh, const Unknowns &unknowns, double length);
 
-  // N_a at x for the three nodes of a triangle of target.images. If the triangle does not hold x, negative values are set to zero
-  // and the others are scaled so that they add up to one.
+  // N_a at x for the three nodes of a triangle of target.images. Outside the triangle, negative values become zero and the
+  // others are scaled to the sum one.
   Eigen::Vector3d shape_values(const TargetCells &target, unsigned int triangle, const Eigen::Vector2d &x);
 } // namespace diptych::coupling

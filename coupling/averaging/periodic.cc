@@ -47,7 +47,6 @@ namespace diptych::coupling
       return network;
     }
 
-    // The points where segments of the network's branches end.
     std::vector<Eigen::Vector2d> branch_ends(const Network &network)
     {
       std::vector<Eigen::Vector2d> points;
@@ -66,7 +65,6 @@ namespace diptych::coupling
       return points;
     }
 
-    // The cells that receive a network.
     struct Ground
     {
       Ground(const QuadMesh &mesh, const double period, const Network &network)

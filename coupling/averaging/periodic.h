@@ -13,23 +13,21 @@ namespace diptych::coupling
   QuadMesh tiled(const QuadMesh &mesh, double period);
 
   // Contact forces over the window of a stage, and spin terms, mapped onto the cells. In a periodic sample a branch that leaves
-  // the mesh enters again on the other side. Parts outside the mesh are mapped onto a collar (collar.h), whose triangles belong
-  // to the boundary cells.
+  // the mesh enters again on the other side. Boundary cells own the parts on a collar (collar.h) outside the mesh.
   struct MappedGrains
   {
     MappedMoment moment; // moment of each triangle of the mesh, with the collar's share and the spin term
     // Residual of the nodal identity (segments.h) for the window forces: largest difference at any node / largest contact force.
     // It covers the nodes of the collar, the boundary and the periodic sides. NaN without a collar or without forces.
     double nodal_residual = 0;
-    // False if there is no collar or a branch reaches beyond it. There is none if the boundary is not star-shaped or the sides of
-    // a periodic mesh are not one period apart. Parts outside then belong to the nearest boundary cell, and only the totals are
-    // exact.
+    // False if the mesh can have no collar (collar.h) or a branch reaches beyond it. Parts outside then belong to the nearest
+    // boundary cell, and only the totals are exact.
     bool has_collar = false;
   };
   MappedGrains map_grains(const QuadMesh &mesh, const discrete::Snapshot &grains);
 
   // Residual of the nodal identity for the last step (`contacts`), with nodal_applied_forces() in place of the sums of contact
-  // forces. It vanishes by the grains' balance of momentum. acceleration: in the last step [length/time^2]. NaN as in
+  // forces. It vanishes by the grains' balance of momentum. `acceleration`: in the last step [length/time^2]. NaN as in
   // MappedGrains.
   double momentum_residual(const QuadMesh                     &mesh,
                            const discrete::Snapshot           &grains,

@@ -14,7 +14,7 @@
 namespace diptych::coupling
 {
   // Stress at a point: sum over the half branches of -f (x) (integral of phi along it) over the integral of phi over the mesh.
-  // phi is the kernel around the point. The stress is unsymmetric and positive in compression [pressure]. width: standard
+  // The kernel around the point is phi. The stress is unsymmetric and positive in compression [pressure]. `width`: standard
   // deviation [length]. Images of a periodic sample count. NaN if no part of the mesh is in reach.
   std::vector<Eigen::Matrix2d> stress_at_points(const QuadMesh                     &mesh,
                                                 const discrete::Snapshot           &grains,

@@ -41,7 +41,7 @@ namespace diptych::coupling
       PointBins                           bins;
     };
 
-    // Clips cell i by the axis of disc j. reach: largest distance of a corner from the centre of i.
+    // Clips cell i by the axis of disc j. `reach`: largest distance of a corner from the centre of i.
     void clip_by_neighbour(const Discs &discs, const unsigned int i, const unsigned int j, const double reach, PowerCell &cell)
     {
       static thread_local PowerCell scratch;

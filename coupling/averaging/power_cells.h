@@ -30,7 +30,7 @@ namespace diptych::coupling
                                      const Eigen::Vector2d              &lower,
                                      const Eigen::Vector2d              &upper);
 
-  // Area that a convex polygon shares with a triangle, both counter-clockwise. corners: scratch space, overwritten.
+  // Area that a convex polygon shares with a triangle, both counter-clockwise. `corners`: scratch space, overwritten.
   double shared_area(const std::vector<Eigen::Vector2d>   &convex,
                      const std::array<Eigen::Vector2d, 3> &triangle,
                      std::vector<Eigen::Vector2d>         &corners);

@@ -13,7 +13,6 @@ namespace diptych::coupling
 {
   namespace
   {
-    // Sums over the carriers of their quantities times N_a.
     class NodalLoads
     {
     public:
@@ -23,7 +22,6 @@ namespace diptych::coupling
             unknowns(unknowns)
       {}
 
-      // Adds N_a(x) times share times the row to the columns from `first` on.
       template <class Row>
       void add(const unsigned int     triangle,
                const Eigen::Vector2d &x,
@@ -46,9 +44,9 @@ namespace diptych::coupling
 
     using Solver = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
 
-    // The share of grain i in cell K is sum_a N_a(x_i) y_a, where (M + l^2 K) y = integrals of N_a over the cell. The sum of the
-    // shares over grains is sum_a n_a y_a and that of their squares y . B y. Here n_a = sum_i N_a(x_i) and B_ab = sum_i N_a(x_i)
-    // N_b(x_i).
+    // The share of grain i in cell K is sum_a N_a(x_i) y_a. Here (M + l^2 K) y = integrals of N_a over the cell. The sum of the
+    // shares over grains is sum_a n_a y_a and that of their squares y . B y. Here n_a = sum_i N_a(x_i) and B_ab = sum_i
+    // N_a(x_i) N_b(x_i).
     std::vector<double> joined_by_projection(const TargetCells &target,
                                              const Carriers    &carriers,
                                              const Unknowns    &unknowns,

@@ -26,9 +26,9 @@ namespace diptych::coupling
       return polygons;
     }
 
-    // Exact areas of the discs in the cells. The part outside the mesh goes to the boundary cell nearest to that part's centroid.
-    // The inside parts give this centroid, because the first moments of both parts about the centre add up to zero. If the mesh
-    // has become wider than the period, its images overlap and a disc lies in them twice; its shares are then scaled to one.
+    // Exact areas of the discs in the cells. The part outside the mesh goes to the boundary cell nearest to that part's
+    // centroid. The inside parts give this centroid, because the first moments of both parts about the centre add up to zero.
+    // Images of a mesh wider than the period overlap. Shares of a disc that lies in them twice are scaled to one.
     GrainShares disc_shares(const TargetCells &target, const Carriers &carriers)
     {
       const auto                polygons = cell_polygons(target.images);
@@ -94,7 +94,6 @@ namespace diptych::coupling
         mapped.triangle_moment.assign(ground.mesh.triangle.size(), Eigen::Matrix2d::Zero());
       }
 
-      // moment: -force (x) (to - from).
       void add(const Eigen::Matrix2d                    &moment,
                const Eigen::Vector2d                    &from,
                const Eigen::Vector2d                    &to,
@@ -129,7 +128,6 @@ namespace diptych::coupling
       bool                         has_left      = false; // a half branch lay beyond the collar
     };
 
-    // Adds the half branches to the sums.
     void cut_halves(const TargetCells &target, const Carriers &carriers, CellSums &sums)
     {
       const bool                         uniform = carriers.uniform.cols() > 0, tapered = carriers.tapered.cols() > 0;

@@ -16,7 +16,6 @@ namespace diptych::coupling
       return contact.j < static_cast<int>(position.size());
     }
 
-    // sum_i N_a(x_i) force_i - sum_platens N_a(x_c) f at every node.
     std::vector<Eigen::Vector2d> weak_sum(const QuadMesh                            &mesh,
                                           const TriangleSearch                      &search,
                                           const std::vector<Eigen::Vector2d>        &position,
@@ -86,8 +85,7 @@ namespace diptych::coupling
         }
     };
 
-    // The contacts are visited in spatial order. Body numbers do not follow space, and in the contacts' own order the triangles
-    // would be loaded from memory again and again.
+    // Contacts are visited in spatial order: in their own order the triangles would be loaded from memory again and again.
     std::vector<Eigen::Vector2d> points;
     for (const auto &contact : contacts)
       {

@@ -23,16 +23,15 @@ namespace diptych::coupling
     double                       outside_weight = 0; // the same sum for the segments outside the mesh
   };
 
-  // |K| sigma_K = -sum_c f (x) (segment in K). The branch x_i - contact point - x_j of each contact is cut by the triangles K,
-  // and f is the force on i. The segment points from x_i to x_j, or to the image of x_j that touches i. A body j >=
-  // position.size() is a platen, with x_i - contact point only. Parts outside the mesh go to the nearest boundary cell, so that
-  // sum_K |K| sigma_K = total to round-off. position: grain centres [length].
+  // |K| sigma_K = -sum_c f (x) (segment in K). The triangles K cut the branch x_i - contact point - x_j of each contact. The
+  // force on i is f. The segment points from x_i to x_j, or to the image of x_j that touches i. A body j >= position.size() is
+  // a platen, with x_i - contact point only. Parts outside the mesh go to the nearest boundary cell, so that sum_K |K| sigma_K
+  // = total to round-off. `position`: grain centres [length].
   MappedMoment map_segments(const QuadMesh                            &mesh,
                             const TriangleSearch                      &search,
                             const std::vector<Eigen::Vector2d>        &position,
                             const std::vector<discrete::ContactForce> &contacts);
 
-  // outside_weight / sum of all weights, or 0 if all weights are zero.
   double outside_share(const MappedMoment &mapped);
 
   // Adds the dynamic part of the internal moments, -spin_term * 1 at each grain's centre, to the triangles and to the total. Here
@@ -42,7 +41,7 @@ namespace diptych::coupling
                      const std::vector<double>          &mean_spin_term,
                      MappedMoment                       &mapped);
 
-  // |sum over triangles - expected| / |expected| of the symmetric parts (Frobenius norm). expected: the sum of the grains'
+  // |sum over triangles - expected| / |expected| of the symmetric parts (Frobenius norm). `expected`: the sum of the grains'
   // internal moments, or mapped.total.
   double total_relative_error(const MappedMoment &mapped, const Eigen::Matrix2d &expected);
 
@@ -52,25 +51,22 @@ namespace diptych::coupling
   // sum_K |K| sigma_K grad N_a at every node of the mesh [pressure * length], N_a linear on the triangles.
   std::vector<Eigen::Vector2d> nodal_forces(const QuadMesh &mesh, const MappedMoment &mapped);
 
-  // Adds N_a(point) force to the nodes of the triangle that holds the point.
   void add_at_nodes(const QuadMesh               &mesh,
                     const TriangleSearch         &search,
                     const Eigen::Vector2d        &force,
                     const Eigen::Vector2d        &point,
                     std::vector<Eigen::Vector2d> &nodal);
 
-  // The values that nodal_forces() gives if every branch lies inside the mesh, as collar.h ensures, but computed without cutting
-  // branches. They are the sum of N_a at the grain centres times the contact forces on the grains, minus N_a at the contact
-  // points times the forces from the platens.
+  // The same without cutting branches, if every branch lies inside the mesh. Sums N_a at the grain centres times the contact
+  // forces on the grains. Subtracts N_a at the platens' contact points times their forces.
   std::vector<Eigen::Vector2d> nodal_contact_forces(const QuadMesh                            &mesh,
                                                     const TriangleSearch                      &search,
                                                     const std::vector<Eigen::Vector2d>        &position,
                                                     const std::vector<discrete::ContactForce> &contacts);
 
-  // The same from the accelerations and the applied forces of the last step: sum_i N_a(x_i) (m_i a_i - F_i) - sum_platens
-  // N_a(x_c) f, with F_i the containing action and gravity. f is the force of the last step (Snapshot::contacts), not a mean
-  // since the preceding snapshot. Both results agree by the balance of momentum. acceleration: a_i = (velocity - velocity before
-  // the step) / step [length/time^2]. A fixed grain enters with its contact forces.
+  // The same from the last step: sum_i N_a(x_i) (m_i a_i - F_i) - sum_platens N_a(x_c) f. F_i is the containing action plus
+  // gravity, f the force of the last step (Snapshot::contacts). `acceleration`: a_i = change of the velocity in this step / step
+  // [length/time^2]. A fixed grain enters with its contact forces.
   std::vector<Eigen::Vector2d> nodal_applied_forces(const QuadMesh                     &mesh,
                                                     const TriangleSearch               &search,
                                                     const discrete::Snapshot           &grains,

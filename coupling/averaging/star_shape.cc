@@ -13,7 +13,6 @@ namespace diptych::coupling
 {
   namespace
   {
-    // Keeps the part of a convex polygon in the half plane to the left of a-b.
     void keep_left(const Eigen::Vector2d &a, const Eigen::Vector2d &b, std::vector<Eigen::Vector2d> &polygon)
     {
       std::vector<Eigen::Vector2d> kept;

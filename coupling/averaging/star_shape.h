@@ -20,9 +20,9 @@ namespace diptych::coupling
     double                    clearance = 0; // smallest distance of the centre from the lines of the edges [length]
   };
 
-  // Uses the middle of the mesh if its clearance from the edges' lines exceeds a twentieth of the square root of the mesh's area.
-  // Otherwise uses the middle of all places that see every edge, that is, of the intersection of the edges' half planes. Empty if
-  // they do not intersect, leave a clearance of at most a thousandth of that square root, or the boundary is not one closed line.
+  // Uses the middle of the mesh if its clearance from the edges' lines exceeds a twentieth of the root of the mesh's area.
+  // Otherwise uses the middle of all places that see every edge, that is, of the intersection of the edges' half planes. Empty
+  // if they do not intersect, the clearance is at most a thousandth of that square root, or the boundary is not one line.
   std::optional<StarShape> star_shape(const QuadMesh &mesh, const std::vector<BoundaryEdge> &boundary);
 
   // The scale about the centre at which the boundary passes through a point; 0 for points nearer than the clearance.

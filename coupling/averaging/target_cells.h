@@ -12,8 +12,7 @@
 
 namespace diptych::coupling
 {
-  // The cells of a mesh, and a search through them. In a periodic sample the search includes the images one period to either
-  // side.
+  // The cells of a mesh with a search; in a periodic sample it includes the images one period to either side.
   struct TargetCells
   {
     // period: width of the periodic cell [length], or 0 if the sample is not periodic. Throws as TriangleSearch does.

@@ -56,8 +56,7 @@ namespace diptych::coupling
     Eigen::Vector2d normal() const { return {-std::sin(angle_deg * M_PI / 180), std::cos(angle_deg * M_PI / 180)}; }
   };
 
-  // Under vertical loading a band leans left or right by chance. A band of negative angle is mirrored left to right about the
-  // sample's centre: angle and jump change sign; offset, widths and dilation do not. Any other band is returned unchanged. After
-  // this the bands of several samples can be averaged.
+  // Under vertical loading a band leans left or right by chance. Mirrors a band of negative angle left to right about the
+  // centre: angle and jump change sign. Bands of several samples can then be averaged. Any other band is returned unchanged.
   Band folded(const Band &band);
 } // namespace diptych::coupling

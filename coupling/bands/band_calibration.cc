@@ -113,8 +113,8 @@ namespace diptych::coupling
       return smoothing * white;
     }
 
-    // Variance of each row of `influence` (numbers x 2 n) times the residuals (2 n x simulations) over drawn blocks: the sum of
-    // the squares of the blocks' sums. These sums add up to zero because the residuals are those of a fit.
+    // Variance over drawn blocks of each row of `influence` (numbers x 2 n) times the residuals (2 n x simulations). It is the
+    // sum of the squares of the blocks' sums. These sums add up to zero because the residuals are those of a fit.
     Eigen::ArrayXXd block_variance(const Eigen::MatrixXd  &influence,
                                    const Eigen::MatrixXd  &residual,
                                    const std::vector<int> &block,

@@ -16,13 +16,12 @@ namespace diptych::coupling
 
   BandNumbers band_numbers(const BandFit &fit, std::size_t band);
 
-  // Factors for the deviations of a block bootstrap over the tiles, one set per band.
-  // Block deviations are too small for three reasons. Blocks as small as the correlation length miss correlations between
-  // neighbouring blocks. Residuals are smaller than errors. A small number of blocks makes the variance itself uncertain. All
-  // three effects are known if the fit is linear around the solution and the correlation of the errors is known. Simulated errors
-  // are put through the fit. Their correlation is exp(-pi r^2/L^2), with L = bootstrap.block, which gives one independent sample
-  // per square of side L. The factor is the 95 % quantile of |error of a number| / (deviation from the blocks of the residuals),
-  // divided by 1.96. This is the calibration of an interval by simulation (Loh 1987). No factor is below 1.
+  // Factors for the deviations of a block bootstrap over the tiles, one set per band. Block deviations are too small. Blocks as
+  // small as the correlation length miss correlations between neighbours. Residuals are smaller than errors, and a small number
+  // of blocks makes the variance uncertain. Simulated errors are put through the linearised fit. Their correlation is exp(-pi
+  // r^2/L^2) with L = bootstrap.block: one independent sample per square of side L. The factor is the 95 % quantile of |error
+  // of a number| / (deviation from the blocks of the residuals), divided by 1.96. This is the calibration of an interval by
+  // simulation (Loh 1987). No factor is below 1.
   [[nodiscard]] std::vector<BandNumbers> bootstrap_factors(const BandData         &data,
                                                            const BandFit          &fit,
                                                            const Tiles            &tiles,

@@ -21,7 +21,6 @@ namespace diptych::coupling
     constexpr double pair_half_width     = 5;     // the half width of the three with which pairs are tried
     constexpr int    most_parallel_lines = 10000; // to each side of the centre
 
-    // Adds the lines of one angle that cross the sample.
     void add_parallel_lines(const BandFitOptions   &sample,
                             const double            angle,
                             const double            half_width,

@@ -14,8 +14,7 @@ namespace diptych::coupling
   // Means over square blocks of the given size [mean diameters]; they are fine enough for scans.
   BandData block_means(const BandData &data, double size);
 
-  // True if two lines differ by at least the angle [radians], or else by at least the separation of their offsets [mean
-  // diameters].
+  // True if two lines differ by at least the angle [radians] or the separation of their offsets [mean diameters].
   bool distinct(const BandShape &a, const BandShape &b, double angle, double separation);
 
   // A scan like a Radon transform: tanh profiles along every line of every angle (4 degrees apart) at three half widths. Each is

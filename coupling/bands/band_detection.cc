@@ -45,7 +45,6 @@ namespace diptych::coupling
       return data;
     }
 
-    // Empty if band b of a fit is a band, else the reason why it is not.
     std::string objection(const BandFit &fit, const std::size_t b, const BandFitOptions &sample, const double minimum_jump)
     {
       const BandShape &shape = fit.shape[b];
@@ -63,7 +62,6 @@ namespace diptych::coupling
       return "";
     }
 
-    // The objection to the first transition that is not a band.
     std::string objection(const BandFit &fit, const BandFitOptions &sample, const double minimum_jump)
     {
       std::string text;
@@ -72,8 +70,8 @@ namespace diptych::coupling
       return text;
     }
 
-    // Starts are compared on block means, which cost a tenth. The best one without objection is then fitted to all points; if
-    // there is an objection to every start, the best of them is. A fit without objection is preferred to one that explains more.
+    // Starts are compared on block means, which cost a tenth. The best one without objection is then fitted to all points. If
+    // there is an objection to every start, the best one is. A fit without objection is preferred to one that explains more.
     BandFit best_fit(const BandData            &data,
                      const BandData            &blocks,
                      const std::vector<Shapes> &starts,
@@ -160,7 +158,6 @@ namespace diptych::coupling
       return fit;
     }
 
-    // Converts lengths of the intervals from mean diameters.
     Band reported_band(const BandIntervals &numbers, const double mean_diameter)
     {
       Band band;
@@ -178,7 +175,8 @@ namespace diptych::coupling
       return band;
     }
 
-    // A refit must still be a band, but its jump may be arbitrarily weak: half a jump is a possible value of the resampling.
+    // A refit must still be a band. Its jump may be arbitrarily weak, because half a jump is a possible value of the
+    // resampling.
     std::vector<BandIntervals> intervals_of(const BandData       &data,
                                             const BandFit        &fit,
                                             const BandFitOptions &sample,
@@ -199,7 +197,6 @@ namespace diptych::coupling
       return fit;
     }
 
-    // The best fits with no, one and two bands, up to the allowed number.
     std::vector<BandFit> fits_of(const BandData &data, const BandFitOptions &sample, const BandOptions &options)
     {
       const BandData       blocks = block_means(data, std::min(4., std::min(sample.width, sample.height) / 10));

@@ -27,12 +27,12 @@ namespace diptych::coupling
 
   constexpr int fewest_band_points = 30;
 
-  // Fits no, one and two bands (Huber loss, variable projection) and chooses the number with the lowest BIC. The n of the BIC is
-  // the number of independent samples, two for each square of the correlation length, and not the number of points. Two kinds of
-  // transitions are not bands. One as wide as half the sample cannot be distinguished from the affine background. One with jump /
-  // (2 half width) < platen increment / height shears less in its middle than the sample does on average, and a tanh fits such
-  // remainders of a smooth field. The seed draws only the blocks of the intervals. Throws std::invalid_argument for fewer than
-  // fewest_band_points weighted points, a platen increment of zero or a frame without extent.
+  // Fits no, one and two bands (Huber loss, variable projection) and chooses the number with the lowest BIC. The n of the BIC
+  // is the number of independent samples, two for each square of the correlation length. Two kinds of transitions are not
+  // bands. One as wide as half the sample cannot be distinguished from the affine background. One with jump / (2 half width) <
+  // platen increment / height shears less in its middle than the sample on average. A tanh fits such remainders of a smooth
+  // field. The seed draws only the blocks of the intervals. Throws std::invalid_argument for fewer than fewest_band_points
+  // weighted points, a platen increment of zero or a frame without extent.
   [[nodiscard]] BandReport find_bands(const DisplacementField &field,
                                       const SampleFrame       &frame,
                                       const BandOptions       &options = {},

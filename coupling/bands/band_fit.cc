@@ -79,7 +79,6 @@ namespace diptych::coupling
       return damped(p.gauss_newton, floor).ldlt().solve(p.descent);
     }
 
-    // Levenberg-Marquardt with fixed weights. Returns true if the step became smaller than the tolerance.
     bool minimise(const BandData            &data,
                   const std::vector<double> &weight,
                   const BandFitOptions      &options,

@@ -46,6 +46,5 @@ namespace diptych::coupling
                                     const BandFitOptions &options,
                                     double                tolerance = 1e-3);
 
-  // The weights that Huber's loss gives the data for a fit.
   std::vector<double> huber_weights(const BandData &data, const BandFit &fit, const BandFitOptions &options);
 } // namespace diptych::coupling

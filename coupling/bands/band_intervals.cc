@@ -13,8 +13,8 @@ namespace diptych::coupling
 {
   namespace
   {
-    // Fine enough not to widen the narrowest profile: the mean over a cell of half the half width adds 2.5 % to the variance of
-    // tanh's slope, pi^2/12 delta^2.
+    // Fine enough for the narrowest profile. A cell of half the half width adds 2.5 % to the variance of tanh's slope, pi^2/12
+    // delta^2.
     double cell_size(const BandFit &fit)
     {
       double narrowest = INFINITY;
@@ -70,9 +70,8 @@ namespace diptych::coupling
       return deviations;
     }
 
-    // A refit with fixed weights moves too little. For a misfit r beyond the threshold k, Huber's force psi is k r/|r|. Its
-    // derivative is zero along r and equals the weight k/|r| across it, half the weight on average. The refit counts the whole
-    // weight.
+    // A refit with fixed weights moves too little. Beyond the threshold k, Huber's force k r/|r| has the derivative zero along
+    // r and the weight k/|r| across it. That is half the weight on average. The refit counts the whole weight.
     double fixed_weight_factor(const std::vector<double> &plain, const std::vector<double> &huber)
     {
       double whole = 0, moving = 0;

@@ -11,19 +11,16 @@
 
 namespace diptych::coupling
 {
-  // Returns true if a band of a refit is still a band.
   using HoldsBand = std::function<bool(const BandFit &refit, std::size_t band)>;
 
-  // 95 % intervals of each band of a fit: angles in degrees, lengths in mean diameters, jumps in platen increments.
-  // Blocks: the sample's box is cut into rectangles of at least bootstrap.block, which are drawn with replacement. The same
-  // number of bands is fitted again to each draw, starting from the found shapes. To save time the refits use means over cells of
-  // at most 2 mean diameters, with Huber's weights of the found fit and a correction factor. Deviations are differences from a
-  // fit to all cell means, so that the averaging over cells causes no bias.
-  // Ends: the 2.5 and 97.5 % quantiles of the deviations, multiplied by bootstrap_factors() (band_calibration.h). For the half
-  // width the deviations of its logarithm are used. Without the factors the intervals would cover the truth in only 68-92 % of
-  // cases. A band is lost in a resample, and left out there, if the refit does not hold it or does not converge. Ends are NaN if
-  // a band is lost in more than a tenth of the resamples, for fewer than 40 resamples or for fewer than 4 rectangles. The same
-  // seed gives the same bits.
+  // 95 % intervals of each band of a fit: angles in degrees, lengths in mean diameters, jumps in platen increments. Blocks: the
+  // sample's box is cut into rectangles of at least bootstrap.block, which are drawn with replacement. Each draw fits the same
+  // number of bands again from the found shapes. To save time it uses means over cells of at most 2 mean diameters, Huber's
+  // weights of the found fit and a correction factor. Deviations refer to a fit to all cell means, so that the cells cause no
+  // bias. Ends: the 2.5 and 97.5 % quantiles of the deviations (half width: of its logarithm), multiplied by
+  // bootstrap_factors(). A resample whose refit does not hold the band, or does not converge, is left out for this band. Ends
+  // are NaN if that happens in more than a tenth of the resamples, for fewer than 40 resamples or 4 rectangles. The same seed
+  // gives the same bits.
   [[nodiscard]] std::vector<BandIntervals> band_intervals(const BandData         &data,
                                                           const BandFit          &fit,
                                                           const BandFitOptions   &sample,

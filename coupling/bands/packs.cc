@@ -12,7 +12,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    // Share of a platen's length on the far side of the band. height: y of the platen relative to the sample's centre [length].
+    // Share of a platen's length on the far side of the band. `height`: y of the platen relative to the sample's centre [length].
     double cut_share(const Band &band, const SampleFrame &frame, const double height)
     {
       const Eigen::Vector2d n = band.normal();

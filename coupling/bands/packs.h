@@ -14,8 +14,7 @@ namespace diptych::coupling
 
   // Moreau (1997) describes two packs, each carried by a platen, and a zone between them. A band is such a zone if
   //   its line leaves the sample by both sides, or cuts off at most a tenth of a platen;
-  //   its jump, with dilation, is at most 20 degrees from the travel of the upper platen (4 to 13 in the reference scene; 22 to
-  //     33 in a sample with W/H = 1.5);
+  //   its jump, with dilation, is at most 20 degrees from the travel of the upper platen;
   //   its jump is at most 1.2 of the platen's travel, because packs cannot part faster than the platens that carry them;
   //   its fit has converged.
   // Returns all conditions that fail, as text; empty for a band between two packs.

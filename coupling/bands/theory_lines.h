@@ -8,8 +8,8 @@
 
 namespace diptych::coupling
 {
-  // Angle between a band and the direction of the minor principal stress (smallest compression) [degrees]; the two conjugate
-  // bands lie at the same angle on both sides of it. Observed bands lie between Roscoe's and Coulomb's line (Vardoulakis & Sulem
+  // Angle between a band and the direction of the minor principal stress (smallest compression) [degrees]. The two conjugate
+  // bands lie at this angle on either side of it. Observed bands lie between Roscoe's and Coulomb's line (Vardoulakis & Sulem
   // 1995), so the theories give a range.
   struct TheoryLines
   {

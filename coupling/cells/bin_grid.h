@@ -38,7 +38,6 @@ namespace diptych::coupling
     double      row_low(const int row) const { return origin.y() + row * size; }
     std::size_t number(const int row, const int column) const { return std::size_t(row) * columns + column; }
 
-    // Number of the bin that holds a point of the box.
     std::size_t bin_of(const Eigen::Vector2d &x) const
     {
       return number(int((x.y() - origin.y()) / size), int((x.x() - origin.x()) / size));
@@ -55,7 +54,6 @@ namespace diptych::coupling
     int row_of(const Eigen::Vector2d &x) const { return int(std::floor((x.y() - origin.y()) / size)); }
     int column_of(const Eigen::Vector2d &x) const { return int(std::floor((x.x() - origin.x()) / size)); }
 
-    // See CountedBins::sort().
     template <class BinsOf> void sort(const std::size_t n, BinsOf &&bins_of)
     {
       bins.sort(std::size_t(columns) * rows, n, bins_of);

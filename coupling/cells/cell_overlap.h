@@ -25,8 +25,8 @@ namespace diptych::coupling
   // Computes the shared areas exactly: it clips the triangles of one mesh against those of the other.
   CellOverlap cell_overlap(const QuadMesh &receiving, const QuadMesh &giving);
 
-  // Transfers values from the giving mesh to the receiving one. Each receiving cell gets the mean weighted by shared area, or
-  // `missing` where less than half of it lies in giving cells with a finite value.
+  // Transfers values from the giving mesh to the receiving one. Each receiving cell gets the mean weighted by shared area. It
+  // gets `missing` if less than half of it has finite values.
   template <class Value>
   std::vector<Value> carried_over(const CellOverlap &overlap, const std::vector<Value> &values, const Value &missing)
   {

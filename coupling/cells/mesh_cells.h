@@ -19,8 +19,8 @@ namespace diptych::coupling
   };
 
   // Quadrilaterals with straight edges and counter-clockwise corners, divided into triangles. A cell without hanging nodes has
-  // the triangles 0-1-2 and 0-2-3. A cell beside smaller ones is a polygon: its neighbours' corners on its edges are its hanging
-  // nodes, and it has more triangles. Neighbouring triangles therefore always share whole edges.
+  // the triangles 0-1-2 and 0-2-3. A cell beside smaller ones is a polygon with more triangles. Its neighbours' corners on its
+  // edges are its hanging nodes. Neighbouring triangles therefore always share whole edges.
   struct QuadMesh
   {
     std::vector<Eigen::Vector2d>             node; // [length]
@@ -28,12 +28,11 @@ namespace diptych::coupling
     std::vector<CellTriangle>                triangle; // sorted by cell
   };
 
-  // Fills mesh.triangle. A node hangs on a cell's edge if no other cell has this whole edge and, in the initial shape, the node
-  // lies between the ends of the edge within 1e-9 of its length. `initial` holds one place per node, in a shape in which the
-  // edges of divided cells are straight. Without it the current places are used. A polygon is divided so that its flattest
-  // triangle is as round as possible. If a cell of four nodes is not convex and its diagonal 0-2 lies outside, its corners are
-  // rotated by one. Throws std::runtime_error with the cell's number if the cell cannot be divided into triangles of positive
-  // area.
+  // Fills mesh.triangle. A node hangs on a cell's edge if it lies between its ends (initial shape, within 1e-9 of the length)
+  // and no other cell has the whole edge. `initial` holds one place per node, in a shape in which the edges of divided cells
+  // are straight. Without it the current places are used. A polygon is divided so that its flattest triangle is as round as
+  // possible. If a cell of four nodes is not convex and its diagonal 0-2 lies outside, its corners are rotated by one. Throws
+  // std::runtime_error with the cell's number if the cell cannot be divided into triangles of positive area.
   void triangulate(QuadMesh &mesh);
   void triangulate(QuadMesh &mesh, const std::vector<Eigen::Vector2d> &initial);
 

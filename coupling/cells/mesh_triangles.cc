@@ -113,9 +113,9 @@ namespace diptych::coupling
     }
 
     // Divides a polygon of n nodes into n - 2 triangles of positive area. Such triangles do not overlap and lie inside the
-    // polygon, because their winding numbers add up to that of the polygon. best(i, j) is the roundness of the flattest triangle
-    // in the best division of the part i, i+1, .., j. It is the largest over k of min(best(i, k), roundness(i, k, j), best(k,
-    // j)).
+    // polygon, because their winding numbers add up to that of the polygon. Let best(i, j) be the roundness of the flattest
+    // triangle in the best division of the part i, i+1, .., j. It is the largest over k of min(best(i, k), roundness(i, k, j),
+    // best(k, j)).
     std::vector<CellTriangle> divide(const std::vector<Eigen::Vector2d> &x,
                                      const std::vector<unsigned int>    &polygon,
                                      const unsigned int                  number)

@@ -49,7 +49,7 @@ namespace diptych::coupling
                                                  const Eigen::Vector2d              &point,
                                                  const Eigen::Vector2d              &direction);
 
-  // Corners of a rectangle, counter-clockwise. along: unit vector along the side `length`.
+  // Corners of a rectangle, counter-clockwise. `along`: unit vector along the side `length`.
   std::vector<Eigen::Vector2d> rectangle_corners(const Eigen::Vector2d &centre,
                                                  const Eigen::Vector2d &along,
                                                  double                 length,

@@ -51,7 +51,6 @@ namespace diptych::coupling
       stage.band_difference              = band_difference(stage.increment);
     }
 
-    // The part of a scene that stages and windows need.
     struct Settings
     {
       const ComparisonOptions &options;

@@ -105,7 +105,6 @@ namespace diptych::coupling
 
   namespace
   {
-    // Mean displacement increment of each cell's corners.
     std::vector<Eigen::Vector2d> moved_cells(const continuum::Snapshot &from, const continuum::Snapshot &to)
     {
       return continuum_fields(from, to).displacement_increment;

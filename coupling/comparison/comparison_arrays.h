@@ -36,14 +36,12 @@ namespace diptych::coupling
     std::vector<Eigen::Matrix2d> grain_stress(const discrete::Snapshot &grains);
   } // namespace arrays
 
-  // Units of an increment's displacements and velocities.
   struct MotionUnits
   {
     double displacement = 1, velocity = 1; // [length], [length/time]
   };
   MotionUnits motion_units(const Increment &increment);
 
-  // Lists the arrays of a stage on the cells of one mesh or grid.
   template <class Visit> void list_cell_arrays(const CellFields &f, const MotionUnits &unit, Visit &&visit)
   {
     const GrainFields     &g = f.grains;
@@ -141,7 +139,6 @@ namespace diptych::coupling
           arrays::difference(c.stress, g.stress));
   }
 
-  // Lists the arrays of a stage or a window, below the increment's group.
   template <class Visit> void list_increment_arrays(const Increment &i, const discrete::Snapshot &to, Visit &&visit)
   {
     const MotionUnits unit = motion_units(i);
@@ -164,7 +161,6 @@ namespace diptych::coupling
           i.continuum.field.increment);
   }
 
-  // Lists the arrays of a window on the cells of the continuum's mesh at the end of the window.
   template <class Visit>
   void list_window_cell_arrays(const Increment &i, const std::vector<Eigen::Vector2d> &moved, Visit &&visit)
   {
@@ -228,14 +224,12 @@ namespace diptych::coupling
     visit(ArrayEntry{"outline/right", "right side", "length", "right side of the sample's outline, upward"}, to.outline.right);
   }
 
-  // Lists the arrays below the group of the cells or of the grid.
   template <class Visit> void list_mesh_arrays(const QuadMesh &mesh, Visit &&visit)
   {
     visit(ArrayEntry{"node_position", "place", "length", "positions of the nodes"}, mesh.node);
     visit(ArrayEntry{"nodes", "nodes of a cell", "-", "corners of each cell anticlockwise, counted from 0"}, mesh.cell);
   }
 
-  // Lists the attributes of the group of a stage or a window.
   template <class Visit> void list_increment_attributes(const Increment &i, Visit &&visit)
   {
     const MotionUnits unit = motion_units(i);
@@ -247,7 +241,6 @@ namespace diptych::coupling
     visit(NumberEntry{"centre", "length", "centre of the sample, the origin of the offsets of bands"}, i.frame.centre);
   }
 
-  // Lists the attributes of the whole file. `start`: the grains before the loading.
   template <class Visit>
   void list_file_attributes(const LoadingOptions     &loading,
                             const double              mean_diameter,
@@ -265,7 +258,6 @@ namespace diptych::coupling
           std::string(discrete::name_of(discrete::walk_of(loading.mode))));
   }
 
-  // Lists the arrays of a panel's whole history, one entry per row of its .csv.
   template <class Visit> void list_history_arrays(const HistoryTable &history, const double width, Visit &&visit)
   {
     visit(ArrayEntry{"progress", "progress", "strain or time", "progress of the loading"}, column(history, "progress"));

@@ -155,7 +155,6 @@ namespace diptych::coupling
     v({"peak_memory_mb", "MB", "largest memory of the program", Kind::clock}, c.peak_memory_mb);
   }
 
-  // The whole of comparison.json.
   struct ComparisonDocument
   {
     const Scene      &scene;

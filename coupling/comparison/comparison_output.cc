@@ -19,7 +19,6 @@ namespace diptych::coupling
   {
     using nlohmann::json;
 
-    // The description of each number, by its place.
     json descriptions()
     {
       json result = json::object();
@@ -72,7 +71,6 @@ namespace diptych::coupling
             }
       }
 
-      // Adds both panels of stages or windows.
       void add_increments(const json &increments, const std::string &place, const std::string &prefix)
       {
         for (const json &increment : increments)
@@ -91,7 +89,6 @@ namespace diptych::coupling
       static bool        known(const json &v) { return v.is_number() && std::isfinite(v.get<double>()); }
       static std::string text(const json &v) { return known(v) ? v.dump() : std::string(); }
 
-      // The stage that was asked for, where the panels reached it.
       std::string progress(const json &reached) const
       {
         for (const double stage : stages)

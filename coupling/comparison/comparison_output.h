@@ -24,9 +24,8 @@ namespace diptych::coupling
              {"unit", "-", "unit of value, low and high"}}};
   }
 
-  // comparison.json: every number that comparison_numbers.h lists, with their descriptions under "numbers". comparison.csv: the
-  // same numbers, one per line, with progress_from, progress_to, panel, quantity, value, the ends of the 95 % interval if known,
-  // and unit.
+  // comparison.json: every number that comparison_numbers.h lists, with their descriptions under "numbers". The same numbers,
+  // one per line, go to comparison.csv with the columns comparison_columns().
   void write_comparison(const std::string &directory, const ComparisonDocument &document);
 
   // comparison.h5: the arrays behind the report's figures, as listed in comparison_arrays.h.
@@ -34,6 +33,6 @@ namespace diptych::coupling
 
   // fields.vtu: the last stage of both panels on the continuum's mesh in its current position. It has every field of CellFields
   // under its name in comparison.h5, and the difference of the stresses. Tensors are 3x3 tensors (positive in compression), and
-  // vectors have three components. grid.vtu: the same on the regular grid.
+  // vectors have three components. `grid.vtu`: the same on the regular grid.
   void write_fields_vtu(const std::string &directory, const Comparison &c);
 } // namespace diptych::coupling

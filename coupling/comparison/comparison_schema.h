@@ -6,6 +6,5 @@
 
 namespace diptych::coupling
 {
-  // The numbers of comparison.json, in the order of comparison_numbers.h.
   NumberSchema comparison_schema();
 } // namespace diptych::coupling

@@ -15,7 +15,6 @@
 
 namespace diptych::coupling
 {
-  // Displacement increment of one panel between two stages.
   struct PanelIncrement
   {
     DisplacementField   field;

@@ -44,7 +44,6 @@ namespace diptych::coupling
       s.background_slope);
   }
 
-  // The numbers of one panel, for stages and windows.
   template <class Visitor> void list_numbers(const PanelIncrement &p, Visitor &v)
   {
     v.list("bands", "shear bands, the strongest first", p.band.bands);

@@ -7,7 +7,7 @@
 
 namespace diptych::coupling
 {
-  // Throws SceneError if the prepared sample has too few grains for the band detection, or if a probe of the scene lies outside
-  // it. A band or probe that leaves the sample during the loading is found only by the comparison.
+  // Throws SceneError for too few grains for the band detection, or a probe of the scene outside the prepared sample. A band or
+  // probe that leaves the sample during the loading is found only by the comparison.
   void require_comparable_sample(const ProbeOptions &options, const discrete::Snapshot &prepared);
 } // namespace diptych::coupling

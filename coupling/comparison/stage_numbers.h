@@ -36,7 +36,6 @@ namespace diptych::coupling
 
   namespace numbers
   {
-    // The numbers of a probe that both panels have.
     template <class Visitor> void list_place_and_stress(const ProbeRecord &p, Visitor &v)
     {
       v({"name", "-", "name of the probe", Kind::setting}, p.region.name);
@@ -46,7 +45,6 @@ namespace diptych::coupling
     }
   } // namespace numbers
 
-  // A probe of the grains, with fabric and intervals.
   struct GrainProbe : ProbeRecord
   {};
   template <class Visitor> void list_numbers(const GrainProbe &p, Visitor &v)
@@ -161,7 +159,6 @@ namespace diptych::coupling
     v({"verdict", "-", "verdict on whether the probes differ"}, d.verdict);
   }
 
-  // The platen forces of one panel at a stage, as a pair.
   struct PlatenResultants
   {
     Eigen::Vector2d lower = Eigen::Vector2d::Zero(), upper = lower;

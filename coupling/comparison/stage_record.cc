@@ -60,7 +60,6 @@ namespace diptych::coupling
       return line_turn(major_direction(stress) + 90, 0);
     }
 
-    // Input that all probes of a stage share.
     struct ProbeView
     {
       std::vector<Eigen::Vector2d> outline;

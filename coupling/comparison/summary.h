@@ -13,9 +13,8 @@
 
 namespace diptych::coupling
 {
-  // T/S of a loading along strain. The beginning is separate because it depends on the start and on the accuracy of the contact
-  // solver. Early: up to 0.3 % strain; later: from there to the end. NaN if the history ends before, or if the loading is along
-  // time.
+  // T/S of a loading along strain. Early: up to 0.3 % strain, which depends on the start and on the solver's accuracy. Later:
+  // the rest. NaN if the history ends before, or along time.
   struct Strength
   {
     double early = NAN, later = NAN;

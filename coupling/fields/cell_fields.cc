@@ -35,7 +35,6 @@ namespace diptych::coupling
       return regular_grid(lower, upper, size);
     }
 
-    // True for cells of which at least nine tenths lie in the mesh.
     std::vector<bool> mostly_inside(const CellOverlap &overlap)
     {
       std::vector<bool> inside;

@@ -104,8 +104,8 @@ namespace diptych::coupling
             row.segment<4>(half::moment) = Eigen::RowVector4d(-f.x() * l.x(), -f.x() * l.y(), -f.y() * l.x(), -f.y() * l.y());
             row[half::dissipation]       = has_dissipation ? share * s.window_dissipation[k] : 0;
             uniform.push_back(row);
-            // (x_c - x) x f decreases linearly from l x f at the centre to zero at the contact point, so its integral is half of
-            // l x f.
+            // (x_c - x) x f decreases linearly from l x f at the centre to zero at the contact point. Its integral is half of l
+            // x f.
             tapered.push_back(-0.5 * (l.x() * f.y() - l.y() * f.x()) * l.transpose());
             c.half.push_back({i, l});
             c.half_size.push_back(f.norm() * l.norm());

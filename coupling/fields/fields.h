@@ -63,7 +63,7 @@ namespace diptych::coupling
   };
 
   // Fields of the grains between two stages, on the cells of a mesh in its shape at `to`. The period is that of `to`.
-  // judge_nodes: compute nodal_residual. Throws as distribute() does, and std::invalid_argument for snapshots of different
+  // `judge_nodes`: compute nodal_residual. Throws as distribute() does, and std::invalid_argument for snapshots of different
   // grains.
   GrainFields grain_fields(const QuadMesh           &mesh,
                            const discrete::Snapshot &from,

@@ -17,9 +17,8 @@ namespace diptych::coupling
                                                 const discrete::Snapshot &to,
                                                 double                    reach);
 
-  // |v'|^2 / 2 of each grain [velocity^2]. v' is its velocity minus an affine field. This field is fitted by least squares to the
-  // velocities of the grains within 2.5 mean diameters, with the grain itself. The square is divided by 1 - h, h the grain's
-  // leverage in the fit, so that independent fluctuations of equal variance have no bias. NaN if the fit has fewer than 4 grains
-  // or they lie on a line.
+  // |v'|^2 / 2 of each grain [velocity^2], with v' its velocity minus an affine field. The field is the least squares fit to
+  // the grains within 2.5 mean diameters, with the grain itself. The square is divided by 1 - h, h the grain's leverage in the
+  // fit, so that independent fluctuations have no bias. NaN if the fit has fewer than 4 grains or they lie on a line.
   std::vector<double> fluctuation_energy(const TargetCells &target, const discrete::Snapshot &grains);
 } // namespace diptych::coupling

@@ -72,7 +72,6 @@ namespace diptych::coupling
       return difference <= 1e-9 * size;
     }
 
-    // The cells of a snapshot, in the initial shape.
     class InitialCells
     {
     public:

@@ -10,9 +10,9 @@
 
 namespace diptych::coupling
 {
-  // Displacement since the start [length] at the instant `from`, one entry for each node of `to`. If the meshes are the same,
-  // these are the nodes' own values. Otherwise the biquadratic field of the cells of `from` is evaluated at the initial place of
-  // each node of `to`, which is exact for divided cells. Throws std::invalid_argument if a node lies in no cell of `from`.
+  // Displacement since the start [length] at the instant `from`, one entry for each node of `to`. If the meshes differ, the
+  // biquadratic field of `from` is evaluated at the node's initial place: exact for divided cells. Throws std::invalid_argument
+  // if a node lies in no cell of `from`.
   std::vector<Eigen::Vector2d> displacement_at_nodes_of(const continuum::Snapshot &from, const continuum::Snapshot &to);
 
   // The same for the rotation [radians]. Both snapshots must have rotations.

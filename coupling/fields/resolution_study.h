@@ -51,14 +51,14 @@ namespace diptych::coupling
   inline const std::vector<double> kernel_widths = {0.5, 0.75, 1, 1.5, 2, 3, 4};    // mean diameters
   inline const std::vector<double> cell_sizes    = {0.5, 0.75, 1, 1.5, 2, 3, 4, 6}; // mean diameters
 
-  // Uses the window forces of a snapshot, without the dynamic part of the stress. mesh: the region that the sample fills.
+  // Uses the window forces of a snapshot, without the dynamic part of the stress. `mesh`: the region that the sample fills.
   ResolutionStudy resolution_study(const QuadMesh                &mesh,
                                    const discrete::Snapshot      &grains,
                                    const std::vector<StudyPoint> &points,
                                    KernelShape                    kernel = KernelShape::gauss);
 
-  // The widest range of widths (by ratio, at least a factor of two) in which s and t/s of every point stay within 5 % of their
-  // mean. The mean is over the rows in the range, and the ends of the range are widths of rows. Of equally wide ranges, the one
-  // of smallest widths is taken. A mean t/s below 0.1 counts as 0.1. Empty without points.
+  // The widest range of widths (by ratio) in which s and t/s of every point stay within 5 % of their mean. It has at least a
+  // factor of two. The mean is over the rows in the range, and the ends of the range are widths of rows. Of equally wide
+  // ranges, the one of smallest widths is taken. A mean t/s below 0.1 counts as 0.1. Empty without points.
   std::optional<std::array<double, 2>> find_plateau(const std::vector<ResolutionRow> &rows);
 } // namespace diptych::coupling

@@ -111,7 +111,6 @@ namespace diptych::coupling
     return gradient;
   }
 
-  // eps_1 - eps_2 = sqrt((e_xx - e_yy)^2 + (2 e_xy)^2)
   std::vector<double> shear_strain_increment(const DisplacementField            &field,
                                              const std::vector<Eigen::Vector2d> &sample_points,
                                              const double                        radius)

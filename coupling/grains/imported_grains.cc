@@ -30,7 +30,7 @@ namespace diptych::coupling
     const std::string file   = imported_file(scene.discrete.method.file, scene.sample.seed);
     const std::string folder = std::filesystem::path(file).parent_path().string();
     if (const std::string record = discrete::read_text(import_json(folder)); !record.empty())
-      discrete::write_text(import_json(directory), record); // lists what the files did not hold
+      discrete::write_text(import_json(directory), record); // lists the quantities that the files lack
     say(options, "the grains are those of " + file);
   }
 } // namespace diptych::coupling

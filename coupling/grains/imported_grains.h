@@ -7,6 +7,6 @@
 
 namespace diptych::coupling
 {
-  // Copies the frames of discrete/file into the result folder, which then no longer needs the imported folder.
+  // Copies the frames of discrete/file into the result folder, which is then independent of the imported folder.
   void take_imported(const RunOptions &options, const Scene &scene);
 } // namespace diptych::coupling

@@ -45,7 +45,7 @@ namespace diptych::coupling
     if (!found && !finished)
       return;
     const std::size_t n_snapshots = discrete::read_snapshots(snapshots).size();
-    if (!found || found->n_rows > 0) // stopped before the first step there is none
+    if (!found || found->n_rows > 0) // a run stopped before its first step has no row
       (void)discrete::read_history<discrete::HistoryRow>(rows);
     check_files(directory, "discrete");
     if (!found)

@@ -9,7 +9,7 @@
 
 namespace diptych::coupling
 {
-  // The checkpoint of a folder; empty if there is none. sample: text_of(sample_identity(scene)). Throws SceneError if the
+  // The checkpoint of a folder; empty if there is none. `sample`: text_of(sample_identity(scene)). Throws SceneError if the
   // checkpoint belongs to another scene, std::invalid_argument with its name if it is damaged.
   std::optional<discrete::StoredCheckpoint> interrupted_grains(const std::string &directory, const std::string &sample);
 
@@ -20,6 +20,5 @@ namespace diptych::coupling
   // interrupted_grains(), with the name of a damaged file.
   void check_earlier_grains(const std::string &directory, const std::string &sample);
 
-  // Throws std::invalid_argument if `file` has fewer stages than a checkpoint needs.
   void check_stage_count(const std::string &file, std::size_t found, std::size_t needed);
 } // namespace diptych::coupling

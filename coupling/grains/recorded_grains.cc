@@ -15,7 +15,6 @@ namespace diptych::coupling
 {
   namespace
   {
-    // Tells of every sampled snapshot how accurate its grain stress is.
     std::string accuracy_text(const discrete::Snapshot &s, const double wanted)
     {
       if (std::isnan(s.stress_error))
@@ -110,7 +109,7 @@ namespace diptych::coupling
     add_snapshot();
   }
 
-  // What the loading is going to take: steps as long as the first, each as long as one of the preparation.
+  // Prints the expected number of steps, all as long as the first, and their time at the pace of the preparation.
   void RecordedGrains::announce() const
   {
     const discrete::Report &report  = panel.report();
@@ -154,7 +153,7 @@ namespace diptych::coupling
       save();
   }
 
-  // Rows first: the checkpoint says how many are its own.
+  // Rows first: the checkpoint records how many rows belong to it.
   void RecordedGrains::save()
   {
     table->flush();

@@ -17,8 +17,7 @@
 
 namespace diptych::coupling
 {
-  // Runs the discrete panel. It writes rows and snapshots to the result folder at once, and a checkpoint every
-  // checkpoint_minutes.
+  // Runs the discrete panel, writes rows and snapshots to the result folder, and a checkpoint every checkpoint_minutes.
   class RecordedGrains
   {
   public:

@@ -40,21 +40,26 @@ namespace diptych::coupling
       return grains;
     }
 
-    void take_grains(const std::vector<ForeignGrain> &grains, const double thickness, ArrivedFrame &to)
+    // Masses that the files lack follow from --density, the mass per area; without it they are not told.
+    void take_grains(const std::vector<ForeignGrain> &grains,
+                     const ForeignOptions            &options,
+                     const double                     thickness,
+                     ArrivedFrame                    &to)
     {
+      const double density = options.density.value_or(not_told);
       for (const ForeignGrain &g : grains)
         {
           to.position.push_back(g.position);
           to.velocity.push_back(g.velocity);
           to.resultant.push_back(g.resultant / thickness);
           to.radius.push_back(g.radius);
-          to.mass.push_back(g.mass / thickness);
+          to.mass.push_back(std::isfinite(g.mass) ? g.mass / thickness : M_PI * g.radius * g.radius * density);
           to.rotation.push_back(g.rotation);
           to.spin.push_back(g.spin);
         }
     }
 
-    // Weights of all grains; without masses they follow from --density.
+    // Weights of all grains.
     void take_weights(const ForeignFrame &from, const ForeignOptions &options, Arrival &arrival, ArrivedFrame &to)
     {
       to.weight.assign(to.position.size(), Eigen::Vector2d::Zero());
@@ -62,16 +67,13 @@ namespace diptych::coupling
       if (!gravity.allFinite() || gravity == Eigen::Vector2d::Zero())
         return;
       for (std::size_t i = 0; i < to.weight.size(); ++i)
-        to.weight[i] = gravity * (std::isfinite(to.mass[i])
-                                    ? to.mass[i]
-                                    : M_PI * to.radius[i] * to.radius[i] * options.density.value_or(not_told));
+        to.weight[i] = gravity * to.mass[i];
       if (!std::isfinite(to.weight[0].sum()))
         throw SceneError(from.grain_file + ": frame " + from.name +
                          ": gravity acts on the grains, but the files contain no masses; give --density, the mass per area");
       remark_once(arrival, "the grains have weight; the continuum of a run has none");
     }
 
-    // All frames must have the grains of the first one.
     void require_same_grains(const std::vector<long> &ids, const std::vector<ForeignGrain> &grains, const ForeignFrame &frame)
     {
       std::set<long> here;
@@ -109,11 +111,14 @@ namespace diptych::coupling
       throw SceneError("import " + sample.format + ": " + option + " would have no effect: " + why);
     }
 
-    // A user who gives an option without effect believes that it counts.
+    // An option without effect is refused, because its user believes that it counts.
     void require_effect(const ForeignSample &sample, const ForeignOptions &options)
     {
       if (options.pressure && sample.frames.size() == 1)
         refuse_without_effect(sample, "--pressure", "a single frame has no loading, so there is no scene");
+      const auto &grains = sample.frames.front().grains;
+      if (options.density && std::all_of(grains.begin(), grains.end(), [](const auto &g) { return std::isfinite(g.mass); }))
+        refuse_without_effect(sample, "--density", "the files contain the masses of the grains");
     }
 
     // Masses that grow as r^3 belong to spheres, even if the run was in the plane.
@@ -132,7 +137,7 @@ namespace diptych::coupling
     }
 
     // Mass per area of the discs, for inertial numbers and weights.
-    double density_of(const ArrivedFrame &frame, const ForeignSample &sample, const ForeignOptions &options)
+    double density_of(const ArrivedFrame &frame)
     {
       double mass = 0, area = 0;
       for (std::size_t i = 0; i < frame.mass.size(); ++i)
@@ -140,11 +145,7 @@ namespace diptych::coupling
           mass += frame.mass[i];
           area += M_PI * frame.radius[i] * frame.radius[i];
         }
-      if (std::isfinite(mass) && options.density)
-        refuse_without_effect(sample, "--density", "the files contain the masses of the grains");
-      if (std::isfinite(mass))
-        return mass / area;
-      return options.density.value_or(not_told);
+      return mass / area;
     }
 
     void note_what_is_lacking(const Arrival &arrival, std::vector<std::string> &lacking)
@@ -211,7 +212,7 @@ namespace diptych::coupling
       {
         ForeignFrame &from = sample.frames[k];
         require_same_grains(arrival.id, grains[k], from);
-        if (k > 0 && !from.has_contacts)
+        if (k > 0 && from.contacts.empty())
           throw SceneError(from.grain_file + ": frame " + from.name +
                            " has no contacts; every frame after the first needs them for its stresses");
         ArrivedFrame frame;
@@ -220,7 +221,7 @@ namespace diptych::coupling
         frame.wall_file  = from.wall_file.empty() ? from.grain_file : from.wall_file;
         frame.time       = from.time.value_or(not_told);
         frame.step       = from.step.value_or(long(k));
-        take_grains(grains[k], arrival.thickness, frame);
+        take_grains(grains[k], options, arrival.thickness, frame);
         take_weights(from, options, arrival, frame);
         take_contacts(from, arrival, options, frame);
         require_later_time(arrival, frame, from.grain_file);
@@ -229,7 +230,7 @@ namespace diptych::coupling
     if (options.walls_touch &&
         std::none_of(arrival.frames.begin(), arrival.frames.end(), [](const auto &f) { return f.walls_touch; }))
       refuse_without_effect(sample, "--walls-touch", "the files give the place of every wall");
-    arrival.density = density_of(arrival.frames.front(), sample, options);
+    arrival.density = density_of(arrival.frames.front());
     for (const std::string &text : sample.lacking)
       arrival.lacking.push_back(text);
     note_what_is_lacking(arrival, arrival.lacking);

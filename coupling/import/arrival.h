@@ -6,7 +6,7 @@
 
 namespace diptych::coupling
 {
-  // Throws SceneError naming file, line and the contradiction: contacts of unknown bodies, repeated grains, grains that are
-  // missing in a frame, pairs with two forces, walls that cannot be distinguished, spheres without a thickness.
+  // Throws SceneError with file, line and contradiction. Grains: repeated, missing in a frame, spheres without a thickness.
+  // Contacts: unknown bodies, pairs with two forces. Walls: not to be distinguished.
   Arrival arrive(ForeignSample sample, const ForeignOptions &options);
 } // namespace diptych::coupling

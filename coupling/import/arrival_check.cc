@@ -15,10 +15,10 @@ namespace diptych::coupling
   namespace
   {
     // Values above these limits cause a warning. The balance is relative to the mean contact force. It is 1e-6 if a code writes
-    // nine digits of the forces that it integrated, and 0.02 if it evaluates them again after the step. In slow motion without
-    // resultants the rms over all grains stays below 0.3. The worst grain of tests/foreign and of an exported moreau_quick has
-    // 0.044. Contacts of rigid grains have gaps up to 0.002 mean diameters. Contact points of soft ones lie up to half an
-    // overlap off.
+    // nine digits of the forces that it integrated. It is 0.02 if the code evaluates them again after the step. In slow motion
+    // without resultants the rms over all grains stays below 0.3. The worst grain of tests/foreign and of an exported
+    // moreau_quick has 0.044. Contacts of rigid grains have gaps up to 0.002 mean diameters. Contact points of soft ones lie up
+    // to half an overlap off.
     constexpr double doubtful_balance = 0.05, doubtful_motion = 0.3, doubtful_grain = 3, doubtful_stress = 0.05,
                      doubtful_overlap = 0.05, doubtful_overlap_told = 0.005, doubtful_wall_force = 0.03,
                      doubtful_wall_place = 0.02, doubtful_apart = 0.05;
@@ -29,6 +29,10 @@ namespace diptych::coupling
     // Changes from one frame to the next. Rigid grains keep their radius to the digits of the file, and no tested sample
     // densifies so much.
     constexpr double doubtful_radius = 1e-4, doubtful_density = 0.15;
+
+    // Equal discs fill at most 0.907 of the area. Overlaps of 9 % of the diameter raise that to 1.1, and the usual 0.84 of a
+    // random packing needs 13 %. More means that walls, radii or units are wrong.
+    constexpr double most_solid_fraction = 1.1;
 
     // Share of the grains that may have left the sample through a wall.
     constexpr double most_beyond = 0.05;
@@ -49,7 +53,7 @@ namespace diptych::coupling
                            side_names[int(high)] + " one");
     }
 
-    // A wall that the sample is not between lies somewhere else, or is turned.
+    // A wall with grains on both sides is in the wrong place or faces the wrong way.
     void refuse_walls_across(const ArrivedFrame &f)
     {
       for (const int side : {0, 1, 2, 3})
@@ -89,7 +93,7 @@ namespace diptych::coupling
           }
     }
 
-    // Root mean square over all grains, and the largest, of what is left of the forces / mean contact force.
+    // Root mean square over all grains, and the largest, of the resultant force / mean contact force.
     struct Residual
     {
       double      rms = 0, worst = -1;
@@ -209,8 +213,7 @@ namespace diptych::coupling
                 largest             = std::max(largest, f.radius[i] - (side % 2 == 0 ? height : -height));
               }
         }
-      // Each grain searches those that are not larger. One large grain among many small ones then does not make all pairs
-      // neighbours.
+      // Each grain searches those that are not larger, so that one large grain does not make all pairs neighbours.
       const PointBins bins(f.position, 2 * mean);
       std::size_t     n_overlaps = 0;
       for (unsigned int i = 0; i < f.position.size(); ++i)
@@ -319,8 +322,13 @@ namespace diptych::coupling
           }
         check.mass           = mass;
         check.solid_fraction = discs / area_of(f);
-        const double first   = arrival.frames[0].wall[1] - arrival.frames[0].wall[0];
-        check.axial_strain   = 1 - (f.wall[1] - f.wall[0]) / first;
+        if (check.solid_fraction > most_solid_fraction) // false without side walls
+          throw SceneError(f.wall_file + ": frame " + f.name + ": the discs cover " +
+                           std::to_string(int(100 * check.solid_fraction)) + " % of the area between the walls; at most " +
+                           std::to_string(int(100 * most_solid_fraction)) +
+                           " % is possible. Check the places of the walls and the radii (is one of them a diameter?)");
+        const double first = arrival.frames[0].wall[1] - arrival.frames[0].wall[0];
+        check.axial_strain = 1 - (f.wall[1] - f.wall[0]) / first;
         check_overlaps(arrival, f, check);
         if (f.has_contacts && !f.contacts.empty())
           {

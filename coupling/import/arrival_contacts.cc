@@ -45,7 +45,6 @@ namespace diptych::coupling
       return index;
     }
 
-    // Outermost surfaces of all grains: lower, upper, left, right.
     std::array<double, 4> extremes(const ArrivedFrame &frame)
     {
       std::array<double, 4> e = {HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL};

@@ -6,11 +6,10 @@
 
 namespace diptych::coupling
 {
-  // Adds a note to arrival.remarks, unless it is there.
   void remark_once(Arrival &arrival, const std::string &text);
 
   // Fills contacts, status and walls of `to`; its grains are already there, in the order of arrival.id. Repeated pairs are
-  // counted once. Forces that pull are reversed. A wall without a side is located by the grains that touch it. arrival.remarks
-  // reports each of these once for all frames. Throws SceneError like arrive().
+  // counted once. Forces that pull are reversed. The grains that touch a wall without a side locate it. Each of these is
+  // reported once for all frames in arrival.remarks. Throws SceneError like arrive().
   void take_contacts(const ForeignFrame &from, Arrival &arrival, const ForeignOptions &options, ArrivedFrame &to);
 } // namespace diptych::coupling

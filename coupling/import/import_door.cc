@@ -82,7 +82,7 @@ namespace diptych::coupling
                         const DiscreteResults &results,
                         const std::string     &scene_text)
     {
-      discrete::write_text(import_json(directory), record); // first: the folder is an import's, even if killed now
+      discrete::write_text(import_json(directory), record); // first, so that a killed import is still recognised as one
       discrete::TableFile table(discrete_csv(directory), discrete::csv_header<discrete::HistoryRow>());
       for (const discrete::HistoryRow &row : results.rows)
         table.add(discrete::csv_line(row));

@@ -13,9 +13,8 @@ namespace diptych::coupling
   // The name in discrete/file with {seed} replaced.
   std::string imported_file(std::string file, int seed);
 
-  // Reads discrete.h5, discrete.csv and the facts of an import. Throws SceneError naming key and file if one is missing or
-  // damaged, or if the stages differ from the scene's by more than a thousandth. Smaller differences are replaced by the
-  // scene's stages.
+  // Reads discrete.h5, discrete.csv and the facts of an import. Throws SceneError with key and file if one is missing or
+  // damaged. The stages may differ from the scene's, which replace them, by a thousandth.
   DiscreteResults load_imported(const Scene &scene);
 
   // Motion of the walls over the progress (the tables' time), linear between frames.

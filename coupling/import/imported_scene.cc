@@ -34,7 +34,6 @@ namespace diptych::coupling
         "--pressure P");
     }
 
-    // Two windows if there are enough stages, else one.
     std::vector<double> windows(const std::vector<double> &stages)
     {
       if (stages.size() < 2)

@@ -35,7 +35,6 @@ namespace diptych::coupling
     bool        in_diameters = false; // the member is a length that is written in mean diameters
   };
 
-  // Header line of a table with these columns.
   template <class Columns> std::string header_of(const Columns &columns)
   {
     std::string line;

@@ -12,7 +12,6 @@ namespace diptych::coupling
   // Throws std::invalid_argument with the file's name if it is missing or not a JSON object.
   nlohmann::json read_record_file(const std::string &path);
 
-  // The library's message, without its own name and number.
   std::string plain_text(const nlohmann::json::exception &error);
 
   // The result of `take` for a record of the file. Throws std::invalid_argument with the file's name if an entry is missing or

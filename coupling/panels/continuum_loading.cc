@@ -78,7 +78,6 @@ namespace diptych::coupling
       return {};
     }
 
-    // The velocity if it is a single number, independent of time.
     std::optional<double> constant_velocity(const DriveKey &key)
     {
       const discrete::Drive drive = discrete::read_drive(key.key, key.option);
@@ -128,7 +127,6 @@ namespace diptych::coupling
       return continuum::SidePressure{};
     }
 
-    // Sets the motion of the mode; the scene's drives are added to it.
     void set_mode(const LoadingOptions &o, const ContinuumSample &sample, continuum::Loading &loading)
     {
       const auto travel = [](const double rate) {

@@ -18,14 +18,12 @@ namespace diptych::coupling
 
   double height_of(const discrete::Outline &outline);
 
-  // Throws SceneError if the scene's elements are larger than `height` [length].
   void require_elements_fit(const Scene &scene, double height);
 
   // Throws SceneError if the upper platen rests during a whole stage, because its displacement is the unit of both panels'
   // displacements.
   void require_platen_travel(const Scene &scene);
 
-  // Properties of the continuum's sample that the loading needs.
   struct ContinuumSample
   {
     double height         = 0; // [length]
@@ -33,7 +31,6 @@ namespace diptych::coupling
     double solid_fraction = 0; // for the weight [-]
   };
 
-  // Height of a mesh and width of its upper platen.
   ContinuumSample measured(const continuum::QuadMesh &mesh, double solid_fraction);
 
   // The grains' loading applied to the continuum's sample, along the same progress: axial strain, shear strain or time. Walls

@@ -46,7 +46,6 @@ namespace diptych::coupling
       return bins;
     }
 
-    // Scales the values so that their mean over the area is `mean`.
     void scale_to(const double mean, const std::vector<double> &area, std::vector<double> &values)
     {
       const double sum = std::inner_product(values.begin(), values.end(), area.begin(), 0.);

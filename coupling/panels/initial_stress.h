@@ -19,11 +19,10 @@ namespace diptych::coupling
                                                      const continuum::Snapshot &nodes,
                                                      double                     pressure);
 
-  // Solid fraction of the grains around every cell [-]: area of the grains over that of the cells, with the weights of a
-  // Gaussian. Its standard deviation is half of `solid_fraction_width` mean diameters. In a cell of 2 d the fraction would
-  // scatter by 0.036, which reflects random places of grains and not their common strength. Over 6 d it scatters by 0.005 to
-  // 0.007 (two dense samples of 4000 grains). Cells at the mesh's rim and cells that are not covered by grains do not count. The
-  // mean over the mesh equals that of the sample.
+  // Solid fraction of the grains around every cell [-], with the weights of a Gaussian of half `solid_fraction_width` mean
+  // diameters. In cells of 2 d the fraction scatters by 0.036, which reflects random places of grains and not their strength.
+  // Over 6 d it scatters by 0.005 to 0.007 (two dense samples of 4000 grains). Cells at the rim and cells not covered by grains
+  // do not count. The mean over the mesh equals that of the sample.
   constexpr double    solid_fraction_width = 6; // [mean diameters]
   std::vector<double> grain_solid_fraction_on_cells(const discrete::Snapshot &grains, const continuum::Snapshot &nodes);
 

@@ -18,7 +18,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    // The first process's mesh, everywhere.
+    // Gives all processes the mesh of the first.
     continuum::QuadMesh shared(continuum::QuadMesh mesh)
     {
       if (n_processes() == 1)
@@ -168,7 +168,7 @@ namespace diptych::coupling
     add_snapshot();
   }
 
-  // On the first process alone: what cannot be written must be told where the others hear of it.
+  // Only the first process collects rows; flush_now_and_then() reports an error of writing to all processes.
   void RecordedContinuum::add_row(const continuum::HistoryRow &row)
   {
     table->add(discrete::csv_line(row));
@@ -205,7 +205,7 @@ namespace diptych::coupling
     });
   }
 
-  // Rows first: the checkpoint says how many are its own.
+  // Rows first: the checkpoint records how many rows belong to it.
   void RecordedContinuum::save()
   {
     const continuum::Checkpoint checkpoint = panel->checkpoint();

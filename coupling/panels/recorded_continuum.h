@@ -20,8 +20,8 @@
 
 namespace diptych::coupling
 {
-  // Runs the continuum panel. It writes rows and snapshots to the part's files at once, and a checkpoint every
-  // checkpoint_minutes. Only the first process writes files. All functions are collective.
+  // Runs the continuum panel, writes rows and snapshots to the part's files, and a checkpoint every checkpoint_minutes. Only
+  // the first process writes files. All functions are collective.
   class RecordedContinuum
   {
   public:

@@ -52,7 +52,6 @@ namespace diptych::coupling
       return std::max(0., to - from);
     }
 
-    // Standard deviation over the strips that have a value.
     double deviation(const std::vector<double> &values)
     {
       double sum = 0, squares = 0;
@@ -100,7 +99,6 @@ namespace diptych::coupling
       traction.independent_shear  = root_mean_square(traction.shear_error) / size;
     }
 
-    // A strip cut into blocks along the band, with force-weighted sums for each block.
     struct StripBlocks
     {
       Box                          box;

@@ -43,11 +43,10 @@ namespace diptych::coupling
                                  const std::vector<double>          &edges,
                                  double                              share = 0.7);
 
-  // sigma.n of each strip, with sigma = -sum f (x) (branch within the rectangle) / area. This equals (force through the branches
-  // that cross a line) / (length of the line), averaged over all lines of the strip. The errors come from at least three blocks
-  // of at least `block` [length] along the strip, which are assumed independent. In equilibrium one block carries what its
-  // neighbour does not, so real tractions vary less. Equilibrium requires uniform tractions, except for the loads on the sides of
-  // the sample within the strips. Throws std::invalid_argument for a block that is not positive.
+  // sigma.n of each strip, with sigma = -sum f (x) (branch within the rectangle) / area. This is the mean, over all lines of
+  // the strip, of (force through the branches that cross a line) / (its length). The errors come from at least three blocks of
+  // at least `block` [length] along the strip, assumed independent. In equilibrium one block carries what its neighbour does
+  // not, so real tractions vary less. Throws std::invalid_argument for a block that is not positive.
   BandTraction grain_band_traction(const TractionStrips &strips, const GrainNetwork &network, double block);
 
   // The same for a stress that is constant on cells, n_cells entries [pressure], using the exact part of each triangle. Cells

@@ -24,7 +24,6 @@ namespace diptych::coupling
       return {{std::cos(angle), std::sin(angle)}, {-std::sin(angle), std::cos(angle)}};
     }
 
-    // sqrt(sum of q / sum of p), a relative norm.
     double relative_norm(const double q, const double p)
     {
       return p > 0 ? std::sqrt(q / p) : NAN;
@@ -95,7 +94,7 @@ namespace diptych::coupling
       return sum / length;
     }
 
-    // Forces across equal blocks of a diameter, from -radius to radius along it, of the side behind the normal on the other side.
+    // Forces across equal blocks of a diameter, from -radius to radius along it. The side behind the normal exerts them.
     std::vector<Eigen::Vector2d> block_forces(const Circle              &circle,
                                               const Diameter            &d,
                                               const std::vector<Branch> &all,
@@ -159,7 +158,6 @@ namespace diptych::coupling
       probe.predicted_tangential.push_back(predicted.dot(d.along));
     }
 
-    // Squares of the difference and of the prediction, for every angle. Angles without a traction do not count.
     struct Squares
     {
       std::vector<double> difference, predicted;

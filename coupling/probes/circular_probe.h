@@ -39,20 +39,18 @@ namespace diptych::coupling
   };
 
   // The circle of options.probe_circle, reduced where the sample ends. Without it, the largest circle about the middle of the
-  // first band (or of the sample) that stays platen_gap away from the outline. Radius 0 if less than minimum_side / 2 is left.
-  // Throws as check_probe_options() does.
+  // first band (or of the sample), platen_gap away from the outline. Radius 0 if less than minimum_side / 2 is left. Throws as
+  // check_probe_options() does.
   Circle place_circle(const std::vector<Eigen::Vector2d> &outline,
                       const SampleFrame                  &frame,
                       const std::vector<Band>            &bands,
                       const ProbeOptions                 &options);
 
-  // Uses contacts whose branch crosses the diameter, with their mean forces since the preceding snapshot. The mean stress is -sum
-  // f (x) (branch within the circle) / area. It equals the mean of the tractions over all parallel chords, so both sides use the
-  // same forces and no grain is cut.
-  // The interval of relative_l2 comes from blocks of neighbouring angles, so wide that they are options.block long at the rim.
-  // Nearer to the centre all diameters share contacts, so the interval is rather too narrow. The errors treat blocks along the
-  // diameter as independent. In equilibrium one block carries what its neighbours do not, so relative_l2 stays below
-  // independent_blocks. Throws std::invalid_argument for n_angles < 2.
+  // Uses the mean forces, since the preceding snapshot, of contacts whose branch crosses the diameter. The mean stress is -sum
+  // f (x) (branch within the circle) / area. It equals the mean of the tractions over all parallel chords, so no grain is cut.
+  // The interval of relative_l2 comes from blocks of neighbouring angles, options.block long at the rim. It is rather too
+  // narrow, because nearer to the centre all diameters share contacts. The errors treat blocks along the diameter as
+  // independent; in equilibrium they are not, so relative_l2 stays below independent_blocks.
   CircularProbe grain_circular_probe(const Circle           &circle,
                                      const GrainNetwork     &network,
                                      const BootstrapOptions &options,

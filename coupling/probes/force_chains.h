@@ -27,7 +27,7 @@ namespace diptych::coupling
   };
 
   // largest_distance: D = largest difference between the two cumulative distributions (Kolmogorov and Smirnov). Its interval is D
-  // +- c. c is the 95 % quantile of the same distance between two differences: that of resampled blocks and that of the sample.
+  // +- c. `c` is the 95 % quantile of the same distance between two differences: that of resampled blocks and that of the sample.
   // It is widened for a small number of blocks and for correlated blocks. In 95 % of samples the true difference lies in D +- c
   // (triangle inequality). If there is no true difference, D is below c in 95 % of samples.
   struct ForceChains

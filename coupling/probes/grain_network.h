@@ -12,7 +12,6 @@ namespace diptych::coupling
 {
   struct GrainNetwork
   {
-    // n_grains entries each.
     std::vector<Eigen::Vector2d> position; // [length]
     std::vector<double>          radius;   // [length]
     std::vector<Eigen::Matrix2d> moment;   // internal moments, positive in compression [pressure * length^2]
@@ -22,12 +21,12 @@ namespace diptych::coupling
     double                              period = 0;
   };
 
-  // Moments and forces are means since the preceding snapshot. In a periodic sample, grains and their contact points are moved by
-  // whole periods to within half a period of the outline's middle.
+  // Moments and forces are means since the preceding snapshot. In a periodic sample, whole periods move grains and contact
+  // points to within half a period of the outline's middle.
   GrainNetwork grain_network(const discrete::Snapshot &snapshot);
 
-  // The line along which a contact transmits its force. It runs from the centre of grain i to that of j (or of the image of j
-  // that touches i), or to the contact point at a platen or wall.
+  // The line along which a contact transmits its force. It runs from the centre of grain i to that of j (or of its image that
+  // touches i). At a platen or wall it ends at the contact point.
   struct Branch
   {
     Eigen::Vector2d from, to; // [length]

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
+#include "discrete/files/wrong_keys.h"
 
 namespace diptych::coupling
 {
@@ -45,21 +46,22 @@ namespace diptych::coupling
             "number of resamples for the 95 % intervals of the probes; below 40 there are none");
   }
 
-  // Throws std::invalid_argument with the name of the key, probe_rectangles or probe_circle, if it has a wrong number of values
-  // or a size that is not positive.
+  // Throws WrongKeys if probe_rectangles or probe_circle has a wrong number of values or a size <= 0.
   inline void check_probe_options(const ProbeOptions &options)
   {
     const std::vector<double> &rectangles = options.probe_rectangles, &circle = options.probe_circle;
     if (rectangles.size() % 5 != 0)
-      throw std::invalid_argument("probe_rectangles: " + std::to_string(rectangles.size()) +
+      throw discrete::WrongKeys({"comparison/probe_rectangles"},
+                                "probe_rectangles: " + std::to_string(rectangles.size()) +
                                   " numbers; give five per probe: x, y, length, thickness, angle");
     for (std::size_t k = 0; k < rectangles.size(); k += 5)
       if (!(rectangles[k + 2] > 0 && rectangles[k + 3] > 0))
-        throw std::invalid_argument("probe_rectangles: length and thickness of probe " + std::to_string(k / 5 + 1) +
-                                    " must be above 0");
+        throw discrete::WrongKeys({"comparison/probe_rectangles"}, "probe_rectangles: length and thickness of probe " +
+                                                                     std::to_string(k / 5 + 1) + " must be above 0");
     if (!circle.empty() && circle.size() != 3)
-      throw std::invalid_argument("probe_circle: " + std::to_string(circle.size()) + " numbers; give three: x, y, radius");
+      throw discrete::WrongKeys({"comparison/probe_circle"},
+                                "probe_circle: " + std::to_string(circle.size()) + " numbers; give three: x, y, radius");
     if (!circle.empty() && !(circle[2] > 0))
-      throw std::invalid_argument("probe_circle: the radius must be above 0");
+      throw discrete::WrongKeys({"comparison/probe_circle"}, "probe_circle: the radius must be above 0");
   }
 } // namespace diptych::coupling

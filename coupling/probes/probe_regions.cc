@@ -126,7 +126,6 @@ namespace diptych::coupling
       return probes;
     }
 
-    // The parts of the scene's rectangles that lie in the sample.
     std::vector<ProbeRegion> given_probes(const Polygon &outline, const SampleFrame &frame, const std::vector<double> &numbers)
     {
       std::vector<ProbeRegion> probes;

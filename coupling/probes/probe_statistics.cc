@@ -114,7 +114,6 @@ namespace diptych::coupling
       return interval_from(value, minus(column(a, member), column(b, member)));
     }
 
-    // A later finding outweighs an earlier one.
     enum class Finding
     {
       none,

@@ -30,8 +30,8 @@ namespace diptych::coupling
     return result;
   }
 
-  // Moments belong to whole grains, but the rectangle cuts grains. Division by the area of the counted grains and multiplication
-  // by the exact solid fraction of the rectangle removes the scatter at the rim, which is of order perimeter * d / area.
+  // Moments belong to whole grains, but the rectangle cuts grains. Division by the area of the counted grains removes the
+  // scatter at the rim, of order perimeter * d / area. The exact solid fraction restores the stress.
   ProbeStress grain_probe_stress(const ProbeRegion                  &probe,
                                  const std::vector<Eigen::Vector2d> &position,
                                  const std::vector<double>          &radius,

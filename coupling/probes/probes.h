@@ -46,6 +46,6 @@ namespace diptych::coupling
 
   ProbeFabric probe_fabric(const ProbeRegion &probe, const std::vector<discrete::ContactForce> &contacts);
 
-  // Area-weighted mean over the cells with their centre inside. stress: n_cells [pressure].
+  // Area-weighted mean over the cells with their centre inside. `stress`: n_cells [pressure].
   ProbeStress cell_probe_stress(const ProbeRegion &probe, const QuadMesh &mesh, const std::vector<Eigen::Matrix2d> &stress);
 } // namespace diptych::coupling

@@ -18,6 +18,5 @@ namespace diptych::coupling
   // stop request it kills the program and throws StoppedOnRequest.
   [[nodiscard]] int run_program(const std::vector<std::string> &words);
 
-  // Path of this program.
   std::string own_path();
 } // namespace diptych::coupling

@@ -16,7 +16,7 @@ namespace diptych::coupling
   {
     Progress *open_progress = nullptr; // the one with a phase under way
 
-    // "40 %, 12 s elapsed, 18 s remaining"; at the first per cent and at the end nothing is said of the time that remains.
+    // "40 %, 12 s elapsed, 18 s remaining"; without the last part at the first per cent and at the end.
     std::string state_text(const int percent, const double fraction, const double elapsed)
     {
       std::string text = std::to_string(percent) + " %, " + duration_text(elapsed) + " elapsed";
@@ -93,7 +93,7 @@ namespace diptych::coupling
     if (terminal && is_done)
       std::fprintf(stderr, "\r\033[K%s: done in %s\n", phase.c_str(), duration_text(elapsed()).c_str());
     else if (terminal)
-      std::fprintf(stderr, "\n"); // what was reached stays
+      std::fprintf(stderr, "\n"); // the last state stays visible
     else if (is_done && tenths < 10)
       std::fprintf(stderr, "%s: %s\n", phase.c_str(), state_text(100, 1, elapsed()).c_str());
     phase.clear();

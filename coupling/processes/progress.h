@@ -7,8 +7,8 @@
 
 namespace diptych::coupling
 {
-  // On a terminal one line that is rewritten (bar, per cent, time elapsed and remaining); in a log one plain line per tenth of a
-  // phase. Writes to standard error, so that standard output stays clean.
+  // On a terminal, rewrites one line (bar, per cent, time elapsed and remaining). In a log, writes one plain line per tenth of
+  // a phase. Writes to standard error, so that standard output stays clean.
   class Progress
   {
   public:
@@ -17,7 +17,7 @@ namespace diptych::coupling
     Progress(const Progress &)            = delete;
     Progress &operator=(const Progress &) = delete;
 
-    // A new phase name starts a new clock and completes the phase before. fraction: 0 .. 1, of the phase.
+    // A new phase name starts a new clock and completes the phase before. `fraction`: 0 .. 1, of the phase.
     void update(const std::string &phase, double fraction);
     void finish(bool is_complete = true); // ends the present phase; after a stop on request it is never complete
 

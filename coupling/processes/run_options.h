@@ -19,7 +19,6 @@ namespace diptych::coupling
     std::string text;              // the command line
   };
 
-  // Writes to standard output, unless --quiet.
   inline void say(const RunOptions &options, const std::string &text)
   {
     if (options.quiet)

@@ -7,10 +7,10 @@
 
 namespace diptych::coupling
 {
-  // Installs handlers for the three signals. They also receive signals that have waited since block_stop_signals(), even if this
-  // was called before exec. Call it first in main, and again after libraries that change handlers, such as MPI_Init. A second
-  // Ctrl-C kills. SIGHUP stays ignored if it was (nohup). SIGPIPE and SIGXFSZ are ignored: a closed output pipe must not stop a
-  // run, and a file size limit is reported like a full disk.
+  // Installs handlers for the three signals. They also receive signals that have waited since block_stop_signals(), even if
+  // this was called before exec. Call it first in main, and again after libraries that change handlers, such as MPI_Init. A
+  // second Ctrl-C kills. SIGHUP stays ignored if it was (nohup). SIGPIPE is ignored, because a closed output pipe must not stop
+  // a run. SIGXFSZ too: a file size limit is reported like a full disk.
   void install_signals();
   bool stop_requested();
 

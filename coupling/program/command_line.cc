@@ -1,4 +1,4 @@
-// diptych: what the program is asked to do
+// diptych: the command line: commands and their options
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/program/command_line.h"
 
@@ -30,13 +30,13 @@ namespace diptych::coupling
       "Exit codes: 0 done; 1 an internal check failed (please report it); 2 wrong input; 3 not converged, or stopped (results\n"
       "are kept); 4 the system failed: disk, folder, library, script (the message lists the kept files)";
 
-    // The commands with the options that each of them uses, and no others.
+    // The commands, each with only those options that it uses.
     class Commands
     {
     public:
       explicit Commands(CommandLine &line)
           : line(line),
-            app("One granular sample twice, every grain beside a continuum", "diptych")
+            app("Computes one granular sample twice, as grains and as a continuum, and compares both", "diptych")
       {
         app.require_subcommand(1);
         app.footer(footer);
@@ -83,7 +83,7 @@ namespace diptych::coupling
       void add_scene_output_set(CLI::App *to) { add_scene(to); add_output(to); add_set(to); }
       void add_threads(CLI::App *to) { to->add_option("--threads", line.threads, "threads of the contact solver; every number gives the same bits")->check(in_range(1, 1024)); }
       void add_resume(CLI::App *to, const std::string &what) { to->add_flag("--resume", line.resume, "continue the results in the folder: " + what); }
-      void add_quiet(CLI::App *to) { to->add_flag("--quiet", line.quiet, "no progress"); }
+      void add_quiet(CLI::App *to) { to->add_flag("--quiet", line.quiet, "print neither progress nor notes"); }
       // clang-format on
 
       // To be called after add_resume().
@@ -113,16 +113,15 @@ namespace diptych::coupling
 
       void add_run()
       {
-        CLI::App *run = add(Command::run, "both panels, homogenisation, comparison, report");
+        CLI::App *run = add(Command::run, "compute grains and continuum, compare them and draw the report");
         add_scene_output_set(run);
         add_threads(run);
         add_resume(run, "an interrupted run, or other keys of the continuum or the comparison");
         add_overwrite(run);
         auto *seeds = run->add_option(
           "--seeds", line.seeds,
-          "the scene on every sample of a list like 1-8 or 1,3,5-7, each in DIR/seed_K, then means, "
-          "intervals and verdicts over them (default folder: results/<scene name>_ensemble; also under "
-          "mpirun)");
+          "run the samples of a list like 1-8 or 1,3,5-7, each in DIR/seed_K; then compute means, intervals "
+          "and verdicts (default folder: results/<scene name>_ensemble; also under mpirun)");
         seeds->type_name("LIST")->check(
           [](const std::string &list) { return list.empty() ? "the list is empty; a list like 1-8" : ""; });
         add_jobs(run, "with --seeds: ")->needs(seeds);
@@ -132,14 +131,13 @@ namespace diptych::coupling
 
       void add_study()
       {
-        CLI::App *study = add(Command::study,
-                              "many settings of a scene on many samples: errors against a reference, cost, classes");
+        CLI::App *study = add(Command::study, "vary keys of a scene over many samples: error against a reference, and cost");
         study->add_option("STUDY", line.target, "study file, .json")->required();
         add_output(study, "folder of the study (default: results/<study name>_study)");
         add_set(study);
         add_threads(study);
         add_jobs(study, "");
-        add_resume(study, "finished runs are kept, the others run");
+        add_resume(study, "keep finished runs, compute the others");
         add_overwrite(study);
         add_quiet(study);
       }
@@ -147,44 +145,44 @@ namespace diptych::coupling
       void add_calibrate()
       {
         CLI::App *calibrate = add(Command::calibrate,
-                                  "parameters of the continuum from the grains' curves: fitted, with what the "
-                                  "data do not tell, and predictions of what was not fitted");
+                                  "fit the continuum to the grains' curves, report parameters that the data cannot "
+                                  "determine, and predict other loading paths");
         calibrate->add_option("CALIBRATION", line.target, "calibration file, .json")->required();
         add_output(calibrate, "folder of the calibration (default: results/<its name>_calibration)");
         add_threads(calibrate);
         add_jobs(calibrate, "");
-        add_resume(calibrate, "finished runs are kept, the others run");
+        add_resume(calibrate, "keep finished runs, compute the others");
         add_overwrite(calibrate);
         add_quiet(calibrate);
       }
 
       void add_plan()
       {
-        CLI::App *plan = add(Command::plan, "what a scene needs for an accuracy, by pilot runs: step, tolerance, elements, load "
-                                            "steps, law, samples; with the budget of errors and the cost");
+        CLI::App *plan = add(Command::plan, "find step, elements, load steps, law and number of samples for an accuracy, from "
+                                            "short pilot runs");
         add_scene(plan);
         add_set(plan);
         add_threads(plan);
         add_jobs(plan, "");
         plan
           ->add_option("--accuracy", line.accuracy,
-                       "of the means, relative: 2 % or 0.02; errors of the method and 95 % interval together")
+                       "relative, of the means: 2 % or 0.02; covers errors of the method and the 95 % interval")
           ->required();
         add_output(plan, "folder of the plan (default: results/<scene name>_plan)");
         plan
           ->add_option("--for", line.wanted,
                        "quantities, separated by commas: peak_stress_ratio, strength (both by default), final_volumetric_strain, "
-                       "width_10_90, angle, or a number of comparison.json; discrete. or continuum. before it: of one panel")
+                       "width_10_90, angle, or a number of comparison.json; for one panel, put discrete. or continuum. before it")
           ->type_name("NAMES");
         plan->add_flag("--run", line.runs_the_plan, "run the planned samples, too");
-        add_resume(plan, "finished runs are kept, the others run");
+        add_resume(plan, "keep finished runs, compute the others");
         add_overwrite(plan);
         add_quiet(plan);
       }
 
       void add_panels()
       {
-        CLI::App *grains = add(Command::discrete, "the grains alone");
+        CLI::App *grains = add(Command::discrete, "compute the grains alone");
         add_scene_output_set(grains);
         add_threads(grains);
         add_resume(grains, "an interrupted run");
@@ -196,15 +194,16 @@ namespace diptych::coupling
           ->check(one_of({"step"}));
         add_quiet(grains);
 
-        CLI::App *continuum = add(Command::continuum, "the continuum alone (continuum/mesh = outline prepares the grains); also "
-                                                      "under mpirun");
+        CLI::App *continuum = add(Command::continuum,
+                                  "compute the continuum alone (continuum/mesh = outline prepares the grains); "
+                                  "also under mpirun");
         add_scene_output_set(continuum);
         add_resume(continuum, "an interrupted run");
         add_overwrite(continuum);
         add_quiet(continuum);
 
         CLI::App *point = add(Command::material_point,
-                              "the continuum's law on one point along the biaxial path: material_point.csv");
+                              "compute the continuum's law at one point along the biaxial path: material_point.csv");
         add_scene_output_set(point);
         add_overwrite(point);
         add_quiet(point);
@@ -212,73 +211,77 @@ namespace diptych::coupling
 
       void add_solve()
       {
-        CLI::App *solve = add(Command::solve, "one stored contact problem (FCLIB layout): sweeps, residual, seconds");
+        CLI::App *solve = add(Command::solve,
+                              "solve one stored contact problem (FCLIB layout) and print sweeps, residual, seconds");
         solve->add_option("PROBLEM", line.target, "problem file, .h5 or .hdf5")->required();
         solve->add_option("--output", line.output, "file for the problem with its solution")->check(is_filled)->type_name("FILE");
-        add_choice<discrete::ContactSolver>(solve, "--solver", "default: psor",
+        add_choice<discrete::ContactSolver>(solve, "--solver", "psor (default): over-relaxed; nsgs: plain Gauss-Seidel",
                                             [this](const auto chosen) { line.solver = chosen; });
-        solve->add_option("--tolerance", line.tolerance, "natural map relative to |r| (default: 1e-8)")
+        solve->add_option("--tolerance", line.tolerance, "largest allowed residual: natural map relative to |r| (default: 1e-8)")
           ->check(in_range(1e-300, 0.999999));
-        solve->add_option("--max-sweeps", line.max_sweeps, "(default: 1000000)")->check(in_range(1, 2147483647));
-        add_choice<discrete::ProblemForm>(solve, "--form", "default: body where the file has one",
+        solve->add_option("--max-sweeps", line.max_sweeps, "largest number of sweeps (default: 1000000)")
+          ->check(in_range(1, 2147483647));
+        add_choice<discrete::ProblemForm>(solve, "--form", "default: body if the file has one",
                                           [this](const auto chosen) { line.form = chosen; });
         add_threads(solve);
       }
 
       void add_results()
       {
-        CLI::App *compare = add(Command::compare,
-                                "homogenise and compare again from a result folder, or evaluate an ensemble again");
+        CLI::App *compare = add(Command::compare, "compare the panels of a result folder again, or evaluate an ensemble again");
         compare->add_option("DIR", line.target, "result folder")->required();
         add_set(compare);
         add_quiet(compare);
-        CLI::App *report = add(Command::report, "draw report.html of a result folder or an ensemble again");
+        CLI::App *report = add(Command::report,
+                               "draw report.html again, of a result folder, an ensemble, a study or a calibration");
         report->add_option("DIR", line.target, "result folder")->required();
         add_quiet(report);
       }
 
       void add_exchange()
       {
-        CLI::App *in = add(Command::import_sample,
-                           "a sample of another code as results of the discrete panel, checked on arrival");
-        in->add_option("FORMAT", line.target, "whose files; or a Python file that registers a reader of your own")
+        CLI::App *in = add(Command::import_sample, "check a sample of another code and store it like results of the grains");
+        in->add_option("FORMAT", line.target, "code that wrote the files, or a Python file that registers your own reader")
           ->required()
           ->check(CLI::IsMember({"lammps", "liggghts", "yade", "lmgc90", "mercurydpm", "csv"}) | CLI::ExistingFile);
-        in->add_option("FILES", ignored_words, "of grains, contacts and walls, in any order")->required();
+        in->add_option("FILES", ignored_words, "files of grains, contacts and walls, in any order")->required();
         in->add_option("--output", line.output, "folder of the imported sample")->check(is_filled)->type_name("DIR")->required();
         in->add_option("--columns", ignored_words,
-                       "KIND=NAME,NAME,...: what columns mean that the files do not name; KIND: particles, contacts or walls; "
+                       "KIND=NAME,NAME,...: names of columns that the files do not name; KIND: particles, contacts or walls; "
                        "may be repeated")
           ->allow_extra_args(false)
           ->type_name("KIND=NAMES");
         const auto number = [&](const char *name, const char *meaning) {
           in->add_option(name, ignored_number, meaning)->check(CLI::Range(1e-30, 1e30))->type_name("NUMBER");
         };
-        number("--thickness", "of a layer of spheres: forces and masses are divided by it; 1 keeps forces per length");
-        number("--timestep", "of codes that count steps");
-        number("--density", "mass per area, where no file tells masses");
-        number("--pressure", "lateral (default: that of the right wall in the first frame with forces)");
-        number("--mean-diameter", "(default: mean of the grains)");
+        number("--thickness", "thickness of a layer of spheres; divides forces and masses; 1 keeps forces per length");
+        number("--timestep", "time step, for codes that count steps");
+        number("--density", "mass per area, if no file contains masses");
+        number("--pressure", "lateral pressure (default: that of the right wall in the first frame with forces)");
+        number("--mean-diameter", "unit d of the results (default: mean of the grains)");
         in->add_option("--gravity", ignored, "acceleration of the grains (default: that of the files)")->type_name("GX,GY");
-        in->add_option("--frames", ignored, "10-20,30: these alone, counted from 0 in ascending order")->type_name("LIST");
-        in->add_flag("--walls-touch", "walls that no file places stand where the grains reach farthest");
+        in->add_option("--frames", ignored, "only these frames, such as 10-20,30; counted from 0 in ascending order")
+          ->type_name("LIST");
+        in->add_flag("--walls-touch", "put walls without a place in the files where the grains reach farthest");
         add_overwrite(in);
         add_quiet(in);
 
-        CLI::App *out = add(Command::export_sample, "the prepared sample of a result folder as a start for another code");
+        CLI::App *out = add(Command::export_sample, "write a sample of a result folder as a start for another code");
         out->add_option("FOLDER", line.target, "result folder")->required();
         out->add_option("--format", line.format, "code that will read the files")->required()->check(one_of({"lammps", "csv"}));
         add_output(out, "folder of the exported files (default: FOLDER_for_FORMAT)");
-        out->add_option("--stage", line.stage, "of the snapshots (default: 0, the prepared sample)")->check(in_range(0, 1000000));
+        out->add_option("--stage", line.stage, "number of the snapshot (default: 0, the prepared sample)")
+          ->check(in_range(0, 1000000));
         add_quiet(out);
       }
 
       void add_others()
       {
-        add(Command::explain, "every key of a scene: default, unit, range, meaning; or all that result files hold")
-          ->add_option("SECTION", line.target, "a section of a scene, or what the files of results hold (default: all sections)")
+        add(Command::explain, "print every key of a scene (default, unit, range, meaning) or the content of result files")
+          ->add_option("SECTION", line.target,
+                       "a section of a scene, or results: the content of result files (default: all sections)")
           ->type_name("{" + discrete::joined(section_names(), ",") + ",results}");
-        add(Command::completion, "a script that completes command lines: source <(diptych completion bash)")
+        add(Command::completion, "print a script that completes command lines: source <(diptych completion bash)")
           ->add_option("SHELL", line.target)
           ->required()
           ->check(one_of({"bash", "zsh", "fish"}));
@@ -292,7 +295,7 @@ namespace diptych::coupling
       std::map<CLI::App *, Command> by_parser;
     };
 
-    // "--accuracy 2 %": the sign may stand by itself.
+    // Joins the two words of "--accuracy 2 %".
     std::vector<std::string> with_joined_per_cent(const std::vector<std::string> &words)
     {
       std::vector<std::string> joined_words;
@@ -304,7 +307,7 @@ namespace diptych::coupling
       return joined_words;
     }
 
-    // Their keys, before those of --set.
+    // Puts the keys of --set-file before those of --set.
     void take_set_files(CommandLine &line)
     {
       std::vector<std::string> overrides;

@@ -115,7 +115,8 @@ namespace diptych::coupling
         text << "\n  viscosity carries up to " << 100 * share << " % of the shear strength where the sample yields";
       if (const double share = largest(&continuum::HistoryRow::unstable_share).unstable_share; share > 0)
         text << "\n  up to " << 100 * share << " % of the area weakens in a step while its plastic flow contracts (at "
-             << at(largest(&continuum::HistoryRow::unstable_share)) << "): a material instability, which the mesh may decide";
+             << at(largest(&continuum::HistoryRow::unstable_share)) << "): a material instability, which the mesh may decide. "
+             << "continuum/internal_length (Cosserat laws) or continuum/viscosity limits it";
       double outside = 0; // at rest all three stresses are equal, and nothing depends on their order
       for (const continuum::HistoryRow &row : rows)
         outside = row.step > 0 ? std::max(outside, row.share_zz_not_intermediate) : outside;

@@ -65,7 +65,6 @@ namespace diptych::python
       return strided_view(values.data(), values.size(), sizeof(T), base);
   }
 
-  // A view of one member of every struct in a list.
   template <class Struct, class Member>
   py::array member_view(const std::vector<Struct> &values, Member Struct::*member, const py::handle base)
   {
@@ -85,7 +84,6 @@ namespace diptych::python
     return array;
   }
 
-  // A copy of one small tensor or vector.
   template <class Number, int rows, int columns> py::array copy(const Eigen::Matrix<Number, rows, columns> &value)
   {
     return own(std::vector<Eigen::Matrix<Number, rows, columns>>{value})[py::int_(0)];

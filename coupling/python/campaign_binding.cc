@@ -1,4 +1,4 @@
-// diptych: Python binding of what campaigns of many runs need: scenes with places, result folders, stop signals
+// diptych: Python binding for campaigns of many runs: scenes with places, result folders, stop signals
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <fstream>
 #include <map>

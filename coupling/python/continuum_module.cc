@@ -33,7 +33,6 @@ namespace diptych::python
       return turn;
     }
 
-    // One run on the mesh of the scene.
     class ContinuumPanel
     {
     public:

@@ -17,7 +17,7 @@ namespace diptych::python
   {
     using coupling::not_told;
 
-    // Columns of a dict, each with one row per grain or contact. Missing columns are not told.
+    // Columns of a dict, each with one row per grain or contact. Values of missing columns are unknown.
     struct Columns
     {
       py::dict    table;
@@ -174,7 +174,6 @@ namespace diptych::python
       return options;
     }
 
-    // The text of import.json.
     std::string check_frames(const std::string              &format,
                              const py::list                 &frames,
                              const std::vector<std::string> &remarks,
@@ -186,7 +185,7 @@ namespace diptych::python
       return coupling::import_record(given, arrival);
     }
 
-    // options.output, .overwrite, .quiet and .command say where and how to write.
+    // options.output, .overwrite, .quiet and .command give the folder, and how to write to it.
     void import_frames(const std::string              &format,
                        const py::list                 &frames,
                        const std::vector<std::string> &remarks,

@@ -50,7 +50,6 @@ namespace diptych::python
               shared(discrete::read_snapshots(coupling::discrete_h5(folder)))};
     }
 
-    // Writes discrete.h5, .xdmf and .csv like the program.
     void write_grains(const GrainResults &results, const std::string &folder)
     {
       discrete::write_snapshots(folder + "/discrete", values_of(results.snapshots));
@@ -72,7 +71,6 @@ namespace diptych::python
       write_rows(coupling::continuum_csv(folder), results.rows);
     }
 
-    // Adds the facts of the runs from the provenance of `folder`, unless it is empty.
     coupling::Results joined(const GrainResults     &grains,
                              const ContinuumResults &nodes,
                              const ContinuumResults *coarse,

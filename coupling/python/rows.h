@@ -56,7 +56,6 @@ namespace diptych::python
     return dict;
   }
 
-  // name -> (unit, meaning).
   template <class Row> py::dict column_meanings()
   {
     py::dict dict;

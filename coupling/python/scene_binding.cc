@@ -75,7 +75,6 @@ namespace diptych::python
       return of == "sample" ? sample_identity(scene) : of == "continuum" ? continuum_identity(scene) : member_identity(scene);
     }
 
-    // The same scene with another folder, name and seed.
     coupling::Scene in_folder(coupling::Scene scene, const std::string &directory, const std::string &name, const int seed)
     {
       scene.output.directory = directory;
@@ -84,7 +83,6 @@ namespace diptych::python
       return scene;
     }
 
-    // Every key with unit, allowed values and meaning.
     py::dict described()
     {
       py::dict        keys;

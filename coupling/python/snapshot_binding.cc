@@ -69,7 +69,6 @@ namespace diptych::python
       return copy(value);
     }
 
-    // Binds a property for every single value of the snapshot.
     template <class Class> void bind_attributes(Class &type)
     {
       using Snapshot = typename Class::type;

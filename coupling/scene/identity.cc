@@ -35,7 +35,6 @@ namespace diptych::coupling
       return "content " + std::to_string(digest_of(discrete::read_text(path)));
     }
 
-    // Every value in the place of its text.
     struct Values
     {
       std::string section;

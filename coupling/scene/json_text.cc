@@ -18,7 +18,7 @@ namespace diptych::coupling
     constexpr int most_levels = 32;    // of objects and lists in each other; values are walked recursively
     constexpr int most_keys   = 10000; // an object finds its keys one after the other
 
-    // The keys of the objects that are open. A key that comes again would be dropped in silence.
+    // The keys of the open objects. The parser silently drops one of two equal keys.
     struct UniqueKeys
     {
       std::vector<std::set<std::string>> open; // by depth
@@ -31,13 +31,13 @@ namespace diptych::coupling
       bool take(const int depth, const std::string &key) { return open.at(std::size_t(depth)).insert(key).second; }
     };
 
-    // The parser keeps no lines: texts are found again in the order in which they stand.
+    // The parser gives no lines, so texts are found again in the order of the file.
     struct FindLines
     {
       const std::string          &text;
       std::map<std::string, int> &lines;
       std::size_t                 at   = 0;
-      int                         line = 1; // that `at` stands on
+      int                         line = 1; // line of `at`
 
       void pass(const std::string &quoted)
       {
@@ -80,7 +80,7 @@ namespace diptych::coupling
 
   Place JsonText::place(const std::string &pointer) const
   {
-    // A member without a line of its own has that of the member that holds it.
+    // A member without a line has that of the member that holds it.
     for (std::string name = pointer; !name.empty(); name.erase(name.rfind('/')))
       if (const auto found = lines.find(name); found != lines.end())
         return {file, found->second};

@@ -52,7 +52,7 @@ namespace diptych::coupling
   std::optional<double> read_number(const std::string &text, const Range &range)
   {
     const std::optional<double> value = parsed<double>(text);
-    return value && *value >= range[0] && *value <= range[1] ? value : std::nullopt; // false for what is not a number
+    return value && *value >= range[0] && *value <= range[1] ? value : std::nullopt; // false for NaN
   }
 
   std::optional<int> read_whole(const std::string &text, const Range &range)
@@ -98,7 +98,7 @@ namespace diptych::coupling
         good = true;
       }
     catch (const std::invalid_argument &)
-      {} // `good` says it
+      {} // `good` stays false
   }
 
   void SetKey::operator()(const char *key, continuum::MeshOption &value, const char *, const char *)

@@ -54,7 +54,6 @@ namespace diptych::coupling
     return names;
   }
 
-  // The allowed values as a text. For lists and numbers it gives the range.
   std::string        allowed_number(const Range &range);
   inline std::string allowed_value(const bool)
   {
@@ -80,7 +79,6 @@ namespace diptych::coupling
     return text;
   }
 
-  // Collects each key with its present value.
   struct DescribeKeys
   {
     std::string                  section;

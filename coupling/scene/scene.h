@@ -14,7 +14,6 @@
 
 namespace diptych::coupling
 {
-  // Loading of the sample, the same in both panels.
   struct LoadingOptions
   {
     double pressure                 = 1;
@@ -131,7 +130,7 @@ namespace diptych::coupling
     function("output", scene.output);
   }
 
-  // Progress (strain; mode time: time) at the end of each stage, ascending. discrete_loading() contains the same values.
+  // Progress (strain; mode time: time) at the end of each stage, ascending. `discrete_loading()` contains the same values.
   std::vector<double> stages(const LoadingOptions &loading);
   discrete::Loading   discrete_loading(const LoadingOptions &loading);
 

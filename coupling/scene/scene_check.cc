@@ -3,16 +3,17 @@
 #include "coupling/scene/scene_check.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <set>
 #include <stdexcept>
 
+#include "continuum/require.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_error.h"
+#include "discrete/files/wrong_keys.h"
 #include "discrete/samples/placed_grains.h"
 
 namespace diptych::coupling
@@ -20,6 +21,17 @@ namespace diptych::coupling
   namespace
   {
     using discrete::LoadingMode;
+    using discrete::WrongKeys;
+
+    std::string stage_key(const Scene &scene)
+    {
+      return scene.loading.mode == LoadingMode::time ? "loading/stage_time" : "loading/stage_strain";
+    }
+
+    std::string end_key(const Scene &scene)
+    {
+      return scene.loading.mode == LoadingMode::time ? "loading/duration" : "loading/axial_strain";
+    }
 
     void check_windows_of_list(const Scene &scene)
     {
@@ -27,8 +39,9 @@ namespace diptych::coupling
       for (const double edge : scene.comparison.window_edges)
         if (edge != 0 &&
             std::none_of(stages.begin(), stages.end(), [&](const double s) { return std::abs(s - edge) <= 1e-9 * s; }))
-          throw std::invalid_argument("comparison/window_edges holds " + text_of(edge) +
-                                      ", which is none of loading/stages = " + text_of(stages));
+          throw WrongKeys({"comparison/window_edges", "loading/stages"},
+                          "comparison/window_edges holds " + text_of(edge) +
+                            ", which is none of loading/stages = " + text_of(stages));
     }
 
     // `last`: the end in the unit of the stages.
@@ -36,54 +49,49 @@ namespace diptych::coupling
     {
       if (!scene.loading.stages.empty())
         return check_windows_of_list(scene);
-      const bool   time     = scene.loading.mode == LoadingMode::time;
-      const double interval = time ? scene.loading.stage_time : scene.loading.stage_strain;
+      const bool        time  = scene.loading.mode == LoadingMode::time;
+      const std::string stage = stage_key(scene), end = end_key(scene);
+      const double      interval = time ? scene.loading.stage_time : scene.loading.stage_strain;
       for (const double edge : scene.comparison.window_edges)
         {
           const double k = edge / interval;
           if (std::abs(k - std::round(k)) > 1e-6 || edge > last * (1 + 1e-9))
-            throw std::invalid_argument("comparison/window_edges holds " + text_of(edge) +
-                                        ", which is no stage: stages are multiples of loading/" +
-                                        (time ? "stage_time" : "stage_strain") + " = " + text_of(interval) + " up to loading/" +
-                                        (time ? "duration" : "axial_strain") + " = " + text_of(last));
+            throw WrongKeys({"comparison/window_edges", stage, end},
+                            "comparison/window_edges holds " + text_of(edge) + ", which is no stage: stages are multiples of " +
+                              stage + " = " + text_of(interval) + " up to " + end + " = " + text_of(last));
         }
     }
 
     void check_stages(const Scene &scene, const bool compares)
     {
-      const LoadingOptions &loading = scene.loading;
-      const bool            time    = loading.mode == LoadingMode::time;
-      const double          last    = time ? loading.duration : loading.axial_strain;
-      const double          count   = last / (time ? loading.stage_time : loading.stage_strain);
+      const LoadingOptions &loading  = scene.loading;
+      const bool            time     = loading.mode == LoadingMode::time;
+      const double          last     = time ? loading.duration : loading.axial_strain;
+      const double          interval = time ? loading.stage_time : loading.stage_strain, count = last / interval;
+      const std::string     stage = stage_key(scene), end = end_key(scene);
       if (const std::vector<double> &list = loading.stages; !list.empty())
         {
           if (std::adjacent_find(list.begin(), list.end(), std::greater_equal<double>()) != list.end())
-            throw std::invalid_argument("loading/stages = " + text_of(list) + " do not ascend");
+            throw WrongKeys({"loading/stages"}, "loading/stages = " + text_of(list) + " do not ascend");
           if (std::abs(list.back() - last) > 1e-9 * last)
-            throw std::invalid_argument("loading/stages end at " + text_of(list.back()) + ", but loading/" +
-                                        (time ? "duration" : "axial_strain") + " = " + text_of(last));
+            throw WrongKeys({"loading/stages", end},
+                            "loading/stages end at " + text_of(list.back()) + ", but " + end + " = " + text_of(last));
         }
-      else if (time && (std::abs(count - std::round(count)) > 1e-6 || count < 0.5))
-        throw std::invalid_argument("loading/duration = " + text_of(loading.duration) +
-                                    " is not a whole number of loading/stage_time = " + text_of(loading.stage_time));
-      else if (!time && (std::abs(count - std::round(count)) > 1e-6 || count < 0.5))
-        throw std::invalid_argument("loading/axial_strain = " + text_of(loading.axial_strain) +
-                                    " is not a whole number of loading/stage_strain = " + text_of(loading.stage_strain));
+      else if (std::abs(count - std::round(count)) > 1e-6 || count < 0.5)
+        throw WrongKeys({end, stage},
+                        end + " = " + text_of(last) + " is not a whole number of " + stage + " = " + text_of(interval));
       constexpr double most_stages = 1e5;
       if (loading.stages.empty() && count > most_stages * (1 + 1e-9))
-        throw std::invalid_argument(std::string("loading/") + (time ? "duration" : "axial_strain") + " = " + text_of(last) +
-                                    " over loading/" + (time ? "stage_time" : "stage_strain") + " = " +
-                                    text_of(time ? loading.stage_time : loading.stage_strain) + " are " + text_of(count) +
-                                    " stages; at most 100000");
+        throw WrongKeys({end, stage}, end + " = " + text_of(last) + " over " + stage + " = " + text_of(interval) + " are " +
+                                        text_of(count) + " stages; at most 100000");
       const std::vector<double> &edges = scene.comparison.window_edges;
       if (edges.size() < 2 || std::adjacent_find(edges.begin(), edges.end(), std::greater_equal<double>()) != edges.end())
-        throw std::invalid_argument("comparison/window_edges = " + text_of(edges) + ": give at least two ascending " +
-                                    (time ? "times" : "strains"));
+        throw WrongKeys({"comparison/window_edges"}, "comparison/window_edges = " + text_of(edges) +
+                                                       ": give at least two ascending " + (time ? "times" : "strains"));
       if (compares)
         check_windows(scene, last);
     }
 
-    // Value by section/key.
     std::map<std::string, std::string> values_of(const Scene &scene)
     {
       std::map<std::string, std::string> values;
@@ -108,47 +116,14 @@ namespace diptych::coupling
              ": the run on the coarse mesh is no coarser than the first; give a larger size, or 0 for no such run";
     }
 
-    bool is_word(const std::string &text, const std::size_t at, const std::size_t length)
-    {
-      const auto joins = [&](const std::size_t k) { return k < text.size() && (std::isalnum(text[k]) != 0 || text[k] == '_'); };
-      return !(at > 0 && joins(at - 1)) && !joins(at + length);
-    }
-
-    // Position at which a message names a key; npos if it does not.
-    std::size_t place_of(const std::string &key, const std::string &message)
-    {
-      for (std::size_t at = message.find(key); at != std::string::npos; at = message.find(key, at + 1))
-        if (is_word(message, at, key.size()))
-          return at;
-      return std::string::npos;
-    }
-
-    bool speaks_of(const std::string &message, const std::string &key)
-    {
-      return place_of(key, message) != std::string::npos;
-    }
-
-    // The first key that a message names with its section; empty: none.
-    std::string first_key(const std::string &message)
-    {
-      std::string first;
-      for (const auto &[key, value] : values_of(Scene()))
-        if (first.empty() ? speaks_of(message, key) : place_of(key, message) < place_of(first, message))
-          first = key;
-      return first;
-    }
-
-    // The last assignment of each key that a message names, with its section or, in a check of one section, without.
-    std::vector<Entry> assignments_in(const std::string &message, const std::string &section, const std::vector<Entry> &entries)
+    // The last assignment of each key, in the order of the keys.
+    std::vector<Entry> assignments_of(const std::vector<std::string> &keys, const std::vector<Entry> &entries)
     {
       std::vector<Entry> found;
-      for (const Entry &entry : entries)
-        {
-          const auto is_same = [&](const Entry &earlier) { return earlier.name() == entry.name(); };
-          found.erase(std::remove_if(found.begin(), found.end(), is_same), found.end());
-          if (speaks_of(message, entry.name()) || (entry.section == section && speaks_of(message, entry.key)))
-            found.push_back(entry);
-        }
+      for (const std::string &key : keys)
+        if (const auto last = std::find_if(entries.rbegin(), entries.rend(), [&](const Entry &e) { return e.name() == key; });
+            last != entries.rend())
+          found.push_back(*last);
       return found;
     }
 
@@ -161,36 +136,55 @@ namespace diptych::coupling
       return text;
     }
 
-    // Runs `check`. Its error begins with one place: the line of a wrong file, or else the assignment of the wrong key. Other
-    // assignments that take part in a contradiction follow.
-    template <class Check>
-    void in_section(const std::string &file, const std::string &section, const std::vector<Entry> &entries, Check &&check)
+    // A scene file whose keys are checked. `section`: the messages name the keys without it; empty: with their section.
+    struct Checked
+    {
+      const std::string        &file;
+      const std::vector<Entry> &entries;
+      std::string               section;
+    };
+
+    // The error begins with one place: the assignment of the first key that is set. Those of the other keys follow.
+    [[noreturn]] void refuse(const Checked &checked, const std::vector<std::string> &keys, const std::string &text)
+    {
+      std::vector<Entry> about = assignments_of(keys, checked.entries);
+      std::string        lead  = checked.file + ": " + (checked.section.empty() ? "" : "section " + checked.section + ": ");
+      Refusal            refusal;
+      refusal.key = keys.front();
+      if (!about.empty())
+        {
+          const Entry first = about.front();
+          lead = text_of(first.place) + ": " + (checked.section.empty() ? "" : first.name() + " = '" + first.value + "': ");
+          if (first.name() == refusal.key)
+            refusal = {first.place, first.name(), first.value, "", ""};
+          about.erase(about.begin());
+        }
+      SceneError whole(lead + text + places_of(about));
+      whole.refusal = refusal;
+      throw whole;
+    }
+
+    // Runs `check`. Its errors name the places where the keys are set. Errors in other files name these files.
+    template <class Check> void with_places(const Checked &checked, Check &&check)
     {
       try
         {
           check();
         }
+      catch (const WrongKeys &error)
+        {
+          refuse(checked, error.keys, error.what());
+        }
+      catch (const continuum::WrongKeys &error)
+        {
+          std::vector<std::string> keys = error.keys;
+          for (std::string &key : keys)
+            key.insert(0, "continuum/");
+          refuse(checked, keys, error.what());
+        }
       catch (const std::invalid_argument &error)
         {
-          const std::string  text  = error.what();
-          std::vector<Entry> about = assignments_in(text, section, entries);
-          std::string        lead  = file + ": " + (section.empty() ? "" : "section " + section + ": ");
-          Refusal            refusal;
-          refusal.key = first_key(text);
-          if (!about.empty())
-            {
-              auto first = std::find_if(about.begin(), about.end(), [&](const Entry &e) { return e.name() == refusal.key; });
-              if (first == about.end())
-                --first; // the latest assignment is probably the wrong one
-              lead = text_of(first->place) + ": " + (section.empty() ? "" : first->name() + " = '" + first->value + "': ");
-              if (refusal.key.empty() || refusal.key == first->name())
-                refusal = {first->place, first->name(), first->value, "", ""};
-              about.erase(first);
-            }
-          const bool is_of_file = text.rfind('/', 0) == 0; // paths in a scene are absolute
-          SceneError whole(is_of_file ? text : lead + text + places_of(about));
-          whole.refusal = refusal;
-          throw whole;
+          throw SceneError(error.what());
         }
     }
 
@@ -231,7 +225,7 @@ namespace diptych::coupling
       return keys;
     }
 
-    // Frames of another code: nothing is prepared and nothing computed on the left.
+    // Keys without effect for frames of another code, because the discrete panel computes nothing.
     void add_unread_of_imported(const Scene &scene, std::vector<Unused> &keys)
     {
       if (scene.discrete.method.method != discrete::Method::imported)
@@ -269,24 +263,25 @@ namespace diptych::coupling
 
   void check_comparison(const Scene &scene, const std::string &file, const std::vector<Entry> &entries, const bool compares)
   {
-    in_section(file, "", entries, [&] {
+    with_places({file, entries, ""}, [&] {
       if (const double coarse = scene.comparison.coarse_element_size; coarse > 0 && coarse < 0.1)
-        throw std::invalid_argument("comparison/coarse_element_size = " + text_of(coarse) + ": 0 or a number from 0.1 on");
+        throw WrongKeys({"comparison/coarse_element_size"},
+                        "comparison/coarse_element_size = " + text_of(coarse) + ": 0 or a number from 0.1 on");
       check_stages(scene, compares);
     });
-    in_section(file, "comparison", entries, [&] { check_probe_options(scene.comparison.probes); });
+    with_places({file, entries, "comparison"}, [&] { check_probe_options(scene.comparison.probes); });
   }
 
   void check_scene(const Scene &scene, const std::string &file, const std::vector<Entry> &entries, const bool compares)
   {
     check_comparison(scene, file, entries, compares);
-    in_section(file, "", entries, [&] {
+    with_places({file, entries, ""}, [&] {
       const discrete::Loading loading = discrete_loading(scene.loading);
       discrete::validate(scene.sample, loading, scene.discrete);
       discrete::check_sample_file(scene.sample, discrete::preparation_setting(loading, scene.discrete),
                                   [&] { leave_if_stopped("reading " + scene.sample.file); });
     });
-    in_section(file, "continuum", entries, [&] { continuum::validate(scene.continuum); });
+    with_places({file, entries, "continuum"}, [&] { continuum::validate(scene.continuum); });
   }
 
   std::vector<std::string> warnings_of(const Scene &scene, const std::vector<Entry> &entries)
@@ -308,7 +303,8 @@ namespace diptych::coupling
         warnings.push_back((set == last.end() ? "" : text_of(set->second.place) + ": ") + "continuum/" + name + text);
       }
     if (const auto text = doubtful_coarse_mesh(scene))
-      warnings.push_back(*text + places_of(assignments_in(*text, "", entries)));
+      warnings.push_back(*text +
+                         places_of(assignments_of({"comparison/coarse_element_size", "continuum/element_size"}, entries)));
     return warnings;
   }
 } // namespace diptych::coupling

@@ -14,8 +14,7 @@ namespace diptych::coupling
   // Throws SceneError with file, lines, keys and values that contradict each other.
   void check_scene(const Scene &scene, const std::string &file, const std::vector<Entry> &entries, bool compares);
 
-  // The same for a computed scene, limited to the keys that a comparison reads. Files that the scene names need not exist any
-  // more.
+  // The same for a computed scene, limited to the keys that a comparison reads. Files that the scene names may be gone.
   void check_comparison(const Scene &scene, const std::string &file, const std::vector<Entry> &entries, bool compares);
 
   // Warnings about

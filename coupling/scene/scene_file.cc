@@ -101,7 +101,6 @@ namespace diptych::coupling
       return json ? entries_of_json(file, in) : entries_of_prm(file, in);
     }
 
-    // A resolved scene sets every key.
     bool sets_every_key(const std::vector<Entry> &entries)
     {
       std::set<std::string> set;

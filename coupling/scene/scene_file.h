@@ -18,7 +18,7 @@ namespace diptych::coupling
   Scene read_scene(const std::string &file, const std::vector<std::string> &overrides, bool compares = true);
 
   // The resolved scene of a result folder with overrides. Only keys that a comparison reads are checked again. Files that it
-  // names need not exist any more. `compares` as in read_scene(). Throws SceneError, also if a key is missing.
+  // names may be gone. `compares` as in read_scene(). Throws SceneError, also if a key is missing.
   Scene read_computed_scene(const std::string &file, const std::vector<std::string> &overrides, bool compares = true);
 
   // As read_scene(), with changes that carry the place of their text and the folder of their files.
@@ -39,8 +39,8 @@ namespace diptych::coupling
   // True if a file sets every key, as a resolved scene does.
   bool is_resolved_scene(const std::string &file);
 
-  // The resolved scene of a result folder (scene.prm, ensemble.prm). Files that it names need not exist any more. Empty if the
-  // file is missing or comes from a version with other keys.
+  // The resolved scene of a result folder (scene.prm, ensemble.prm). Files that it names may be gone. Empty if the file is
+  // missing or comes from a version with other keys.
   std::optional<Scene> resolved_scene(const std::string &file);
 
   std::vector<std::string> section_names();

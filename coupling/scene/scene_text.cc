@@ -39,7 +39,7 @@ namespace diptych::coupling
       return text.size() - (other == std::string::npos ? 0 : other + 1);
     }
 
-    // What follows a keyword, in letters of either case, and at least one blank; nothing where the line begins otherwise.
+    // The text after a keyword (in letters of either case) and at least one blank; empty if the line begins otherwise.
     std::optional<std::string> after(const std::string &keyword, const std::string &line)
     {
       if (line.size() <= keyword.size() || strncasecmp(line.c_str(), keyword.c_str(), keyword.size()) != 0 ||
@@ -47,7 +47,8 @@ namespace diptych::coupling
         return std::nullopt;
       return std::string(discrete::trimmed(line.substr(keyword.size())));
     }
-    // What a full disk leaves of a scene is not the scene of defaults; nor is one line all that a file without line ends says.
+    // An empty file, as a full disk leaves it, is not the scene of defaults. A lone carriage return would hide all lines but
+    // the first.
     void demand_text(const std::string &file, const std::string &text)
     {
       if (text.find_first_not_of(" \t\r\n") == std::string::npos)

@@ -10,7 +10,7 @@
 
 namespace diptych::coupling
 {
-  // Mean of equally weighted batch means b_k +- t s sqrt((1 + r) / (1 - r)) / sqrt(n). s is the standard deviation of the b_k,
+  // Mean of equally weighted batch means b_k +- t s sqrt((1 + r) / (1 - r)) / sqrt(n). `s` is the standard deviation of the b_k,
   // and t Student's 97.5 % quantile for n - 1 degrees of freedom. r = (lag-one correlation of the b_k) + 1/n, limited to 0..0.9;
   // the term 1/n corrects the bias. The root widens the interval, because batches shorter than a few correlation lengths are not
   // independent. Ends are NaN for fewer than three batches or if a batch is NaN.

@@ -41,13 +41,14 @@ namespace diptych::coupling
   // blocks or 40 resamples. The same seed gives the same rows on every machine.
   std::vector<std::vector<int>> resampled_blocks(int n, const BootstrapOptions &options);
 
-  // Factor that widens the deviations of a resampled statistic: sqrt(n/(n-1)) t/z, with Student's t for n - 1 degrees of freedom
-  // and z = 1.96. The mean of n blocks drawn with replacement has (n-1)/n of the unbiased variance. Its quantiles are normal (z)
-  // and not Student's (t). With this factor the interval of a mean is Student's interval. NaN for n < minimum_blocks.
+  // Factor that widens the deviations of a resampled statistic: sqrt(n/(n-1)) t/z. Here t is Student's for n - 1 degrees of
+  // freedom, z = 1.96. The mean of n blocks drawn with replacement has (n-1)/n of the unbiased variance. Its quantiles are
+  // normal (z) and not Student's (t). With this factor the interval of a mean is Student's interval. NaN for n <
+  // minimum_blocks.
   double small_sample_factor(int n);
 
   // A second factor for the deviations, >= 1, if neighbouring blocks are correlated. influence: the contribution of each block to
-  // the statistic's deviation (components in any unit; they add up to about 0 over the blocks). place: column and row of each
+  // the statistic's deviation (components in any unit; they add up to about 0 over the blocks). `place`: column and row of each
   // block. With c_bb' = influence_b . influence_b' and n blocks:
   //   V0 = sum c_bb, the variance of independent blocks;
   //   V = V0 + 2 sum over touching pairs (c_bb' + s^2/n), s^2 = V0/(n-1); s^2/n removes the bias from the common mean;

@@ -10,7 +10,6 @@ namespace diptych::coupling
 {
   namespace
   {
-    // Value at x of the broken line through (xs, ys), with xs ascending.
     double interpolate(const std::vector<double> &xs, const std::vector<double> &ys, const double x)
     {
       if (x <= xs.front())

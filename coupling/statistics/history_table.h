@@ -27,7 +27,7 @@ namespace diptych::coupling
   // Column by name. Throws std::invalid_argument if it is missing.
   const std::vector<double> &column(const HistoryTable &table, const std::string &name);
 
-  // True if progress > from. progress is a sum of steps, and their rounding does not count.
+  // True if progress > from. `progress` is a sum of steps, and their rounding does not count.
   inline bool is_beyond(const double progress, const double from)
   {
     return progress > from + 1e-9 * std::abs(from);
@@ -37,15 +37,14 @@ namespace diptych::coupling
   // values continue beyond the ends. So rows at uneven distances are weighted by the range that they represent.
   double mean_over_progress(const HistoryTable &table, const std::string &name, double from, double to);
 
-  // The same mean over any ascending column.
   struct ColumnPair
   {
     std::string abscissa, ordinate;
   };
   double mean_over(const HistoryTable &table, const ColumnPair &names, double from, double to);
 
-  // T/S = (mean of t) / (mean of s) over the range [from, to] of the progress, from the columns sxx, sxy, syx (if present) and
-  // syy. Unlike the mean of t/s it gives less weight to moments of small load. NaN if the history does not reach `to`.
+  // T/S = (mean of t) / (mean of s) over the range [from, to] of the progress. Columns: sxx, sxy, syx (if present) and syy.
+  // Unlike the mean of t/s it gives less weight to moments of small load. NaN if the history does not reach `to`.
   double ratio_of_means(const HistoryTable &table, double from, double to);
 
   // For each row, the mean over the preceding `width` of progress; NaN before the first full width. Needs O(rows) operations.

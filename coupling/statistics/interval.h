@@ -15,7 +15,6 @@ namespace diptych::coupling
     double high  = std::numeric_limits<double>::quiet_NaN();
   };
 
-  // Converts to another unit, factor > 0.
   inline Interval times(const double factor, const Interval &interval)
   {
     return {factor * interval.value, factor * interval.low, factor * interval.high};

@@ -15,7 +15,7 @@ namespace diptych::discrete
     double band_height = 3; // height of a horizontal layer [mean diameters]
     int    end_grains  = 5; // at each end of a layer
   };
-  // Two smooth rigid walls. walls[2] on the left does not move; walls[3] on the right is free or moves at a given speed.
+  // Two smooth rigid walls. The left one, walls[2], does not move. The right one, walls[3], is free or moves at a given speed.
   struct RigidSides
   {
     std::optional<double> velocity =
@@ -33,7 +33,6 @@ namespace diptych::discrete
   {};
   using LateralCondition = std::variant<EndGrains, RigidSides, PeriodicSides, NoSides>;
 
-  // Keys of a LateralCondition.
   enum class Lateral
   {
     end_grains,
@@ -91,29 +90,27 @@ namespace diptych::discrete
 
   LateralCondition lateral_condition(const LateralOptions &options);
 
-  // Adds the containing action to `force` (one entry per grain) [pressure x length]. The height between the platens walls[0] and
-  // walls[1] is divided into equal layers, as near to band_height as fits. In each layer the `end_grains` outermost grains on the
-  // left carry horizontal forces in proportion to their masses. Their sum is (height of the layer) x pressure. Those on the right
-  // carry the opposite. If a layer has fewer than twice as many grains, half of them belong to each side. A grain belongs to the
-  // layer of its centre, also beyond the end of a platen. Fixed grains carry nothing.
+  // Adds the containing action to `force` (one entry per grain) [pressure x length]. Equal layers, as near to band_height as
+  // fits, divide the height between the platens walls[0] and walls[1]. In each layer the `end_grains` outermost grains of a
+  // side share (height of the layer) x pressure, in proportion to their masses. Those on the left are pushed to the right, and
+  // vice versa. If a layer has fewer than twice as many grains, half of them belong to each side. A grain belongs to the layer
+  // of its centre, also beyond the end of a platen. Fixed grains carry nothing.
   void add_lateral_forces(const State                  &state,
                           const EndGrains              &action,
                           double                        pressure,
                           double                        mean_diameter,
                           std::vector<Eigen::Vector2d> &force);
 
-  // Force on the free components of wall `index` at the present positions and at `time` [pressure x length]. Other components are
-  // 0.
+  // Force on the free components of wall `index` at the present positions and at `time` [pressure x length]; 0 on the others.
   Eigen::Vector2d applied_wall_force(const State &state, std::size_t index, double time);
 
-  // Velocity of a wall: prescribed components at `time`, the others as they are.
   Eigen::Vector2d prescribed_wall_velocity(const Wall &wall, double time);
 
   // Height between the platens; width between the side walls or of the cell. Throws std::invalid_argument without these bodies.
   double sample_height(const State &state);
   double sample_width(const State &state);
 
-  // Throws std::invalid_argument in three cases: a wall whose contacts would couple their normal and tangential parts (state.h),
-  // a pressure on a wall without neighbouring walls, or a mass that is not positive.
+  // Throws std::invalid_argument for a mass that is not positive and for a pressure on a wall without neighbouring walls. Also
+  // for a wall whose contacts would couple their normal and tangential parts (state.h).
   void validate_walls(const State &state);
 } // namespace diptych::discrete

@@ -12,9 +12,8 @@
 
 namespace diptych::discrete
 {
-  // Values of Grains::fixed. A held grain keeps its velocity and spin under any force (rough bottoms, obstacles). A grain that is
-  // part of a platen moves with the platen and does not turn, and forces on it act on the platen. This makes a platen rough. The
-  // platen keeps its own mass.
+  // Values of Grains::fixed. A held grain keeps its velocity and spin under any force. A grain of a platen moves with the
+  // platen without turning. Forces on it act on the platen, which keeps its own mass.
   inline constexpr std::uint8_t held_grain = 1, lower_platen_grain = 2, upper_platen_grain = 3;
 
   // Rigid discs of unit thickness. One entry per grain in every vector.
@@ -30,7 +29,6 @@ namespace diptych::discrete
 
     std::size_t size() const { return radius.size(); }
 
-    // I = m r^2 / 2 of a disc about its centre.
     double moment_of_inertia(const std::size_t i) const { return 0.5 * mass[i] * radius[i] * radius[i]; }
 
     // Number of the wall that a grain is part of; -1 for a grain that belongs to no platen.
@@ -40,7 +38,6 @@ namespace diptych::discrete
     double inverse_mass(const std::size_t i) const { return fixed[i] ? 0. : 1 / mass[i]; }
   };
 
-  // Adds a grain at rest.
   inline void add_grain(Grains &grains, const Eigen::Vector2d &position, const double radius, const double density)
   {
     grains.position.push_back(position);
@@ -91,9 +88,8 @@ namespace diptych::discrete
     side
   };
 
-  // Straight rigid wall or platen: the half plane behind `point`, which does not turn. Each component of its motion is prescribed
-  // or free under a force. If only one component is free, the normal must lie along an axis. Otherwise the normal and tangential
-  // parts of a contact would be coupled.
+  // Straight rigid wall or platen: the half plane behind `point`, which does not turn. If only one component is free, the
+  // normal must lie along an axis. Otherwise the normal and tangential parts of a contact would be coupled.
   struct Wall
   {
     Eigen::Vector2d point;  // any point of its surface [length]
@@ -103,7 +99,6 @@ namespace diptych::discrete
     double          mass = 1; // of a free component
     WallKind        kind = WallKind::platen;
 
-    // 1/mass for each free component, 0 for a prescribed one.
     Eigen::Vector2d inverse_mass() const { return {is_free(drive_x) ? 1 / mass : 0., is_free(drive_y) ? 1 / mass : 0.}; }
   };
 
@@ -136,7 +131,7 @@ namespace diptych::discrete
     double                      time = 0;
   };
 
-  // Number of cell widths to the image of j nearest to grain i: that image is at x_j + image x width. 0 without a cell.
+  // Number of cell widths to the image of j nearest to grain i, which is at x_j + image x width. Without a cell: 0.
   inline int nearest_image(const std::optional<PeriodicCell> &cell, const double xi, const double xj)
   {
     return cell ? int(std::lround((xi - xj) / cell->width)) : 0;

@@ -21,7 +21,6 @@ namespace diptych::discrete
     // `members`: numbers of the grains, at least one. `cell_size` > 0 [length].
     CellGrid(const State &state, std::vector<int> members, double cell_size);
 
-    // Calls visit(grain) once for every grain in the cells within `reach` of x.
     template <class Visit> void visit_around(const Eigen::Vector2d &x, const double reach, Visit &&visit) const
     {
       std::int64_t from = raw_column(x.x() - reach), to = raw_column(x.x() + reach);
@@ -47,7 +46,6 @@ namespace diptych::discrete
           visit_cell(period_ > 0 ? wrapped(a) : a, b, visit);
     }
 
-    // Occupancy of the cells.
     struct Crowds
     {
       std::vector<int> fullest;     // members of the fullest cell, ascending
@@ -91,7 +89,7 @@ namespace diptych::discrete
     CountedBins       bins_;
   };
 
-  // Grids by grain size, the largest grains first. Within a grid the largest radius is less than four times the smallest, and a
+  // Grids by grain size, the largest grains first. Within a grid the largest radius is less than four times the smallest. A
   // cell is as wide as the largest diameter. Most samples need one grid.
   struct SizedGrid
   {

@@ -109,7 +109,7 @@ namespace diptych::discrete
             position_.clear(); // an empty list covers no state
             return;
           }
-        // A pair is found from the member with the larger reach, so a search circle needs only the reach of its own grain.
+        // The member with the larger reach finds the pair, so a search circle needs only the reach of its grain.
         const auto meet = [&](const int j) {
           if (reach_[j] > reach_[i] || (reach_[j] == reach_[i] && j <= i))
             return;

@@ -25,11 +25,11 @@ namespace diptych::discrete
   class NeighbourList
   {
   public:
-    // Returns all pairs with a gap below the sum of their margins, ascending in (i, j). Walls have no margin. Pairs of two
-    // immovable bodies are left out, and so are pairs of a platen grain with anything but a free grain. `margin` [length] has one
-    // entry per grain. The list is rebuilt if margin + motion of some grain exceed the reach of the list. A rebuild visits O(n)
-    // cells. Throws std::invalid_argument if a periodic cell is narrower than four times the reach of a grain. `go_on` is called
-    // during a rebuild. If it returns false, the result is empty and no list is kept.
+    // Returns all pairs with a gap below the sum of their margins, ascending in (i, j). `margin` [length] has one entry per
+    // grain; walls have none. Pairs of two immovable bodies are left out, and pairs of a platen grain with anything but a free
+    // grain. The list is rebuilt, in O(n), if margin + motion of a grain exceed its reach. If `go_on`, called during a rebuild,
+    // returns false, the result is empty. Throws std::invalid_argument if a periodic cell is narrower than four times the reach
+    // of a grain.
     std::vector<Contact> find_contacts(const State                 &state,
                                        const std::vector<double>   &margin,
                                        const std::function<bool()> &go_on = {});
@@ -48,6 +48,5 @@ namespace diptych::discrete
     double                       width_ = 0;
   };
 
-  // The same without a stored list.
   std::vector<Contact> find_contacts(const State &state, const std::vector<double> &margin);
 } // namespace diptych::discrete

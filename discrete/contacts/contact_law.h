@@ -22,7 +22,6 @@ namespace diptych::discrete
   };
   using RelativeVelocity = Parts<double>; // u = H^T v of one contact
 
-  // Data of one contact that the law needs.
   template <class Number> struct LawTerms
   {
     Number normal_term, tangential_term, friction, inverse_wnn, inverse_wtt;
@@ -99,8 +98,7 @@ namespace diptych::discrete
     return {solution.normal, solution.tangential};
   }
 
-  // Prefetches the row some contacts ahead of acting[at]. After the sweeps the rows are not in the cache, and the acting ones
-  // follow no pattern that the hardware prefetcher could detect.
+  // Prefetches the row some contacts ahead of acting[at]: no hardware prefetcher can foresee which rows act.
   DIPTYCH_INLINE void fetch_ahead(const std::vector<ContactRow> &rows, const std::vector<int> &acting, const std::size_t at)
   {
     constexpr std::size_t ahead = 12;
@@ -123,7 +121,6 @@ namespace diptych::discrete
       v[c.cell].x -= c.image * v[c.cell].inverse_mass * px;
   }
 
-  // Sets one contact to its local solution and updates impulse and velocities.
   inline void update(const ContactRow &c, const double omega, std::vector<BodyVelocity> &v, Impulse &r)
   {
     const Impulse next = local_solution(c, relative_velocity(c, v), r, omega);
@@ -136,7 +133,6 @@ namespace diptych::discrete
     return std::abs(r.tangential) > coulomb_margin * friction * r.normal;
   }
 
-  // Norm of r - P(r) relative to that of r, from their squares. 0 if both vanish, infinity if only r vanishes.
   inline double relative_norm(const double difference_square, const double norm_square)
   {
     if (difference_square == 0)

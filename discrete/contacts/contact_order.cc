@@ -9,7 +9,6 @@ namespace diptych::discrete
 {
   namespace
   {
-    // Layer of each contact, counted from the lowest.
     std::vector<int> layers_of(const std::vector<Contact> &contacts, const double length)
     {
       std::vector<int> layers(contacts.size());

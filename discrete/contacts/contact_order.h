@@ -8,8 +8,7 @@
 
 namespace diptych::discrete
 {
-  // Indices of the contacts sorted upward along y, the direction in which the platens load the sample. Layers are a tenth of
-  // `length` thick; within a layer the given order remains. The order is part of the definition of a result, so it depends only
-  // on the contacts. Cost O(n).
+  // Indices of the contacts sorted upward along y, the direction of the load. Layers are a tenth of `length` thick; within a
+  // layer the given order remains. The order decides the bits of a result, so it depends only on the contacts. Cost O(n).
   std::vector<int> sweep_order(const std::vector<Contact> &contacts, double length);
 } // namespace diptych::discrete

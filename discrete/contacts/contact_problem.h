@@ -26,12 +26,11 @@ namespace diptych::discrete
   {
     // The velocities depend on these members. They fill one cache line, because they are read separately from the rest.
     double nx, ny;
-    int    i = 0, j = 0; // i is a grain
-    int    image = 0;    // j enters as its image this many cell widths away, which moves with the width
-    int    cell  = -1;   // body whose x is d width/dt, if the image moves; -1 otherwise
-    double ki, kj;       // r^2/I of each side, 2/m for a disc, 0 for a wall [1/mass]
-    double jx, jy;       // inverse mass of body j along x and y; they differ only for walls with one free component [1/mass]
-    // Terms of the contact law.
+    int    i = 0, j = 0;    // i is a grain
+    int    image = 0;       // j enters as its image this many cell widths away, which moves with the width
+    int    cell  = -1;      // body whose x is d width/dt, if the image moves; -1 otherwise
+    double ki, kj;          // r^2/I of each side, 2/m for a disc, 0 for a wall [1/mass]
+    double jx, jy;          // inverse mass of body j along x and y; they differ only for walls with one free component [1/mass]
     double normal_term;     // c_n of  0 <= u_n' + c_n  _|_  r_n >= 0   [length/time]
     double tangential_term; // c_t = e_t u_t of the friction law        [length/time]
     double friction;        // mu
@@ -39,10 +38,10 @@ namespace diptych::discrete
     double inverse_wtt;     // 1 / (1/m_i + 1/m_j + k_i + k_j)          [mass]
   };
 
-  // Find impulses r and velocities v = v_free + M^-1 H r such that every contact obeys Signorini's condition and Coulomb's law
-  // (discrete/README.md, Method). For discs and walls the coupling W_nt between the normal and tangential part of one contact
-  // vanishes. Each contact by itself therefore has a closed solution (contact_law.h). Across the edge of a cell with free width
-  // W_nt is small but not zero.
+  // Unknowns are the impulses r; the velocities are v = v_free + M^-1 H r. Every contact obeys Signorini's condition and
+  // Coulomb's law (discrete/README.md, Method). For discs and walls the coupling W_nt between the normal and tangential part of
+  // one contact vanishes. Each contact by itself therefore has a closed solution (contact_law.h). Across the edge of a cell
+  // with free width W_nt is small but not zero.
   struct ContactProblem
   {
     std::vector<BodyVelocity> free_velocity; // grains first, then walls, then the cell if its width changes (x = d width/dt)

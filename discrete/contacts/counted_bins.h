@@ -11,8 +11,7 @@ namespace diptych::discrete
   class CountedBins
   {
   public:
-    // Sorts items 0 .. n_items - 1. bins_of(item, action) calls action(bin) for every bin of an item. It must give the same bins
-    // on each call.
+    // Sorts items 0 .. n_items - 1. Each time, bins_of(item, action) calls action(bin) for the same bins of an item.
     template <class BinsOf> void sort(const std::size_t n_bins, const std::size_t n_items, BinsOf &&bins_of)
     {
       begin.assign(n_bins + 1, 0);

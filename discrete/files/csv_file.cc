@@ -41,7 +41,6 @@ namespace diptych::discrete
         call(check_stop);
     }
 
-    // Lines that are neither blank nor a comment.
     std::vector<Line> lines_of(const std::string &path, const CheckStop &check_stop)
     {
       constexpr std::size_t most_bytes = std::size_t(4) << 30; // ten million grains need a tenth of it

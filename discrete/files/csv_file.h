@@ -20,7 +20,6 @@ namespace diptych::discrete
 
     std::optional<std::size_t> find(const std::string &column) const;
 
-    // The value in an existing column, for example a required one.
     double at(std::size_t row, const std::string &column) const { return rows[row][*find(column)]; }
   };
 
@@ -46,7 +45,6 @@ namespace diptych::discrete
   // "FILE, line N: column 'r' = '-1'"
   std::string cell_place(const CsvTable &table, std::size_t row, const std::string &column);
 
-  // Throws std::invalid_argument "FILE, line N: column 'r' = '-1' is out of range; allowed: ...".
   [[noreturn]] void refuse_cell(const CsvTable &table, std::size_t row, const std::string &column, const std::string &allowed);
 
   // The shortest text that reads back as the same double (at most 17 significant digits), with a point in every locale.

@@ -50,7 +50,6 @@ namespace diptych::discrete
           value(a, b) = *numbers;
   }
 
-  // Extents of an array of n values: (n), (n, 3) or (n, 3, 3).
   template <class T> std::vector<std::size_t> extents_of(const std::size_t n)
   {
     std::vector<std::size_t> extents{n};
@@ -70,7 +69,6 @@ namespace diptych::discrete
     return numbers;
   }
 
-  // Writes the array with its unit and meaning.
   template <class T>
   void write_field(Hdf5Writer           &file,
                    const std::string    &name,
@@ -129,8 +127,8 @@ namespace diptych::discrete
             of_cells};
   }
 
-  // Splits a list of structs into columns. `fields(entry, visit)` calls visit(name, member, unit, meaning) for each member. For
-  // each column this calls action(name, values of that member, unit, meaning).
+  // Splits a list of structs into columns: action(name, values, unit, meaning) for each member that fields(entry, visit)
+  // visits.
   template <class Entry, class Fields, class Action>
   void for_each_column(const std::vector<Entry> &entries, Fields &&fields, Action &&action)
   {
@@ -167,7 +165,6 @@ namespace diptych::discrete
     });
   }
 
-  // Checks lists read from a file. A list must have one finite entry for each grain, contact, node or cell.
   struct ArrayCheck
   {
     std::string place; // file and group

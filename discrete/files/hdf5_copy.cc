@@ -1,4 +1,4 @@
-// diptych: objects of other people's HDF5 files copied by what they hold
+// diptych: copies objects of foreign HDF5 files value by value
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/files/hdf5_file.h"
 #include "discrete/files/hdf5_library.h"
@@ -14,7 +14,6 @@ namespace diptych::discrete
       hid_t       from, to, links; // `links`: how names of `from` are followed
       std::string from_path, to_path;
 
-      // Any type, texts of variable length too.
       void attributes(const std::string &object) const
       {
         const Id source(H5Oopen(from, object.c_str(), links), H5Oclose),
@@ -84,7 +83,7 @@ namespace diptych::discrete
     else if (info.type == H5O_TYPE_DATASET)
       copy.array(Id(from.opened(name), H5Dclose), name);
     else
-      return; // a type by itself: nothing that a reader asks for
+      return; // a type by itself holds no values
     copy.attributes(name);
   }
 } // namespace diptych::discrete

@@ -34,8 +34,8 @@ namespace diptych::discrete
       return access;
     }
 
-    // In pieces of up to 4096 rows with a checksum, so that a damaged file is refused rather than read. A scalar has no pieces:
-    // it stands in its header, which has a checksum, unless it is too long.
+    // Stores an array in pieces of up to 4096 rows, each with a checksum, so that a damaged file is refused. A scalar has no
+    // pieces: its header, which has a checksum, holds it unless it is too long.
     bool set_checksum(const hid_t properties, std::vector<hsize_t> extents, const std::size_t n_bytes)
     {
       constexpr std::size_t most_bytes_of_a_header = 60000;
@@ -68,7 +68,6 @@ namespace diptych::discrete
         fail("write", path, name);
     }
 
-    // A string type of fixed length that holds `text` and its closing zero.
     hid_t string_type(const std::string &text)
     {
       const hid_t type = H5Tcopy(H5T_C_S1);
@@ -143,7 +142,7 @@ namespace diptych::discrete
       return c;
     }
 
-    // The first block of an image still says that somebody is writing, or has lost that mark and kept the checksum with it.
+    // Removes the mark of an open file from the first block of an image and renews its checksum.
     void set_first_block(std::string &image)
     {
       constexpr std::size_t n_checked = 44, version_at = 8, mark_at = 11;
@@ -193,7 +192,7 @@ namespace diptych::discrete
     if (descriptor >= 0)
       ::close(descriptor);
     if (error == 0)
-      file_ = H5Fopen(part.c_str(), H5F_ACC_RDWR, access); // closing cuts off what is left over
+      file_ = H5Fopen(part.c_str(), H5F_ACC_RDWR, access); // closing cuts off the unused space
     if (file_ < 0)
       {
         std::remove(part.c_str());

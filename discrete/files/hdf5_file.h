@@ -21,8 +21,8 @@ namespace diptych::discrete
   {
   public:
     explicit Hdf5Writer(const std::string &path);
-    // For data too large to be in memory twice: the file grows on the disk, where space for a little more than `n_bytes` is
-    // reserved first.
+    // For data too large to be in memory twice. The file grows on the disk; space for a little more than `n_bytes` is reserved
+    // first.
     Hdf5Writer(const std::string &path, std::size_t n_bytes);
     ~Hdf5Writer(); // without finish() nothing is written
     Hdf5Writer(const Hdf5Writer &)            = delete;
@@ -55,9 +55,9 @@ namespace diptych::discrete
     bool         on_disk_ = false;
   };
 
-  // All functions throw std::invalid_argument with file and object if the object is missing, truncated, damaged (checksum), or of
-  // a wrong type or shape. They also refuse objects in another file, because a link may lead to a pipe, a device or a private
-  // file. Only the stages of a StagedFile may be in separate files.
+  // Functions throw std::invalid_argument with file and object if it is missing, truncated, damaged (checksum), or has a wrong
+  // type or shape. They refuse objects in another file, because a link may lead to a pipe, a device or a private file. Only the
+  // stages of a StagedFile may be in separate files.
   class Hdf5Reader
   {
   public:

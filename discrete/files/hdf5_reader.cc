@@ -1,4 +1,4 @@
-// diptych: arrays and numbers of an HDF5 file, not believed before they are checked
+// diptych: arrays and numbers of an HDF5 file, checked before use
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/files/hdf5_file.h"
 
@@ -15,7 +15,7 @@ namespace diptych::discrete
 {
   using namespace hdf5_library;
 
-  // Where a name leads out of its file, the library asks here.
+  // The library asks here whether it may follow a name out of the file.
   struct Hdf5Reader::Links
   {
     explicit Links(const std::string &path)
@@ -29,7 +29,7 @@ namespace diptych::discrete
         throw std::runtime_error("HDF5: links cannot be watched");
     }
 
-    // A stage of this file, as StagedFile links them. What stands there may link on itself: no further.
+    // A stage of this file, as StagedFile links it. Links inside a stage are not followed.
     bool is_own(const std::string &parent, const std::string &child)
     {
       namespace fs           = std::filesystem;
@@ -42,7 +42,7 @@ namespace diptych::discrete
         {
           require_regular_file((fs::path(path).parent_path() / stage).string());
         }
-      catch (const std::exception &) // the library could not bear it
+      catch (const std::exception &) // an exception must not cross the C library
         {
           return false;
         }
@@ -56,7 +56,7 @@ namespace diptych::discrete
 
   namespace
   {
-    // Whether the file is of the format whose arrays this program gives checksums: earlier versions wrote another.
+    // True if the file has the format whose arrays carry checksums; earlier versions wrote another one.
     bool is_of_format_110(const hid_t file)
     {
       constexpr unsigned super_block_of_110 = 3;
@@ -91,8 +91,8 @@ namespace diptych::discrete
       return {characters.begin(), std::find(characters.begin(), characters.end(), '\0')};
     }
 
-    // Whole bytes in a usual order: the library turns others bit by bit, by what the file says of their places, over the ends of
-    // its own memory.
+    // Whole bytes in a usual order. The library converts other numbers bit by bit at offsets from the file, perhaps beyond its
+    // own memory.
     bool is_number(const hid_t type)
     {
       const hid_t usual[] = {H5T_IEEE_F64LE, H5T_IEEE_F64BE, H5T_IEEE_F32LE, H5T_IEEE_F32BE, H5T_STD_I64LE,
@@ -167,7 +167,7 @@ namespace diptych::discrete
     return data;
   }
 
-  // Of an array, or of all that a group holds.
+  // Checks one array, or every array of a group.
   void Hdf5Reader::check_storage_below(const std::string &name) const
   {
     const auto look = [](hid_t object, const char *below, const H5O_info_t *info, void *) -> herr_t {
@@ -192,7 +192,7 @@ namespace diptych::discrete
     return {dimensions.begin(), dimensions.end()};
   }
 
-  // Numbers, and no more of them than the file can hold.
+  // Throws unless the data are numbers, and no more than the file can hold.
   void Hdf5Reader::check_numbers(const std::string &name, const std::int64_t data, const std::size_t n) const
   {
     constexpr double largest_compression = 1100; // of deflate, and a little
@@ -276,7 +276,8 @@ namespace diptych::discrete
       static_cast<std::vector<std::string> *>(to)->push_back(name);
       return 0;
     };
-    // In the order of names the library makes a table first, of which it frees what it never filled where the group is damaged.
+    // In native order. For the order of names the library makes a table, and in a damaged group it frees entries that it never
+    // filled.
     if (H5Literate(id, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, collect, &names) < 0)
       refuse(path_, group, "cannot be listed: damaged");
     std::sort(names.begin(), names.end());

@@ -32,8 +32,8 @@ namespace diptych::discrete
     return has_text ? error.what() : "not enough memory, or this process may not have more (ulimit -v)";
   }
 
-  // For a fault in the file that `key` names: throws std::invalid_argument "FILE, line 3: text of the error (file of KEY)", or
-  // OutOfMemory if memory was missing.
+  // Reports a fault in the file that `key` names. Throws std::invalid_argument "FILE, line 3: text of the error (file of KEY)",
+  // or OutOfMemory.
   [[noreturn]] inline void throw_wrong_input(const std::string &key, const std::string &file, const std::exception &error)
   {
     const std::string text  = text_of(error);

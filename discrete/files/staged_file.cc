@@ -106,7 +106,6 @@ namespace diptych::discrete
     remove_parts(0);
   }
 
-  // The folder may hold other files.
   void StagedFile::remove_parts(const std::size_t from) const
   {
     for (std::size_t stage = from; fs::remove(part(stage)); ++stage)

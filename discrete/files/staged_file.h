@@ -12,7 +12,7 @@ namespace diptych::discrete
   std::string stage_name(std::size_t stage); // name of its group, "stage_0003"
 
   // PATH.h5 with one group per stage. Until close(), each stage is a separate file in the folder PATH, and PATH.h5 holds links to
-  // them. So no earlier byte is written again, and a killed program leaves a file that any HDF5 reader opens. close() joins all
+  // them. So no earlier byte is written again, and a killed program leaves a file that any HDF5 reader opens. `close()` joins all
   // stages in PATH.h5. Functions throw std::runtime_error with the file's name.
   class StagedFile
   {
@@ -23,7 +23,6 @@ namespace diptych::discrete
     // Appends to the first n stages of an existing file. Throws std::invalid_argument if it has fewer.
     StagedFile(std::string path_without_ending, std::size_t n);
 
-    // `write` writes the stage into the given group.
     void add(const std::function<void(Hdf5Writer &, const std::string &group)> &write);
 
     std::size_t size() const { return n_stages; }

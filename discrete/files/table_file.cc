@@ -29,7 +29,7 @@ namespace diptych::discrete
     if (!std::getline(in, line) || line != header)
       throw std::invalid_argument(path + ": is missing or has other columns than this version writes");
     long found = 0;
-    while (std::getline(in, line) && !in.eof()) // a last line without its end is none
+    while (std::getline(in, line) && !in.eof()) // a last line without its end is incomplete
       ++found;
     if (found < n_rows)
       throw std::invalid_argument(path + ": holds " + std::to_string(found) + " rows, not the " + std::to_string(n_rows) +

@@ -62,14 +62,12 @@ namespace diptych::discrete
     return text;
   }
 
-  // The fields of a table as text, line by line.
   struct WordTable
   {
     std::string                           path;
     std::vector<std::string>              columns;
     std::vector<std::vector<std::string>> rows;
 
-    // Throws std::invalid_argument with file and column if the column is missing.
     std::size_t       place_of(const std::string &column) const;
     [[noreturn]] void refuse(std::size_t row, const std::string &column, const std::string &value) const;
   };
@@ -119,7 +117,6 @@ namespace diptych::discrete
     return rows;
   }
 
-  // As read_rows(), for the history of a run. Also throws if there is no row.
   template <class Row> std::vector<Row> read_history(const std::string &path)
   {
     std::vector<Row> rows = read_rows<Row>(path);

@@ -36,7 +36,6 @@ namespace diptych::discrete
       throw std::runtime_error("cannot write " + path + ": " + std::strerror(error));
     }
 
-    // Closed on every way out.
     struct OpenFile
     {
       const int id;
@@ -93,7 +92,7 @@ namespace diptych::discrete
   void require_regular_file(const std::string &path)
   {
     std::error_code none;
-    const auto      kind = std::filesystem::status(path, none).type(); // of what a link leads to
+    const auto      kind = std::filesystem::status(path, none).type(); // follows links
     if (kind == std::filesystem::file_type::directory)
       throw std::invalid_argument(path + ": cannot be read: " + std::strerror(EISDIR));
     if (std::filesystem::exists(std::filesystem::file_status(kind)) && kind != std::filesystem::file_type::regular)
@@ -121,7 +120,7 @@ namespace diptych::discrete
     std::string     temporary = path + ".part";
     std::error_code none;
     if (std::filesystem::is_symlink(temporary, none))
-      std::filesystem::remove(temporary, none); // not written through: it leads to a file that is nobody's part
+      std::filesystem::remove(temporary, none); // we must not write to the target of a link
     return temporary;
   }
 
@@ -151,7 +150,7 @@ namespace diptych::discrete
     const off_t before = ::lseek(file, 0, SEEK_END);
     const int   error  = write_all(file, lines);
     if (error != 0 && ::ftruncate(file, before) != 0)
-      {} // the line that is left half is no line: readers want its end
+      {} // readers ignore an incomplete line
     ::close(file);
     if (error != 0)
       fail(path, error);
@@ -163,7 +162,7 @@ namespace diptych::discrete
     std::ifstream in(path, std::ios::binary);
     if (!in)
       fail(path, errno);
-    std::size_t kept = 0, read = 0, lines = 0; // a last line without its end is none
+    std::size_t kept = 0, read = 0, lines = 0; // a last line without its end is incomplete
     for (char c; lines < n && in.get(c);)
       {
         ++read;

@@ -8,12 +8,10 @@
 
 namespace diptych::discrete
 {
-  // Returns `path`.part, the temporary name of a file. Removes a symbolic link of this name, because we must not write to its
-  // target.
+  // Returns `path`.part, the temporary name of a file. Removes a symbolic link of this name, so that its target is not written.
   std::string temporary_for(const std::string &path);
 
-  // Writes to `path`.part, then renames it. On failure an earlier file stays unchanged. Throws std::runtime_error with the file's
-  // name and the system's message.
+  // Writes to `path`.part, then renames it. On failure an earlier file stays. Throws std::runtime_error with file and cause.
   void write_text(const std::string &path, const std::string &text);
 
   // All bytes of a file; empty if it cannot be read.
@@ -28,16 +26,15 @@ namespace diptych::discrete
       check_stop();
   }
 
-  // Throws std::invalid_argument if `path` exists and is not a regular file: opening a FIFO waits for its writer, and a device
-  // may have no end.
+  // Throws std::invalid_argument if `path` exists and is not a regular file. A FIFO would wait for its writer; a device may
+  // have no end.
   void require_regular_file(const std::string &path);
 
-  // Reads a text of unknown origin from a regular file: at most `most_bytes` bytes of UTF-8 without zeros. A byte order mark at
-  // its beginning is left out. Throws std::invalid_argument with the file's name, and with the line of a byte that is not valid
-  // UTF-8.
+  // Reads at most `most_bytes` bytes of UTF-8 without zeros from a regular file of unknown origin; a byte order mark is left
+  // out. Throws std::invalid_argument with the file's name, and with the line of a byte that is not valid UTF-8.
   std::string read_input(const std::string &path, std::size_t most_bytes, const CheckStop &check_stop = {});
 
-  // Index of the first byte that is zero or not valid UTF-8 (cut or overlong sequences, surrogates); npos if all bytes are valid.
+  // Index of the first byte that is zero or not valid UTF-8 (cut or overlong sequences, surrogates), or npos.
   std::size_t first_non_utf8(const std::string &text);
 
   // Appends complete lines to a file in one write; no earlier byte changes. If the write fails, a partly written line is removed.

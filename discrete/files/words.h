@@ -8,7 +8,6 @@
 
 namespace diptych::discrete
 {
-  // The text without white space at its beginning and end.
   inline std::string_view trimmed(const std::string_view text)
   {
     constexpr char    blanks[] = " \t\r\n\f\v";

@@ -14,7 +14,6 @@ namespace diptych::discrete
     unsigned_ // 4 bytes
   };
 
-  // An array of the HDF5 file.
   struct XdmfArray
   {
     std::string              path; // within the file, like "stage_0001/grains/radius"

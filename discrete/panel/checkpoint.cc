@@ -204,7 +204,6 @@ namespace diptych::discrete
              std::all_of(g.radius.begin(), g.radius.end(), size) && std::all_of(g.mass.begin(), g.mass.end(), size);
     }
 
-    // Checks that every list has one entry per grain and that every pair consists of existing bodies.
     void check_sizes(const std::string &path, const Checkpoint &p, const bool row_is_whole)
     {
       const Grains     &g = p.state.grains;
@@ -224,7 +223,6 @@ namespace diptych::discrete
                                     ": 'grains' contains a number that is not finite, or a radius or mass that is not positive");
     }
 
-    // Rejects values that no loading can produce.
     void check_scalars(const std::string &path, const StoredCheckpoint &checkpoint)
     {
       const Checkpoint &p      = checkpoint.panel;

@@ -16,8 +16,8 @@ namespace diptych::discrete
     std::string scene;      // identity of the scene; a run of another scene must reject the checkpoint
   };
 
-  // Writes an HDF5 file that keeps all bits of all numbers. The old file is replaced only when the new one is complete. Throws
-  // std::runtime_error with the name of the file.
+  // Keeps all bits of all numbers. Replaces an old file only when the new one is complete. Throws std::runtime_error with its
+  // name.
   void write_checkpoint(const std::string &path, const StoredCheckpoint &checkpoint);
 
   // Throws std::invalid_argument with the name of the file and the missing or wrong part.

@@ -14,9 +14,9 @@ namespace diptych::discrete
 {
   namespace
   {
-    // Sum of all grains' moments about their centres, and the norms that give the skew share. For a grain that is part of a
-    // platen, a force contributes (height above the surface of the platen) x force, consistent with the forces on the platens.
-    // Forces along a rigid platen are unknown.
+    // Sum of all grains' moments about their centres, and the norms that give the skew share. A force on a grain of a platen
+    // contributes (height above the platen's surface) x force, like the forces on the platens. Forces along a rigid platen are
+    // unknown.
     struct MomentSums
     {
       Eigen::Matrix2d total       = Eigen::Matrix2d::Zero();
@@ -34,8 +34,7 @@ namespace diptych::discrete
             continue;
           const Contact         c     = make_contact(state, result.contacts[k].i, result.contacts[k].j);
           const Eigen::Vector2d force = impulse_vector(result.contacts[k], result.impulses[k]) / step;
-          // Seen from i the contact lies at -(r_i + gap/2) n. Seen from j it lies at +(r_j + gap/2) n, with the opposite force.
-          const auto add = [&](const int body, const double sign) {
+          const auto            add   = [&](const int body, const double sign) {
             if (const int platen = g.platen(body); platen >= 0)
               on_platens += sign * (c.point.y() - state.walls[platen].point.y()) * force.transpose();
             else

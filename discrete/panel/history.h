@@ -39,8 +39,7 @@ namespace diptych::discrete
     Walk            walk              = Walk::axial_strain;
   };
 
-  // Calls visit(name of the column, value, unit, meaning) for every number of a row in the order of discrete.csv. Stress and
-  // strain are positive in compression. Forces act on the sample, per unit thickness.
+  // Calls visit(column, value, unit, meaning) for every number of a row in the order of discrete.csv.
   template <class Row, class Visit, std::enable_if_t<std::is_same_v<std::remove_const_t<Row>, HistoryRow>, int> = 0>
   void visit_columns(Row &r, Visit &&visit)
   {
@@ -93,7 +92,6 @@ namespace diptych::discrete
     visit("walk", r.walk, "-", "which column progress equals: axial_strain, shear_strain or time");
   }
 
-  // Constants of a loading.
   struct Reference
   {
     std::vector<Eigen::Vector2d> position;                         // of the grains

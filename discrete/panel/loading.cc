@@ -36,7 +36,6 @@ namespace diptych::discrete
         }
     }
 
-    // Velocity of the upper platen in the modes that prescribe it.
     Eigen::Vector2d platen_velocity(const Loading &loading, const double speed)
     {
       switch (loading.mode)

@@ -8,7 +8,6 @@
 
 namespace diptych::discrete
 {
-  // Message about a sample that did not come to rest.
   std::string unrest_text(const PreparationReport &report);
   std::string press_text(const Options &options); // springs blew up while they took up the pressure
   std::string momentum_text(int step, double residual);

@@ -7,12 +7,12 @@
 #include <stdexcept>
 
 #include "discrete/files/csv_file.h"
+#include "discrete/files/wrong_keys.h"
 
 namespace diptych::discrete
 {
   namespace
   {
-    // Collects the keys of one section that have no effect under a condition.
     struct Unused
     {
       std::string             section;
@@ -134,35 +134,40 @@ namespace diptych::discrete
     validate(options.drives);
     for_each_drive(options.drives, [&](const int wall, int, const std::string &key, const DriveOption &drive) {
       if (wall >= 2 && !drive.is_auto() && options.lateral.lateral != Lateral::rigid_walls)
-        throw std::invalid_argument("discrete/" + key + " = '" + text_of(drive) +
-                                    "': there is no such wall unless discrete/lateral = rigid_walls");
+        throw WrongKeys({"discrete/" + key, "discrete/lateral"},
+                        "discrete/" + key + " = '" + text_of(drive) +
+                          "': there is no such wall unless discrete/lateral = rigid_walls");
     });
     if (loading.stages.empty() || loading.stages.front() <= 0 ||
         std::adjacent_find(loading.stages.begin(), loading.stages.end(), std::greater_equal<double>()) != loading.stages.end())
       throw std::invalid_argument("the stages of the loading must be positive and in ascending order");
     if (loading.mode == LoadingMode::plane_shear && options.lateral.lateral != Lateral::periodic &&
         options.lateral.lateral != Lateral::rigid_walls)
-      throw std::invalid_argument("loading/mode = plane_shear: the normal force is normal_pressure x width, so discrete/lateral "
-                                  "must be periodic or rigid_walls, not " +
-                                  name_of(options.lateral.lateral));
+      throw WrongKeys({"discrete/lateral", "loading/mode"},
+                      "loading/mode = plane_shear: the normal force is normal_pressure x width, so discrete/lateral "
+                      "must be periodic or rigid_walls, not " +
+                        name_of(options.lateral.lateral));
     const bool penalty = options.method.method == Method::penalty;
     if (penalty && (options.law.normal_restitution != 0 || options.law.tangential_restitution != 0))
-      throw std::invalid_argument("discrete/method = penalty: discrete/normal_restitution and tangential_restitution must be 0; "
-                                  "with springs, penalty_damping controls the rebound");
+      throw WrongKeys({"discrete/method", "discrete/normal_restitution", "discrete/tangential_restitution"},
+                      "discrete/method = penalty: discrete/normal_restitution and tangential_restitution must be 0; "
+                      "with springs, penalty_damping controls the rebound");
     if (penalty && options.method.store_problems)
-      throw std::invalid_argument(
-        "discrete/method = penalty has no contact problems to store: discrete/store_problems must be false");
+      throw WrongKeys({"discrete/store_problems", "discrete/method"},
+                      "discrete/method = penalty has no contact problems to store: discrete/store_problems must be false");
     if (const double steps = expected_steps(sample, loading, options); steps > most_steps)
-      throw std::invalid_argument(
-        "the loading would take " + exact_text(std::ceil(steps)) + " steps, but at most 1e+09 are allowed: " +
-        (penalty             ? "discrete/penalty_stiffness and penalty_step_fraction give the step"
-         : options.time.step ? "discrete/step = " + exact_text(*options.time.step)
-                             : "discrete/step = auto gives " + exact_text(expected_step(sample, loading, options)) +
-                                 " for discrete/accuracy = " + exact_text(options.accuracy.accuracy)) +
-        " ; loading/inertial_number or strain_rate gives the duration");
+      throw WrongKeys({"discrete/step", "discrete/accuracy", "discrete/penalty_stiffness", "discrete/penalty_step_fraction",
+                       "loading/inertial_number", "loading/strain_rate"},
+                      "the loading would take " + exact_text(std::ceil(steps)) + " steps, but at most 1e+09 are allowed: " +
+                        (penalty ? "discrete/penalty_stiffness and penalty_step_fraction give the step"
+                         : options.time.step
+                           ? "discrete/step = " + exact_text(*options.time.step)
+                           : "discrete/step = auto gives " + exact_text(expected_step(sample, loading, options)) +
+                               " for discrete/accuracy = " + exact_text(options.accuracy.accuracy)) +
+                        "; loading/inertial_number or strain_rate gives the duration");
     if (penalty && !(loading.pressure > 0))
-      throw std::invalid_argument(
-        "discrete/method = penalty: the stiffness penalty_stiffness x loading/pressure must be positive");
+      throw WrongKeys({"loading/pressure", "discrete/method"},
+                      "discrete/method = penalty: the stiffness penalty_stiffness x loading/pressure must be positive");
   }
 
   PreparationSetting preparation_setting(const Loading &loading, const Options &options)

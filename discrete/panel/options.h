@@ -51,7 +51,6 @@ namespace diptych::discrete
             "`diptych solve` and other solvers)");
   }
 
-  // All keys of the scene's section `discrete`.
   struct Options
   {
     MethodOptions     method;
@@ -86,7 +85,6 @@ namespace diptych::discrete
   };
   std::vector<UnusedKey> unused_keys(const SampleOptions &sample, const Options &options);
 
-  // Throws std::invalid_argument if options contradict each other or file names are wrong.
   void validate(const SampleOptions &sample, const Loading &loading, const Options &options);
 
   constexpr double most_steps = 1e9; // largest number of steps of a loading; it would take months even for a hundred grains

@@ -295,7 +295,6 @@ namespace diptych::discrete
       return done;
     }
 
-    // Takes one step, or stores in the report why it failed.
     void step()
     {
       constexpr int most_halvings = 3;

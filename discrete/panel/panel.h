@@ -33,7 +33,6 @@ namespace diptych::discrete
     long         interval   = 1; // steps between two rows of the history
   };
 
-  // Optional callbacks.
   struct Hooks
   {
     std::function<bool()> stop_requested; // called before every step, also during the preparation
@@ -48,9 +47,8 @@ namespace diptych::discrete
   class Panel
   {
   public:
-    // The sample follows from the keys of `sample`, including sample.file. If `grains` is given, they are placed between platens
-    // and sides like grains of a file, and only the file keys of `sample` are used. Throws std::invalid_argument if options
-    // contradict each other.
+    // The sample follows from the keys of `sample`, including sample.file. If `grains` is given, they take the place of a file,
+    // and only the file keys of `sample` count. Throws std::invalid_argument if options contradict each other.
     Panel(const SampleOptions         &sample,
           const Loading               &loading,
           const Options               &options,

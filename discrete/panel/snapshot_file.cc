@@ -14,7 +14,6 @@ namespace diptych::discrete
 {
   namespace
   {
-    // visit_contact_fields as a function object.
     const auto contact_fields = [](auto &entry, auto &&visit) { visit_contact_fields(entry, visit); };
 
     void write_contacts(Hdf5Writer &file, const std::string &group, const std::vector<ContactForce> &contacts)
@@ -75,7 +74,6 @@ namespace diptych::discrete
         values.assign(n, T::Constant(NAN));
     }
 
-    // The dissipation of pairs is missing in some snapshots.
     bool is_stored(const Snapshot &s, const std::string &name, const std::size_t size)
     {
       return name.rfind("window", 0) != 0 || size == s.window_forces.size();
@@ -160,7 +158,6 @@ namespace diptych::discrete
       });
     }
 
-    // True if the value is finite or the attribute may be nan or inf.
     bool may_be(const double value, const std::string &name, const Meaning &meaning, const bool of_another_code)
     {
       if (std::isfinite(value))
@@ -282,7 +279,6 @@ namespace diptych::discrete
     stages.close();
   }
 
-  // Lists grains, contacts and window forces of one instant for ParaView.
   void SnapshotFile::list(const Snapshot &s)
   {
     const std::string stage  = stage_name(collections[0].grids.size()) + "/";

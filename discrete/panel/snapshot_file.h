@@ -11,8 +11,8 @@
 
 namespace diptych::discrete
 {
-  // PATH.h5 with one group stage_NNNN per snapshot (fields: snapshot_fields.h), and PATH.xdmf for ParaView with grains, contacts
-  // and window forces as points. Adding a snapshot does not touch the earlier ones.
+  // PATH.h5 has one group stage_NNNN per snapshot (fields: snapshot_fields.h). PATH.xdmf shows grains, contacts and window
+  // forces as points in ParaView. Adding a snapshot does not touch the earlier ones.
   class SnapshotFile
   {
   public:
@@ -31,10 +31,8 @@ namespace diptych::discrete
     std::vector<XdmfCollection> collections = {{"grains", {}}, {"contacts", {}}, {"window", {}}};
   };
 
-  // Writes a whole file at once.
   void write_snapshots(const std::string &path_without_ending, const std::vector<Snapshot> &snapshots);
 
-  // Restores window forces and all that the comparison needs. Throws std::invalid_argument with file and dataset if a dataset is
-  // missing, damaged, not finite, out of range or of the wrong length.
+  // Throws std::invalid_argument with file and dataset if a dataset is missing, damaged, not finite, out of range or too short.
   std::vector<Snapshot> read_snapshots(const std::string &h5_path);
 } // namespace diptych::discrete

@@ -7,9 +7,8 @@
 
 namespace diptych::discrete
 {
-  // Sums of the impulse and friction dissipation of every touching pair, and of the spin term of every grain, since the last
-  // reset. Contacts of rigid grains open and close within a few steps. Forces of single steps therefore scatter, and only their
-  // mean gives the stress.
+  // Sums of impulse, friction dissipation and spin term since the last reset. Contacts of rigid grains open and close within a
+  // few steps. Forces of single steps therefore scatter; only their mean gives the stress.
   struct WindowForces
   {
     struct PairSum

@@ -146,7 +146,6 @@ namespace diptych::discrete
       return problem.blocks[std::lower_bound(begin + problem.row_begin[k], begin + problem.row_begin[k + 1], int(k)) - begin];
     }
 
-    // Data of a contact's own block.
     struct Own
     {
       DelassusBlock w;

@@ -12,7 +12,7 @@
 
 namespace diptych::discrete
 {
-  // Influence of the impulse of one contact on the relative velocity of another [1/mass]. nt is the normal velocity due to a
+  // Influence of the impulse of one contact on the relative velocity of another [1/mass]. `nt` is the normal velocity due to a
   // tangential impulse. The members are stored column by column, because a sweep reads them in this order.
   struct DelassusBlock
   {
@@ -20,7 +20,7 @@ namespace diptych::discrete
   };
 
   // u = W r + q [length/time] with the laws 0 <= u_n _|_ r_n >= 0, |r_t| <= mu r_n, sliding against u_t. W = H^T M^-1 H is
-  // symmetric and positive semi-definite. q contains the gap and restitution terms of the contacts.
+  // symmetric and positive semi-definite. `q` contains the gap and restitution terms of the contacts.
   struct DelassusProblem
   {
     std::vector<std::size_t>      row_begin = {0}; // (contacts + 1): blocks of contact k are row_begin[k] .. row_begin[k+1] - 1
@@ -60,17 +60,14 @@ namespace diptych::discrete
   // The larger of max|W_a - W_b| / max|W_a| and max|q_a - q_b| / max|q_a|. Infinity if the numbers of contacts differ.
   double relative_difference(const DelassusProblem &a, const DelassusProblem &b);
 
-  // u = W r + q.
   std::vector<RelativeVelocity> relative_velocities(const DelassusProblem &problem, const std::vector<Impulse> &impulses);
 
-  // Natural map ||r - P(r)||_2 / ||r||_2, where P solves every contact for itself with its own W_nn and W_tt, as in the body
-  // form. Returns 0 if both r and P(r) vanish and infinity if only r vanishes.
+  // Natural map ||r - P(r)||_2 / ||r||_2 as in the body form (natural_map.h).
   double natural_map_residual(const DelassusProblem &problem, const std::vector<Impulse> &impulses);
 
   // The error that Siconos' 2D solvers report: ||r - P_K(r - (u_n + mu |u_t|, u_t))||_2 / max(||r||, ||u||, ||q||), where P_K
-  // projects onto Coulomb's cone (Acary & Brogliato 2008, A.13). It mixes impulses and velocities, so it depends on the unit of
-  // mass. Open contacts with a large q make its scale large and its value small. Use it for comparison, not as a stopping
-  // criterion.
+  // projects onto Coulomb's cone (Acary & Brogliato 2008, A.13). It depends on the unit of mass, and open contacts with a large
+  // q make it small. Use it for comparison, not as a stopping criterion.
   double siconos_residual(const DelassusProblem &problem, const std::vector<Impulse> &impulses);
 
   // Solves in place from the given first guess. The number of sweeps depends on their order. `nsgs` solves the 2x2 problem of

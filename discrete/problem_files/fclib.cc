@@ -21,7 +21,6 @@ namespace diptych::discrete
           file.refuse(matrix, "equality constraints are not supported");
     }
 
-    // Checks the common part of both descriptions and returns mu.
     Eigen::VectorXd read_friction(const FclibInput &file, const std::string &group)
     {
       if (!file.has(group))

@@ -63,11 +63,10 @@ namespace diptych::discrete
     std::string title, description;
   };
 
-  // Writes /fclib_local and /fclib_global by rows, with the contacts in the order of the problem. The file is written as
-  // `path`.part and then renamed. The third component of a body in /fclib_global is its surface speed. With a geometry, /nscd is
-  // written too, from which the body form can be restored, unless a contact acts on a free cell. With impulses (one per contact)
-  // /solution is written too. Throws std::runtime_error if the file cannot be written and std::invalid_argument if sizes do not
-  // match.
+  // Writes /fclib_local and /fclib_global by rows to `path`.part, then renames it. Contacts keep the order of the problem; the
+  // third component of a body in /fclib_global is its surface speed. A geometry adds /nscd, from which the body form can be
+  // restored, unless a contact acts on a free cell. Impulses (one per contact) add /solution. Throws std::runtime_error if the
+  // file cannot be written and std::invalid_argument if sizes do not match.
   void write_fclib(const std::string                   &path,
                    const ContactProblem                &problem,
                    const StoredText                    &about,

@@ -11,7 +11,6 @@ namespace diptych::discrete
 {
   namespace
   {
-    // Contents of the group /nscd.
     struct NscdGroup
     {
       std::vector<double> inverse_mass, free_velocity, normal, tangent, offset, radius, position;
@@ -104,7 +103,6 @@ namespace diptych::discrete
       return {nx, ny, i, j, 0, -1, spin(i), spin(j), jx, jy, cn, ct, friction, 1 / wnn, 1 / wtt};
     }
 
-    // Largest |W_nt| / sqrt(W_nn W_tt) of a contact's own block.
     double own_coupling(const ContactProblem &problem)
     {
       double largest = 0;
@@ -113,7 +111,6 @@ namespace diptych::discrete
       return largest;
     }
 
-    // Contacts from bottom to top, the order of the sweeps.
     std::vector<int> upwards(const NscdGroup &g, const ContactProblem &problem)
     {
       std::vector<double> height;

@@ -79,7 +79,6 @@ namespace diptych::discrete
     return Eigen::Map<const Eigen::VectorXd>(values.data(), Eigen::Index(n));
   }
 
-  // Entries from offsets `p` along one direction and indices `i` along the other.
   FclibInput::Places FclibInput::compressed(const std::string &name, const int n_lines) const
   {
     const std::vector<int> p = integers(name + "/p"), i = integers(name + "/i");
@@ -96,7 +95,6 @@ namespace diptych::discrete
     return entries;
   }
 
-  // (row, column) of each entry, for any storage.
   FclibInput::Places FclibInput::places(const std::string &name, const int m, const int n) const
   {
     const int nz = integer(name + "/nz");

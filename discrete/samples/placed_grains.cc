@@ -111,7 +111,8 @@ namespace diptych::discrete
     if (std::holds_alternative<PeriodicSides>(preparation.lateral))
       {
         if (o.width <= 0)
-          throw std::invalid_argument("sample/width = 0: for a periodic sample from a file, give its period here");
+          throw WrongKeys({"sample/width", "discrete/lateral"},
+                          "sample/width = 0: for a periodic sample from a file, give its period here");
         state.cell     = PeriodicCell{o.width};
         box.cell_width = o.width;
         state.walls.resize(2);

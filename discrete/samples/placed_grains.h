@@ -8,18 +8,17 @@
 #include <vector>
 
 #include "discrete/files/out_of_memory.h"
+#include "discrete/files/wrong_keys.h"
 #include "discrete/samples/sample_file.h"
 #include "discrete/samples/sample_options.h"
 
 namespace diptych::discrete
 {
-  // Lower and upper platen, left and right side of a box at the origin [length].
   std::vector<Wall> box_walls(double width, double height);
 
   // Default inertia of a wall or cell width that moves under a force: sqrt(number of grains) x mean grain mass.
   double default_wall_mass(const Grains &grains);
 
-  // Sets up side walls or cell for the lateral condition during the preparation.
   void set_sides(State &state, const PreparationSetting &setting);
 
   // Reads the file of a key. Wrong input and a lack of memory are reported with file and key. Other exceptions pass.
@@ -29,6 +28,10 @@ namespace diptych::discrete
       {
         return read(file);
       }
+    catch (const WrongKeys &)
+      {
+        throw;
+      }
     catch (const std::exception &error)
       {
         if (dynamic_cast<const std::invalid_argument *>(&error) == nullptr && !is_out_of_memory(error))
@@ -37,7 +40,6 @@ namespace diptych::discrete
       }
   }
 
-  // Grains from a file between platens and sides, checked.
   struct FileSample
   {
     State                      state;
@@ -53,7 +55,6 @@ namespace diptych::discrete
                                         const PreparationSetting    &preparation,
                                         const std::function<bool()> &go_on);
 
-  // Reads the whole file of the sample. Throws std::invalid_argument with key, file, place and range if it is wrong. Calls
-  // `check_stop` between its lines.
+  // Reads the whole file of the sample. Throws std::invalid_argument with key, file, place and range.
   void check_sample_file(const SampleOptions &options, const PreparationSetting &setting, const CheckStop &check_stop = {});
 } // namespace diptych::discrete

@@ -38,14 +38,13 @@ namespace diptych::discrete
   };
 
   // n >= 1 radii, ascending: the quantiles (k + 1/2)/n of the distribution by number. All seeds of a sample therefore have the
-  // same radii, and only the places are random. Throws std::invalid_argument with parameter, value and range if the distribution
-  // is not valid (see validate).
+  // same radii at random places. Throws as validate().
   std::vector<double> radius_quantiles(const RadiusDistribution &distribution, int n, RadiusScale scale = RadiusScale::as_given);
 
   // Throws std::invalid_argument with parameter, value and range unless 0 < min <= max, or the table obeys the comments above.
   void validate(const RadiusDistribution &distribution);
 
-  // CSV file with the columns `radius` and `passing`. passing is a fraction if its last value is 1, and per cent if it is 100.
+  // CSV file with the columns `radius` and `passing`. `passing` is a fraction if its last value is 1, and per cent if it is 100.
   // Throws std::invalid_argument with file, line, column, value and range.
   RadiusTable read_radius_table(const std::string &path);
 } // namespace diptych::discrete

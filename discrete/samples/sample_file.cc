@@ -70,7 +70,6 @@ namespace diptych::discrete
       return wanted == -1 ? n_stages - 1 : wanted;
     }
 
-    // Reads datasets of one stage and refuses wrong ones by name.
     struct StageReader
     {
       // Position of a wall; NaN if there is none or the file does not contain it.
@@ -164,7 +163,6 @@ namespace diptych::discrete
       return grains;
     }
 
-    // Body i must be a grain, and j > i a grain or one of the walls.
     void check_pair(const StageReader &stage, const std::size_t row, const double i, const double j, const std::size_t n_grains)
     {
       const bool whole = i == std::floor(i) && j == std::floor(j);
@@ -222,7 +220,6 @@ namespace diptych::discrete
         }
     }
 
-    // Overlap / smaller radius.
     double relative_overlap(const Grains &g, const Contact &c)
     {
       return -c.gap / std::min(g.radius[c.i], g.radius[c.j]);

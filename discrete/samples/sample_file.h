@@ -23,7 +23,6 @@ namespace diptych::discrete
     std::vector<PairImpulse> impulses;         // closed contacts, ascending in (i, j); sign as in State; may be empty
   };
 
-  // Grains and the place of each grain in its file.
   struct GrainFile
   {
     std::string                path;
@@ -45,12 +44,11 @@ namespace diptych::discrete
 
   // Reads a CSV file. Its header names x, y, r and, optionally, vx, vy, omega and fixed in any order; missing columns are 0. x, y
   // and r are centre and radius [length; radius 1e-12 to 1e12], vx and vy the velocity [length/time], omega the anticlockwise
-  // spin [rad/time]. fixed is a value of Grains::fixed. Rotations start from 0 and masses are density x pi r^2 (density:
+  // spin [rad/time]. `fixed` is a value of Grains::fixed. Rotations start from 0 and masses are density x pi r^2 (density:
   // mass/length^2 per unit thickness). Throws std::invalid_argument with file, line, column, value and range (see read_csv).
   GrainFile read_grains_csv(const std::string &path, double density, const CheckStop &check_stop = {});
 
-  // Writes such a file with all columns. The numbers read back with the same bits; rotations and masses are lost. Throws
-  // std::runtime_error if the file cannot be written.
+  // Writes such a file with all columns. The numbers read back with the same bits; rotations and masses are lost.
   void write_grains_csv(const std::string &path, const Grains &grains);
 
   // Grains of one stage (default: the last) of a file of write_snapshots. If grains/fixed is absent, all grains are free. Throws
@@ -58,12 +56,11 @@ namespace diptych::discrete
   // The message contains file, dataset, row, value and range.
   GrainFile read_grains_hdf5(const std::string &path, int stage = -1);
 
-  // Throws std::invalid_argument with the grains' places, values and range in two cases: a disc reaches beyond a platen or side
-  // wall by more than allowed_overlap x radius, or two discs (or images in a cell) overlap by more than that share of the smaller
-  // radius. Fixed grains may overlap each other and straddle walls, as in rough bottoms, because neither gives way.
+  // Throws std::invalid_argument with the grains' places, values and range. A disc may reach beyond a platen or side wall by
+  // allowed_overlap x radius. Two discs (or images in a cell) may overlap by that share of the smaller radius. Fixed grains may
+  // overlap each other and straddle walls, as in rough bottoms, because neither gives way.
   void check_grains(const GrainFile &file, const SampleBox &box, double allowed_overlap);
 
-  // CSV file with the columns `time` (ascending) and `column`; other columns are ignored. Throws std::invalid_argument with file,
-  // line, column, value and range.
+  // CSV file with the columns `time` (ascending) and `column`; others are ignored. Throws std::invalid_argument with the place.
   TimeTable read_time_table(const std::string &path, const std::string &column);
 } // namespace diptych::discrete

@@ -11,6 +11,7 @@
 
 #include "discrete/bodies/outline.h"
 #include "discrete/files/csv_file.h"
+#include "discrete/files/wrong_keys.h"
 #include "discrete/samples/placed_grains.h"
 #include "discrete/samples/sample_file.h"
 #include "discrete/samples/settling.h"
@@ -54,7 +55,6 @@ namespace diptych::discrete
       return area;
     }
 
-    // Radii of a thousand grains of the distribution. [length]
     std::vector<double> typical_radii(const SampleOptions &o)
     {
       std::vector<double> radius = radius_quantiles(distribution(o), 1000, RadiusScale::mean_diameter_one);
@@ -63,7 +63,6 @@ namespace diptych::discrete
       return radius;
     }
 
-    // Width and height of the sample from the grain area and the keys.
     Eigen::Vector2d sample_size(const SampleOptions &o, const double area)
     {
       const double whole = area / o.solid_fraction;
@@ -118,7 +117,6 @@ namespace diptych::discrete
       return sorted;
     }
 
-    // Stops everything and removes all forces on walls and cell.
     void bring_to_rest(State &state)
     {
       stop(state);
@@ -129,7 +127,6 @@ namespace diptych::discrete
       state.time = 0;
     }
 
-    // Throws std::invalid_argument if no free grain remains.
     void roughen_platens(State &state)
     {
       Grains   &g = state.grains;
@@ -170,7 +167,6 @@ namespace diptych::discrete
       return disc_area(state.grains.radius) / outline_area(make_outline(state, mean_diameter));
     }
 
-    // Takes steps until the sample is at rest, and then further ones that remove the overlaps.
     PreparedSample compact(State                                start,
                            const SampleOptions                 &options,
                            StepSetting                          setting,
@@ -308,19 +304,18 @@ namespace diptych::discrete
       return sample;
     }
 
-    // A generated sample must have enough grains and room for them.
     void check_size(const SampleOptions &o)
     {
       constexpr double fewest = 10, most = 1e7;
       if (const double n = expected_grains(o); !(n >= fewest && n <= most))
-        throw std::invalid_argument("sample/width = " + exact_text(o.width) + " and sample/height = " + exact_text(o.height) +
-                                    " hold " + exact_text(std::round(n)) + " grains; allowed: 10 to 1e+07");
+        throw WrongKeys({"sample/width", "sample/height"},
+                        "sample/width and sample/height hold " + exact_text(std::round(n)) + " grains; allowed: 10 to 1e+07");
       const Eigen::Vector2d size = expected_size(o);
       if (const double least = 2 * typical_radii(o).back(); !(size.minCoeff() >= least))
-        throw std::invalid_argument("sample/width = " + exact_text(o.width) + ", sample/height = " + exact_text(o.height) +
-                                    " and sample/width_over_height = " + exact_text(o.width_over_height) + " make a sample of " +
-                                    exact_text(size.x()) + " x " + exact_text(size.y()) +
-                                    "; both must be at least the diameter of the largest grain, " + exact_text(least));
+        throw WrongKeys({"sample/width", "sample/height", "sample/width_over_height"},
+                        "sample/width, height and width_over_height make a sample of " + exact_text(size.x()) + " x " +
+                          exact_text(size.y()) + "; both must be at least the diameter of the largest grain, " +
+                          exact_text(least));
     }
   } // namespace
 
@@ -341,27 +336,36 @@ namespace diptych::discrete
   void validate(const SampleOptions &o)
   {
     if (o.radius_distribution == RadiusKind::uniform_by_number && std::abs(o.radius_min + o.radius_max - 1) > 1e-9)
-      throw std::invalid_argument("sample/radius_min + sample/radius_max is " + exact_text(o.radius_min + o.radius_max) +
-                                  " mean diameters; it must be 1, so that radii uniform by number have the mean diameter 1");
+      throw WrongKeys({"sample/radius_min", "sample/radius_max"},
+                      "sample/radius_min + sample/radius_max is " + exact_text(o.radius_min + o.radius_max) +
+                        " mean diameters; it must be 1, so that radii uniform by number have the mean diameter 1");
+    if (o.radius_distribution != RadiusKind::table && o.radius_max < o.radius_min)
+      throw WrongKeys({"sample/radius_max", "sample/radius_min"},
+                      "sample/radius_max = " + exact_text(o.radius_max) +
+                        " is less than sample/radius_min = " + exact_text(o.radius_min));
     if (o.box_solid_fraction > o.solid_fraction)
-      throw std::invalid_argument("sample/box_solid_fraction " + exact_text(o.box_solid_fraction) +
-                                  " exceeds sample/solid_fraction " + exact_text(o.solid_fraction));
+      throw WrongKeys({"sample/box_solid_fraction", "sample/solid_fraction"},
+                      "sample/box_solid_fraction " + exact_text(o.box_solid_fraction) + " exceeds sample/solid_fraction " +
+                        exact_text(o.solid_fraction));
     if (o.radius_distribution == RadiusKind::table && o.radius_table.empty())
-      throw std::invalid_argument("sample/radius_distribution = table: sample/radius_table must name the CSV file");
+      throw WrongKeys({"sample/radius_distribution", "sample/radius_table"},
+                      "sample/radius_distribution = table: sample/radius_table must name the CSV file");
     if (!o.radius_table.empty() && o.radius_distribution != RadiusKind::table)
-      throw std::invalid_argument("sample/radius_table = '" + o.radius_table +
-                                  "' is used only with sample/radius_distribution = table, not " +
-                                  name_of(o.radius_distribution));
+      throw WrongKeys({"sample/radius_table", "sample/radius_distribution"},
+                      "sample/radius_table = '" + o.radius_table +
+                        "' is used only with sample/radius_distribution = table, not " + name_of(o.radius_distribution));
     if (o.radius_distribution == RadiusKind::table)
       (void)read_for("radius_table", o.radius_table, read_radius_table);
     if (o.file.empty())
       check_size(o);
     if (o.lower_platen && o.upper_platen && *o.lower_platen >= *o.upper_platen)
-      throw std::invalid_argument("sample/lower_platen " + exact_text(*o.lower_platen) + " is not below sample/upper_platen " +
-                                  exact_text(*o.upper_platen));
+      throw WrongKeys({"sample/lower_platen", "sample/upper_platen"}, "sample/lower_platen " + exact_text(*o.lower_platen) +
+                                                                        " is not below sample/upper_platen " +
+                                                                        exact_text(*o.upper_platen));
     if (o.left_wall && o.right_wall && *o.left_wall >= *o.right_wall)
-      throw std::invalid_argument("sample/left_wall " + exact_text(*o.left_wall) + " is not left of sample/right_wall " +
-                                  exact_text(*o.right_wall));
+      throw WrongKeys({"sample/left_wall", "sample/right_wall"}, "sample/left_wall " + exact_text(*o.left_wall) +
+                                                                   " is not left of sample/right_wall " +
+                                                                   exact_text(*o.right_wall));
   }
 
   PreparedSample prepare_sample(const SampleOptions                 &options,

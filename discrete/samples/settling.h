@@ -12,8 +12,7 @@ namespace diptych::discrete
   {
     double largest_overlap  = 0; // largest overlap that may remain, between grains and with walls [length]
     double unbalanced_force = 0; // mean over grains / mean contact force that may remain
-    // During the first patient_steps steps a tenth of unbalanced_force is required. Afterwards unbalanced_force is sufficient,
-    // because tiny and slender samples never reach a tenth of it.
+    // The first patient_steps steps require a tenth of unbalanced_force, which tiny and slender samples never reach.
     int patient_steps = 0;
     int most_steps    = 0;
   };
@@ -31,7 +30,6 @@ namespace diptych::discrete
   // same friction. `go_on` is called before each step.
   Settled settle(State &state, StepSetting setting, const SettlingOptions &options, const std::function<bool()> &go_on);
 
-  // Sets all velocities to zero.
   void stop(State &state);
 
   // True if grains press on each other. Between rigid walls a grain that presses on a wall also counts. Without sides there is no

@@ -13,7 +13,6 @@ namespace diptych::discrete
   {
     using Vectors = std::vector<Eigen::Vector2d>;
 
-    // Forces for unit stiffness, i.e. force = overlap. Returns the largest overlap.
     double contact_forces(const std::vector<Contact> &contacts, Vectors &force)
     {
       double largest = 0;

@@ -36,7 +36,6 @@ namespace diptych::discrete
       return {read(c.normal), read(c.tangential)};
     }
 
-    // The law of contact_law.h on four contacts of discs.
     DIPTYCH_INLINE Parts<Four> local_solution(const ContactBatch &c,
                                               const double       *tangential_term,
                                               const Bodies       &bi,
@@ -52,7 +51,6 @@ namespace diptych::discrete
       return signorini_coulomb(terms, u, r, relaxation(terms.friction, r, zero + sticking, zero + slipping));
     }
 
-    // Adds M^-1 H dr to the velocities.
     DIPTYCH_INLINE void apply(const ContactBatch &c, const Parts<Four> &dr, Bodies &bi, Bodies &bj)
     {
       const auto [px, py] = as_vector(read(c.nx), read(c.ny), dr);
@@ -103,7 +101,6 @@ namespace diptych::discrete
       }
   }
 
-  // Sums |r - P(r)|^2 and |r|^2 over the batches, lane by lane.
   DIPTYCH_FOR_EACH_MACHINE void add_squares(const ContactBatch          *batches,
                                             const std::array<double, 4> *terms,
                                             const std::size_t            n,

@@ -50,7 +50,6 @@ namespace diptych::discrete
     }
   } // namespace
 
-  // True for two discs, or a disc and a body with prescribed motion.
   bool BatchedContacts::fits_a_batch(const ContactRow &c) const
   {
     const double wi = problem_.free_velocity[c.i].inverse_mass, wj = problem_.free_velocity[c.j].inverse_mass;
@@ -90,7 +89,7 @@ namespace diptych::discrete
       n_blocks /= 2;
   }
 
-  // Returns false if a contact would join blocks that are not neighbours, or if a body has contacts in two gaps between blocks.
+  // False: a contact would join blocks that are not neighbours, or a body has contacts in two gaps between blocks.
   bool BatchedContacts::cut(const std::vector<int> &rows, const int n_blocks)
   {
     const std::size_t n_bodies = problem_.free_velocity.size();
@@ -136,8 +135,8 @@ namespace diptych::discrete
     return true;
   }
 
-  // First fit. A batch takes, from a window of 64 waiting rows, the oldest ones that share no moving body. As far as the window
-  // allows, they also share no moving body with the previous batch, because then the sweep need not wait for its velocities.
+  // First fit. A batch takes, from a window of 64 waiting rows, the oldest ones that share no moving body. If possible they
+  // share no moving body with the previous batch either: then the sweep need not wait for its velocities.
   BatchedContacts::Part BatchedContacts::make_part(const std::vector<int> &rows)
   {
     std::vector<int> own; // immovable bodies, each with a private copy

@@ -11,12 +11,12 @@
 
 namespace diptych::discrete
 {
-  // The contacts of a problem, cut in sweep order into blocks of similar size that share no grain, and the contacts between
-  // neighbouring blocks. A sweep takes all blocks, then the contacts between blocks, then the rows that do not fit a batch (walls
-  // under a force, the edge of a free cell). Contacts that are open in the guess have batches of their own; in sheared samples
-  // these are a third of the rows. Such a batch is idle: it is swept every `idle_every` sweeps and at the last sweep of a call,
-  // until one of its four contacts acts. Blocks depend only on the problem, so every number of threads gives the same bits. The
-  // order within a batch does not matter, so every instruction set does too.
+  // The contacts of a problem, cut in sweep order into blocks of similar size that share no grain. Contacts between
+  // neighbouring blocks are separate. A sweep takes all blocks, then the contacts between blocks. Rows that do not fit a batch
+  // come last (walls under a force, the edge of a free cell). Contacts that are open in the guess have batches of their own; in
+  // sheared samples these are a third of the rows. Until one of its four contacts acts, such a batch is idle: swept every
+  // `idle_every` sweeps and at the last one of a call. Blocks depend only on the problem, so every number of threads gives the
+  // same bits. The order within a batch does not matter, so every instruction set does too.
   class BatchedContacts
   {
   public:
@@ -50,7 +50,6 @@ namespace diptych::discrete
   private:
     static constexpr int idle_every = 5;
 
-    // Unit of work of one thread.
     struct Part
     {
       std::vector<ContactBatch>          batches;

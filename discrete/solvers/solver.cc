@@ -13,7 +13,6 @@ namespace diptych::discrete
 {
   namespace
   {
-    // Sweeps row by row in the order of the problem.
     SolveReport solve_nsgs(const ContactProblem &problem,
                            const SolverOptions  &options,
                            std::vector<Impulse> &impulses,

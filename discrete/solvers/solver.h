@@ -10,12 +10,12 @@
 
 namespace diptych::discrete
 {
-  // A condition in addition to the residual. It is called at checks where the residual is below the tolerance, with the report so
-  // far and a function that returns the present impulses.
+  // A condition in addition to the residual. It is called where the residual is below the tolerance. Arguments: the report so
+  // far, and a function that returns the present impulses.
   using StopTest = std::function<bool(const SolveReport &, const std::function<std::vector<Impulse>()> &impulses)>;
 
   // Solves in place from the given first guess (one impulse per contact). If the residual is already below the tolerance, this
-  // costs one check and no sweep. psor gives the same bits for every size of the team. nsgs uses one thread.
+  // costs one check and no sweep. `psor` gives the same bits for every size of the team. `nsgs` uses one thread.
   SolveReport solve(const ContactProblem &problem,
                     const SolverOptions  &options,
                     std::vector<Impulse> &impulses,

@@ -21,8 +21,7 @@ namespace diptych::discrete
     double               residual(ThreadTeam &team) const { return batches_->residual(team); }
     std::vector<Impulse> impulses() const { return batches_->impulses(); }
 
-    // To be called if the residual stagnates. Returns false if a few contacts are not the cause; then all contacts are swept
-    // alike.
+    // To be called if the residual stagnates. Returns false if no few contacts are the cause; then all are swept alike.
     bool relieve();
 
     int n_relieved() const { return int(held_.size()); } // contacts that are iterated alone at present

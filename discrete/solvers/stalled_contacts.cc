@@ -12,7 +12,6 @@ namespace diptych::discrete
 {
   namespace
   {
-    // Squares of r - P(r) for each contact.
     std::vector<double> natural_map_squares(const ContactProblem &problem, const std::vector<Impulse> &impulses)
     {
       const std::vector<BodyVelocity> v = velocities(problem, impulses);
@@ -26,7 +25,6 @@ namespace diptych::discrete
       return squares;
     }
 
-    // The fewest contacts that make up `share` of the sum.
     std::vector<int> largest(const std::vector<double> &squares, const double share)
     {
       std::vector<int> by_size(squares.size());

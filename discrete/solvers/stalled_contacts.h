@@ -8,9 +8,9 @@
 
 namespace diptych::discrete
 {
-  // The contacts that make up four fifths of |r - P(r)|^2, together with all contacts between the bodies of these and of the
-  // contacts in `held`, ascending. Empty if these are more than a twentieth of all (60 to 250), because then the sweeps do not
-  // stall on a few contacts.
+  // The contacts that make up four fifths of |r - P(r)|^2, ascending. All contacts between their bodies and those of `held` are
+  // included. Empty if these are more than a twentieth of all (60 to 250), because then the sweeps do not stall on a few
+  // contacts.
   std::vector<int> stalled_contacts(const ContactProblem       &problem,
                                     const std::vector<Impulse> &impulses,
                                     const std::vector<int>     &held);

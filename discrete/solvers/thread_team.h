@@ -22,13 +22,10 @@ namespace diptych::discrete
 
     int size() const { return int(workers_.size()) + 1; }
 
-    // Calls work(0) here and work(k) on every other thread. Returns when all are done.
     void run(const std::function<void(int)> &work);
 
-    // To be called by every thread of a run. No thread continues before all have arrived.
     void barrier();
 
-    // Waits, within a run, until another thread has made done() true.
     template <class Done> static void wait_until(const Done &done) { (void)wait_awake(done, for_ever); }
 
   private:

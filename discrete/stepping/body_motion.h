@@ -12,7 +12,6 @@ namespace diptych::discrete
   // q += duration v for grains, walls and the cell.
   void drift(State &state, double duration);
 
-  // Gives the velocities of a solved problem to free grains, walls and the cell.
   void take_velocities(const std::vector<BodyVelocity> &v, State &state);
 
   // Stores the impulses of the acting contacts, and their change from `previous`, for the first guess of the next step.

@@ -42,16 +42,13 @@ namespace diptych::discrete
   // ||a - b||_2 / ||b||_2; 0 if both vanish, infinity if only b does.
   double relative_difference(const std::vector<double> &a, const std::vector<double> &b);
 
-  // Estimates the error of the grain stress from the iterates, because the residual does not show it. Where grains are pressed
-  // together and move slowly, the sweeps pass one near-solution after another. At a residual of 1e-5 the stress may then be wrong
-  // by 2 % or by 50 %. The changes due to the sweeps depend on the logarithm of their number. Let D_k = ||M(2^k) - M(2^(k-1))|| /
-  // ||M(2^k)|| be the change in a doubling, M the contact moments and q the larger of the last two ratios D_k / D_(k-1), at least
-  // 0.7. The estimate is four times the rest of a geometric series:
+  // Estimates the error of the grain stress from the iterates, because the residual does not show it. In slow flow the sweeps
+  // pass one near-solution after another: at a residual of 1e-5 the stress may be wrong by 2 % or by 50 %. D_k = ||M(2^k) -
+  // M(2^(k-1))|| / ||M(2^k)|| is the change in a doubling of the sweeps, with the contact moments M. Let q be the larger of the
+  // last two ratios D_k / D_(k-1), at least 0.7. The estimate is four times the rest of a geometric series:
   //   E = 4 D_k q / (1 - q),   unknown (infinity) for q >= 0.9
-  // In 56 solves with 300 discs (eight samples) the error exceeded twice the rest in 14 solves, and E in 4. E is not a bound: the
-  // iterates may pause on a plateau before a last change, or another exact solution may be near. Then the error may be four times
-  // as large (once in 56). In slow flow the changes grow for 10^5 sweeps, and the error remains unknown. This is right, because
-  // the iterates have hardly left the warm start. Checked against solutions at 1e-9 (tests, benchmarks/contact_solver).
+  // E is not a bound: it was too small in 4 of 56 solves with 300 discs, once by a factor of four. In slow flow the changes
+  // grow for 10^5 sweeps, and the error remains unknown.
   class GrainStressError
   {
   public:
@@ -84,13 +81,11 @@ namespace diptych::discrete
     double stress_change = 0;     // in the last doubling of the sweeps
     bool   reached       = false; // below snapshot_accuracy
     // Of the copy that was solved further: its residual, the difference from it, and the ratio of that difference to the
-    // residual. NaN if no copy was requested. The ratio is also NaN if the copy's residual did not fall below a tenth of the
-    // first one, because then the copy is no reference.
+    // residual. NaN if no copy was requested. The ratio is also NaN if the copy's residual is above a tenth of the first one.
     double reference_residual = std::numeric_limits<double>::quiet_NaN(), true_error = reference_residual;
     double error_over_residual = reference_residual;
   };
 
-  // A contact problem with the geometry that the moments need.
   struct SampledProblem
   {
     const ContactProblem       &problem;
@@ -98,9 +93,9 @@ namespace diptych::discrete
     const std::vector<Contact> &contacts;
   };
 
-  // Solves to the tolerance of `solver` and then further. It ends if the estimate is below the wanted accuracy, the residual is
-  // below 1e-9 (estimate: 0), the estimate is hopeless, or the sweeps are used up. The ratio is measured only if the accuracy was
-  // reached. The report says whether the tolerance was met, `accuracy` contains the rest.
+  // Solves to the tolerance of `solver` and then further. It ends if the estimate is below the wanted accuracy or hopeless, the
+  // residual below 1e-9 (estimate: 0), or no sweep is left. The ratio is measured only if the accuracy was reached. The report
+  // says whether the tolerance was met, `accuracy` contains the rest.
   SolveReport solve_sampled(const SampledProblem &sampled,
                             const SolverOptions  &solver,
                             const SampleRequest  &request,

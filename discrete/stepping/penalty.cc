@@ -29,7 +29,6 @@ namespace diptych::discrete
         throw std::invalid_argument("penalty steps need step > 0");
     }
 
-    // True if a grain travels more than its radius in a step, or if anything is not finite.
     bool has_blown_up(const State &state, const double h)
     {
       const Grains &g = state.grains;

@@ -37,9 +37,9 @@ namespace diptych::discrete
   // grains that press on them. Throws std::invalid_argument if no grain is free.
   double penalty_step(const Grains &grains, double stiffness, double fraction);
 
-  // Data that penalty steps keep besides the State. A checkpoint does not need them: tangential springs are in State::impulses,
-  // normal ones in the positions, and the neighbour list is a cache that changes no bit. A run resumed with a fresh PenaltyState
-  // and the same step therefore gives the same bits.
+  // Data that penalty steps keep besides the State. A checkpoint does not need them: State::impulses hold the tangential
+  // springs, the positions the normal ones. The neighbour list changes no bit. A run resumed with a fresh PenaltyState and the
+  // same step therefore gives the same bits.
   struct PenaltyState
   {
     // State::impulses divided by this step give forces; 0: the step of the setting. Set it only if the last step of the State had
@@ -60,11 +60,10 @@ namespace diptych::discrete
   // of the step, prescribed velocities at its end.
   //
   // Energies are those of StepLedger with two differences. friction_dissipation, also per contact, is only the work of sliding.
-  // impact_dissipation is that of the dashpots PLUS THE CHANGE OF THE ELASTIC ENERGY of both springs. So the ledger still closes
-  // to round-off.
+  // To close the ledger, impact_dissipation contains the dashpots and the CHANGE OF THE ELASTIC ENERGY of both springs.
   //
-  // The method does not iterate: `solve` is converged with no sweeps. If a grain is not finite or travels more than its radius in
-  // a step (blow-up), `solve` is blown_up with an infinite residual, and the state stays unchanged. Throws std::invalid_argument
-  // if kn = options.stiffness x setting.pressure or the step is not positive.
+  // The method does not iterate: `solve` is converged with no sweeps. In a blow-up a grain is not finite or travels more than
+  // its radius in a step. Then `solve` is blown_up with an infinite residual, and the state stays unchanged. Throws
+  // std::invalid_argument if kn = options.stiffness x setting.pressure or the step is not positive.
   StepResult advance_penalty(State &state, PenaltyState &penalty, const StepSetting &setting, const PenaltyOptions &options);
 } // namespace diptych::discrete

@@ -12,7 +12,6 @@ namespace diptych::discrete
 {
   namespace
   {
-    // m (v^2 + s^2/2)/2, since I omega^2 = m s^2/2.
     double kinetic(const double mass, const BodyVelocity &v)
     {
       return 0.5 * mass * (v.x * v.x + v.y * v.y + 0.5 * v.surface * v.surface);
@@ -126,8 +125,7 @@ namespace diptych::discrete
         }
     }
 
-    // The width of the cell is a body under -pressure x height, or it has a prescribed motion that works against the impulses
-    // across the edge.
+    // A free width of the cell is a body under -pressure x height. A prescribed one works against the impulses across the edge.
     void add_cell(const SolvedStep &s, StepEnergies &e)
     {
       if (!s.state.cell || !s.state.cell->moves())

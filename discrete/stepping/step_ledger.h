@@ -9,9 +9,9 @@
 
 namespace diptych::discrete
 {
-  // Work of one step. kinetic_change = external_work - friction_dissipation - impact_dissipation to round-off, because
-  // momentum is balanced over the step: sum r.(u + u')/2 is the work of the impulses. Free walls and a free cell width are
-  // bodies with kinetic energy like grains. Prescribed walls and fixed grains do external work. [energy]
+  // Work of one step. kinetic_change = external_work - friction_dissipation - impact_dissipation to round-off. Momentum is
+  // balanced over the step, so sum r.(u + u')/2 is the work of the impulses. Free walls and a free cell width are bodies with
+  // kinetic energy like grains. Prescribed walls and fixed grains do external work. [energy]
   struct StepEnergies
   {
     double kinetic = 0, kinetic_change = 0, external_work = 0, friction_dissipation = 0, impact_dissipation = 0;
@@ -28,7 +28,7 @@ namespace diptych::discrete
     double momentum_residual = 0; // |sum m dv - h F - impulses of walls and fixed grains| / (sum |r| + sum m |v|)
   };
 
-  // A solved step: positions at mid-step, velocities before and after, and what acted.
+  // A solved step: positions at mid-step, velocities before and after, contacts and forces.
   struct SolvedStep
   {
     const State                        &state;

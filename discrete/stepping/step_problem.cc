@@ -38,7 +38,6 @@ namespace diptych::discrete
       return {c.i, platen >= 0 ? n + platen : c.j};
     }
 
-    // Sets geometry and mobilities of a row, i.e. everything except the terms of the law.
     void set_kinematics(const State &state, const Contact &c, const std::vector<BodyVelocity> &v, ContactRow &row)
     {
       const int       n      = int(state.grains.size());

@@ -28,7 +28,6 @@ namespace diptych::discrete
                               const std::vector<BodyVelocity> &v,
                               ContactProblem                   problem);
 
-  // Impulse of a contact as a vector on body i.
   inline Eigen::Vector2d impulse_vector(const Contact &c, const Impulse &r)
   {
     return {c.normal.x() * r.normal - c.normal.y() * r.tangential, c.normal.y() * r.normal + c.normal.x() * r.tangential};
@@ -37,6 +36,5 @@ namespace diptych::discrete
   // Share of its penetration that a closed contact removes within the step through its normal term.
   double corrected_share(const StepOptions &time);
 
-  // Coulomb coefficient between a grain and body j.
   double friction_of(const State &state, const StepSetting &setting, int body_j);
 } // namespace diptych::discrete

@@ -94,13 +94,13 @@ namespace diptych::discrete
       return std::pow(std::max(1., n_grains / grains_of_rule), power_of_grains);
     }
 
-    // Error for 1000 grains. step is in the unit of time, noise = tolerance x step / I.
+    // Error for 1000 grains. `step` is in the unit of time, noise = tolerance x step / I.
     double dilation_error(const double step, const double noise)
     {
       return noise * (dilation_of_noise + dilation_of_noise_and_step * step);
     }
 
-    // Step, in the unit of time, at which a tolerance causes the allowed error. per_step: noise / step.
+    // Step, in the unit of time, at which a tolerance causes the allowed error. `per_step`: noise / step.
     double longest_step(const double allowed, const double per_step)
     {
       const double a = dilation_of_noise_and_step, b = dilation_of_noise;

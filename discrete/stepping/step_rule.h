@@ -37,7 +37,7 @@ namespace diptych::discrete
     AccuracyOptions accuracy    = {};
   };
 
-  // Result of the rule. An accuracy above 0.05 counts as 0.05. d is the mean diameter, rho the density of the grains.
+  // Result of the rule. An accuracy above 0.05 counts as 0.05. Symbols: mean diameter d, density rho of the grains.
   struct StepChoice
   {
     double      step;  // the smallest bound [time]
@@ -52,9 +52,8 @@ namespace diptych::discrete
   //            speed of a table counts as a speed of the wall
   //   gravity  0.3 sqrt(d/g)
   //   strength accuracy / (0.05 / (d sqrt(rho/s)) + 55 rate): what long steps add to the strength; at most 0.4 d sqrt(rho/s)
-  //   solver   the step at which the tolerance costs 1.25 accuracy of the dilation; tolerance auto counts as 1e-3 accuracy,
-  //   because
-  //            sweeps wander below that residual
+  //   solver   the step at which the tolerance causes a relative error of the dilation of 1.25 accuracy; auto counts as
+  //            1e-3 accuracy here, because sweeps wander below that residual
   StepChoice choose_step(const State &state, const StepSetting &setting, const FlowState &flow);
 
   // The bounds forces, strength and solver, which are known before the grains are placed. Infinity without pressure and strain.
@@ -66,8 +65,8 @@ namespace diptych::discrete
   };
   StepChoice step_at_rest(const SampleScales &sample, const FlowState &flow);
 
-  // Tolerance that the user gave. auto: the tolerance that costs 1.25 accuracy of the dilation; 1e-3 accuracy without strain or
-  // pressure.
+  // Tolerance that the user gave. `auto`: the tolerance that causes a relative error of the dilation of 1.25 accuracy, or 1e-3
+  // accuracy without strain or pressure.
   double choose_tolerance(const State &state, const StepSetting &setting, const FlowState &flow);
 
   // Expected relative errors due to step h and tolerance, with time in units of d sqrt(rho/s): strength 0.05 h + 55 x (strain per

@@ -30,7 +30,6 @@ namespace diptych::discrete
             "Newton's restitution coefficient in the tangential direction; 0: no rebound, 1: elastic");
   }
 
-  // Method that removes interpenetration.
   enum class PenetrationCorrection
   {
     projection,    // position sweeps after the step
@@ -68,7 +67,6 @@ namespace diptych::discrete
     visitor("gravity_y", o.gravity_y, "length/time^2", {-1e12, 1e12}, "vertical acceleration of gravity; it acts on grains only");
   }
 
-  // All data that a step needs besides the state.
   struct StepSetting
   {
     double            step = 1; // h [time]

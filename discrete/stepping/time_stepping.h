@@ -37,8 +37,8 @@ namespace diptych::discrete
     std::optional<SampledAccuracy> accuracy;                // if the step was sampled
   };
 
-  // Advances the state by one step h (Moreau 1988, Jean 1999, theta = 1/2). q are positions, v velocities, M masses, F applied
-  // forces. H maps impulses of contacts to impulses on bodies. A prime marks values at the end of the step.
+  // Advances the state by one step h (Moreau 1988, Jean 1999, theta = 1/2). Symbols: positions q, velocities v, masses M,
+  // applied forces F. H maps impulses of contacts to impulses on bodies. A prime marks values at the end of the step.
   //   q_m = q + (h/2) v; contacts are found at q_m; v_f = v + h M^-1 F; the solver finds the impulses r; v' = v_f + M^-1 H r;
   //   q' = q_m + (h/2) v'; penetrations are corrected.
   // Normal law of a contact with relative velocity u_n and impulse r_n >= 0: u_n' + c_n >= 0, and r_n (u_n' + c_n) = 0.

@@ -15,9 +15,9 @@ namespace diptych::discrete
   };
   FirstGuess first_guess(const std::vector<PairImpulse> &previous, const std::vector<Contact> &contacts);
 
-  // Adds a x changes to the impulses and clamps them to the Coulomb cone. The share a in [-1, 1] makes sure that the violation of
-  // the law does no work along the changes, sum change . (u + c) = 0 over what sticks or presses. The guess runs ahead if forces
-  // keep changing as before, and stays if they do not. Sweeps reduce the error of long force chains last; the guess reduces it,
-  // and so the lag of the forces behind the strain.
+  // Adds a x changes to the impulses and clamps them to the Coulomb cone. With the share a in [-1, 1] the violation of the law
+  // does no work along the changes: sum change . (u + c) = 0 over the contacts that stick or press. The guess runs ahead if
+  // forces keep changing as before. It reduces the lag of the forces behind the strain, because sweeps correct long force
+  // chains last.
   void extrapolate(const ContactProblem &problem, const std::vector<Impulse> &changes, std::vector<Impulse> &impulses);
 } // namespace diptych::discrete

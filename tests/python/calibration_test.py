@@ -245,24 +245,28 @@ def test_a_law_is_fitted_to_a_measured_curve():
 
 
 @pytest.mark.parametrize("text, words", [
-    ("strain,stress_ratio\n0,0\n1,1\n", "unknown column 'strain'"),
-                                         ("axial_strain\n0\n1\n", "stress_ratio or volumetric_strain"),
-    ("axial_strain,stress_ratio\n0,0\n0.01,x\n", "row 2: stress_ratio = x"),
-                                         ("axial_strain,stress_ratio\n0.01,0\n0,1\n", "ascend"),
-    ("axial_strain,stress_ratio,stress_ratio_deviation\n0,0,0\n1,1,1\n", "row 1: stress_ratio_deviation = 0")])
+    ("strain,stress_ratio\n0,0\n1,1\n", "must name axial_strain"),
+    ("axial_strain\n0\n1\n", "stress_ratio or volumetric_strain"),
+    ("# a test\n\naxial_strain;stress_ratio\n0;0\n0,01;x\n", "line 5: column stress_ratio = 'x'"),
+    ("axial_strain,stress_ratio\n0.01,0\n0,1\n", "line 3: axial_strain = 0 must be larger"),
+    ("axial_strain,stress_ratio,stress_ratio_deviation\n0,0,0\n1,1,1\n", "line 2: stress_ratio_deviation = 0")])
 def test_a_wrong_curve_is_refused(tmp_path, text, words):
     (tmp_path / "lab.csv").write_text(text)
     with pytest.raises(diptych.SceneError, match=words):
         read_curve(str(tmp_path / "lab.csv"))
 
 
-def test_a_file_with_a_curve_is_read(tmp_path):
-    (tmp_path / "lab.csv").write_text(CURVE)
+def test_a_file_with_a_curve_is_read(tmp_path, capfd):
+    """As a spreadsheet writes it, with a remark and without a row in the second bin."""
+    rows = [line + ",a remark" for line in CURVE.splitlines()[1:]]
+    (tmp_path / "lab.csv").write_text("\n".join(rows).replace(",", ";").replace(".", ","))
     text = ('{"targets": [{"name": "lab", "scene": "%s", "curve": "lab.csv"%s}], "quantities": ["stress_ratio"], '
-            '"bins": [0, 0.01], "parameters": [{"key": "friction_angle_peak", "start": 25, "low": 12, "high": 40}]}')
+            '"bins": [0, 0.012, 0.018], "parameters": [{"key": "friction_angle_peak", "start": 25, "low": 12, "high": 40}]}')
     (tmp_path / "c.json").write_text(text % (QUICK, ""))
     c = read_calibration(str(tmp_path / "c.json"))
     assert os.path.samefile(c.targets[0].curve, tmp_path / "lab.csv") and c.targets[0].seeds == []
+    told = capfd.readouterr().err
+    assert "no row lies in the bin from 0.012 to 0.018" in told and told.count("warning") == 1
     (tmp_path / "c.json").write_text(text % (QUICK, ', "seeds": "1"'))
     with pytest.raises(diptych.SceneError, match="instead of grains"):
         read_calibration(str(tmp_path / "c.json"))

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Messages name the file, its line and the reason."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -11,7 +13,7 @@ from foreign_sets import FORMATS, checked, copy, once, refusal, stresses  # noqa
 
 REFUSED = [  # set, file, change, words of the message: the file, its line, the reason
     ("lammps", "contacts.dump", once("ITEM: TIMESTEP\n240000", "ITEM: TIMESTEP\n240001"), "the frames do not match"),
-    ("lammps", "contacts.dump", once("ENTRIES\n731", "ENTRIES\n732"), "has 731 rows instead of 732"),
+    ("lammps", "contacts.dump", once("ENTRIES\n731", "ENTRIES\n732"), "row 732 of 732 has 2 entries instead of 10"),
     ("lammps", "grains.dump", once("BOX BOUNDS ff", "BOX BOUNDS pp"), "periodic along x"),
     ("lammps", "walls.dump", once("BOUNDS ff ff pp\n-1.0000000000000000e-02 4.1604799999999997e-02",
                                   "BOUNDS xy xz yz ff ff pp\n-0.01 0.04 0.001"),
@@ -30,10 +32,13 @@ REFUSED = [  # set, file, change, words of the message: the file, its line, the 
     ("plain_csv", "contacts_1.csv", lambda text: text + "49,69,1,1\n", "twice with different forces"),
     ("plain_csv", "contacts_1.csv", lambda text: text + "1,NA,1,1\n", "column j = 'NA' is not a number"),
     ("plain_csv", "contacts_1.csv", lambda text: text + "1,2,,1\n", "column fx is empty"),
+    ("plain_csv", "contacts_2.csv", lambda text: text.splitlines()[0], "every frame after the first needs them"),
     ("plain_csv", "particles_1.csv", once("\n2,", "\n1,"), "grain 1 occurs twice"),
     ("plain_csv", "particles_1.csv", lambda text: text[:text.rstrip().rfind("\n") + 1], "lacks grain"),
     ("plain_csv", "particles_1.csv", once("id,x,y,r,vx", "id,x,y,r,d"), "contradict each other"),
     ("plain_csv", "walls.csv", lambda text: text + "1,0.03,0.05\n", "line 5: frame 1 has another width in line 3"),
+    ("plain_csv", "particles_1.csv", lambda text: re.sub(r"(?m)^(\d+,[^,]+,[^,]+,)([^,]+)", lambda row: row[1] + str(
+        1.2 * float(row[2])), text), "the discs cover 118 % of the area"),
     ("plain_csv", "walls.csv", once("0.04971981119", "0.02"), "walls.csv, line 3: frame 1: the centres of"),
     ("plain_csv", "walls.csv", once("1,0.0317409221,", "1,0.2317409221,"), "grain diameters apart"),
     ("plain_csv", "walls.csv", None, "--walls-touch"),
@@ -53,7 +58,7 @@ def test_contradictions_are_refused_with_their_reason(name, file, change, reason
     ("lammps", {"columns": ["grains=id"]}, "is not KIND=NAME"), ("yade", {"thickness": None}, "--thickness"),
     ("lammps", {"columns": ["contacts=index,patom1"]}, "10 columns, not 2"),
     ("plain_csv", {"gravity": (0, -9.81)}, "give --density"),
-    ("lammps", {"columns": ["contacts=index,patom1,patom2,force,dist,fx,fy,p1,p2,p4"]}, "contacts.dump, line 10"),
+    ("lammps", {"columns": ["contacts=index,patom1,patom2,dist,force,fx,p1,fy,p2,p4"]}, "contacts.dump, line 10"),
     ("liggghts", {"columns": ["contacts=force,pos,id,force_normal,force_tangential,contactArea,delta,contactPoint"]},
      "--columns contacts")])
 def test_options_without_effect_or_sense_are_refused(name, option, reason, copy):

@@ -1,5 +1,6 @@
 // diptych: strength as a function of plastic strain, and refused parameters
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <stdexcept>
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "continuum/laws/yield_cone.h"
+#include "continuum/require.h"
 #include "tests/continuum/laws/law_states.h"
 
 namespace
@@ -107,9 +109,9 @@ namespace
             validate(options);
             FAIL() << "no error for " << key;
           }
-        catch (const std::invalid_argument &error)
+        catch (const WrongKeys &error)
           {
-            EXPECT_NE(std::string(error.what()).find(key), std::string::npos) << error.what();
+            EXPECT_EQ(std::count(error.keys.begin(), error.keys.end(), key), 1) << key << ": " << error.what();
           }
         EXPECT_THROW(Hardening{options}, std::invalid_argument) << key;
       }

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, field, fields
 
@@ -13,6 +14,7 @@ import pandas as pd
 
 from .. import _diptych
 from ..errors import SceneError
+from ..importers import read_table
 from .calibration_coordinates import COORDINATES, Parameter, usual_coordinate
 from .calibration_noise import KINDS, NoiseOptions, Observable
 from .histories import is_beyond
@@ -85,32 +87,29 @@ def _existing(part: Part, key: str) -> str:
     return path
 
 
-def read_curve(file: str) -> pd.DataFrame:
+def read_curve(file: str, bins: Sequence[tuple[float, float]] = ()) -> pd.DataFrame:
     """A measured curve: axial_strain, stress_ratio (t/s), volumetric_strain and, where given, their deviations; compression
-    positive. Raises SceneError with file and column."""
-    try:
-        table = pd.read_csv(file, comment="#", skipinitialspace=True)
-    except (ValueError, pd.errors.ParserError) as error:
-        raise SceneError(f"{file}: {error}") from error
+    positive. Other columns are ignored. Warns of `bins` (low, high) in which nothing was measured. Raises SceneError with file,
+    line and column."""
+    rows = read_table(file)
     allowed = ["axial_strain", *CURVE_COLUMNS, *CURVE_COLUMNS.values()]
-    unknown = [name for name in table if name not in allowed]
-    if unknown or not {"axial_strain", *CURVE_COLUMNS} & set(table) > {"axial_strain"}:
-        raise SceneError(f"{file}: {f'unknown column {unknown[0]!r}; ' if unknown else ''}the first line must name "
-                         "axial_strain and "
-                         f"stress_ratio or volumetric_strain; allowed are {', '.join(allowed)}")
-    for name in table:
-        values = pd.to_numeric(table[name], errors="coerce")
-        wrong = np.flatnonzero(~np.isfinite(values) | ((values <= 0) if name.endswith("deviation") else False))
-        if len(wrong):
-            raise SceneError(f"{file}, row {wrong[0] + 1}: {name} = {table[name].iloc[wrong[0]]} is not allowed; give a "
-                             f"{'positive ' if name.endswith('deviation') else ''}number")
-        table[name] = values.astype(float)
-    if len(table) < 2 or not np.all(np.diff(table["axial_strain"]) > 0):
-        raise SceneError(f"{file}: axial_strain must ascend over at least two rows")
-    if table["axial_strain"].iloc[-1] >= 1:
-        raise SceneError(f"{file}: axial_strain ends at {table['axial_strain'].iloc[-1]:g}; give strains below 1, not per cent")
+    table = pd.DataFrame({name: rows.numbers(name) for name in allowed if rows.has(name)})
+    if not {"axial_strain", *CURVE_COLUMNS} & set(table) > {"axial_strain"}:
+        raise SceneError(f"{file}: its columns are {', '.join(rows.columns)}; the line above the numbers must name "
+                         f"axial_strain and stress_ratio or volumetric_strain; used are {', '.join(allowed)}")
+    for name in table.filter(like="deviation"):
+        rows.refuse(table[name] <= 0, lambda k: f"{name} = {table[name][k]:g} must be positive")
+    strain = table["axial_strain"].to_numpy()
+    rows.refuse(np.diff(strain, prepend=-np.inf) <= 0, lambda k: f"axial_strain = {strain[k]:g} must be larger than above it")
+    rows.refuse(strain >= 1, lambda k: f"axial_strain = {strain[k]:g}; give strains below 1, not per cent")
+    if len(table) < 2:
+        raise SceneError(f"{file}: a curve needs at least two rows of numbers")
     if "stress_ratio" in table and (table["stress_ratio"].mean() < 0 or table["stress_ratio"].abs().max() >= 1):
         raise SceneError(f"{file}: stress_ratio must be t/s = (s1 - s2) / (s1 + s2), positive in compression and below 1")
+    for low, high in bins:
+        if not np.any((strain >= low) & (strain <= high)):
+            print(f"diptych: warning: {file}: no row lies in the bin from {low:g} to {high:g}; its mean is interpolated between "
+                  "the rows beside it, or it does not count", file=sys.stderr)
     return table.rename(columns={"axial_strain": "progress"})
 
 
@@ -166,6 +165,8 @@ def _target(part: Part) -> Target:
         target.results, target.seeds = _results(part)
         target.scene = target.results[0] + "/scene.prm"
     else:
+        if part.has("curve") and not part.has("scene"):
+            part.refuse(" needs 'scene': the continuum is loaded as this scene says and compared with the curve", "curve")
         part.at("scene")
         target.scene = _existing(part, "scene")
         if not part.has("curve"):
@@ -175,7 +176,6 @@ def _target(part: Part) -> Target:
         if part.has("results") or part.has("seeds"):
             part.refuse(" stands instead of grains; leave out seeds and results", "curve")
         target.curve = _existing(part, "curve")
-        read_curve(target.curve)
     if part.has("before"):
         fragment = _existing(part, "before")
         target.before = [Setting(*entry) for entry in _diptych.read_fragment(fragment)]
@@ -288,6 +288,9 @@ def read_calibration(file: str) -> Calibration:
     _demand_distinct(root, "targets", [target.name for target in targets])
     kinds = _kinds(root)
     bins = _bins(root) if kinds != ["ln_width"] else []
+    for target in targets:
+        if target.curve:
+            read_curve(target.curve, list(zip(bins, bins[1:])))
     parameters = [_parameter(part, targets) for part in root.list("parameters")]
     if not 0 < len(parameters) <= MOST_PARAMETERS:
         root.refuse(f" is missing or empty; name 1 to {MOST_PARAMETERS} keys to be fitted", "parameters")

@@ -7,12 +7,11 @@ A reader is a function that takes Options and returns a list of Frame in ascendi
 
 from .command import main
 from .frames import Frame, Options, Wall, contacts_of, refused
-from .grains import grains_of
 from .readers import check, read, register
 from .table_files import read_table
-from .tables import Table
+from .tables import Table, grains_of
 from .text import read_lines
-from .walls import add_wall_tables
+from .walls import sorted_files
 
-__all__ = ["Frame", "Options", "Table", "Wall", "add_wall_tables", "check", "contacts_of", "grains_of", "main", "read",
-           "read_lines", "read_table", "refused", "register"]
+__all__ = ["Frame", "Options", "Table", "Wall", "check", "contacts_of", "grains_of", "main", "read", "read_lines",
+           "read_table", "refused", "register", "sorted_files"]

@@ -2,14 +2,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Sections of `dump custom` (kind ATOMS) and `dump local` (kind ENTRIES)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
 
-from .frames import Options, refused
-from .tables import Table
+from .frames import Frame, Options, refused
+from .tables import Table, grains_of, rows_below
 from .text import floats_of, int_of, read_lines
 
 PLACES = {"x": ("x", "xu", "xs", "xsu"), "y": ("y", "yu", "ys", "ysu")}  # as they are, unwrapped, scaled by the box
@@ -26,6 +24,10 @@ class Section:
     box: np.ndarray  # (2, 2): low and high of x and y
     periodic: list[bool]  # along x and y
 
+    def head(self) -> int:
+        """The line that names the columns; for messages."""
+        return self.table.lines[0] - 1 if len(self.table.lines) else 0
+
     def has_places(self) -> bool:
         """True if it holds positions, of whatever kind."""
         return all(self.table.find(*names) is not None for names in PLACES.values())
@@ -39,10 +41,18 @@ class Section:
             axes.append(low + values * (high - low) if scaled else values)
         return np.column_stack(axes)
 
+    def frame(self, options: Options) -> Frame:
+        """The frame of its grains."""
+        self.table.numbers("id")
+        return Frame(f"step {self.step}", grains_of(self.table, options, self.positions()), step=self.step,
+                     time=options.time_of(self.step) if self.time is None else self.time, grain_file=self.table.path)
+
 
 def _box(path: str, lines: list[str], k: int) -> tuple[np.ndarray, list[bool]]:
     """'ITEM: BOX BOUNDS ff ff pp' and three lines; a tilted box has the words xy xz yz and a third number in each line."""
     words = lines[k].split()
+    if words[:3] != ["ITEM:", "BOX", "BOUNDS"]:
+        raise refused(path, "expected 'ITEM: BOX BOUNDS'", k + 1)
     if "origin" in words:
         raise refused(path, "a general triclinic box; only upright boxes are supported", k + 1)
     flags = [word for word in words[3:] if set(word) <= set("pfsm")]
@@ -87,34 +97,22 @@ def _section(path: str, lines: list[str], k: int) -> tuple[Section, int]:
     if step is None:
         raise refused(path, "no 'ITEM: TIMESTEP' above this line", k + 1)
     count = int_of(path, k + 2, lines[k + 1].strip(), "the number of rows")
-    k += 2
-    if not lines[k].startswith("ITEM: BOX BOUNDS"):
-        raise refused(path, "expected 'ITEM: BOX BOUNDS'", k + 1)
-    box, periodic = _box(path, lines, k)
-    head = lines[k + 4].split()
+    box, periodic = _box(path, lines, k + 2)
+    head = lines[k + 6].split()
     if head[:2] not in (["ITEM:", "ATOMS"], ["ITEM:", "ENTRIES"]) or len(head) < 3:
-        raise refused(path, "expected 'ITEM: ATOMS' or 'ITEM: ENTRIES' with the names of the columns", k + 5)
-    first, rows = k + 5, []
-    for row in range(count):
-        words = lines[first + row].split()
-        if words[:1] == ["ITEM:"]:
-            raise refused(path, f"step {step} has {row} rows instead of {count} as in its head", first + row + 1)
-        if len(words) != len(head) - 2:
-            raise refused(path, f"{len(words)} entries; expected {len(head) - 2}: {' '.join(head[2:])}", first + row + 1)
-        rows.append(words)
-    table = Table(path, head[2:], rows, np.arange(count) + first + 1)
-    return Section(step, time, head[1], table, box, periodic), first + count
+        raise refused(path, "expected 'ITEM: ATOMS' or 'ITEM: ENTRIES' with the names of the columns", k + 7)
+    return Section(step, time, head[1], rows_below(path, lines, k + 7, count, head[2:]), box, periodic), k + 7 + count
 
 
 def add_section(sections: dict[int, Section], section: Section, options: Options) -> None:
     """Keeps a section by its step. Runs that were chained write the last step again: the same rows count once."""
-    old = sections.setdefault(section.step, section)
-    if old is not section and (old.table.rows != section.table.rows or old.table.columns != section.table.columns):
-        where = f"from line {old.table.lines[0]} of {old.table.path}" if len(old.table.rows) else f"empty in {old.table.path}"
-        raise refused(section.table.path, f"step {section.step} occurs twice with different rows ({where})",
-                      section.table.lines[0] if len(section.table.rows) else 0)
-    if old is not section:
-        options.note(f"{section.table.path}: step {section.step} occurs twice with the same rows; it was taken once")
+    old, table = sections.setdefault(section.step, section), section.table
+    if old is section:
+        return
+    if old.table.rows != table.rows or old.table.columns != table.columns:
+        where = f"from line {old.head() + 1} of {old.table.path}" if old.table.rows else f"empty in {old.table.path}"
+        raise refused(table.path, f"step {section.step} occurs twice with different rows ({where})", section.head())
+    options.note(f"{table.path}: step {section.step} occurs twice with the same rows; it was taken once")
 
 
 def require_same_steps(found: dict[str, dict[int, Section]], options: Options) -> None:

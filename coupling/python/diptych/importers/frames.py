@@ -2,17 +2,16 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Frames of grains, contacts and walls, in the units of the files. Forces and masses are those of the whole thickness."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Callable, Sequence
 
 import numpy as np
 
 from ..errors import SceneError
 
-SIDES = ("lower", "upper", "left", "right")
+GRAINS = ("id", "position", "radius", "mass", "velocity", "spin", "rotation", "resultant", "line")
+CONTACTS = ("first", "second", "wall", "force", "point", "overlap", "slides", "line")
 
 
 def refused(path: str, text: str, line: int = 0) -> SceneError:
@@ -22,7 +21,13 @@ def refused(path: str, text: str, line: int = 0) -> SceneError:
     return error
 
 
-@dataclass
+def refuse_where(path: str, bad: Any, lines: Sequence[int], text: Callable[[int], str]) -> None:
+    """Refuses the first row k for which `bad` is true, with text(k) and its line."""
+    for k in np.flatnonzero(bad)[:1]:
+        raise refused(path, text(k), lines[k])
+
+
+@dataclass(slots=True)
 class Wall:
     """A straight wall along x or y. Without a side, the grains that touch it give the side."""
 
@@ -33,7 +38,7 @@ class Wall:
     force: Any = (math.nan, math.nan)  # between wall and sample, of either sign
 
 
-@dataclass
+@dataclass(slots=True)
 class Frame:
     """One instant. Arrays have one row per grain (n) or contact (m).
 
@@ -78,6 +83,7 @@ class Options:
     command: str = "diptych import"
     notes: list[str] = field(default_factory=list)
     used: set[str] = field(default_factory=set)  # options that had an effect
+    wall_tables: list[Any] = field(default_factory=list)  # Tables that a reader found among its files
 
     def columns_of(self, kind: str, width: int | None = None) -> list[str] | None:
         """Names that the user gave for the columns of "particles", "contacts" or "walls"; `width`: only if they are so many."""
@@ -105,6 +111,12 @@ def contacts_of(first: Any, second: Any, force: Any, wall: Any = -1, **more: Any
     columns = {"first": first, "second": np.broadcast_to(second, first.shape), "force": np.reshape(force, (-1, 2)),
                "wall": np.broadcast_to(wall, first.shape)}
     return columns | {name: np.asarray(values) for name, values in more.items() if values is not None}
+
+
+def acting(contacts: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """The contacts that have a force; other rows are close pairs."""
+    acts = np.any(contacts["force"] != 0, axis=1)
+    return {name: values[acts] for name, values in contacts.items()}
 
 
 def joined(*parts: dict[str, np.ndarray]) -> dict[str, np.ndarray]:

@@ -2,19 +2,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """LAMMPS, discs in two dimensions."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np
 
 from .dumps import Section, add_section, is_dump, read_dump, require_same_steps
-from .frames import Frame, Options, Wall, contacts_of, joined, refused, rows_of
-from .grains import DIAMETER, RADIUS, grains_of
+from .frames import Frame, Options, Wall, acting, contacts_of, joined, refused, rows_of
 from .lammps_data import is_data_file, read_data
-from .table_files import read_table
-from .tables import Table
-from .walls import add_wall_tables, is_wall_table
+from .tables import DIAMETER, RADIUS, Table
+from .walls import sorted_files
 
 # compute pair/local and property/local in the order of the README.
 CONTACTS = ["index", "patom1", "patom2", "dist", "force", "fx", "fy", "p1", "p2", "p4"]
@@ -26,30 +22,12 @@ def _walls_in(table: Table) -> list[str]:
     return list(dict.fromkeys(found[1] for name in table.columns if (found := re.match(r"(f_\w+)\[2\]$", name))))
 
 
-def _sorted_sections(options: Options) -> tuple[dict[str, dict[int, Section]], list[str], list[str]]:
-    """Sections of grains, contacts and walls by step; wall tables; data files."""
-    found: dict[str, dict[int, Section]] = {"grains": {}, "contacts": {}, "walls": {}}
-    tables, data = [], []
-    for path in options.files:
-        if is_dump(path):
-            for section in read_dump(path):
-                for kind in _kinds_of(section, options):
-                    add_section(found[kind], section, options)
-        elif is_wall_table(path):
-            tables.append(path)
-        elif is_data_file(path):
-            data.append(path)
-        else:
-            raise refused(path,
-                          "is neither a dump (ITEM: TIMESTEP), a data file (N atoms) nor a wall table (step, width, height)")
-    return found, tables, data
-
-
 def _kinds_of(section: Section, options: Options) -> list[str]:
-    table, path = section.table, section.table.path
+    """The kinds of rows that a section has: grains, contacts, walls."""
+    table = section.table
     for axis in (0, 1):
         if section.periodic[axis]:
-            raise refused(path, f"the box is periodic along {'xy'[axis]}; the files do not show contacts across its edge")
+            raise refused(table.path, f"the box is periodic along {'xy'[axis]}; the files do not show contacts across its edge")
     if section.kind == "ENTRIES":
         return ["contacts"]
     names = None if _walls_in(table) else options.columns_of("particles", len(table.columns))
@@ -57,10 +35,10 @@ def _kinds_of(section: Section, options: Options) -> list[str]:
         table.columns = names
     is_grains = section.has_places() and table.find(*RADIUS, *DIAMETER) is not None
     if not is_grains and not _walls_in(table):
-        raise refused(path,
+        raise refused(table.path,
                       f"step {section.step}: grains need the columns id, x y (or xs ys, xu yu) and radius or diameter, wall "
                       f"contacts f_NAME[2] ...; its columns are {', '.join(table.columns)}; name others with "
-                      "--columns particles=...", table.lines[0] - 1 if len(table.lines) else 0)
+                      "--columns particles=...", section.head())
     return ["grains"] * is_grains + ["walls"] * bool(_walls_in(table))
 
 
@@ -70,33 +48,24 @@ def _contacts(table: Table, frame: Frame, options: Options) -> dict[str, np.ndar
         raise refused(table.path, f"rows have {len(table.columns)} columns, not {len(names)}; name them with "
                       "--columns contacts=index,patom1,patom2,...")
     table.columns = names or table.columns
-    first, second, force = table.whole(*FIRST), table.whole(*SECOND), table.vectors(["fx"], ["fy"])
+    first, second, force = table.whole(*FIRST), table.whole(*SECOND), table.vectors("fx", "fy")
     _verify(table, frame, first, second, force)
     if table.has("p1", "p2"):
-        force = force + table.vectors(["p1"], ["p2"])
+        force = force + table.vectors("p1", "p2")
     else:
         frame.lacking = ["tangential forces (fx, fy of compute pair/local are the normal part, p1, p2 the tangential part)"]
-    acts = np.any(force != 0, axis=1)
-    return contacts_of(first[acts], second[acts], force[acts], line=table.lines[acts])
+    return acting(contacts_of(first, second, force, line=table.lines))
 
 
 def _verify(table: Table, frame: Frame, first: np.ndarray, second: np.ndarray, force: np.ndarray) -> None:
-    """The distance is that of the centres, and the normal force is parallel to them: else the columns mean something else."""
+    """The normal force is parallel to the line of the centres: else the columns mean something else."""
     ids, position = frame.grains["id"], frame.grains["position"]
     a, b = rows_of(ids, first), rows_of(ids, second)
     branch, size = position[a] - position[b], np.linalg.norm(force, axis=1)
-    length, known = np.linalg.norm(branch, axis=1), (a >= 0) & (b >= 0)
     across = abs(branch[:, 0] * force[:, 1] - branch[:, 1] * force[:, 0])
-    wrong = {"the direction of the normal force": across > 1e-4 * length * size}
-    if table.has("force"):
-        wrong["the size of the normal force"] = abs(abs(table.numbers("force")) - size) > 1e-5 * size
-    if table.has("dist"):
-        wrong["the distance of the centres"] = abs(table.numbers("dist") - length) > 1e-5 * length
-    for what, is_wrong in wrong.items():
-        bad = np.flatnonzero(is_wrong & known)
-        if len(bad):
-            raise refused(table.path, f"{what} does not agree with the grains; does the column have another meaning (--columns "
-                          "contacts=index,patom1,patom2,dist,...)?", table.lines[bad[0]])
+    table.refuse((across > 1e-4 * np.linalg.norm(branch, axis=1) * size) & (a >= 0) & (b >= 0),
+                 lambda _: "fx, fy are not parallel to the line of the centres; do the columns have another meaning (--columns "
+                 "contacts=index,patom1,patom2,dist,...)?")
 
 
 def _wall_contacts(table: Table, frame: Frame) -> list[dict[str, np.ndarray]]:
@@ -105,25 +74,21 @@ def _wall_contacts(table: Table, frame: Frame) -> list[dict[str, np.ndarray]]:
     for name in _walls_in(table):
         touches = table.numbers(name + "[1]") if table.has(name + "[1]") else table.numbers(name + "[2]")
         rows = table.part(touches != 0)
-        point = rows.vectors([name + "[5]"], [name + "[6]"]) if rows.has(name + "[5]", name + "[6]") else None
-        parts.append(contacts_of(rows.whole("id"), -1, rows.vectors([name + "[2]"], [name + "[3]"]), len(frame.walls),
+        point = rows.vectors(name + "[5]", name + "[6]") if rows.has(name + "[5]", name + "[6]") else None
+        parts.append(contacts_of(rows.whole("id"), -1, rows.vectors(name + "[2]", name + "[3]"), len(frame.walls),
                                  point=point, line=rows.lines))
         frame.walls.append(Wall(name))
     return parts
 
 
-def _frame(step: int, found: dict[str, dict[int, Section]], options: Options) -> Frame:
-    section = found["grains"][step]
-    section.table.numbers("id")
-    frame = Frame(f"step {step}", grains_of(section.table, options, section.positions()), step=step,
-                  grain_file=section.table.path,
-                  time=options.time_of(step) if section.time is None else section.time)
-    parts = []
-    if step in found["contacts"]:
-        parts.append(_contacts(found["contacts"][step].table, frame, options))
-        frame.contact_file = found["contacts"][step].table.path
-    if step in found["walls"]:
-        parts += _wall_contacts(found["walls"][step].table, frame)
+def _frame(section: Section, found: dict[str, dict[int, Section]], options: Options) -> Frame:
+    frame, parts = section.frame(options), []
+    if section.step in found["contacts"]:
+        contacts = found["contacts"][section.step].table
+        parts.append(_contacts(contacts, frame, options))
+        frame.contact_file = contacts.path
+    if section.step in found["walls"]:
+        parts += _wall_contacts(found["walls"][section.step].table, frame)
     if parts:
         frame.contacts = joined(*parts)
     return frame
@@ -131,11 +96,14 @@ def _frame(step: int, found: dict[str, dict[int, Section]], options: Options) ->
 
 def read(options: Options) -> list[Frame]:
     """Frames of dumps, or of data files. Raises SceneError."""
-    found, tables, data = _sorted_sections(options)
+    files = sorted_files(options, dump=is_dump, data_file=is_data_file)
+    found: dict[str, dict[int, Section]] = {"grains": {}, "contacts": {}, "walls": {}}
+    for section in (section for path in files["dump"] for section in read_dump(path)):
+        for kind in _kinds_of(section, options):
+            add_section(found[kind], section, options)
     require_same_steps(found, options)
-    frames = [_frame(step, found, options) for step in sorted(found["grains"])]
-    if data and frames:
-        options.note(f"{data[0]}: this data file was not used, because there are dumps")
-    frames = frames or [read_data(path, options) for path in data]
-    add_wall_tables(frames, [read_table(path) for path in tables], options)
-    return frames
+    if not found["grains"]:
+        return [read_data(path, options) for path in files["data_file"]]
+    for path in files["data_file"]:
+        options.note(f"{path}: this data file was not used, because there are dumps")
+    return [_frame(section, found, options) for _, section in sorted(found["grains"].items())]

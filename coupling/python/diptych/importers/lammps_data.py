@@ -1,18 +1,19 @@
 # diptych: reads data files of LAMMPS
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Data files: places, radii and velocities. Their densities are those of spheres in any dimension and are not used."""
+"""Data files: places, radii and velocities."""
 
-from __future__ import annotations
+from typing import Callable
 
 import numpy as np
 
-from .frames import Frame, Options, refused, rows_of
-from .grains import grains_of
-from .tables import Table
+from .frames import Frame, Options, refuse_where, refused, rows_of
+from .tables import Table, grains_of, rows_below
 from .text import floats_of, int_of, read_lines
 
+STYLES = {"sphere": ["id", "type", "diameter", "density", "x", "y", "z"],
+          "bpm/sphere": ["id", "molecule", "type", "diameter", "density", "x", "y", "z"]}
 OWN = {"sphere": ["diameter", "density"], "bpm/sphere": ["molecule", "diameter", "density"], "bond": ["molecule"],
-       "molecular": ["molecule"], "charge": ["q"], "atomic": []}  # columns of a style besides id, type, x, y, z
+       "molecular": ["molecule"], "charge": ["q"], "atomic": []}  # columns of a style in hybrid, behind id, type, x, y, z
 
 
 def is_data_file(path: str) -> bool:
@@ -22,13 +23,10 @@ def is_data_file(path: str) -> bool:
 
 def _columns(path: str, line: int, styles: list[str], width: int, options: Options) -> list[str]:
     """Columns of the section Atoms, from the comment that names the style; image flags may follow."""
-    wanted = options.columns_of("particles")
-    if wanted is None and (styles or ["sphere"])[0] == "sphere":
-        wanted = ["id", "type", "diameter", "density", "x", "y", "z"]
-    elif wanted is None and styles[0] == "bpm/sphere":
-        wanted = ["id", "molecule", "type", "diameter", "density", "x", "y", "z"]
-    elif wanted is None and styles[0] == "hybrid" and len(styles) > 1 and all(style in OWN for style in styles[1:]):
-        wanted = ["id", "type", "x", "y", "z", *(name for style in styles[1:] for name in OWN[style])]
+    style, *others = styles or ["sphere"]
+    wanted = options.columns_of("particles") or STYLES.get(style)
+    if not wanted and style == "hybrid" and all(other in OWN for other in others):
+        wanted = ["id", "type", "x", "y", "z", *(name for other in others for name in OWN[other])]
     if wanted is None or "diameter" not in wanted and "radius" not in wanted:
         raise refused(path,
                       f"the columns of atom_style {' '.join(styles)} are not known here, or have no radii; name them with "
@@ -39,13 +37,11 @@ def _columns(path: str, line: int, styles: list[str], width: int, options: Optio
     return wanted + ["ix", "iy", "iz"] * (width > len(wanted))
 
 
-def _rows(path: str, lines: list[str], head: int, count: int) -> tuple[list[list[str]], list[int]]:
-    """`count` rows below a section's head, with the numbers of their lines."""
+def _section(path: str, lines: list[str], head: int, count: int, columns: Callable[[int], list[str]]) -> Table:
+    """`count` rows below a section's head; columns(width) gives the names of their columns."""
     start = next((k for k in range(head + 1, len(lines)) if lines[k].strip()), len(lines))
-    if start + count > len(lines):
-        raise refused(path, f"the section {lines[head].split()[0]} has {len(lines) - start} rows instead of {count}",
-                      len(lines))
-    return [line.partition("#")[0].split() for line in lines[start:start + count]], list(range(start + 1, start + count + 1))
+    bare = [line.partition("#")[0] for line in lines[:start + count]]
+    return rows_below(path, bare, start, count, columns(len(bare[start].split()) if start < len(bare) else 0))
 
 
 def read_data(path: str, options: Options) -> Frame:
@@ -58,22 +54,18 @@ def read_data(path: str, options: Options) -> Frame:
         elif words[3:6] == ["xy", "xz", "yz"] and any(floats_of(path, k + 1, words[:3], "a tilt of the box")):
             raise refused(path, "the box is tilted; only upright boxes are supported", k + 1)
         elif words[:1] == ["Atoms"]:
-            rows, places = _rows(path, lines, k, count)
-            table = Table(path, _columns(path, k + 1, words[2:], len(rows[0]) if rows else 0, options), rows, places)
-            short = [line for row, line in zip(rows, places) if len(row) != len(table.columns)]
-            if short:
-                raise refused(path, f"expected {len(table.columns)} entries: {', '.join(table.columns)}", short[0])
+            table = _section(path, lines, k, count, lambda width: _columns(path, k + 1, words[2:], width, options))
             grains = grains_of(table, options)
+            if table.has("density") and options.density is None:
+                options.note(f"{path}: its densities were not used, because the script decides whether they are those of "
+                             "spheres or of discs (set ... density/disc); --density gives the discs a mass per area")
         elif words[:1] == ["Velocities"] and grains:
-            rows, places = _rows(path, lines, k, count)
-            values = np.array([floats_of(path, place, row, "a velocity") for row, place in zip(rows, places)])
-            order = rows_of(values[:, 0].astype(int), grains["id"])
-            if np.any(order < 0):
-                raise refused(path, f"grain {grains['id'][np.argmin(order)]} has no velocity", k + 1)
-            grains["velocity"] = values[order, 1:3]
-            if values.shape[1] >= 7:
-                grains["spin"] = values[order, 6]
+            table = _section(path, lines, k, count, lambda width: ["id", "vx", "vy", "vz", "wx", "wy", "wz"][:width])
+            order = rows_of(table.whole("id"), grains["id"])
+            refuse_where(path, order < 0, np.full(len(order), k + 1), lambda row: f"grain {grains['id'][row]} has no velocity")
+            grains["velocity"] = table.vectors("vx", "vy")[order]
+            if table.has("wz"):
+                grains["spin"] = table.numbers("wz")[order]
     if not grains:
         raise refused(path, "contains no section Atoms")
-    grains.pop("mass", None)
     return Frame(path, grains, grain_file=path)

@@ -2,51 +2,97 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """LIGGGHTS, one layer of spheres."""
 
-from __future__ import annotations
+import re
 
 import numpy as np
 
-from .dumps import Section, add_section, is_dump, read_dump
+from .dumps import Section, add_section, is_dump, read_dump, require_same_steps
 from .frames import Frame, Options, Wall, contacts_of, joined, refused, rows_of
-from .grains import grains_of
-from .liggghts_columns import group_of, kinds_of, named, pair
-from .table_files import read_table
 from .tables import Table
 from .text import number_in_name
-from .walls import add_wall_tables, is_wall_table, wall_of
+from .walls import sorted_files, wall_of
 
-def _check_places(table: Table, frame: Frame) -> None:
-    rows = rows_of(frame.grains["id"], table.whole("id.1"))
-    place = frame.grains["position"][rows]
-    size = np.linalg.norm(place, axis=1)
-    bad = np.flatnonzero((rows >= 0) & (np.linalg.norm(place - pair(table, "pos", 1), axis=1) > 1e-5 * (size + size.mean())))
-    if len(bad):
-        raise refused(table.path,
-                      f"grain {table.whole('id.1')[bad[0]]} has another position in the dump of the grains; are these files of "
-                      "different frames, or columns of another meaning (--columns contacts=pos,id,force,...)?",
-                      table.lines[bad[0]])
+# Keywords of compute pair/gran/local and wall/gran/local with their numbers of columns; history takes what is left.
+WIDTHS = {"pos": 6, "vel": 6, "id": 3, "ms_id": 2, "contactPoint": 3, "contactArea": 1, "delta": 1, "heatFlux": 1,
+          **dict.fromkeys(["force", "force_normal", "force_tangential"], 3),
+          **dict.fromkeys(["torque", "torque_normal", "torque_tangential", "torque_n", "torque_t"], 3)}
+USUAL = {"contacts": [["pos", "id", "force", "force_normal", "force_tangential", "contactArea", "delta", "contactPoint"],
+                      ["pos", "id", "force"]],
+         "walls": [["pos", "id", "force", "contactPoint"], ["pos", "id", "force"]]}
+
+
+def _expanded(keywords: list[str], width: int) -> list[str] | None:
+    """pos.1 ... pos.6, id.1 ...: names of the columns; None if keywords and width do not agree."""
+    unknown = [keyword for keyword in keywords if keyword not in WIDTHS and keyword != "history"]
+    if unknown:
+        raise refused("--columns", f"'{unknown[0]}' is no keyword of the computes; known are {', '.join(WIDTHS)}, history")
+    left = width - sum(WIDTHS.get(keyword, 0) for keyword in keywords)
+    if left < 0 or (left > 0) != ("history" in keywords):
+        return None
+    return [f"{keyword}.{k}" for keyword in keywords for k in range(1, 1 + WIDTHS.get(keyword, left))]
+
+
+def _named(section: Section, kind: str, options: Options) -> Table | None:
+    """The table with names for its columns, if it may be of this kind."""
+    table, given = section.table, options.columns_of(kind)
+    found = (_expanded(keywords, len(table.columns)) for keywords in ([given] if given else USUAL[kind]))
+    return next((Table(table.path, columns, table.rows, table.lines) for columns in found if columns), None)
+
+
+def _pair(table: Table, keyword: str, first: int) -> np.ndarray:
+    return table.vectors(f"{keyword}.{first}", f"{keyword}.{first + 1}")
+
+
+def _fits(table: Table | None, kind: str, frame: Frame) -> bool:
+    """True if the ids and places of the rows are those of grains: two in a contact, the third id in a wall contact."""
+    if table is None:
+        return False
+    for column, place in [("id.1", 1), ("id.2", 4)] if kind == "contacts" else [("id.3", 4)]:
+        rows = rows_of(frame.grains["id"], table.numbers(column))
+        is_there = rows >= 0
+        if table.has("pos.1"):
+            off = np.linalg.norm(frame.grains["position"][rows] - _pair(table, "pos", place), axis=1)
+            is_there &= off <= frame.grains["radius"][rows]
+        if np.sum(is_there) < 0.9 * len(rows):
+            return False
+    return True
+
+
+def _group_of(section: Section) -> tuple[str, ...]:
+    """Sections of one dump: the same columns in files whose names differ by numbers only."""
+    return (*section.table.columns, re.sub(r"\d+", "", section.table.path))
+
+
+def _kinds_of(sections: list[Section], frames: dict[int, Frame], options: Options) -> dict[tuple[str, ...], str]:
+    """The kind of every group of sections, by its columns and the numbers in them."""
+    kinds: dict[tuple[str, ...], str] = {}
+    for section in sorted(sections, key=lambda one: -len(one.table.rows)):
+        group, frame, table = _group_of(section), frames[section.step], section.table
+        if group in kinds:
+            continue
+        fitting = [kind for kind in USUAL if _fits(_named(section, kind, options), kind, frame)]
+        if not fitting:
+            raise refused(table.path, f"step {section.step}: {len(table.columns)} columns are neither contacts nor wall "
+                          "contacts; give the compute's keywords: --columns contacts=pos,id,... or walls=pos,id,...", section.head() + 1)
+        kinds[group] = next((kind for kind in fitting if kind not in kinds.values()), fitting[0])
+    return kinds
 
 
 def _contacts(table: Table, frame: Frame, options: Options) -> dict[str, np.ndarray]:
-    periodic = np.flatnonzero(table.numbers("id.3") != 0)
-    if len(periodic):
-        raise refused(table.path, "a contact across a periodic edge; walls are needed", table.lines[periodic[0]])
-    if table.has("pos.1"):
-        _check_places(table, frame)
+    table.refuse(table.numbers("id.3") != 0, lambda k: "a contact across a periodic edge; walls are needed")
     frame.contact_file = table.path
-    return contacts_of(table.whole("id.1"), table.whole("id.2"), pair(table, "force", 1), line=table.lines,
-                       point=pair(table, "contactPoint", 1) if table.has("contactPoint.1") else None,
+    return contacts_of(table.whole("id.1"), table.whole("id.2"), _pair(table, "force", 1), line=table.lines,
+                       point=_pair(table, "contactPoint", 1) if table.has("contactPoint.1") else None,
                        overlap=table.optional(options, "delta.1"))
 
 
-def _wall_contacts(table: Table, frame: Frame) -> dict[str, np.ndarray]:
+def _wall_contacts(table: Table, frame: Frame, _: Options) -> dict[str, np.ndarray]:
     """The contact point is the first point of `pos`; the keyword contactPoint is 0 for plates."""
-    mesh = table.whole("id.1")
-    numbers = list(dict.fromkeys(mesh.tolist()))
+    numbers, wall = np.unique(table.whole("id.1"), return_inverse=True)
     frame.walls += [Wall(f"mesh {number}") for number in numbers]
     frame.contact_file = frame.contact_file or table.path
-    return contacts_of(table.whole("id.3"), -1, pair(table, "force", 1), [numbers.index(number) for number in mesh],
-                       line=table.lines, point=pair(table, "pos", 1) if table.has("pos.1") else None)
+    return contacts_of(table.whole("id.3"), -1, _pair(table, "force", 1), wall, line=table.lines,
+                       point=_pair(table, "pos", 1) if table.has("pos.1") else None)
 
 
 def _add_plates(path: str, frame: Frame) -> None:
@@ -67,41 +113,36 @@ def _add_plates(path: str, frame: Frame) -> None:
             wall.place = float(place) if np.isnan(wall.place) else wall.place
 
 
+def _frame(section: Section, options: Options) -> Frame:
+    table = section.table
+    table.columns = options.columns_of("particles", len(table.columns)) or table.columns
+    frame = section.frame(options)
+    frame.spheres = True
+    density = table.optional(options, "density", "rho")
+    if "mass" not in frame.grains and density is not None:
+        frame.grains["mass"] = 4 / 3 * np.pi * frame.grains["radius"]**3 * density
+    return frame
+
+
 def read(options: Options) -> list[Frame]:
     """Frames of dumps. Raises SceneError."""
-    grains: dict[int, Section] = {}
-    local, plates, tables = [], {}, []
-    for path in options.files:
-        if path.endswith(".stl"):
-            plates[number_in_name(path)] = path
-        elif is_dump(path):
-            for section in read_dump(path):
-                local.append(section) if section.kind == "ENTRIES" else add_section(grains, section, options)
-        elif is_wall_table(path):
-            tables.append(path)
-        else:
-            raise refused(path, "is neither a dump (ITEM: TIMESTEP), an .stl nor a wall table (step, width, height)")
-    frames = {}
-    for step, section in sorted(grains.items()):
-        section.table.columns = options.columns_of("particles", len(section.table.columns)) or section.table.columns
-        frames[step] = Frame(f"step {step}", grains_of(section.table, options, section.positions()), step=step, spheres=True,
-                             grain_file=section.table.path, time=options.time_of(step) if section.time is None
-                             else section.time)
-    kinds, found = kinds_of(local, frames, options), {"contacts": {}, "walls": {}}
+    files = sorted_files(options, stl=lambda path: path.endswith(".stl"), dump=is_dump)
+    found: dict[str, dict[int, Section]] = {"grains": {}, "contacts": {}, "walls": {}}
+    sections = [section for path in files["dump"] for section in read_dump(path)]
+    for section in sections:
+        if section.kind == "ATOMS":
+            add_section(found["grains"], section, options)
+    frames = {step: _frame(section, options) for step, section in sorted(found["grains"].items())}
+    local = [section for section in sections if section.kind == "ENTRIES" and section.step in frames]
+    kinds = _kinds_of(local, frames, options)
     for section in local:
-        if section.step in frames:
-            add_section(found[kinds[group_of(section)]], section, options)
+        add_section(found[kinds[_group_of(section)]], section, options)
+    require_same_steps(found, options)
+    plates = {number_in_name(path): path for path in files["stl"]}
     for step, frame in frames.items():
-        parts = []
-        for kind, sections in found.items():
-            if step in sections:
-                table = named(sections[step], kind, options)
-                parts.append(_contacts(table, frame, options) if kind == "contacts" else _wall_contacts(table, frame))
-            elif sections and step != min(frames):
-                raise refused(frame.grain_file, f"there are no {kind} of step {step}: the frames do not match")
+        parts = [(_contacts if kind == "contacts" else _wall_contacts)(_named(found[kind][step], kind, options), frame, options)
+                 for kind in ("contacts", "walls") if step in found[kind]]
         frame.contacts = joined(*parts) if parts else None
-    add_wall_tables(list(frames.values()), [read_table(path) for path in tables], options)
-    for step, frame in frames.items():
         if step in plates:
             _add_plates(plates[step], frame)
     return list(frames.values())

@@ -2,18 +2,16 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """LMGC90, discs DISKx between walls JONCx."""
 
-from __future__ import annotations
-
 import os
 import re
+from typing import Callable
 
 import numpy as np
 
 from .frames import Frame, Options, refused
 from .lmgc90_bodies import Bodies, contacts_with, field, place_bodies, read_bodies, read_bulk
-from .table_files import read_table
 from .text import int_of, read_lines
-from .walls import add_wall_tables, is_wall_table
+from .walls import sorted_files
 
 
 def _instant(path: str, lines: list[str]) -> tuple[int, float]:
@@ -30,16 +28,11 @@ def _instant(path: str, lines: list[str]) -> tuple[int, float]:
 def _motions(path: str) -> tuple[int, float, np.ndarray, np.ndarray]:
     """Step, time, and (n, 3) displacement and velocity of every body, in the order of the file."""
     lines = read_lines(path)
-    step, time = _instant(path, lines)
-    x, v = [], []
-    for k, line in enumerate(lines, 1):
-        if "X(1)=" in line:
-            x.append([field(path, k, line, rf"X\({axis}\)=") for axis in (1, 2, 3)])
-        elif "V(1)=" in line and len(v) < len(x):
-            v.append([field(path, k, line, rf"V\({axis}\)=") for axis in (1, 2, 3)])
+    x, v = (np.array([[field(path, k, line, rf"{name}\({axis}\)=") for axis in (1, 2, 3)]
+                      for k, line in enumerate(lines, 1) if name + "(1)=" in line]).reshape(-1, 3) for name in "XV")
     if len(x) != len(v):
         raise refused(path, f"{len(x)} bodies have X, but {len(v)} have V; is the file truncated?", len(lines))
-    return step, time, np.array(x).reshape(-1, 3), np.array(v).reshape(-1, 3)
+    return *_instant(path, lines), x, v
 
 
 def _contacts(path: str, frame: Frame, bodies: Bodies) -> None:
@@ -100,40 +93,37 @@ def _hdf5_frames(path: str, bodies: Bodies, gravity: tuple[float, float] | None)
         raise refused(path, f"is no HDF5 file of LMGC90 that can be read: {error}") from error
 
 
+def _tail(path: str) -> str:
+    """OUT.1 of DOF.OUT.1 or DOF.OUT.1.gz."""
+    return re.sub(r"\.gz$", "", os.path.basename(path)).partition(".")[2]
+
+
+def _is_named(*kinds: str) -> Callable[[str], bool]:
+    """LMGC90 prescribes the names of its files, which may be packed."""
+    return lambda path: os.path.basename(path).split(".")[0] in kinds
+
+
 def read(options: Options) -> list[Frame]:
-    """Frames in the order of time. LMGC90 prescribes the names of its files. Raises SceneError."""
-    named: dict[str, str] = {}
-    motions, contacts, tables = {}, {}, []
-    for path in options.files:
-        kind, _, tail = re.sub(r"\.gz$", "", os.path.basename(path)).partition(".")
-        if kind in ("BODIES", "BULK_BEHAV"):
-            named[kind] = path
-        elif kind in ("DOF", "Vloc_Rloc"):
-            (motions if kind == "DOF" else contacts)[tail] = path
-        elif path.endswith(".h5"):
-            named["h5"] = path
-        elif kind in ("DRV_DOF", "TACT_BEHAV"):
-            options.note(f"{path}: this file is not needed")
-        elif is_wall_table(path):
-            tables.append(path)
-        else:
-            raise refused(path, "is none of BODIES.*, BULK_BEHAV.*, DOF.*, Vloc_Rloc.*, *.h5, nor a wall table")
-    if "BODIES" not in named:
+    """Frames in the order of time. Raises SceneError."""
+    files = sorted_files(options, BODIES=_is_named("BODIES"), BULK_BEHAV=_is_named("BULK_BEHAV"), DOF=_is_named("DOF"),
+                         Vloc_Rloc=_is_named("Vloc_Rloc"), h5=lambda path: path.endswith(".h5"),
+                         other=_is_named("DRV_DOF", "TACT_BEHAV"))
+    for path in files["other"]:
+        options.note(f"{path}: this file is not needed")
+    if not files["BODIES"]:
         raise refused("import lmgc90", "BODIES.DAT is missing; it contains radii and walls")
-    if not motions and "h5" not in named:
+    if not files["DOF"] and not files["h5"]:
         raise refused("import lmgc90", "DOF.OUT.* or a .h5 file is missing; they contain the positions of the bodies")
-    densities, gravity = read_bulk(named["BULK_BEHAV"]) if "BULK_BEHAV" in named else ({}, None)
-    bodies = read_bodies(named["BODIES"], densities, options)
-    frames = _hdf5_frames(named["h5"], bodies, gravity) if "h5" in named else []
-    for tail, path in motions.items():
+    densities, gravity = read_bulk(files["BULK_BEHAV"][0]) if files["BULK_BEHAV"] else ({}, None)
+    bodies = read_bodies(files["BODIES"][0], densities, options)
+    frames = [frame for path in files["h5"] for frame in _hdf5_frames(path, bodies, gravity)]
+    contacts = {_tail(path): path for path in files["Vloc_Rloc"]}
+    for path in files["DOF"]:
         step, time, x, v = _motions(path)
-        frames.append(Frame(tail, {}, step=step, time=time, gravity=gravity, grain_file=path))
+        frames.append(Frame(_tail(path), {}, step=step, time=time, gravity=gravity, grain_file=path))
         place_bodies(frames[-1], bodies, x, v)
-        if tail in contacts:
-            _contacts(contacts.pop(tail), frames[-1], bodies)
-    if contacts:
-        tail, path = next(iter(contacts.items()))
+        if _tail(path) in contacts:
+            _contacts(contacts.pop(_tail(path)), frames[-1], bodies)
+    for tail, path in contacts.items():
         raise refused(path, f"there is no DOF.{tail}: the frames do not match")
-    frames.sort(key=lambda frame: frame.time)
-    add_wall_tables(frames, [read_table(path) for path in tables], options)
-    return frames
+    return sorted(frames, key=lambda frame: frame.time)

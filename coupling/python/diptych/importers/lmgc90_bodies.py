@@ -2,31 +2,26 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """RBDY2 bodies with one contactor each: a disc (DISKx) or a wall (JONCx)."""
 
-from __future__ import annotations
-
 import math
 import re
-from dataclasses import dataclass, field as member
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from .frames import Frame, Options, Wall, contacts_of, refused
+from .frames import Frame, Options, Wall, acting, contacts_of, refuse_where, refused
 from .text import float_of, read_lines
 
 
 @dataclass
 class Bodies:
-    """One entry a body, in the order of the file; body k of a contact is entry k - 1."""
+    """Arrays with one entry a body, in the order of the file; body k of a contact is entry k - 1."""
 
     path: str
-    mass: list[float] = member(default_factory=list)  # nan: no density
-    place: list[list[float]] = member(default_factory=list)  # coo1, coo2, coo3
-    radius: list[float] = member(default_factory=list)  # nan: a wall
-    half_thickness: list[float] = member(default_factory=list)
-
-    def is_wall(self) -> np.ndarray:
-        """(n) True for walls."""
-        return np.isnan(self.radius)
+    is_wall: np.ndarray
+    size: np.ndarray  # radius of a disc, half thickness of a wall
+    place: np.ndarray  # (n, 3) coo1, coo2, coo3
+    mass: np.ndarray  # nan: no density
 
 
 def field(path: str, number: int, line: str, name: str) -> float:
@@ -54,31 +49,14 @@ def read_bulk(path: str) -> tuple[dict[str, float], tuple[float, float] | None]:
 
 def read_bodies(path: str, densities: dict[str, float], options: Options) -> Bodies:
     """Reads BODIES.DAT. LMGC90 counts bodies in the order of the file, whatever numbers stand there. Raises SceneError."""
-    bodies, numbers, block = Bodies(path), [], {}
-
-    def close(line: int) -> None:
-        if block and not ("place" in block and ("byrd" in block or "half_thickness" in block)):
-            raise refused(path,
-                          f"body {len(numbers)} above this line has no position (coo1, coo2), nor the radius of a disc (byrd) "
-                          "nor the half axes of a wall (axe1, axe2); is the file truncated?", line)
-        if block:
-            radius, equivalent = block.get("byrd", math.nan), block.get("avrd", 0.0)
-            bodies.mass.append(block.get("density", math.nan) * math.pi * (equivalent or radius)**2)
-            bodies.place.append(block["place"])
-            bodies.radius.append(radius)
-            bodies.half_thickness.append(block.get("half_thickness", math.nan))
-
-    lines = read_lines(path)
-    for k, line in enumerate(lines, 1):
+    blocks: list[dict[str, Any]] = []
+    for k, line in enumerate(read_lines(path), 1):
         words = line.split()
         if len(words) == 2 and words[0] in ("RBDY2", "RBDY3", "MAILx"):
-            close(k)
             if words[0] != "RBDY2":
                 raise refused(path, f"a body {words[0]}; only rigid bodies in two dimensions (RBDY2) are supported", k)
-            numbers.append(words[1])
-            block = {"line": k}
-        if not block:
-            continue
+            blocks.append({"line": k, "number": words[1]})
+        block = blocks[-1] if blocks else {}
         if "avrd" in line:
             block["avrd"] = field(path, k, line, "avrd *=")
             block["density"] = densities.get(words[3], math.nan) if len(words) > 3 else math.nan
@@ -86,32 +64,34 @@ def read_bodies(path: str, densities: dict[str, float], options: Options) -> Bod
             block["place"] = [field(path, k, line, f"coo{axis} *=") for axis in (1, 2)]
             block["place"].append(field(path, k, line, "coo3 *=") if "coo3" in line else 0.0)
         if " color " in line:
-            if words[0] not in ("DISKx", "JONCx") or "contactor" in block:
+            if words[0] not in ("DISKx", "JONCx") or "size" in block:
                 raise refused(path, f"a contactor {words[0]}; a body may have one, DISKx or JONCx", k)
-            block["contactor"] = words[0]
-            if words[0] == "DISKx":
-                block["byrd"] = field(path, k, line, "byrd *=")
-            else:
-                block["half_thickness"] = field(path, k, line, "axe?2 *=")
-    close(len(lines))
-    if not numbers:
+            block["is_wall"] = words[0] == "JONCx"
+            block["size"] = field(path, k, line, "axe?2 *=" if block["is_wall"] else "byrd *=")
+    if not blocks:
         raise refused(path, "contains no body RBDY2")
-    if numbers != [str(k) for k in range(1, len(numbers) + 1)]:
+    for number, block in enumerate(blocks, 1):
+        if "place" not in block or "size" not in block:
+            raise refused(path, f"body {number} has no position (coo1, coo2), nor the radius of a disc (byrd) nor the half "
+                          "axes of a wall (axe1, axe2); is the file truncated?", block["line"])
+    if [block["number"] for block in blocks] != [str(k) for k in range(1, len(blocks) + 1)]:
         options.note(f"{path}: bodies are counted in the order of the file, because their numbers are not 1, 2, 3, ...")
-    return bodies
+    is_wall, size = np.array([block["is_wall"] for block in blocks]), np.array([block["size"] for block in blocks])
+    equivalent = np.array([block.get("avrd", 0.0) for block in blocks])
+    density = np.array([block.get("density", math.nan) for block in blocks])
+    return Bodies(path, is_wall, size, np.array([block["place"] for block in blocks]),
+                  density * math.pi * np.where(equivalent != 0, equivalent, size)**2)
 
 
 def place_bodies(frame: Frame, bodies: Bodies, x: np.ndarray, v: np.ndarray) -> None:
     """Adds grains and walls. `x`, `v` (n, 3): displacement from the reference, velocity. The angle of a wall is coo3 + X(3)."""
     if len(x) != len(bodies.mass):
         raise refused(frame.grain_file, f"has {len(x)} bodies, but {bodies.path} has {len(bodies.mass)}")
-    is_wall, place = bodies.is_wall(), np.array(bodies.place) + x
-    grain = np.flatnonzero(~is_wall)
-    frame.grains = {"id": grain + 1, "position": place[grain, :2], "radius": np.array(bodies.radius)[grain],
-                    "velocity": v[grain, :2],
-                    "spin": v[grain, 2], "rotation": x[grain, 2], "mass": np.array(bodies.mass)[grain]}
+    place, grain = bodies.place + x, np.flatnonzero(~bodies.is_wall)
+    frame.grains = {"id": grain + 1, "position": place[grain, :2], "radius": bodies.size[grain], "velocity": v[grain, :2],
+                    "spin": v[grain, 2], "rotation": x[grain, 2], "mass": bodies.mass[grain]}
     middle = place[grain, :2].mean(axis=0) if len(grain) else np.zeros(2)
-    for k in np.flatnonzero(is_wall):
+    for k in np.flatnonzero(bodies.is_wall):
         turn = abs(math.sin(place[k, 2]))
         if 1e-4 < turn < 1 - 1e-8:
             raise refused(frame.grain_file,
@@ -120,7 +100,7 @@ def place_bodies(frame: Frame, bodies: Bodies, x: np.ndarray, v: np.ndarray) -> 
         axis = 0 if turn > 0.5 else 1  # normal to the wall
         before = bool(place[k, axis] < middle[axis])
         side = (("right", "left") if axis == 0 else ("upper", "lower"))[before]
-        inner = place[k, axis] + (1 if before else -1) * bodies.half_thickness[k]
+        inner = place[k, axis] + (1 if before else -1) * bodies.size[k]
         frame.walls.append(Wall(f"body {k + 1}", side, float(inner), float(x[k, 1 - axis])))
 
 
@@ -130,19 +110,12 @@ def contacts_with(path: str, numbers: np.ndarray, values: np.ndarray, slides: np
 
     The force on the candidate is rln n + rlt t with t = (n2, -n1). Rows without a force are close pairs.
     """
-    normal = values[:, 3:5]
-    bad = np.flatnonzero(abs(np.sum(normal**2, axis=1) - 1) > 1e-5)
-    if len(bad):
-        raise refused(path, f"the normal of contact {bad[0] + 1} is not a unit normal: {normal[bad[0]]}", 0
-                      if lines is None else lines[bad[0]])
-    outside = np.flatnonzero((numbers.min(axis=1, initial=1) < 1) | (numbers.max(axis=1, initial=1) > len(bodies.mass)))
-    if len(outside):
-        raise refused(path, f"a contact of body {numbers[outside[0]].max()}, but {bodies.path} has {len(bodies.mass)} bodies",
-                      0 if lines is None else lines[outside[0]])
-    is_wall = bodies.is_wall()
-    wall_of = np.where(is_wall, np.cumsum(is_wall) - 1, -1)
+    normal, lines = values[:, 3:5], np.zeros(len(numbers), dtype=int) if lines is None else lines
+    refuse_where(path, abs(np.sum(normal**2, axis=1) - 1) > 1e-5, lines,
+                 lambda k: f"the normal of contact {k + 1} is not a unit normal: {normal[k]}")
+    refuse_where(path, np.any((numbers < 1) | (numbers > len(bodies.mass)), axis=1), lines,
+                 lambda k: f"a contact of body {numbers[k].max()}, but {bodies.path} has {len(bodies.mass)} bodies")
+    wall_of = np.where(bodies.is_wall, np.cumsum(bodies.is_wall) - 1, -1)
     force = values[:, 1:2] * normal + values[:, 0:1] * np.column_stack([normal[:, 1], -normal[:, 0]])
-    acts = np.any(force != 0, axis=1)
-    contacts = contacts_of(numbers[:, 0], numbers[:, 1], force, wall_of[numbers[:, 1] - 1], point=values[:, 5:7],
-                           overlap=-values[:, 2], slides=slides, line=lines)
-    return {name: column[acts] for name, column in contacts.items()}
+    return acting(contacts_of(numbers[:, 0], numbers[:, 1], force, wall_of[numbers[:, 1] - 1], point=values[:, 5:7],
+                              overlap=-values[:, 2], slides=slides, line=lines))

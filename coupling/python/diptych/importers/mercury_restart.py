@@ -2,14 +2,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Restart files: walls, particles and interactions, as lines "Name key value value key value"."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
+from typing import Callable
 
 import numpy as np
 
-from .frames import Frame, Wall, contacts_of, refused
+from .frames import Frame, Wall, contacts_of, joined, refuse_where, refused
 from .text import floats_of, int_of, read_lines
 
 
@@ -26,100 +25,99 @@ class Restart:
         return self.density * math.pi * radius**2 * (4 / 3 * radius if self.frame.spheres else 1.0)
 
 
-class _Line:
-    """Words of a line, with numbers after keywords."""
+@dataclass
+class _Rows:
+    """Numbered lines with numbers behind keywords."""
 
-    def __init__(self, path: str, number: int, text: str) -> None:
-        self.path, self.number, self.words = path, number, text.split()
+    path: str
+    rows: list[tuple[int, list[str]]]  # line from 1, words
 
-    def after(self, key: str, n: int = 1) -> list[float]:
-        place = self.words.index(key) + 1 if key in self.words else len(self.words)
-        if place + n > len(self.words):
-            raise refused(self.path, f"expected '{key}' with {n} values", self.number)
-        return floats_of(self.path, self.number, self.words[place:place + n], key)
+    def having(self, key: str) -> "_Rows":
+        """The rows that contain a keyword."""
+        return _Rows(self.path, [row for row in self.rows if key in row[1]])
+
+    def after(self, key: str, n: int = 1) -> np.ndarray:
+        """(rows, n) numbers behind a keyword, which every row must contain."""
+        values = []
+        for line, words in self.rows:
+            place = words.index(key) + 1 if key in words else len(words)
+            if place + n > len(words):
+                raise refused(self.path, f"expected '{key}' with {n} values", line)
+            values.append(floats_of(self.path, line, words[place:place + n], key))
+        return np.array(values).reshape(-1, n)
+
+    def lines(self) -> np.ndarray:
+        """(rows) numbers of the lines."""
+        return np.array([line for line, _ in self.rows], dtype=int)
 
 
-def _side(line: _Line) -> str:
+def _side(wall: _Rows) -> str:
     """The normal points out of the sample: `normal` in files of 2015, else the x axis turned by a quaternion (w, x, y, z)."""
-    if "normal" in line.words:
-        nx, ny = line.after("normal", 3)[:2]
+    if wall.having("normal").rows:
+        nx, ny, _ = wall.after("normal", 3)[0]
     else:
-        w, x, y, z = line.after("orientation", 4)
+        w, x, y, z = wall.after("orientation", 4)[0]
         nx, ny = w * w + x * x - y * y - z * z, 2 * (x * y + w * z)
-    if abs(nx) > 0.99:
-        return "left" if nx < 0 else "right"
-    if abs(ny) > 0.99:
-        return "lower" if ny < 0 else "upper"
-    raise refused(line.path, f"the normal of this wall, ({nx:g}, {ny:g}), is neither along x nor along y", line.number)
+    if max(abs(nx), abs(ny)) < 0.99:
+        raise refused(wall.path, f"the normal of this wall, ({nx:g}, {ny:g}), is neither along x nor along y", wall.lines()[0])
+    return ("left" if nx < 0 else "right") if abs(nx) > abs(ny) else "lower" if ny < 0 else "upper"
 
 
-def _wall(line: _Line) -> tuple[int, Wall]:
-    if line.words[:1] != ["InfiniteWall"]:
-        raise refused(line.path, "expected an InfiniteWall; other shapes are not supported", line.number)
-    side, position = _side(line), line.after("position", 3)
-    number = int(line.after("id")[0])
-    return number, Wall(f"wall {number}", side, position[0 if side in ("left", "right") else 1],
-                        force=tuple(line.after("force", 3)[:2]))
+def _wall(wall: _Rows) -> tuple[int, Wall]:
+    if wall.rows[0][1][:1] != ["InfiniteWall"]:
+        raise refused(wall.path, "expected an InfiniteWall; other shapes are not supported", wall.lines()[0])
+    side, number = _side(wall), int(wall.after("id")[0, 0])
+    return number, Wall(f"wall {number}", side, wall.after("position", 3)[0, 0 if side in ("left", "right") else 1],
+                        force=tuple(wall.after("force", 3)[0, :2]))
 
 
-def _grains(lines: list[_Line], masses_of: object) -> tuple[dict[str, np.ndarray], bool]:
-    vectors = {key: np.array([line.after(key, 3) for line in lines]).reshape(-1, 3)
-               for key in ("position", "velocity", "force", "angularVelocity")}
-    turn = np.array([line.after("orientation", 4) for line in lines]).reshape(-1, 4)
-    radius, inverse = (np.array([line.after(key)[0] for line in lines]) for key in ("radius", "invMass"))
-    for values, what in ((radius > 0, "a radius must be positive"), (inverse >= 0, "invMass is negative")):
-        if not np.all(values):
-            raise refused(lines[0].path, what, lines[int(np.argmin(values))].number)
-    grains = {"id": np.array([line.after("id")[0] if "id" in line.words else k for k, line in enumerate(lines)]).astype(int),
-              "position": vectors["position"][:, :2], "velocity": vectors["velocity"][:, :2],
-              "resultant": vectors["force"][:, :2],
-              "spin": vectors["angularVelocity"][:, 2], "rotation": 2 * np.arctan2(turn[:, 3], turn[:, 0]), "radius": radius,
-              "mass": np.where(inverse > 0, 1 / np.where(inverse > 0, inverse, 1), masses_of(radius)),
-              "line": np.array([line.number for line in lines])}
+def _grains(rows: _Rows, masses_of: Callable[[np.ndarray], np.ndarray]) -> tuple[dict[str, np.ndarray], bool]:
+    """The grains, and whether some of them are fixed."""
+    turn, radius, inverse = rows.after("orientation", 4), rows.after("radius")[:, 0], rows.after("invMass")[:, 0]
+    refuse_where(rows.path, radius <= 0, rows.lines(), lambda k: "a radius must be positive")
+    refuse_where(rows.path, inverse < 0, rows.lines(), lambda k: "invMass is negative")
+    ids = rows.after("id")[:, 0].astype(int) if rows.having("id").rows else np.arange(len(radius))
+    grains = {"id": ids, "radius": radius, "line": rows.lines(), "position": rows.after("position", 3)[:, :2],
+              "velocity": rows.after("velocity", 3)[:, :2], "resultant": rows.after("force", 3)[:, :2],
+              "spin": rows.after("angularVelocity", 3)[:, 2], "rotation": 2 * np.arctan2(turn[:, 3], turn[:, 0]),
+              "mass": np.where(inverse > 0, 1 / np.where(inverse > 0, inverse, 1), masses_of(radius))}
     return grains, bool(np.any(inverse == 0))
 
 
-def _contacts(lines: list[_Line], walls: dict[int, int]) -> dict[str, np.ndarray]:
-    pairs, wall = [], []
-    for line in lines:
-        at_wall = "particleWallIds" in line.words
-        pairs.append([int(number) for number in line.after("particleWallIds" if at_wall else "particleIds", 2)])
-        wall.append(walls.get(pairs[-1][1], -2) if at_wall else -1)
-        if wall[-1] == -2:
-            raise refused(line.path, f"wall {pairs[-1][1]} does not exist", line.number)
-    ends = np.array(pairs, dtype=int).reshape(-1, 2)
-    force, point = (np.array([line.after(key, 3)[:2] for line in lines]).reshape(-1, 2) for key in ("force", "contactPoint"))
-    return contacts_of(ends[:, 0], ends[:, 1], force, np.array(wall, dtype=int), point=point,
-                       line=np.array([line.number for line in lines], dtype=int))
+def _contacts(rows: _Rows, key: str, walls: dict[int, int] | None = None) -> dict[str, np.ndarray]:
+    """The rows with a key; `walls` is the index of each wall by its number."""
+    rows = rows.having(key)
+    first, second = rows.after(key, 2).astype(int).T
+    wall = np.array([-1 if walls is None else walls.get(number, -2) for number in second.tolist()], dtype=int)
+    refuse_where(rows.path, wall == -2, rows.lines(), lambda k: f"wall {second[k]} does not exist")
+    return contacts_of(first, second, rows.after("force", 3)[:, :2], wall, point=rows.after("contactPoint", 3)[:, :2],
+                       line=rows.lines())
 
 
 def read_restart(path: str) -> Restart:
     """Reads a restart file. Raises SceneError naming file, line and the expected text."""
-    lines = [_Line(path, k, text) for k, text in enumerate(read_lines(path), 1)]
-    sections: dict[str, list[_Line]] = {}
-    restart = Restart(Frame("", {}, grain_file=path, contact_file=path), math.nan)
-    for k, line in enumerate(lines):
-        if line.words[:1] and line.words[0] in ("Walls", "Particles", "Interactions") and len(line.words) == 2:
-            count = int_of(path, k + 1, line.words[1], "the number of " + line.words[0])
-            sections[line.words[0]] = lines[k + 1:k + 1 + count]
-            if len(sections[line.words[0]]) < count:
-                raise refused(path, f"the file ends before {count} {line.words[0]}; is it complete?", len(lines))
-        elif "Particles" not in sections:
-            if "timeStep" in line.words and "time" in line.words:
-                restart.frame.time = line.after("time")[0]
-                restart.frame.name = "time " + line.words[line.words.index("time") + 1]
-            if "particleDimensions" in line.words:
-                restart.frame.spheres = line.after("particleDimensions")[0] == 3
-            if "gravity" in line.words:
-                restart.frame.gravity = tuple(line.after("gravity", 3)[:2])
-            if "density" in line.words and math.isnan(restart.density):
-                restart.density = line.after("density")[0]
-    if not sections.get("Particles") or restart.frame.time is None:
-        raise refused(path, "the file ends without particles or without a time; is it a restart file, and complete?",
-                      len(lines))
-    walls = dict(_wall(line) for line in sections.get("Walls", []))
-    restart.frame.walls = list(walls.values())
-    restart.frame.grains, restart.has_fixed = _grains(sections["Particles"], restart.masses_of)
+    rows = [(k, line.split()) for k, line in enumerate(read_lines(path), 1)]
+    sections = {"Walls": _Rows(path, [])}
+    for k, words in rows:
+        if len(words) == 2 and words[0] in ("Walls", "Particles", "Interactions"):
+            count = int_of(path, k, words[1], "the number of " + words[0])
+            sections[words[0]] = _Rows(path, rows[k:k + count])
+            if len(rows) < k + count:
+                raise refused(path, f"the file ends before {count} {words[0]}; is it complete?", len(rows))
+    head = _Rows(path, rows[:next((k for k, (_, words) in enumerate(rows) if words[:1] == ["Particles"]), 0)])
+    time = head.having("timeStep").after("time")
+    if not len(time) or not sections["Particles"].rows:
+        raise refused(path, "the file ends without particles or without a time; is it a restart file, and complete?", len(rows))
+    gravity, density = head.having("gravity").after("gravity", 3), head.having("density").after("density")
+    frame = Frame(f"time {time[0, 0]:.10g}", {}, time=time[0, 0], gravity=tuple(gravity[0, :2]) if len(gravity) else None,
+                  spheres=bool(np.any(head.having("particleDimensions").after("particleDimensions") == 3)), grain_file=path,
+                  contact_file=path)
+    restart = Restart(frame, density[0, 0] if len(density) else math.nan)
+    walls = dict(_wall(_Rows(path, [row])) for row in sections["Walls"].rows)
+    frame.walls = list(walls.values())
+    frame.grains, restart.has_fixed = _grains(sections["Particles"], restart.masses_of)
     if "Interactions" in sections:
-        restart.frame.contacts = _contacts(sections["Interactions"], {number: k for k, number in enumerate(walls)})
+        index = {number: k for k, number in enumerate(walls)}
+        frame.contacts = joined(_contacts(sections["Interactions"], "particleIds"),
+                                _contacts(sections["Interactions"], "particleWallIds", index))
     return restart

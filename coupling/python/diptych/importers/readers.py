@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Reads files with the reader of a format. The compiled module checks the frames."""
 
-from __future__ import annotations
-
 import importlib
 import json
 import os
@@ -11,7 +9,8 @@ from typing import Any, Callable, Sequence
 
 from .. import _diptych
 from ..errors import SceneError
-from .frames import Frame, Options, refused
+from .frames import CONTACTS, GRAINS, Frame, Options, refused
+from .walls import add_wall_tables
 
 Reader = Callable[[Options], "list[Frame]"]
 _MODULES = {"lammps": "lammps", "liggghts": "liggghts", "yade": "yade", "lmgc90": "lmgc90", "mercurydpm": "mercurydpm",
@@ -57,6 +56,14 @@ def _refuse_unused(format: str, options: Options) -> None:
                              "the files name them")
 
 
+def _refuse_unknown(frame: Frame) -> None:
+    """A misspelt name would leave out what it holds."""
+    for kind, known in (("grains", GRAINS), ("contacts", CONTACTS)):
+        unknown = [name for name in getattr(frame, kind) or {} if name not in known]
+        if unknown:
+            raise SceneError(f"{kind} of frame {frame.name}: unknown name '{unknown[0]}'; known are {', '.join(known)}")
+
+
 def read_frames(format: str, options: Options) -> list[Frame]:
     """The frames that the options choose; those without grains are left out. Raises SceneError."""
     for path in options.files:
@@ -67,7 +74,9 @@ def read_frames(format: str, options: Options) -> list[Frame]:
         if kind not in ("particles", "contacts", "walls") or not names:
             raise SceneError(f"--columns {text}: is not KIND=NAME,NAME,..., where KIND is particles, contacts or walls")
     frames = _reader(format)(options)
+    add_wall_tables(frames, options)
     for frame in frames:
+        _refuse_unknown(frame)
         if not len(frame.grains["id"]):
             options.note(f"frame {frame.name} has no grains; it was left out")
     frames = [frame for frame in frames if len(frame.grains["id"])]

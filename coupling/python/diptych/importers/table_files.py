@@ -2,15 +2,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Files of tables: separated by semicolons, tabs, commas or blanks, with or without names of their columns."""
 
-from __future__ import annotations
-
 import csv
 import re
 from typing import Callable, Sequence
 
+import numpy as np
+
 from .frames import Options, refused
 from .tables import Table
-from .text import read_lines
+from .text import number_in_name, read_lines
 
 
 def split(line: str, separator: str | None) -> list[str]:
@@ -60,10 +60,9 @@ def read_table(path: str, names: Sequence[str] | None = None) -> Table:
     lines = read_lines(path)
     columns, start = head_of(lines)
     columns = list(names or columns)
-    if not columns or start == len(lines):
-        raise refused(path, "contains no row of numbers" if columns
-                      else "no line above the numbers names the columns; use --columns")
-    separator, rows, places = _separator(lines[start]), [], []
+    if not columns:
+        raise refused(path, "no line above the numbers names the columns; use --columns")
+    separator, rows, places = _separator(lines[min(start, len(lines) - 1)]), [], []
     if separator == "\t" and names is None and not any("\t" in line for line in lines[:start]):
         separator = None  # names with blanks, numbers with tabs
     for k, line in enumerate(lines[start:], start + 1):
@@ -81,8 +80,12 @@ def read_table(path: str, names: Sequence[str] | None = None) -> Table:
     return Table(path, columns, rows, places)
 
 
-def table_of_kind(path: str, options: Options, kinds: dict[str, Callable[[set[str]], bool]]) -> tuple[str, Table]:
-    """The kind of a file, by the names of its columns (in lower case) or by --columns, and its table. Raises SceneError."""
+def table_of_kind(path: str, options: Options, kinds: dict[str, Callable[[set[str]], bool]],
+                  why: str = "") -> tuple[str, Table]:
+    """The kind of a file, by the names of its columns (in lower case) or by --columns, and its table.
+
+    Raises SceneError that begins with `why`.
+    """
     lines = read_lines(path)
     columns, start = head_of(lines)
     for kind, has_columns in kinds.items():
@@ -94,4 +97,30 @@ def table_of_kind(path: str, options: Options, kinds: dict[str, Callable[[set[st
         if names:
             return kind, read_table(path, names)
     found = f"its columns are {', '.join(columns)}" if columns else f"its {width} columns have no names"
-    raise refused(path, f"does not have the columns of {' or '.join(kinds)}; {found}; name them: --columns KIND=NAME,NAME,...")
+    raise refused(path, f"{why}does not have the columns of {' or '.join(kinds)}; {found}; name them: "
+                  "--columns KIND=NAME,NAME,...")
+
+
+def by_frame(options: Options, kind_of: Callable[[str], tuple[str, Table]]) -> dict[int, dict[str, Table]]:
+    """Tables by frame, ascending, and kind. The last number in a file's name is the frame, or the column `frame`.
+
+    Tables of walls are kept in the options. Raises SceneError for two tables of one kind and frame, and without particles.
+    """
+    found: dict[int, dict[str, Table]] = {}
+    for path in options.files:
+        kind, table = kind_of(path)
+        if kind == "walls":
+            options.wall_tables.append(table)
+            continue
+        numbers = table.whole("frame") if table.has("frame") else np.full(len(table.rows), number_in_name(path))
+        for number in np.unique(numbers) if len(numbers) else [number_in_name(path)]:
+            tables = found.setdefault(int(number), {})
+            if kind in tables:
+                raise refused(path, f"{tables[kind].path} has {kind} of the same frame {number}")
+            tables[kind] = table.part(numbers == number)
+    for number, tables in found.items():
+        if "particles" not in tables:
+            why = "its name contains no frame number" if number < 0 else f"there are no particles of frame {number}"
+            raise refused(next(iter(tables.values())).path,
+                          f"{why}. The last number in a file name is the frame, as in contacts_3 with particles_3")
+    return dict(sorted(found.items()))

@@ -1,22 +1,22 @@
-# diptych: tables of numbers with named columns
+# diptych: tables of numbers with named columns, and the grains in them
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Tables with named columns. Cells are converted when a column is used, so that other columns may hold text or nothing."""
 
-from __future__ import annotations
-
-from typing import Any, Sequence
+from typing import Any, Callable, Sequence
 
 import numpy as np
 
-from .frames import Options, SceneError, refused
+from .frames import Options, SceneError, refuse_where, refused
+
+RADIUS, DIAMETER = ("radius", "r"), ("diameter", "d")
 
 
 class Table:
     """Rows of words below named columns; `lines` are their numbers in the file, from 1. Names ignore case."""
 
     def __init__(self, path: str, columns: Sequence[str], rows: list[list[str]], lines: Sequence[int]) -> None:
-        self.path, self.columns, self.rows, self.lines = path, [name.strip() for name in columns], rows, np.array(lines,
-                                                                                                                  dtype=int)
+        self.path, self.columns, self.rows = path, [name.strip() for name in columns], rows
+        self.lines = np.array(lines, dtype=int)
 
     def find(self, *names: str) -> int | None:
         """Index of the first of these columns that exists. Refuses a name that two columns have."""
@@ -32,6 +32,10 @@ class Table:
         """True if all of these columns exist."""
         return all(self.find(name) is not None for name in names)
 
+    def refuse(self, bad: Any, text: Callable[[int], str]) -> None:
+        """Refuses the first row k for which `bad` is true, with text(k)."""
+        refuse_where(self.path, bad, self.lines, text)
+
     def numbers(self, *names: str) -> np.ndarray:
         """(n) finite numbers of the first of these columns that exists. Raises SceneError with file, line and column."""
         k = self.find(*names)
@@ -42,9 +46,7 @@ class Table:
             values = np.array(words, dtype=float)
         except ValueError:
             values = np.array([self._number(word.replace(",", "."), line, k) for word, line in zip(words, self.lines)])
-        bad = np.flatnonzero(~np.isfinite(values))
-        if len(bad):
-            raise refused(self.path, f"column {self.columns[k]} = '{words[bad[0]]}' is not finite", self.lines[bad[0]])
+        self.refuse(~np.isfinite(values), lambda row: f"column {self.columns[k]} = '{words[row]}' is not finite")
         return values
 
     def _number(self, word: str, line: int, k: int) -> float:
@@ -67,21 +69,55 @@ class Table:
     def whole(self, *names: str) -> np.ndarray:
         """(n) whole numbers."""
         values = self.numbers(*names)
-        bad = np.flatnonzero((values != np.floor(values)) | (abs(values) > 9e15))
-        if len(bad):
-            raise refused(self.path, f"column {names[0]} = {values[bad[0]]:.10g} is not a whole number", self.lines[bad[0]])
+        self.refuse((values != np.floor(values)) | (abs(values) > 9e15),
+                    lambda k: f"column {names[0]} = {values[k]:.10g} is not a whole number")
         return values.astype(np.int64)
 
-    def vectors(self, x: Sequence[str], y: Sequence[str]) -> np.ndarray:
+    def vectors(self, x: str, y: str) -> np.ndarray:
         """(n, 2) from two columns."""
-        return np.column_stack([self.numbers(*x), self.numbers(*y)])
+        return np.column_stack([self.numbers(x), self.numbers(y)])
 
     def optional_vectors(self, options: Options, x: Sequence[str], y: Sequence[str]) -> np.ndarray | None:
-        """The same, or None."""
+        """The same from the first of the columns `x` and `y` that exist, or None."""
         parts = self.optional(options, *x), self.optional(options, *y)
         return None if parts[0] is None or parts[1] is None else np.column_stack(parts)
 
-    def part(self, mask: Any) -> Table:
+    def part(self, mask: Any) -> "Table":
         """The rows that a mask or a list of indices chooses."""
         index = np.arange(len(self.rows))[mask]
         return Table(self.path, self.columns, [self.rows[k] for k in index], self.lines[index])
+
+
+def rows_below(path: str, lines: Sequence[str], start: int, count: int, columns: Sequence[str]) -> Table:
+    """The table of `count` rows below line `start` (from 1). Raises SceneError."""
+    rows = [line.split() for line in lines[start:start + count]]
+    for k, row in enumerate(rows, 1):
+        if len(row) != len(columns):
+            raise refused(path, f"row {k} of {count} has {len(row)} entries instead of {len(columns)} ({' '.join(columns)}); "
+                          "is the number of rows in the head right?", start + k)
+    if len(rows) < count:
+        raise refused(path, f"the file ends after {len(rows)} of {count} rows; is it truncated?", len(lines))
+    return Table(path, columns, rows, np.arange(count) + start + 1)
+
+
+def grains_of(table: Table, options: Options, position: np.ndarray | None = None) -> dict[str, np.ndarray]:
+    """The grains of a frame from columns id, x, y, radius or diameter; if present mass, vx, vy, omega, rotation, fx, fy.
+
+    `position` (n, 2) replaces x and y. Without ids, rows count from 0.
+    """
+    diameter = table.numbers(*DIAMETER) if table.find(*DIAMETER) is not None else None
+    radius = table.numbers(*RADIUS) if diameter is None or table.find(*RADIUS) is not None else diameter / 2
+    if diameter is not None:
+        table.refuse(abs(radius - diameter / 2) > 1e-5 * diameter,
+                     lambda k: f"a radius of {radius[k]:g} and a diameter of {diameter[k]:g} contradict each other")
+    mass = table.optional(options, "mass", "m")
+    for name, values in (("radius", radius), ("mass", mass)):
+        if values is not None:
+            table.refuse(values <= 0, lambda k: f"a {name} of {values[k]:g} must be positive")
+    grains = {"id": table.whole("id") if table.has("id") else np.arange(len(table.rows)), "radius": radius, "mass": mass,
+              "position": table.vectors("x", "y") if position is None else position, "line": table.lines,
+              "velocity": table.optional_vectors(options, ("vx", "vel_x"), ("vy", "vel_y")),
+              "spin": table.optional(options, "omegaz", "omega", "wz", "angVel_z", "spin"),
+              "rotation": table.optional(options, "rotation", "angle", "theta"),
+              "resultant": table.optional_vectors(options, ("fx", "f_x"), ("fy", "f_y"))}
+    return {name: values for name, values in grains.items() if values is not None}

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Text files as lists of lines."""
 
-from __future__ import annotations
-
 import gzip
 import os
 import re
@@ -25,14 +23,12 @@ def read_lines(path: str) -> list[str]:
         text = data.decode("utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
     except (EOFError, gzip.BadGzipFile, zlib.error) as error:
         raise refused(path, f"cannot be unpacked ({error}); is it truncated?") from error
-    except OSError as error:
-        raise refused(path, f"cannot be read ({error.strerror})") from error
     except UnicodeDecodeError:
         text = data.decode("latin-1")
     if "\0" in text:
         raise refused(path, "contains a byte 0; a text file is needed")
     if not text.strip():
-        raise refused(path, "is empty")
+        raise refused(path, "is empty; leave it out, or write at least the names of its columns")
     return text.replace("\r\n", "\n").replace("\r", "\n").rstrip("\n").split("\n")
 
 

@@ -2,14 +2,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Tables of walls, one row a frame: step, time or frame; width and height, or some of left_x, right_x, lower_y, upper_y."""
 
-from __future__ import annotations
+from typing import Callable
 
 import numpy as np
 
-from .frames import SIDES, Frame, Options, Wall, refused
-from .table_files import head_of
+from .frames import Frame, Options, Wall, refused
+from .table_files import table_of_kind
 from .tables import Table
-from .text import read_lines
 
 PLACES = {"lower": "lower_y", "upper": "upper_y", "left": "left_x", "right": "right_x"}
 
@@ -20,9 +19,17 @@ def is_wall_columns(columns: set[str]) -> bool:
                                                                           "frame"})
 
 
-def is_wall_table(path: str) -> bool:
-    """True if the columns of the file are those of a wall table."""
-    return is_wall_columns({name.lower() for name in head_of(read_lines(path)[:20])[0]})
+def sorted_files(options: Options, **kinds: Callable[[str], bool]) -> dict[str, list[str]]:
+    """The files by the first kind whose function accepts them; wall tables are kept in the options. Raises SceneError."""
+    found: dict[str, list[str]] = {kind: [] for kind in kinds}
+    for path in options.files:
+        kind = next((kind for kind, is_kind in kinds.items() if is_kind(path)), None)
+        if kind:
+            found[kind].append(path)
+        else:
+            others = " or ".join(kinds).replace("_", " ")
+            options.wall_tables.append(table_of_kind(path, options, {"walls": is_wall_columns}, f"is no {others} and ")[1])
+    return found
 
 
 def wall_of(frame: Frame, side: str) -> Wall:
@@ -34,33 +41,35 @@ def wall_of(frame: Frame, side: str) -> Wall:
     return frame.walls[-1]
 
 
-def _rows_of(table: Table, frame: Frame, number: int) -> np.ndarray:
+def _rows_of(tables: list[Table], frame: Frame, number: int) -> list[tuple[Table, int]]:
     """Rows of a frame, by its step, its time or its number."""
-    nothing = np.zeros(0, dtype=int)
-    rows, keyed = nothing, False
-    if table.has("step") and frame.step is not None:
-        rows, keyed = np.flatnonzero(table.whole("step") == frame.step), True
-    elif table.has("time") and frame.time is not None:
-        rows, keyed = np.flatnonzero(abs(table.numbers("time") - frame.time) <= 1e-9 * abs(frame.time)), True
-    if table.has("frame") and not len(rows):
-        keyed = True
-        for count in (frame.step, number):
-            if not len(rows) and count is not None:
-                rows = np.flatnonzero(table.whole("frame") == count)
-    return rows if keyed or number >= len(table.rows) else np.array([number])
+    found, counted = [], []
+    for table in tables:
+        keys = []
+        if table.has("step") and frame.step is not None:
+            keys.append(table.whole("step") == frame.step)
+        elif table.has("time") and frame.time is not None:
+            keys.append(abs(table.numbers("time") - frame.time) <= 1e-9 * abs(frame.time))
+        if table.has("frame"):
+            keys += [table.whole("frame") == count for count in (frame.step, number)]
+        if keys:
+            found += [(table, row) for row in np.flatnonzero(next((key for key in keys if np.any(key)), False))]
+        else:
+            counted += [(table, row) for row in range(len(table.rows))]
+    return found + counted[number:number + 1]
 
 
-def _add_row(table: Table, row: int, path: str, frame: Frame, options: Options) -> None:
+def _add_row(table: Table, row: int, frame: Frame, options: Options) -> None:
     if table.has("width", "height"):
         for name, side in (("width", "right"), ("height", "upper")):
             size = table.numbers(name)[row]
             if size <= 0:
-                raise refused(path, f"column {name} = {size:g} must be positive", table.lines[row])
+                raise refused(table.path, f"column {name} = {size:g} must be positive", table.lines[row])
             wall_of(frame, side).place = size
         wall_of(frame, "lower").place = wall_of(frame, "left").place = 0.0
-    for side in SIDES:
-        if table.has(PLACES[side]):
-            wall_of(frame, side).place = table.numbers(PLACES[side])[row]
+    for side, place in PLACES.items():
+        if table.has(place):
+            wall_of(frame, side).place = table.numbers(place)[row]
         force = table.optional_vectors(options, [side + "_fx"], [side + "_fy"])
         if force is not None:
             wall_of(frame, side).force = tuple(force[row])
@@ -68,33 +77,25 @@ def _add_row(table: Table, row: int, path: str, frame: Frame, options: Options) 
         wall_of(frame, "upper").travel = table.numbers("upper_travel")[row]
     if table.has("time") and frame.time is None:
         frame.time = table.numbers("time")[row]
-    frame.wall_file = f"{path}, line {table.lines[row]}"
+    frame.wall_file = f"{table.path}, line {table.lines[row]}"
 
 
-def add_wall_tables(frames: list[Frame], tables: list[Table], options: Options) -> None:
-    """Adds places and forces of tables with the same columns to the walls of the frames.
+def add_wall_tables(frames: list[Frame], options: Options) -> None:
+    """Adds places and forces of options.wall_tables to the walls of the frames.
 
     Raises SceneError for a frame without a row and for rows of one frame that differ.
     """
-    if not tables:
-        return
-    for table in tables[1:]:
-        if table.columns != tables[0].columns:
-            raise refused(table.path, f"its columns differ from those of {tables[0].path}")
-    whole = Table(tables[0].path, tables[0].columns, [row for table in tables for row in table.rows],
-                  [line for table in tables for line in table.lines])
-    paths = [table.path for table in tables for _ in table.rows]
-    for number, frame in enumerate(frames):
-        rows = _rows_of(whole, frame, number)
-        if not len(rows) and (options.frames or not len(frame.grains["id"])):
+    for number, frame in enumerate(frames if options.wall_tables else []):
+        rows = _rows_of(options.wall_tables, frame, number)
+        if not rows and (options.frames or not len(frame.grains["id"])):
             continue  # this frame may be left out
-        if not len(rows):
-            raise refused(whole.path, f"has no row for frame {frame.name} (column step, time or frame)")
-        first = rows[0]
-        for row in rows[1:]:
-            for k, name in enumerate(whole.columns):
-                if whole.rows[row][k] != whole.rows[first][k]:
-                    raise refused(paths[row],
-                                  f"frame {frame.name} has another {name} in line {whole.lines[first]} of {paths[first]}",
-                                  whole.lines[row])
-        _add_row(whole, first, paths[first], frame, options)
+        if not rows:
+            raise refused(options.wall_tables[0].path, f"has no row for frame {frame.name} (column step, time or frame)")
+        first, at = rows[0]
+        known = dict(zip(first.columns, first.rows[at]))
+        for table, row in rows[1:]:
+            for name, word in zip(table.columns, table.rows[row]):
+                if known.get(name) != word:
+                    raise refused(table.path, f"frame {frame.name} has another {name} in line {first.lines[at]} of "
+                                  f"{first.path}", table.lines[row])
+        _add_row(first, at, frame, options)

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """VTKRecorder's .vtu of spheres and .vtp of interactions, in pairs."""
 
-from __future__ import annotations
-
 import tempfile
 import xml.etree.ElementTree as ElementTree
 from typing import Any
@@ -12,9 +10,8 @@ import meshio  # type: ignore
 import numpy as np
 
 from .frames import Frame, Options, contacts_of, refused
-from .table_files import read_table
 from .text import number_in_name
-from .walls import add_wall_tables, is_wall_table
+from .walls import sorted_files
 
 LACKING = ["tangential forces (VTKRecorder keeps absolute components without direction)", "contacts with walls"]
 
@@ -39,8 +36,6 @@ def _mesh(path: str) -> Any:
         with tempfile.NamedTemporaryFile(suffix=".vtu") as file:
             tree.write(file.name)
             return meshio.vtu.read(file.name)  # meshio.read ends the process
-    except OSError as error:
-        raise refused(path, f"cannot be read ({error.strerror})") from error
     except Exception as error:  # of many kinds, on damaged files
         raise refused(path, f"is no complete VTK file of one piece ({error})") from error
 
@@ -52,16 +47,9 @@ def _spheres(path: str) -> dict[str, np.ndarray]:
         if name not in found:
             raise refused(path, f"lacks the array {name} of its points; its arrays are {', '.join(found)}")
     grains = {"id": np.ravel(found["id"]), "position": mesh.points[:, :2], "radius": np.ravel(found["radii"])}
-    if "mass" in found:
-        grains["mass"] = np.ravel(found["mass"])
-    if "linVelVec" in found:
-        grains["velocity"] = found["linVelVec"][:, :2]
-    if "angVelVec" in found:
-        grains["spin"] = found["angVelVec"][:, 2]
-    for name, values in grains.items():
-        if len(values) != len(mesh.points) or not np.all(np.isfinite(values)):
-            raise refused(path,
-                          f"the array of {name} has a number that is not finite, or another length than the points")
+    for name, array, part in (("mass", "mass", 0), ("velocity", "linVelVec", slice(2)), ("spin", "angVelVec", 2)):
+        if array in found:
+            grains[name] = found[array].reshape(len(mesh.points), -1)[:, part]
     return grains
 
 
@@ -72,8 +60,6 @@ def _interactions(path: str, frame: Frame) -> dict[str, np.ndarray]:
     if "forceN" not in mesh.cell_data:
         raise refused(path, "lacks the array forceN of its lines")
     force = np.ravel(np.concatenate(mesh.cell_data["forceN"]))
-    if ends.shape != (len(force), 2) or len(ends) and not 0 <= ends.min() <= ends.max() < len(mesh.points):
-        raise refused(path, f"{len(ends)} lines do not join two points each, or do not belong to {len(force)} forces")
     row_at = {tuple(place): row for row, place in enumerate(frame.grains["position"].tolist())}
     rows = np.array([row_at.get(tuple(place), -1) for place in mesh.points[:, :2].tolist()])[ends]
     if np.any(rows < 0):
@@ -86,25 +72,18 @@ def _interactions(path: str, frame: Frame) -> dict[str, np.ndarray]:
 
 def read(options: Options) -> list[Frame]:
     """Frames of pairs of files with the same iteration in their names. Raises SceneError."""
-    found: dict[str, dict[int, str]] = {".vtu": {}, ".vtp": {}}
-    tables = []
-    for path in options.files:
-        if path[-4:] in found:
-            if found[path[-4:]].setdefault(number_in_name(path), path) != path:
-                raise refused(path, f"{found[path[-4:]][number_in_name(path)]} belongs to the same frame")
-        elif is_wall_table(path):
-            tables.append(path)
-        else:
-            raise refused(path, "is neither .vtu, .vtp nor a wall table; import text exports without VTK files")
+    found = sorted_files(options, vtu=lambda path: path.endswith(".vtu"), vtp=lambda path: path.endswith(".vtp"))
+    spheres, lines = ({number_in_name(path): path for path in found[kind]} for kind in ("vtu", "vtp"))
+    if len(spheres) + len(lines) < sum(len(paths) for paths in found.values()):
+        raise refused("import yade", "two files of one kind have the same last number in their names, the iteration")
     frames = []
-    for number, path in sorted(found[".vtu"].items()):
+    for number, path in sorted(spheres.items()):
         frame = Frame(f"iteration {number}", _spheres(path), step=number, time=options.time_of(number), spheres=True,
                       grain_file=path, lacking=LACKING)
-        if number in found[".vtp"]:
-            frame.contact_file = found[".vtp"][number]
+        if number in lines:
+            frame.contact_file = lines[number]
             frame.contacts = _interactions(frame.contact_file, frame)
         elif frames:
             raise refused(path, f"there is no .vtp of iteration {number}: the frames do not match")
         frames.append(frame)
-    add_wall_tables(frames, [read_table(path) for path in tables], options)
     return frames
