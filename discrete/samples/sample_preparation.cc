@@ -359,13 +359,9 @@ namespace diptych::discrete
     if (o.file.empty())
       check_size(o);
     if (o.lower_platen && o.upper_platen && *o.lower_platen >= *o.upper_platen)
-      throw WrongKeys({"sample/lower_platen", "sample/upper_platen"}, "sample/lower_platen " + exact_text(*o.lower_platen) +
-                                                                        " is not below sample/upper_platen " +
-                                                                        exact_text(*o.upper_platen));
+      throw WrongKeys({"sample/lower_platen", "sample/upper_platen"}, "sample/lower_platen is not below sample/upper_platen");
     if (o.left_wall && o.right_wall && *o.left_wall >= *o.right_wall)
-      throw WrongKeys({"sample/left_wall", "sample/right_wall"}, "sample/left_wall " + exact_text(*o.left_wall) +
-                                                                   " is not left of sample/right_wall " +
-                                                                   exact_text(*o.right_wall));
+      throw WrongKeys({"sample/left_wall", "sample/right_wall"}, "sample/left_wall is not left of sample/right_wall");
   }
 
   PreparedSample prepare_sample(const SampleOptions                 &options,

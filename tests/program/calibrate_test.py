@@ -8,12 +8,10 @@ import json
 import os
 import signal
 import subprocess
-import tempfile
 import time
-import unittest
 
 import browser
-from running import content, diptych, ENVIRONMENT, listing, main, PROGRAM, QUICK, start, write
+from running import content, diptych, ENVIRONMENT, Folder, listing, main, PROGRAM, QUICK, read_json, start, write
 
 TINY = {"sample/grains": 150, "loading/axial_strain": 0.02, "loading/stage_strain": 0.01, "loading/inertial_number": 1e-3,
         "comparison/window_edges": "0, 0.01, 0.02"}
@@ -32,16 +30,9 @@ def calibration(**changes):
     return {**asked, **changes}
 
 
-class Calibrate(unittest.TestCase):
-    def setUp(self):
-        keep = tempfile.TemporaryDirectory()
-        self.addCleanup(keep.cleanup)
-        self.work, self.folder = keep.name, os.path.join(keep.name, "out")
-
+class Calibrate(Folder):
     def file(self, asked):
-        path = os.path.join(self.work, "one.json")
-        write(path, json.dumps(asked, indent=1))
-        return path
+        return write(os.path.join(self.work, "one.json"), json.dumps(asked, indent=1))
 
     def calibrate(self, asked, *words, code=0, folder=None):
         result = diptych("calibrate", self.file(asked), "--output", folder or self.folder, "--quiet", *words)
@@ -49,8 +40,7 @@ class Calibrate(unittest.TestCase):
         return result
 
     def record(self):
-        with open(os.path.join(self.folder, "calibration.json"), encoding="utf-8") as file:
-            return json.load(file)
+        return read_json(self.folder, "calibration.json")
 
 
 class Results(Calibrate):
@@ -86,16 +76,14 @@ class Results(Calibrate):
         result = diptych("continuum", QUICK, *words, *mesh, "--set-file", fragment, "--set", "continuum/internal_length=2.5", "--output",
                          again, "--quiet")
         self.assertEqual(result.returncode, 0, result.stderr)
-        with open(os.path.join(again, "scene.prm"), encoding="utf-8") as file:
-            echo = file.read()
         for text in (f"= {friction['value']!r}", "= 2.5"):
-            self.assertIn(text, echo)
-        with open(os.path.join(self.folder, "report.html"), encoding="utf-8") as file:
-            page = file.read()
+            self.assertIn(text, content(os.path.join(again, "scene.prm")).decode())
+        page = content(self.path("report.html")).decode()
         for text in ("friction_angle_peak", "cannot tell", "not identified", "<img"):
             self.assertIn(text, page)
-        result = diptych("report", self.folder, "--quiet")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        head = start("calibrate", self.file(asked), "--output", self.folder, "--resume")
+        head.stdout.close()  # as `| head` does
+        self.assertEqual((head.communicate(), head.returncode)[1], 0)
         self.look_at_the_page(len(record["paths"]))
 
     def look_at_the_page(self, paths):
@@ -122,15 +110,13 @@ class Results(Calibrate):
         self.assertEqual(record["paths"][0]["seeds"], [1, 2])
         self.assertTrue(any("was not checked" in words for words in record["words"]), record["words"])
         # A result that stopped early.
-        with open(os.path.join(folders[1], "discrete.csv"), encoding="utf-8") as file:
-            lines = file.read().splitlines(keepends=True)
-        write(os.path.join(folders[1], "discrete.csv"), "".join(lines[:len(lines) // 2]))
+        table = os.path.join(folders[1], "discrete.csv")
+        lines = content(table).decode().splitlines(keepends=True)
+        write(table, "".join(lines[:len(lines) // 2]))
         changed = self.calibrate(calibration(targets=[{"name": "read", "results": folders}]), code=2, folder=os.path.join(self.work, "b"))
         self.assertIn("grains_2/discrete.csv", changed.stderr)
         record = os.path.join(folders[1], "provenance.json")
-        with open(record, encoding="utf-8") as file:
-            without_sums = file.read().replace("discrete_files", "no_files")  # as of an earlier version
-        write(record, without_sums)
+        write(record, content(record).decode().replace("discrete_files", "no_files"))  # as of an earlier version
         result = self.calibrate(calibration(targets=[{"name": "read", "results": folders}]), code=2, folder=os.path.join(self.work, "b"))
         for text in ("target 'read'", "grains_2", "before the end of its loading"):
             self.assertIn(text, result.stderr)
@@ -139,12 +125,8 @@ class Results(Calibrate):
 class Interruption(Calibrate):
     def finished_runs(self):
         """Names of the runs that came to their end."""
-        runs, found = os.path.join(self.folder, "runs"), []
-        for name in os.listdir(runs) if os.path.isdir(runs) else []:
-            if name.endswith(".json"):
-                with open(os.path.join(runs, name), encoding="utf-8") as file:
-                    found += [name] if "exit_code" in file.read() else []
-        return found
+        names = [name for name in listing(self.path("runs")) if os.path.dirname(name) == "" and name.endswith(".json")]
+        return [name for name in names if b"exit_code" in content(self.path("runs", name))]
 
     def stop_after(self, runs, with_signal):
         process = start("calibrate", self.file(calibration()), "--output", self.folder, "--resume", "--quiet")
@@ -182,35 +164,21 @@ class Refused(Calibrate):
         target = {"name": "fitted", "scene": QUICK, "seeds": "1-2"}
         for changes, words in [
                 ({"taget": 1}, ["taget"]),
-                ({"targets": []}, ["targets", "fitted"]),
                 ({"targets": [{**target, "use": "predict"}]}, ["targets", "fitted"]),
-                ({"targets": [{**target, "seeds": ""}]}, ["seeds"]),
-                ({"targets": [{**target, "scene": "no.prm"}]}, ["scene", "no.prm"]),
                 ({"targets": [target, target]}, ["'fitted'"]),
                 ({"targets": [{"name": "read", "results": ["nowhere"]}]}, ["nowhere", "discrete.csv"]),
-                ({"targets": [{"name": "read", "results": []}]}, ["results"]),
-                ({"quantities": []}, ["quantities", "stress_ratio"]),
-                ({"quantities": ["stress"]}, ["'stress'", "stress_ratio"]),
-                ({"bins": [0.01]}, ["bins"]),
                 ({"bins": [0.01, 0.005]}, ["bins", "0.005"]),
                 ({"bins": [0.5, 0.6]}, ["no bin"]),
-                ({"parameters": []}, ["parameters"]),
                 ({"parameters": [{**parameter, "key": "friction"}]}, ["continuum/friction", "nearest"]),
-                ({"parameters": [{**parameter, "low": 30}]}, ["start", "30"]),
-                ({"parameters": [{**parameter, "high": 70}]}, ["friction_angle_peak", "70"]),
                 ({"parameters": [{**parameter, "low": 0}]}, ["low", "logarithm"]),
-                ({"parameters": [parameter, parameter]}, ["'friction_angle_peak'"]),
                 ({"parameters": [{"key": "dilatancy_angle_peak", "start": 0.5, "low": 0, "high": 2}]}, ["between 0 and 1"]),
-                ({"parameters": [parameter, {**parameter, "targets": ["fitted"]}]}, ["'friction_angle_peak'"]),
                 ({"parameters": [{**parameter, "targets": ["loose"]}]}, ["targets", "'loose'"]),
                 ({"targets": [target, {**target, "name": "b", "use": "predict"}], "parameters": [{**parameter, "targets": ["b"]}]}, ["targets", "fitted"]),
-                ({"targets": [{**target, "before": "no.prm"}]}, ["before", "no.prm"]),
                 ({"targets": [{**target, "before": QUICK}]}, ["before", "sample/grains"]),
                 ({"parameters": [{**parameter, "of": "cohesion"}]}, ["of", "share_of"]),
                 ({"set": {"discrete/friction": 0.5}}, ["discrete/friction"]),
                 ({"set": {"continuum/friction_angle_peak": 20}}, ["friction_angle_peak", "parameters"]),
                 ({"set": {"continuum/element_size": 3}}, ["continuum/element_size", "coarse_element_size"]),
-                ({"noise": {"level": 1}}, ["level"]),
                 ({"starts": 0}, ["starts"])]:
             with self.subTest(changes=changes):
                 result = self.calibrate(calibration(**changes), code=2)
@@ -220,21 +188,12 @@ class Refused(Calibrate):
         result = diptych("calibrate", QUICK, "--output", self.folder)
         self.assertEqual(result.returncode, 2, result.stderr)
 
-    def test_a_folder_with_other_files_is_left_alone(self):
-        os.mkdir(self.folder)
-        write(os.path.join(self.folder, "mine.txt"), "mine")
-        result = self.calibrate(calibration(), code=2)
-        self.assertIn("holds other files", result.stderr)
-        self.assertEqual(listing(self.folder), ["mine.txt"])
-
     def test_a_fragment_is_checked(self):
-        fragment = os.path.join(self.work, "f.prm")
-        write(fragment, "subsection continuum\n  set friction_angle_pek = 20\nend\n")
-        for file, words in ((fragment, ["friction_angle_pek", "f.prm", "line 2"]), ("no.prm", ["--set-file", "no.prm"])):
-            result = diptych("continuum", QUICK, "--set-file", file, "--output", self.folder)
-            self.assertEqual(result.returncode, 2, result.stderr)
-            for text in words:
-                self.assertIn(text, result.stderr)
+        fragment = write(os.path.join(self.work, "f.prm"), "subsection continuum\n  set friction_angle_pek = 20\nend\n")
+        result = diptych("continuum", QUICK, "--set-file", fragment, "--output", self.folder)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        for text in ("friction_angle_pek", "f.prm", "line 2"):
+            self.assertIn(text, result.stderr)
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ import json
 import os
 import subprocess
 import sys
+import tempfile
 import unittest
 
 import h5py
@@ -60,6 +61,22 @@ def content(path):
         return file.read()
 
 
+def read_json(*names):
+    with open(os.path.join(*names), encoding="utf-8") as file:
+        return json.load(file)
+
+
+class Folder(unittest.TestCase):
+    """A test with a folder `work` for its files, and a path `folder` in it for results."""
+
+    def setUp(self):
+        self.work = self.enterContext(tempfile.TemporaryDirectory())
+        self.folder = os.path.join(self.work, "out")
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+
 def history(folder, name="discrete.csv"):
     """Columns of a panel's table: numbers, and `walk` as text."""
     with open(os.path.join(folder, name)) as file:
@@ -68,8 +85,7 @@ def history(folder, name="discrete.csv"):
 
 
 def facts(folder):
-    with open(os.path.join(folder, "provenance.json")) as file:
-        return json.load(file)["discrete"]
+    return read_json(folder, "provenance.json")["discrete"]
 
 
 def bound_by_permissions():

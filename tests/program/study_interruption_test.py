@@ -11,22 +11,17 @@ import tempfile
 import time
 
 import study_test
-from running import bits, content, diptych, listing, main, start, write
-from study_test import LONG, read
+from running import bits, content, diptych, listing, main, read_json, start, write
+from study_test import LONG
 
 
-class Interruption(study_test.Folder):
+class Interruption(study_test.Study):
     @classmethod
     def setUpClass(cls):
-        cls.keep = tempfile.TemporaryDirectory()
-        cls.alone = os.path.join(cls.keep.name, "alone")
-        file = write(os.path.join(cls.keep.name, "steps.json"), json.dumps(LONG, indent=1))
+        work = cls.enterClassContext(tempfile.TemporaryDirectory())
+        cls.alone, file = os.path.join(work, "alone"), write(os.path.join(work, "steps.json"), json.dumps(LONG, indent=1))
         result = diptych("study", file, "--output", cls.alone, "--quiet")
         assert result.returncode == 0, result.stderr
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.keep.cleanup()
 
     def stop(self, signal_number):
         """Sends a signal when the first run has its prepared sample."""
@@ -50,8 +45,16 @@ class Interruption(study_test.Folder):
         for text in ("stopped on request", "runs are left", "--resume", self.folder):
             self.assertIn(text, errors)
         self.assertTrue(any(name.endswith("checkpoint.h5") for name in listing(self.folder)))
-        self.assertIn("not run", {p["class"] for p in read(self.folder, "study.json")["points"]})
+        self.assertIn("not run", {p["class"] for p in read_json(self.folder, "study.json")["points"]})
         self.expect_the_rest()
+
+    def test_ctrl_c_while_the_report_is_drawn_tells_how_to_draw_it(self):
+        process = start("study", self.study_file(LONG), "--output", self.folder, "--jobs", "2")
+        while process.poll() is None and not os.path.exists(self.path("study.h5")):
+            time.sleep(0.002)
+        process.send_signal(signal.SIGINT)
+        self.assertIn(f"diptych report {self.folder}", process.communicate()[1])
+        self.assertEqual(process.returncode, 3)
 
     def test_a_run_whose_table_was_changed_since_is_run_again(self):
         shutil.copytree(self.alone, self.folder)
@@ -71,7 +74,6 @@ class Interruption(study_test.Folder):
         while time.monotonic() < patience and not any(name.endswith("checkpoint.h5") for name in listing(self.folder)):
             time.sleep(0.01)
         self.expect_the_rest()
-
 
     def test_a_run_whose_checkpoint_is_damaged_begins_anew(self):
         self.stop(signal.SIGINT)

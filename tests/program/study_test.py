@@ -3,20 +3,20 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: study_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
 
-import csv
 import json
 import os
 import re
 import resource
 import shutil
 import signal
-import subprocess
 import tempfile
 import time
 import unittest
 
+import pandas
+
 import browser
-from running import bits, content, diptych, ENVIRONMENT, listing, main, PROGRAM, SOURCE, start, write
+from running import bits, content, diptych, Folder, listing, main, read_json, SOURCE, start, write
 
 # 150 grains between smooth rigid walls: a run takes a fifth of a second.
 STUDY = {
@@ -38,17 +38,7 @@ LONG = {**STUDY, "seeds": 1, "set": {**STUDY["set"], "sample/grains": 400, "load
         "axes": [{"key": "discrete/step", "values": [0.1, 0.07]}]}
 
 
-def read(*names):
-    with open(os.path.join(*names), encoding="utf-8") as file:
-        return json.load(file)
-
-
-class Folder(unittest.TestCase):
-    def setUp(self):
-        keep = tempfile.TemporaryDirectory()
-        self.addCleanup(keep.cleanup)
-        self.work, self.folder = keep.name, os.path.join(keep.name, "out")
-
+class Study(Folder):
     def study_file(self, study):
         return write(os.path.join(self.work, "steps.json"), json.dumps(study, indent=1))
 
@@ -58,9 +48,6 @@ class Folder(unittest.TestCase):
         if code == 0:
             self.assertEqual([name for name in listing(folder or self.folder) if name.endswith(".part")], [])
         return result
-
-    def path(self, *names):
-        return os.path.join(self.folder, *names)
 
     def times(self):
         """When each run's table was written."""
@@ -82,23 +69,18 @@ class Folder(unittest.TestCase):
         return self.fail("it ended before its worker was found")
 
 
-class Points(Folder):
+class Points(Study):
     """A study of seven points on two samples, run once."""
 
     @classmethod
     def setUpClass(cls):
-        cls.keep = tempfile.TemporaryDirectory()
-        cls.done = os.path.join(cls.keep.name, "done")
-        file = write(os.path.join(cls.keep.name, "steps.json"), json.dumps(STUDY, indent=1))
+        work = cls.enterClassContext(tempfile.TemporaryDirectory())
+        cls.done, file = os.path.join(work, "done"), write(os.path.join(work, "steps.json"), json.dumps(STUDY, indent=1))
         cls.process = diptych("study", file, "--output", cls.done, "--jobs", "1")
         assert cls.process.returncode == 0, cls.process.stdout + cls.process.stderr
 
-    @classmethod
-    def tearDownClass(cls):
-        cls.keep.cleanup()
-
     def test_every_point_is_there_with_its_errors(self):
-        record = read(self.done, "study.json")
+        record = read_json(self.done, "study.json")
         self.assertEqual([p["labels"] for p in record["points"]],
                          [[]] + [[step, tolerance] for step in ("0.8", "0.2", "0.1") for tolerance in ("0.5", "0.0001")])
         self.assertEqual(record["points"][0]["quantities"][0]["error"], {"value": 0, "low": 0, "high": 0})
@@ -108,18 +90,14 @@ class Points(Folder):
         self.assertLess(loose["quantities"][0]["error"]["value"], -0.3)
         self.assertEqual(loose["class"], "wrong, warned")
         # A means over pairs: what the table holds of both samples.
-        with open(os.path.join(self.done, "study.csv"), newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
+        rows = pandas.read_csv(os.path.join(self.done, "study.csv"))
         self.assertEqual(len(rows), N_RUNS)
-        fine = [float(r["strength"]) for r in rows if r["family"] == "reference"]
-        here = [float(r["strength"]) for r in rows if r["point"] == "5"]
-        error = record["points"][5]["quantities"][0]["error"]["value"]
-        self.assertAlmostEqual(error, sum(here) / sum(fine) - 1, places=12)
-        self.assertEqual({r["exit_code"] for r in rows}, {"0"})
-        self.assertTrue(all(float(r["cpu_s of discrete"]) > 0 for r in rows))
+        fine, here = (rows[rows.point == point]["strength"].mean() for point in (0, 5))
+        self.assertAlmostEqual(record["points"][5]["quantities"][0]["error"]["value"], here / fine - 1, places=12)
+        self.assertTrue((rows["exit_code"] == 0).all() and (rows["cpu_s of discrete"] > 0).all())
 
     def test_a_point_gives_the_numbers_of_a_run_of_its_own(self):
-        record = read(self.done, "study.json")
+        record = read_json(self.done, "study.json")
         folder = os.path.join(self.done, record["points"][4]["folders"][1])
         alone = diptych("discrete", folder + ".prm", "--output", self.folder, "--quiet")
         self.assertEqual(alone.returncode, 0, alone.stderr)
@@ -130,13 +108,6 @@ class Points(Folder):
         self.assertEqual(content(self.path("study.json")), content(os.path.join(self.done, "study.json")))
         self.assertEqual(bits(self.path("study.h5")), bits(os.path.join(self.done, "study.h5")))
 
-    def test_several_processes_share_the_points(self):
-        words = ["mpirun", "--oversubscribe", "-np", "2", PROGRAM, "study", self.study_file(STUDY), "--output", self.folder]
-        result = subprocess.run(words, env=ENVIRONMENT, capture_output=True, text=True, check=False)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(content(self.path("study.json")), content(os.path.join(self.done, "study.json")))
-        self.assertEqual(result.stdout.count("6 points"), 1)  # only the first process speaks
-
     def test_a_study_that_grows_runs_only_what_is_new(self):
         shutil.copytree(self.done, self.folder)
         before = self.times()
@@ -146,13 +117,13 @@ class Points(Folder):
         after = self.times()
         self.assertEqual(len(after), N_RUNS + 4)
         self.assertEqual({name: after[name] for name in before}, before)
-        self.assertEqual(read(self.folder, "study.json")["points"][5]["quantities"],
-                         read(self.done, "study.json")["points"][3]["quantities"])
+        self.assertEqual(read_json(self.folder, "study.json")["points"][5]["quantities"],
+                         read_json(self.done, "study.json")["points"][3]["quantities"])
 
     def test_runs_of_another_revision_are_run_again(self):
         shutil.copytree(self.done, self.folder)
-        name = read(self.folder, "study.json")["points"][1]["folders"][0]
-        end = read(self.folder, name + ".json")
+        name = read_json(self.folder, "study.json")["points"][1]["folders"][0]
+        end = read_json(self.folder, name + ".json")
         write(self.path(name + ".json"), json.dumps({**end, "revision": "another"}))
         self.assertIn(f"{N_RUNS - 1} of {N_RUNS} runs are finished", self.run_study(STUDY, "--resume").stdout)
         self.assertEqual(content(self.path("study.json")), content(os.path.join(self.done, "study.json")))
@@ -162,10 +133,10 @@ class Points(Folder):
         before = self.times()
         self.run_study({**STUDY, "quantities": [{**STUDY["quantities"][0], "limit": {"relative": 10}}]}, "--resume")
         self.assertEqual(self.times(), before)
-        self.assertEqual({p["class"] for p in read(self.folder, "study.json")["points"]}, {"right"})
+        self.assertEqual({p["class"] for p in read_json(self.folder, "study.json")["points"]}, {"right"})
 
     def test_costs_stand_apart(self):
-        bill = read(self.done, "study_cost.json")
+        bill = read_json(self.done, "study_cost.json")
         self.assertEqual(bill["phases"], ["discrete", "preparation"])
         self.assertEqual(bill["runs"], N_RUNS)
         everything = [c for c in bill["cheapest"] if c["quantity"] == "" and c["accuracy"] == 1]
@@ -198,7 +169,7 @@ class Points(Folder):
             self.assertEqual(page.messages, [])
 
 
-class Failures(Folder):
+class Failures(Study):
     def test_points_that_fail_are_kept_with_their_words(self):
         """One that does not converge, one whose settings contradict each other; the third is right."""
         study = {**STUDY, "seeds": 1, "axes": [{"name": "case", "points": [
@@ -207,7 +178,7 @@ class Failures(Folder):
             {"label": "half a stage", "set": {"loading/stage_strain": 0.004}}]}]}
         result = self.run_study(study)
         self.assertIn("failed with exit code 3", result.stderr)
-        points = read(self.folder, "study.json")["points"][1:]
+        points = read_json(self.folder, "study.json")["points"][1:]
         self.assertEqual([p["class"] for p in points], ["right", "stopped", "refused"])
         self.assertIn("did not converge", points[1]["words"])
         self.assertNotIn(self.folder, points[1]["words"])
@@ -220,9 +191,9 @@ class Failures(Folder):
         _, errors = process.communicate()
         self.assertEqual(process.returncode, 3, errors)
         self.assertIn(words, errors)
-        self.assertIn(sum(p["class"] == "not run" for p in read(self.folder, "study.json")["points"]), range(1, most + 1))
+        self.assertIn(sum(p["class"] == "not run" for p in read_json(self.folder, "study.json")["points"]), range(1, most + 1))
         self.run_study(LONG, "--resume")
-        self.assertNotIn("not run", {p["class"] for p in read(self.folder, "study.json")["points"]})
+        self.assertNotIn("not run", {p["class"] for p in read_json(self.folder, "study.json")["points"]})
 
     def test_a_killed_worker_loses_its_run_alone(self):
         process = start("study", self.study_file(LONG), "--output", self.folder, "--jobs", "1")
@@ -242,7 +213,7 @@ class Failures(Folder):
         study = {**STUDY, "seeds": 1, "axes": [{"key": "discrete/step", "values": [0.2]}],
                  "quantities": [{"name": "far", "strength": [0.5, 0.9], "limit": {"relative": 0.05}}]}
         self.assertIn("no value of 'far'", self.run_study(study).stderr)
-        self.assertEqual({p["class"] for p in read(self.folder, "study.json")["points"]}, {"unjudged"})
+        self.assertEqual({p["class"] for p in read_json(self.folder, "study.json")["points"]}, {"unjudged"})
 
     def test_a_folder_that_is_no_study_is_left_alone(self):
         os.mkdir(self.folder)
@@ -253,35 +224,20 @@ class Failures(Folder):
 
     def test_wrong_studies_are_refused_before_anything_is_written(self):
         for study, words in [({**STUDY, "seedz": 3}, ["seedz", "'seeds'"]),
-                             ({**STUDY, "scene": "nowhere.prm"}, ["scene", "nowhere.prm"]),
                              ({**STUDY, "axes": [{"key": "output/directory", "values": ["x", "y"]}]}, ["output/directory cannot be set"]),
                              ({**STUDY, "seeds": "1-2", "axes": [{"key": "sample/seed", "values": [1, 2]}]}, ["seeds", "sample/seed = 1"]),
-                             ({**STUDY, "set": {"sample/grians": 3}}, ["sample/grians", "sample/grains"]),
                              ({**STUDY, "set": {"sample/grains": 0}}, ["sample/grains = '0'", "whole number"])]:
             with self.subTest(words=words):
                 result = self.run_study(study, code=2)
                 for word in [*words, "steps.json, line "]:
                     self.assertIn(word, result.stderr)
+        self.assertIn("with scene, reference", diptych("study", write(os.path.join(self.work, "empty.json"), "")).stderr)
         self.assertIn("no JSON", diptych("study", write(os.path.join(self.work, "broken.json"), "{")).stderr)
         self.assertIn("--resume", diptych("study", self.study_file(STUDY), "--study", "step").stderr)
         self.assertFalse(os.path.exists(self.folder))
 
 
-class Commands(Folder):
-    """The other commands of a study."""
-
-    def test_laws_on_one_point(self):
-        study = {"scene": os.path.join(SOURCE, "benchmarks", "moreau_quick", "scene.prm"), "command": "material-point",
-                 "set": {"loading/axial_strain": 0.02}, "reference": {"continuum/initial_step": 1e-5},
-                 "axes": [{"key": "continuum/initial_step", "values": [4e-4, 2e-4, 1e-4], "converges": True}],
-                 "quantities": [{"column": "stress_ratio", "largest": True, "limit": {"relative": 0.01}},
-                                {"column": "dissipation", "last": True, "limit": {"relative": 0.01}}]}
-        self.run_study(study)
-        record = read(self.folder, "study.json")
-        self.assertIsNone(record["points"][1]["quantities"][0]["error"]["low"])  # one sample has no interval
-        self.assertTrue(all(p["certain"] for p in record["points"]))
-        self.assertGreater(read(self.folder, "study_cost.json")["total_cpu_s"], 0)
-
+class Comparisons(Study):
     def test_both_panels_and_numbers_of_their_comparison(self):
         study = {"scene": os.path.join(SOURCE, "benchmarks", "moreau_quick", "scene.prm"), "command": "run",
                  "set": {"sample/grains": 150, "loading/inertial_number": 1e-3, "loading/axial_strain": 0.01,
@@ -291,7 +247,7 @@ class Commands(Folder):
                  "quantities": [{"number": "continuum_summary peak_stress_ratio", "limit": {"relative": 0.01}},
                                 {"number": "discrete_summary peak_stress_ratio", "limit": {"absolute": 1e-9}}]}
         self.run_study(study)
-        point = read(self.folder, "study.json")["points"][1]
+        point = read_json(self.folder, "study.json")["points"][1]
         self.assertEqual([q["verdict"] for q in point["quantities"]], ["beyond", "within"])
         self.assertEqual(point["class"], "silently wrong")
         self.assertNotIn("report.html", [os.path.basename(name) for name in listing(self.path("runs"))])

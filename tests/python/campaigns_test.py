@@ -18,15 +18,7 @@ from diptych.campaigns.study_file import quantity
 FOUR = [1, 2, 3, 4]  # mean 2.5, deviation sqrt(5/3): the standard error of the mean is half of that
 
 
-# ---- statistics -------------------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("degrees, exact", [(1, math.tan(0.475 * math.pi)), (2, 0.95 * math.sqrt(2 / (1 - 0.95**2)))])
-def test_quantiles_with_a_closed_form(degrees, exact):
-    assert statistics.student_quantile(0.975, degrees) == pytest.approx(exact, rel=1e-14)
-
-
-@pytest.mark.parametrize("degrees", [3, 7, 30, 2.5])
+@pytest.mark.parametrize("degrees", [1, 2, 2.5, 7, 30])
 def test_quantiles_invert_students_distribution(degrees):
     assert stats.t.cdf(statistics.student_quantile(0.975, degrees), degrees) == pytest.approx(0.975, rel=1e-14)
 
@@ -102,9 +94,6 @@ def test_without_a_power_law_there_is_no_order(h, values):
     assert statistics.fit_convergence(h, values) is None
 
 
-# ---- histories --------------------------------------------------------------------------------------------------------------
-
-
 def table(progress, **columns):
     return pd.DataFrame({"progress": progress, **columns}, dtype=float)
 
@@ -160,7 +149,7 @@ def comparison(seed, grains, continuum):
 
 
 def ensemble_of(*comparisons, folded=False):
-    return ensemble.evaluate([member_of_record(one, "", folded) for one in comparisons], MARGINS)
+    return ensemble.evaluate([member_of_record(one, folded) for one in comparisons], MARGINS)
 
 
 def named(record, key="name"):
@@ -215,12 +204,6 @@ def test_only_a_vertical_descent_is_its_own_mirror_image(keys, symmetric):
     assert is_mirror_symmetric(scenes.read(keys)) == symmetric
 
 
-@pytest.mark.parametrize("record", [{}, {"seed": 1, "windows": [{"from": 0}]}])
-def test_a_file_that_is_no_comparison_is_refused(record):
-    with pytest.raises(ValueError, match="does not compare two panels"):
-        member_of_record(record, "comparison.json")
-
-
 def test_means_of_curves_need_all_members():
     mean, low, high = ensemble.with_means(np.array([[1.0, 2, np.nan], [3, 2, 1]]))
     half = stats.t.ppf(0.975, 1) * stats.sem([1, 3])
@@ -228,13 +211,11 @@ def test_means_of_curves_need_all_members():
     assert (mean[1], low[1], high[1]) == (2, 2, 2) and np.isnan([mean[2], low[2], high[2]]).all()
 
 
-@pytest.mark.parametrize("text, seeds", [("1-4", [1, 2, 3, 4]), ("5-7,1,3", [1, 3, 5, 6, 7])])
-def test_lists_of_seeds(text, seeds):
-    assert read_seeds(text) == seeds
+def test_lists_of_seeds():
+    assert read_seeds("1-4") == [1, 2, 3, 4] and read_seeds("5-7,1,3") == [1, 3, 5, 6, 7]
 
 
-@pytest.mark.parametrize("text", ["", ",", "1,", "1-", "-3", "one", "1.5", "1 2", "8-1", "1,1", "1-3,2", "0-10000",
-                                  "2147483648", "1--2", "1-2-3"])
+@pytest.mark.parametrize("text", ["", "1,", "-3", "one", "1.5", "8-1", "1-3,2", "0-10000", "2147483648", "1-2-3"])
 def test_invalid_lists_of_seeds_are_refused(text):
     with pytest.raises(diptych.SceneError, match="--seeds"):
         read_seeds(text)

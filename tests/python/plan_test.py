@@ -29,9 +29,6 @@ def question(accuracy):
     return Question("scene.prm", [], accuracy, {"discrete": asked, "continuum": asked})
 
 
-# ---- error laws -------------------------------------------------------------------------------------------------------------
-
-
 def test_a_rule_holds_until_there_is_evidence():
     assert errors.improved(RULE, []).mean == 1
     assert errors.improved(RULE, [(0.02, 0.08, 0), (0, 0.01, 0.01)]).mean == 1  # without information
@@ -70,12 +67,12 @@ def test_numbers_of_samples_are_the_least_that_suffice():
 
 
 def test_the_choice_of_the_grains_is_the_cheapest():
-    known, cost = [GrainErrors(Estimate(1, 0.2), 0.03, True), GrainErrors(Estimate(1.5, 0.5), 0.02, True)], [(0.05, 1),
-                                                                                                             (0.025, 1.6)]
+    known = [GrainErrors(Estimate(1, 0.2), 0.03, True), GrainErrors(Estimate(1.5, 0.5), 0.02, True)]
+    cost = [(0.05, 1), (0.025, 1.6)]
 
     def total(accuracy):
-        return max(errors.samples_for(one.scatter, 0.04 - one.at(accuracy)) or 1e6 for one in known) * errors.cost_at(cost,
-                                                                                                                      accuracy)
+        n = max(errors.samples_for(one.scatter, 0.04 - one.at(accuracy)) or 1e6 for one in known)
+        return n * errors.cost_at(cost, accuracy)
 
     accuracy, samples = errors.cheapest_choice(known, cost, 0.04, 0)
     assert samples > 0
@@ -92,9 +89,6 @@ def test_accuracies_are_shares_or_per_cents(text):
 def test_wrong_accuracies_are_refused(wrong):
     with pytest.raises(diptych.SceneError, match="--accuracy"):
         read_accuracy(wrong)
-
-
-# ---- grains -----------------------------------------------------------------------------------------------------------------
 
 
 def grains_plan(accuracy, factor=1.0, scatter=0.04, noise=0.01, file=""):
@@ -138,9 +132,6 @@ def test_accuracies_out_of_reach_are_reported():
     assert not grains_plan(0.001, scatter=300).reaches
     failed = GrainsPlan(question(0.02), scenes.read({}), lambda task: Pilot(failure="no room")).make()
     assert not failed.reaches and "no room" in failed.decisions[-1]
-
-
-# ---- continuum --------------------------------------------------------------------------------------------------------------
 
 
 def elements(of_elements=0.002, of_steps=2.0, of_law=0.0, is_local=False, longest=math.inf):

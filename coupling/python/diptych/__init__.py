@@ -18,7 +18,7 @@ except ImportError as error:
     raise ImportError(f"diptych does not load in {sys.executable}: {error}. Use the Python of the build (Debian: /usr/bin/python3).") \
         from error
 from .arrays import Band, BandReport, History, Interval, Mesh, Record, StressMap
-from .errors import NotConverged, SceneError, SceneWarning
+from .errors import NotConverged, SceneError, SceneWarning, Stopped
 from .laws import biaxial, integrate, principal
 from .operators import contacts, find_bands, grid, increment, map_stress, probe, shear_strain, strips, theory_lines
 from .panels import ContinuumPanel, DiscretePanel
@@ -39,7 +39,7 @@ def __getattr__(name: str) -> object:
 
 __all__ = [
     "Band", "BandReport", "CalibrationResult", "Campaign", "Comparison", "Contacts", "ContinuumPanel", "ContinuumSnapshot", "DiscretePanel",
-    "DiscreteSnapshot", "History", "Interval", "Mesh", "NotConverged", "PanelResults", "PlanResult", "Record", "Results", "SceneError", "SceneWarning", "StressMap",
+    "DiscreteSnapshot", "History", "Interval", "Mesh", "NotConverged", "PanelResults", "PlanResult", "Record", "Results", "SceneError", "SceneWarning", "Stopped", "StressMap",
     "__version__", "benchmarks_dir", "biaxial", "calibrate", "compare", "contacts", "ensemble", "find_bands", "grid", "increment", "integrate",
     "keys", "load", "map_stress", "notebooks_dir", "plan", "principal", "probe", "scene", "shear_strain", "solve", "strips", "study", "theory_lines",
 ]

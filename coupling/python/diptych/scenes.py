@@ -36,7 +36,7 @@ def text_of(value: Any) -> str:
     return ", ".join(text_of(entry) for entry in value)
 
 
-def _changes(sections: Mapping[str, Any]) -> Iterator[Change]:
+def changes(sections: Mapping[str, Any]) -> Iterator[Change]:
     for section, keys in sections.items():
         if "/" in section:
             name, key = section.split("/", 1)
@@ -57,9 +57,9 @@ def read(scene: SceneLike, overrides: Mapping[str, Any] = {}, compares: bool = F
             return scene
         scene = scene.dict()
     if isinstance(scene, Mapping):
-        read = _diptych.read_scene(None, [*_changes(scene), *_changes(overrides)], compares)
+        read = _diptych.read_scene(None, [*changes(scene), *changes(overrides)], compares)
     else:
-        read = _diptych.read_scene(os.fspath(scene), list(_changes(overrides)), compares)
+        read = _diptych.read_scene(os.fspath(scene), list(changes(overrides)), compares)
     for text in read.warnings:
         warnings.warn(text, SceneWarning, stacklevel=3)
     return read

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import argparse
+import importlib
 import sys
 from collections.abc import Sequence
 
@@ -13,11 +14,15 @@ from ..errors import Stopped
 from .engine import NOT_CONVERGED, SYSTEM_FAILURE, WRONG_INPUT, Options, complain, on_first_process
 
 
+COMMANDS = {"run": ("ensemble", "run_ensemble"), "compare": ("ensemble", "compare_again"), "study": ("study", "run_study"),
+            "plan": ("plan", "main_plan"), "calibrate": ("calibration", "run_calibration")}
+
+
 def parsed(words: Sequence[str]) -> argparse.Namespace:
     """The words of a command line. All commands share their options; the program refuses those that a command does not have."""
     parser = argparse.ArgumentParser(prog="diptych", allow_abbrev=False)
-    parser.add_argument("command", choices=["run", "study", "plan", "calibrate", "compare"])
-    parser.add_argument("target")
+    for name in ("command", "target"):
+        parser.add_argument(name)
     for option in ("--output", "--seeds", "--accuracy", "--for"):
         parser.add_argument(option, default="")
     for option in ("--set", "--set-file"):
@@ -26,44 +31,19 @@ def parsed(words: Sequence[str]) -> argparse.Namespace:
         parser.add_argument(option, type=int, default=default)
     for option in ("--resume", "--overwrite", "--quiet", "--run"):
         parser.add_argument(option, action="store_true")
-    joined: list[str] = []
-    for word in words:  # --accuracy 2 % is two words
-        if word == "%" and joined:
-            joined[-1] += " %"
-        else:
-            joined.append(word)
-    return parser.parse_args(joined)
-
-
-def execute(words: Sequence[str]) -> int:
-    """Does a command and returns its exit code."""
-    line = parsed(words)
-    options = Options(line.jobs, line.threads, line.quiet, line.resume, line.overwrite, " ".join(["diptych", *words]))
-    changes = (line.set, line.set_file)
-    if line.command == "study":
-        from .input_file import settings_of
-        from .study import run_study
-
-        return run_study(line.target, line.output, settings_of(*changes), options, line.set_file)
-    if line.command == "plan":
-        from .plan import main_plan
-
-        return main_plan(line, options)
-    if line.command == "calibrate":
-        from .calibration import main_calibrate
-
-        return main_calibrate(line, options)
-    from .ensemble import compare_again, run_ensemble
-
-    if line.command == "compare":
-        return compare_again(line.target, changes, options)
-    return run_ensemble(line.target, line.seeds, line.output, changes, options)
+    if "%" in words:  # --accuracy 2 % is two words
+        k = words.index("%")
+        words = [*words[:k - 1], words[k - 1] + "%", *words[k + 1:]]
+    return parser.parse_args(words)
 
 
 def main(words: Sequence[str]) -> int:
-    """Does a command; an error is a message and an exit code."""
+    """Does a command and returns its exit code; an error is a message."""
+    line = parsed(words)
+    module, function = COMMANDS[line.command]  # pandas and SciPy load only now
     try:
-        return execute(words)
+        command = getattr(importlib.import_module("." + module, __package__), function)
+        return command(line, Options(line.jobs, line.threads, line.quiet, line.resume, line.overwrite, words))
     except Stopped as stopped:
         code, text = NOT_CONVERGED, str(stopped)
     except ValueError as error:

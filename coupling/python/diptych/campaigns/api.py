@@ -8,44 +8,66 @@ import json
 import os
 import subprocess
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self, TypeVar
 
 import pandas as pd
 
-from ..errors import NotConverged, SceneError
-from ..scenes import text_of
+from ..errors import NotConverged, SceneError, Stopped
+from ..scenes import SceneLike, changes, text_of
 from .engine import DONE, NOT_CONVERGED, WRONG_INPUT, environment, program
 from .folders import read_json
 
+PathLike = str | os.PathLike[str]
+
 
 @dataclass(repr=False)
-class Campaign:
-    """Results of a campaign. The keys and columns are those of `diptych explain results`.
+class CampaignResult:
+    """A folder with results. numbers: its JSON file, whose keys `diptych explain results` describes."""
+
+    folder: str
+    numbers: dict[str, Any]
+
+    _files = ()
+
+    @classmethod
+    def load(cls, folder: PathLike) -> Self:
+        """Reads a folder. Raises ValueError if it has no such results."""
+        folder = os.fspath(folder)
+        paths = [os.path.join(folder, name) for name in cls._files]
+        return cls(folder, read_json(next(filter(os.path.exists, paths), paths[-1])))
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.folder!r})"
+
+
+Result = TypeVar("Result", bound=CampaignResult)
+
+
+class Campaign(CampaignResult):
+    """Results of a study or an ensemble. Columns are those of `diptych explain results`, too.
 
     numbers  study.json or ensemble.json
     table    study.csv (a row per point and sample) or ensemble.csv (a row per quantity)
     cost     study_cost.json; empty for an ensemble
     """
 
-    folder: str
-    numbers: dict[str, Any]
-    table: pd.DataFrame
-    cost: dict[str, Any]
+    _files = ("study.json", "ensemble.json")
 
-    @staticmethod
-    def load(folder: str | os.PathLike[str]) -> Campaign:
-        """Reads the folder of a study or an ensemble. Raises ValueError if there is none."""
-        folder = os.fspath(folder)
-        kind = "study" if os.path.exists(os.path.join(folder, "study.json")) else "ensemble"
-        path = os.path.join(folder, kind)
-        return Campaign(folder, read_json(path + ".json"), pd.read_csv(path + ".csv", float_precision="round_trip"),
-                        read_json(path + "_cost.json") if kind == "study" else {})
+    def __init__(self, folder: str, numbers: dict[str, Any]) -> None:
+        super().__init__(folder, numbers)
+        is_study = "points" in numbers
+        self.table = pd.read_csv(os.path.join(folder, "study.csv" if is_study else "ensemble.csv"),
+                                 float_precision="round_trip")
+        self.cost = read_json(os.path.join(folder, "study_cost.json")) if is_study else {}
 
     @property
     def points(self) -> pd.DataFrame:
         """A study: the points with class, certainty and the mean error of each quantity."""
+        if "points" not in self.numbers:
+            raise AttributeError("an ensemble has no points; use .verdicts or .table")
         names = [quantity["name"] for quantity in self.numbers["quantities"]]
         return pd.DataFrame([{"family": point["family"], "settings": "; ".join(point["settings"]), "class": point["class"],
                               "certain": point["certain"],
@@ -55,70 +77,15 @@ class Campaign:
     @property
     def verdicts(self) -> pd.DataFrame:
         """An ensemble: the differences continuum minus grains, with margins and verdicts."""
+        if "verdicts" not in self.numbers:
+            raise AttributeError("a study has no verdicts; use .points or .table")
         return pd.json_normalize(self.numbers["verdicts"])
 
-    def __repr__(self) -> str:
-        return f"Campaign({self.folder!r}: {len(self.table)} rows)"
 
+class CalibrationResult(CampaignResult):
+    """Results of a calibration: calibration.json. The folder also holds calibrated.prm."""
 
-def _call(words: Sequence[str], output: str, options: Mapping[str, Any]) -> None:
-    for name, value in options.items():
-        if name == "set":
-            words = [*words, *(word for key, to in value.items() for word in ("--set", f"{key}={text_of(to)}"))]
-        elif value is True:
-            words = [*words, "--" + name]
-        elif value is not False:
-            words = [*words, "--" + name, str(value)]
-    done = subprocess.run([program(), *words, "--output", output, "--quiet"], env=environment(), stderr=subprocess.PIPE,
-                          text=True, check=False)
-    if done.returncode not in (DONE, NOT_CONVERGED) or not os.path.isdir(output):
-        raise (SceneError if done.returncode == WRONG_INPUT else RuntimeError)(done.stderr.strip())
-    if done.returncode == NOT_CONVERGED:
-        raise NotConverged(f"{done.stderr.strip()}; load('{output}') of the result's class reads what is there")
-
-
-def _call_with_file(command: str, contents: Mapping[str, Any] | str | os.PathLike[str], output: str,
-                    options: Mapping[str, Any]) -> None:
-    """Runs a command with a file, or with a file of these contents in the working directory, where their paths begin."""
-    if not isinstance(contents, Mapping):
-        return _call([command, os.fspath(contents)], output, options)
-    with tempfile.NamedTemporaryFile("w", dir=".", prefix=command + "_", suffix=".json") as file:
-        json.dump({"title": os.path.basename(os.path.normpath(output)), **contents}, file, indent=1, default=os.fspath)
-        file.flush()
-        return _call([command, file.name], output, options)
-
-
-def study(contents: Mapping[str, Any] | str | os.PathLike[str], output: str | os.PathLike[str], **options: Any) -> Campaign:
-    """Runs a study and returns its results.
-
-    contents  path of a study file, or its contents as a dict, whose paths are relative to the working directory
-    output    folder of the results
-    options   those of `diptych study`: jobs=2, threads=1, resume=True, overwrite=True, set={"section/key": value}
-
-    Raises SceneError for wrong input, NotConverged if runs were stopped or the system ended them, RuntimeError for
-    failures of the system.
-    """
-    _call_with_file("study", contents, os.fspath(output), options)
-    return Campaign.load(output)
-
-
-def ensemble(scene: str | os.PathLike[str], seeds: str, output: str | os.PathLike[str], **options: Any) -> Campaign:
-    """Runs a scene file with several seeds ("1-8") and returns the statistics. Options and errors are as in study()."""
-    _call(["run", os.fspath(scene), "--seeds", seeds], os.fspath(output), options)
-    return Campaign.load(output)
-
-
-@dataclass(repr=False)
-class CalibrationResult:
-    """Results of a calibration. numbers: calibration.json, whose keys `diptych explain results` describes."""
-
-    folder: str
-    numbers: dict[str, Any]
-
-    @staticmethod
-    def load(folder: str | os.PathLike[str]) -> CalibrationResult:
-        """Reads the folder of a calibration. Raises ValueError if there is none."""
-        return CalibrationResult(os.fspath(folder), read_json(os.path.join(folder, "calibration.json")))
+    _files = ("calibration.json",)
 
     def _of_paths(self, name: str) -> pd.DataFrame:
         return pd.DataFrame([{"path": path["name"], "use": path["use"], **one} for path in self.numbers["paths"]
@@ -139,28 +106,11 @@ class CalibrationResult:
         """A row per path and quantity, with the verdict."""
         return self._of_paths("predictions")
 
-    def __repr__(self) -> str:
-        return f"CalibrationResult({self.folder!r}: {self.numbers['status']}, chi2 = {self.numbers['chi2']})"
 
+class PlanResult(CampaignResult):
+    """A plan: plan.json. The folder also holds planned.prm."""
 
-def calibrate(contents: Mapping[str, Any] | str | os.PathLike[str], output: str | os.PathLike[str],
-              **options: Any) -> CalibrationResult:
-    """Runs a calibration file, or its contents as a dict, and returns its results. Options and errors are as in study()."""
-    _call_with_file("calibrate", contents, os.fspath(output), options)
-    return CalibrationResult.load(output)
-
-
-@dataclass(repr=False)
-class PlanResult:
-    """A plan. numbers: plan.json, whose keys `diptych explain results` describes. The folder also holds planned.prm."""
-
-    folder: str
-    numbers: dict[str, Any]
-
-    @staticmethod
-    def load(folder: str | os.PathLike[str]) -> PlanResult:
-        """Reads the folder of a plan. Raises ValueError if there is none."""
-        return PlanResult(os.fspath(folder), read_json(os.path.join(folder, "plan.json")))
+    _files = ("plan.json",)
 
     @property
     def panels(self) -> pd.DataFrame:
@@ -173,14 +123,90 @@ class PlanResult:
         return pd.DataFrame([{"panel": panel["panel"], "quantity": q["name"], **part}
                              for panel in self.numbers["panels"] for q in panel["quantities"] for part in q["parts"]])
 
-    def __repr__(self) -> str:
-        return f"PlanResult({self.folder!r}: {len(self.numbers['panels'])} panels, accuracy {self.numbers['accuracy']:g})"
+
+@contextmanager
+def _file_of(command: str, contents: Mapping[str, Any] | PathLike, output: str) -> Iterator[str]:
+    """A path as it is. A dict becomes a file in the working directory, where its paths begin."""
+    if not isinstance(contents, Mapping):
+        yield os.fspath(contents)
+        return
+    name, record = os.path.basename(os.path.normpath(output)), {}
+    if command in ("study", "calibrate"):
+        record = {"title": name, **contents}
+    else:
+        for section, key, text in changes(contents):
+            record.setdefault(section, {})[key] = text
+    with tempfile.NamedTemporaryFile("w", dir=".", prefix=name + "_", suffix=".json") as file:
+        json.dump(record, file, indent=1, default=os.fspath)
+        file.flush()
+        yield file.name
 
 
-def plan(scene: str | os.PathLike[str], accuracy: float, output: str | os.PathLike[str], **options: Any) -> PlanResult:
-    """Plans a scene file for a relative accuracy of the mean, 0.001 to 0.5.
+def _run(words: Sequence[str]) -> tuple[int, str, bool]:
+    """Runs the program; returns its exit code, its messages, and whether Ctrl-C was pressed. It then keeps what is done."""
+    with tempfile.TemporaryFile("w+", encoding="utf-8") as errors:
+        process, stopped = subprocess.Popen([program(), *words], env=environment(), stderr=errors), False
+        try:
+            process.wait()
+        except KeyboardInterrupt:
+            process.terminate()
+            stopped = True
+        code = process.wait()
+        errors.seek(0)
+        return code, errors.read().strip(), stopped
+
+
+def _result(kind: type[Result], command: str, contents: Mapping[str, Any] | PathLike, output: PathLike,
+            options: dict[str, Any]) -> Result:
+    output = os.fspath(output)
+    words = ["--output", output, "--quiet"]
+    for key, value in options.pop("set", {}).items():
+        words += ["--set", f"{key}={text_of(value)}"]
+    for name, value in options.items():
+        if value is not False:
+            words += ["--" + name] if value is True else ["--" + name, str(value)]
+    with _file_of(command, contents, output) as file:
+        code, text, stopped = _run([command, file, *words])
+    if stopped:
+        text = text.partition("; to go on")[0] or "stopped on request"
+        raise Stopped(f"{text}; the same call with resume=True goes on")
+    if code not in (DONE, NOT_CONVERGED) or not os.path.isdir(output):
+        raise (SceneError if code == WRONG_INPUT else RuntimeError)(text)
+    if code == NOT_CONVERGED:
+        raise NotConverged(f"{text}; {kind.__name__}.load('{output}') reads what is there")
+    return kind.load(output)
+
+
+def study(contents: Mapping[str, Any] | PathLike, output: PathLike, **options: Any) -> Campaign:
+    """Runs a study and returns its results.
+
+    contents  path of a study file, or its contents as a dict, whose paths are relative to the working directory
+    output    folder of the results
+    options   those of `diptych study`: jobs=2, threads=1, resume=True, overwrite=True, set={"section/key": value}
+
+    Raises SceneError for wrong input, Stopped on Ctrl-C (resume=True then goes on), NotConverged if runs were stopped or the
+    system ended them, RuntimeError for failures of the system.
+    """
+    return _result(Campaign, "study", contents, output, options)
+
+
+def ensemble(scene: SceneLike, seeds: str | int | Iterable[int], output: PathLike, **options: Any) -> Campaign:
+    """Runs a scene with several seeds and returns the statistics. Options and errors are as in study().
+
+    scene  path of a scene file, or a dict as in diptych.scene()
+    seeds  a number, range(1, 9), a list of numbers, or a text such as "1-8" or "1,3,5-7"
+    """
+    return _result(Campaign, "run", scene, output, {"seeds": text_of(seeds).replace(" ", ""), **options})
+
+
+def calibrate(contents: Mapping[str, Any] | PathLike, output: PathLike, **options: Any) -> CalibrationResult:
+    """Runs a calibration file, or its contents as a dict, and returns its results. Options and errors are as in study()."""
+    return _result(CalibrationResult, "calibrate", contents, output, options)
+
+
+def plan(scene: SceneLike, accuracy: float | str, output: PathLike, **options: Any) -> PlanResult:
+    """Plans a scene, a path or a dict, for a relative accuracy of the mean: 0.001 to 0.5, or a text such as "3 %".
 
     Options and errors are as in study(), with run=True for the planned samples and **{"for": "strength,angle"} for the
     quantities. Raises NotConverged if the accuracy is not reached; PlanResult.load() then reads the plan."""
-    _call(["plan", os.fspath(scene), "--accuracy", repr(float(accuracy))], os.fspath(output), options)
-    return PlanResult.load(output)
+    return _result(PlanResult, "plan", scene, output, {"accuracy": text_of(accuracy), **options})

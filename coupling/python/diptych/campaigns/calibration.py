@@ -13,25 +13,27 @@ from dataclasses import asdict
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from ..arrays import Array
 from ..errors import NotConverged, SceneError, Stopped
 from .calibration_coordinates import Coordinates
 from .calibration_file import Calibration, Target, read_calibration
-from .calibration_findings import (parameter_records, parameter_words, path_record, summary, widen_predictions,
-                                   write_calibration)
+from .calibration_findings import parameter_records, parameter_words, path_record, summary, write_calibration
 from .calibration_noise import Data, FittedData, noise_of
-from .calibration_runs import CalibrationRuns, Observation, Path, read_target, without_frames
+from .calibration_runs import CalibrationRuns, Observation, Path, observe_curve, read_target
 from .calibration_search import (PRIOR, Fit, Knowledge, difference_jacobian, expected_chi2, identify, least_squares,
                                  spread_point)
-from .engine import DONE, NOT_CONVERGED, Options, complain, say
+from .engine import DONE, NOT_CONVERGED, Options, complain, say, tell
 from .folders import Folder, draw
 from .input_file import Setting
 
 SAME_MINIMUM = 0.05  # in every coordinate; they run over [0, 1]
-FIRST_JACOBIANS = 4  # most of the first search
+FIRST_JACOBIANS = 4  # most of the first search, and of the one that continues the best
 HARDLY_WORSE = 4  # in chi^2: two deviations
 REACH = 1.5  # deviations to either side in a profile
+KEYS_OF_NOISE = ("stress_level", "stress_shape", "volume_start", "volume_growth", "ln_width", "correlation_strain",
+                 "degrees_of_freedom")  # in calibration.json
 
 RunModel = Callable[[Sequence[Path], Sequence[Sequence[Sequence[Setting]]], bool, float], "list[list[Observation]]"]
 
@@ -52,9 +54,8 @@ class Calibrator:
         self.fitted = [path for path in paths if path.target.is_fitted]
         alone = len(self.fitted) == 1 and len(self.fitted[0].samples) == 1
         self.noise = noise_of([path.data for path in (paths if alone else self.fitted)], calibration.noise)
-        record["noise"] = asdict(self.noise)
-        self.data = FittedData(self.noise, calibration.noise, [path.data for path in self.fitted],
-                               [path.left_out for path in self.fitted])
+        record["noise"] = {key: value for key, value in asdict(self.noise).items() if key in KEYS_OF_NOISE}
+        self.data = FittedData(self.noise, [path.data for path in self.fitted], [path.left_out for path in self.fitted])
         record["n_observables"] = int((self.data.weights > 0).sum())
         if record["n_observables"] == 0:
             raise NotConverged("no observable is left to fit; check targets, quantities and bins")
@@ -110,7 +111,7 @@ class Calibrator:
         c, residuals, fits = self.calibration, self._residuals(False), []
         starts = [self.coordinates.start, *(spread_point(c.seed + k, len(self.coordinates)) for k in range(1, c.starts))]
         for k, start in enumerate(starts):
-            fit = least_squares(residuals, start, c.start_jacobians if k else max(FIRST_JACOBIANS, c.start_jacobians))
+            fit = least_squares(residuals, start, c.start_jacobians if k else FIRST_JACOBIANS)
             fits.append(fit)
             self.record["minima"].append({"start": self.coordinates.numbers(start), "runs": fit.evaluations, "is_best": False,
                                           "words": fit.note, **self._minimum(fit)})
@@ -145,11 +146,9 @@ class Calibrator:
         knowledge = identify(jacobian, data.weights, wider * data.of_means(True), wider * data.of_means(False),
                              self.noise.degrees_of_freedom)
         if record["misfit"] > 1:
-            record["words"].append(f"chi^2 is {record['chi2']:.3g}, {record['misfit'] ** 2:.3g} times the expected value: "
-                                   "this law "
-                                   "cannot reproduce the data within noise and model tolerance; deviations of the parameters "
-                                   "are "
-                                   f"multiplied by {record['misfit']:.3g}")
+            record["words"].append(f"chi^2 is {record['chi2']:.3g}, {record['misfit'] ** 2:.3g} times the expected value: this "
+                                   "law cannot reproduce the data within noise and model tolerance; deviations of the "
+                                   f"parameters are multiplied by {record['misfit']:.3g}")
         record["parameters"] = parameter_records(self.coordinates, knowledge, fine.point)
         record["correlation"] = knowledge.correlation
         record["words"] += parameter_words(record["parameters"])
@@ -184,13 +183,10 @@ class Calibrator:
         at = 0
         for path, *runs in zip(self.paths, before, after, halved):
             here = self._jacobian_on(path, best, jacobian)
-            record = path_record(path, self.noise, runs, np.sqrt(np.diag(here @ knowledge.covariance @ here.T)))
-            if path.target.is_fitted:
-                for one in record["observables"]:
-                    one["counts"], at = bool(self.data.weights[at] > 0), at + 1
-            else:
-                widen_predictions(record, float(knowledge.quantile.max()))
-            self.record["paths"].append(record)
+            deviations = np.sqrt(np.diag(here @ knowledge.covariance @ here.T))
+            self.record["paths"].append(path_record(path, self.noise, runs, deviations, float(knowledge.quantile.max())))
+            for one in self.record["paths"][-1]["observables"] if path.target.is_fitted else ():
+                one["counts"], at = bool(self.data.weights[at] > 0), at + 1
         formerly = [one for path, one in zip(self.paths, before) if path.target.is_fitted]
         self.record["chi2_before"] = self._chi2(self.data.residual(np.concatenate([one.values for one in formerly])))
 
@@ -208,28 +204,11 @@ class Calibrator:
             return [runs[0].values for runs in self._runs(points, [path], False, "other_runs")]
 
         here = values([best])[0]
-        measured = np.isfinite(here)
-        result = np.full((n, len(best)), np.nan)
+        measured, result = np.isfinite(here), np.full((n, len(best)), np.nan)
         if measured.any():
             result[measured] = difference_jacobian(lambda points: [one[measured] for one in values(points)], best,
                                                    here[measured])
         return result
-
-
-def _coordinates_of(calibration: Calibration) -> Coordinates:
-    """Shares and drops refer to fixed keys, else to those of the first fitted scene."""
-    others: dict[str, float] = {}
-    first = next(target for target in calibration.targets if target.is_fitted)
-    values = [*read_target(first).dict()["continuum"].items(), *((one.key, one.value) for one in calibration.fixed)]
-    for key, value in values:
-        try:
-            others[key] = float(value)
-        except (TypeError, ValueError):
-            continue
-    try:
-        return Coordinates(calibration.parameters, others)
-    except ValueError as error:
-        raise SceneError(f"{calibration.file}: parameters: {error}") from error
 
 
 def _check_target(calibration: Calibration, coordinates: Coordinates, target: Target) -> Data:
@@ -253,23 +232,24 @@ def _check_target(calibration: Calibration, coordinates: Coordinates, target: Ta
                              f"continuum/{unused[p.key]}")
     read_target(target, target.before)
     if target.curve:
-        from .calibration_runs import observe_curve
-
         sample, deviations = observe_curve(scene, observables, target.curve)
         return Data(observables, sample.values, deviations)
     return Data(observables, np.zeros((len(target.seeds), len(observables))))
 
 
 def _checked(file: str) -> tuple[Calibration, Coordinates]:
-    """Reads a calibration and checks it before anything is changed. Whether the scatter can be estimated follows from the
-    number of samples alone."""
+    """Reads a calibration and checks it before anything is changed. Shares and drops refer to fixed keys, else to those of the
+    first fitted scene. Whether the scatter can be estimated follows from the number of samples alone."""
     calibration = read_calibration(file)
-    coordinates = _coordinates_of(calibration)
-    shapes = [_check_target(calibration, coordinates, target) for target in calibration.targets]
+    first = next(target for target in calibration.targets if target.is_fitted)
+    values = {**read_target(first).dict()["continuum"], **{one.key: one.value for one in calibration.fixed}}
     try:
-        noise_of(shapes, calibration.noise)
+        coordinates = Coordinates(calibration.parameters, pd.to_numeric(pd.Series(values), errors="coerce").dropna().to_dict())
+        noise_of([_check_target(calibration, coordinates, target) for target in calibration.targets], calibration.noise)
+    except SceneError:
+        raise
     except ValueError as error:
-        raise SceneError(f"{calibration.file}: {error}") from error
+        raise SceneError(f"{file}: {error}") from error
     return calibration, coordinates
 
 
@@ -283,7 +263,9 @@ def _check_data(calibration: Calibration, paths: Sequence[Path], runs: Calibrati
         if target.curve:
             record["words"].append(f"target '{target.name}' is a measured curve: nothing was run again")
         elif path.scene.dict()["discrete"]["method"] == "imported":
-            path.left_out = without_frames(path.scene, path.data.observables)
+            stages = path.scene.stages()  # between frames nothing is known of the grains
+            path.left_out = ["" if one.kind == "ln_width" or any(one.low <= at <= one.high for at in stages)
+                             else "no frame lies in it" for one in path.data.observables]
             record["words"].append(f"target '{target.name}' is imported: nothing was run again, and only bins that hold a "
                                    "frame count")
         elif calibration.check_samples == 0 or target.results:
@@ -297,20 +279,20 @@ def _check_data(calibration: Calibration, paths: Sequence[Path], runs: Calibrati
 def _inputs(calibration: Calibration) -> list[tuple[str, str]]:
     inputs = [("the calibration", calibration.file)]
     for target in calibration.targets:
-        name = f"targets: '{target.name}': "
-        inputs += [(name + "the scene", target.scene), *((name + "results", folder) for folder in target.results)]
-        inputs += [(name + "curve", target.curve)] if target.curve else []
+        own = [("the scene", target.scene), *(("results", folder) for folder in target.results), ("curve", target.curve)]
+        inputs += [(f"targets: '{target.name}': {what}", path) for what, path in own if path]
         inputs += read_target(target).input_files()
     return inputs
 
 
-def run_calibration(file: str, output: str, options: Options) -> int:
-    """Does the command and returns its exit code; 3: stopped, or no convergence, with the best point so far in the folder."""
-    calibration, coordinates = _checked(file)
-    directory = output or f"results/{calibration.name}_calibration"
+def run_calibration(line: argparse.Namespace, options: Options) -> int:
+    """The command `diptych calibrate FILE`. line: target and output. Returns its exit code; 3: stopped, or no convergence, with
+    the best point so far in the folder."""
+    calibration, coordinates = _checked(line.target)
+    directory = line.output or f"results/{calibration.name}_calibration"
     record = empty_record(calibration.title)
     with Folder(directory) as folder:
-        folder.open_runs("calibration", file, options, lambda: _inputs(calibration))
+        folder.open_runs("calibration", line.target, options, lambda: _inputs(calibration))
         runs = CalibrationRuns(calibration, directory, options)
         try:
             paths = runs.paths()
@@ -320,15 +302,9 @@ def run_calibration(file: str, output: str, options: Options) -> int:
             record["status"] = str(error)
         write_calibration(directory, record, runs.cpu_s)
         if record["status"] != "finished":
-            complain(f"diptych: {record['status']}; what was found is kept in {directory}; to go on: diptych calibrate {file} "
-                     f"--output {directory} --resume")
+            complain(f"diptych: {record['status']}; what was found is kept in {directory}; to go on: {options.again}")
             return NOT_CONVERGED
-        print(summary(record, runs.cpu_s["continuum"]), flush=True)
+        tell(summary(record, runs.cpu_s["continuum"]))
         draw(options, "calibration", directory)
         say(options, f"{directory}/calibrated.prm, calibration.json, calibration.csv")
     return DONE
-
-
-def main_calibrate(args: argparse.Namespace, options: Options) -> int:
-    """The command `diptych calibrate FILE`. args: target and output."""
-    return run_calibration(args.target, args.output, options)

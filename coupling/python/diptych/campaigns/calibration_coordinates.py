@@ -14,15 +14,8 @@ from ..arrays import Array
 from .input_file import Setting
 
 COORDINATES = ("value", "logarithm", "share_of", "drop_from")
-
-
-def usual_coordinate(key: str) -> str:
-    """The coordinate of a key if the file names none."""
-    if key == "friction_angle_residual":
-        return "drop_from"
-    if key in ("dilatancy_angle_peak", "friction_angle_start"):
-        return "share_of"
-    return "value" if key == "poisson_ratio" else "logarithm"
+USUAL = {"friction_angle_residual": "drop_from", "dilatancy_angle_peak": "share_of", "friction_angle_start": "share_of",
+         "poisson_ratio": "value"}  # of a key if the file names none; else logarithm
 
 
 @dataclass(frozen=True)
@@ -38,10 +31,6 @@ class Parameter:
     other: str = ""
     targets: tuple[str, ...] = ()
 
-    @property
-    def is_ratio(self) -> bool:
-        return self.coordinate in ("share_of", "drop_from")
-
     def is_of(self, target: str) -> bool:
         """An empty name means: common to all targets."""
         return not self.targets or (target in self.targets)
@@ -53,43 +42,36 @@ class Coordinates:
 
     def __init__(self, parameters: Sequence[Parameter], others: Mapping[str, float]) -> None:
         self.parameters, self.others = parameters, others
+        low, start, high = (np.array([np.log(getattr(p, name)) if p.coordinate == "logarithm" else getattr(p, name)
+                                      for p in parameters]) for name in ("low", "start", "high"))
+        self.low, self.span = low, high - low
+        self.start: Array = (start - low) / self.span  # (n): the point where the first search begins
         for p in parameters:
             referred = [q for q in parameters if q.key == p.other]
             for target in p.targets or ("",):
                 if referred and not any(q.is_of(target) for q in referred):
-                    raise ValueError(f"{p.key} refers to {p.other}, which belongs to other targets")
+                    raise ValueError(f"parameters: {p.key} refers to {p.other}, which belongs to other targets")
                 self._value(p.key, target, [q.start for q in parameters], 0)
 
     def __len__(self) -> int:
         return len(self.parameters)
 
-    def _scaled(self, name: str) -> Array:
-        return np.array([np.log(getattr(p, name)) if p.coordinate == "logarithm" else getattr(p, name)
-                         for p in self.parameters])
-
-    @property
-    def start(self) -> Array:
-        """(n): the point where the first search begins."""
-        low = self._scaled("low")
-        return (self._scaled("start") - low) / (self._scaled("high") - low)
-
     def numbers(self, point: Array) -> list[float]:
         """Value, share or drop of every parameter."""
-        low = self._scaled("low")
-        here = low + point * (self._scaled("high") - low)
+        here = self.low + point * self.span
         return [float(np.exp(x)) if p.coordinate == "logarithm" else float(x) for p, x in zip(self.parameters, here)]
 
     def _value(self, key: str, target: str, numbers: Sequence[float], depth: int) -> float:
         if depth > len(self):
-            raise ValueError(f"{key} refers to itself in a circle")
+            raise ValueError(f"parameters: {key} refers to itself in a circle")
         for p, number in zip(self.parameters, numbers):
             if p.key == key and p.is_of(target):
-                if not p.is_ratio:
+                if p.coordinate in ("value", "logarithm"):
                     return number
                 share = number if p.coordinate == "share_of" else 1 - number
                 return share * self._value(p.other, target, numbers, depth + 1)
         if key not in self.others:
-            raise ValueError(f"{key} is needed by a share or drop, but has no value")
+            raise ValueError(f"parameters: {key} is needed by a share or drop, but has no value")
         return self.others[key]
 
     def values(self, point: Array) -> list[float]:

@@ -15,16 +15,14 @@ import pandas as pd
 from .. import _diptych
 from ..errors import SceneError
 from ..importers import read_table
-from .calibration_coordinates import COORDINATES, Parameter, usual_coordinate
-from .calibration_noise import KINDS, NoiseOptions, Observable
+from .calibration_coordinates import COORDINATES, USUAL, Parameter
+from .calibration_noise import KINDS, Noise, Observable
 from .histories import is_beyond
-from .input_file import Part, Setting, is_number, listed, value_text
+from .input_file import Part, Setting, is_number, name_of, value_text
 
 FAR = 1e12
 MOST_PARAMETERS = 12  # the starts are spread over at most so many directions
 KEYS_OF_THE_SEARCH = ("mesh", "element_size", "rectangle_width", "rectangle_height", "initial_step", "max_step")
-ROOT_KEYS = ("title", "targets", "quantities", "bins", "set", "parameters", "noise", "starts", "start_jacobians", "load_step",
-             "coarse_element_size", "check_samples", "seed")
 CURVE_COLUMNS = {"stress_ratio": "stress_ratio_deviation", "volumetric_strain": "volumetric_strain_deviation"}
 
 
@@ -59,7 +57,7 @@ class Calibration:
     bins: list[float]
     parameters: list[Parameter]
     fixed: list[Setting]
-    noise: NoiseOptions
+    noise: Noise
     starts: int = 2
     start_jacobians: int = 1
     load_step: float = 0.001
@@ -78,13 +76,6 @@ class Calibration:
         if not found:
             raise ValueError("no bin and no window lies within the loading; check bins and comparison/window_edges")
         return found
-
-
-def _existing(part: Part, key: str) -> str:
-    path = os.path.join(os.path.dirname(part.file), part.at(key).value if part.word(key) else "")
-    if not os.path.isfile(path):
-        part.refuse(f" = '{path}': there is no such file", key)
-    return path
 
 
 def read_curve(file: str, bins: Sequence[tuple[float, float]] = ()) -> pd.DataFrame:
@@ -113,47 +104,35 @@ def read_curve(file: str, bins: Sequence[tuple[float, float]] = ()) -> pd.DataFr
     return table.rename(columns={"axial_strain": "progress"})
 
 
-def _result_folder(one: Part) -> str:
-    folder = os.path.join(os.path.dirname(one.file), value_text(one.value))
-    if _diptych.resolved_scene(folder + "/scene.prm") is None or not all(
-            os.path.exists(f"{folder}/discrete.{ending}") for ending in ("csv", "h5")):
-        one.refuse(f"results: '{folder}' is not a result folder; scene.prm, discrete.csv and discrete.h5 are needed")
-    try:
-        _diptych.check_part(folder, "discrete")  # a file that changed since its run would be fitted as if it were measured
-    except ValueError as error:
-        one.refuse(f"results: {error}")
-    return folder
-
-
-def _sample_of(folder: str) -> tuple[str, int, dict[str, str]]:
-    """The mark of a sample (its seed, or for imported samples its file), its seed, and what all samples must share."""
-    scene = _diptych.resolved_scene(folder + "/scene.prm")
-    keys, identity = scene.dict(), dict(scene.identity("sample"))
-    imported = keys["discrete"]["method"] == "imported"
-    for key in ("sample/seed", *(("discrete/file", "loading/pressure") if imported else ())):
-        identity.pop(key)
-    seed = keys["sample"]["seed"]
-    return str(keys["discrete"]["file"] if imported else seed), seed, identity
-
-
 def _results(part: Part) -> tuple[list[str], list[int]]:
     """Finished result folders and their seeds. They must come from one scene and differ in their samples only."""
     if part.has("scene") or part.has("seeds"):
         part.refuse(" replaces scene and seeds; give one or the other", "results")
-    folders = [_result_folder(one) for one in part.list("results")]
+    folders, seeds, samples, first = [], [], [], None
+    for one in part.list("results"):
+        folder = os.path.join(os.path.dirname(one.file), value_text(one.value))
+        scene = _diptych.resolved_scene(folder + "/scene.prm")
+        if scene is None or not all(os.path.exists(f"{folder}/discrete.{ending}") for ending in ("csv", "h5")):
+            one.refuse(f"results: '{folder}' is not a result folder; scene.prm, discrete.csv and discrete.h5 are needed")
+        try:
+            _diptych.check_part(folder, "discrete")  # a file that changed since its run would be fitted as if it were measured
+        except ValueError as error:
+            one.refuse(f"results: {error}")
+        folders.append(folder)
+        identity, imported = dict(scene.identity("sample")), scene.dict()["discrete"]["method"] == "imported"
+        seeds.append(scene.dict()["sample"]["seed"])
+        samples.append(str(scene.dict()["discrete"]["file"] if imported else seeds[-1]))
+        for key in ("sample/seed", *(("discrete/file", "loading/pressure") if imported else ())):
+            del identity[key]
+        first = first or identity
+        for key in identity:
+            if identity[key] != first.get(key):
+                part.refuse(f": '{folder}' and '{folders[0]}' come from different scenes: {key} = '{identity[key]}' and "
+                            f"'{first.get(key)}'", "results")
     if not folders:
         part.refuse(" is empty; name at least one result folder", "results")
-    samples = [_sample_of(folder) for folder in folders]
-    for k, (mark, _, identity) in enumerate(samples):
-        for j, (other_mark, _, other) in enumerate(samples[:k]):
-            pair = f": '{folders[k]}' and '{folders[j]}' "
-            if mark == other_mark:
-                part.refuse(f"{pair}are the same sample ({mark})", "results")
-            for key in identity:
-                if identity[key] != other.get(key):
-                    part.refuse(f"{pair}come from different scenes: {key} = '{identity[key]}' and '{other.get(key)}'",
-                                "results")
-    return folders, [seed for _, seed, _ in samples]
+    part.demand_distinct("results", samples)
+    return folders, seeds
 
 
 def _target(part: Part) -> Target:
@@ -167,35 +146,21 @@ def _target(part: Part) -> Target:
     else:
         if part.has("curve") and not part.has("scene"):
             part.refuse(" needs 'scene': the continuum is loaded as this scene says and compared with the curve", "curve")
-        part.at("scene")
-        target.scene = _existing(part, "scene")
+        target.scene = part.existing_file("scene")
         if not part.has("curve"):
             part.at("seeds")
         target.seeds = part.seeds("seeds")
     if part.has("curve"):
         if part.has("results") or part.has("seeds"):
             part.refuse(" stands instead of grains; leave out seeds and results", "curve")
-        target.curve = _existing(part, "curve")
+        target.curve = part.existing_file("curve")
     if part.has("before"):
-        fragment = _existing(part, "before")
+        fragment = part.existing_file("before")
         target.before = [Setting(*entry) for entry in _diptych.read_fragment(fragment)]
         for entry in target.before:
             if entry.section != "continuum":
                 part.refuse(f" = '{fragment}' sets {entry.section}/{entry.key}, which is not a key of the continuum", "before")
     return target
-
-
-def _check_numbers(part: Part, p: Parameter) -> None:
-    if not p.low < p.high:
-        part.refuse(f" = {p.low:g} and high = {p.high:g}: bounds must ascend", "low")
-    if not p.low <= p.start <= p.high:
-        part.refuse(f" = {p.start:g} lies outside its bounds [{p.low:g}, {p.high:g}]", "start")
-    if p.is_ratio and not (p.low >= 0 and p.high <= 1):
-        part.refuse(f" = {p.low:g} and high = {p.high:g}: shares and drops lie between 0 and 1", "low")
-    if p.coordinate == "logarithm" and not p.low > 0:
-        part.refuse(f" = {p.low:g}: a logarithm needs bounds above 0", "low")
-    for name in () if p.is_ratio else ("low", "high"):  # both must lie in the range of the key
-        part.setting(name, "continuum/" + p.key, part.value[name])
 
 
 def _parameter(part: Part, targets: Sequence[Target]) -> Parameter:
@@ -204,12 +169,9 @@ def _parameter(part: Part, targets: Sequence[Target]) -> Parameter:
         part.at(name)
     key, fitted = part.word("key"), {target.name: target.is_fitted for target in targets}
     names = [value_text(one.value) for one in part.list("targets")]
-    for one, name in zip(part.list("targets"), names):
-        if name not in fitted:
-            one.refuse(f"targets: there is no target '{name}'")
-    if part.has("targets") and not any(fitted[name] for name in names):
-        part.refuse(": none of these targets is fitted", "targets")
-    coordinate = part.choice("coordinate", COORDINATES, usual_coordinate(key))
+    if part.has("targets") and not (set(names) <= set(fitted) and any(fitted[name] for name in names)):
+        part.refuse(f" = '{', '.join(names)}' is not allowed; name some of {', '.join(fitted)}, one of them fitted", "targets")
+    coordinate = part.choice("coordinate", COORDINATES, USUAL.get(key, "logarithm"))
     is_ratio = coordinate in ("share_of", "drop_from")
     if not is_ratio and part.has("of"):
         part.refuse(" is only allowed with coordinate = share_of or drop_from", "of")
@@ -218,48 +180,17 @@ def _parameter(part: Part, targets: Sequence[Target]) -> Parameter:
         part.refuse(f" = {key} is set by the calibration itself and cannot be a parameter", "key")
     p = Parameter(key, coordinate, *(part.number(name, -FAR, FAR) for name in ("start", "low", "high")),
                   part.word("of", "friction_angle_peak") if is_ratio else "", tuple(names))
-    _check_numbers(part, p)
+    if not p.low < p.high:
+        part.refuse(f" = {p.low:g} and high = {p.high:g}: bounds must ascend", "low")
+    if not p.low <= p.start <= p.high:
+        part.refuse(f" = {p.start:g} lies outside its bounds [{p.low:g}, {p.high:g}]", "start")
+    if is_ratio and not (p.low >= 0 and p.high <= 1):
+        part.refuse(f" = {p.low:g} and high = {p.high:g}: shares and drops lie between 0 and 1", "low")
+    if coordinate == "logarithm" and not p.low > 0:
+        part.refuse(f" = {p.low:g}: a logarithm needs bounds above 0", "low")
+    for name in () if is_ratio else ("low", "high"):  # both must lie in the range of the key
+        part.setting(name, "continuum/" + key, part.value[name])
     return p
-
-
-def _demand_distinct(root: Part, key: str, names: Sequence[str]) -> None:
-    for k, name in enumerate(names):
-        if name in names[:k]:
-            root.refuse(f": two entries have the name '{name}'", key)
-
-
-def _noise(root: Part) -> NoiseOptions:
-    options = NoiseOptions()
-    if root.has("noise"):
-        part, names = root.at("noise"), [one.name for one in fields(NoiseOptions)]
-        part.allow(*names)
-        for name in filter(part.has, names):
-            setattr(options, name, part.number(name, 1e-9 if name in ("correlation_strain", "early_strain") else 0, FAR))
-    return options
-
-
-def _kinds(root: Part) -> list[str]:
-    kinds: list[str] = []
-    for part in root.list("quantities"):
-        word = value_text(part.value)
-        if word not in KINDS or word in kinds:
-            part.refuse(f"quantities: '{word}' is "
-                        f"{'given twice' if word in kinds else f'not allowed; use some of {listed(KINDS)}'}")
-        kinds.append(word)
-    if not kinds:
-        root.refuse(f" is missing or empty; use some of {listed(KINDS)}", "quantities")
-    return kinds
-
-
-def _bins(root: Part) -> list[float]:
-    bins: list[float] = []
-    for part in root.list("bins"):
-        if not is_number(part.value) or part.value < 0 or (bins and part.value <= bins[-1]):
-            part.refuse(f"bins: {value_text(part.value)} is not allowed; edges must ascend and begin at 0 or above")
-        bins.append(float(part.value))
-    if len(bins) < 2:
-        root.refuse(" needs at least two edges", "bins")
-    return bins
 
 
 def _fixed(root: Part, parameters: Sequence[Parameter]) -> list[Setting]:
@@ -278,30 +209,39 @@ def _fixed(root: Part, parameters: Sequence[Parameter]) -> list[Setting]:
 
 def read_calibration(file: str) -> Calibration:
     """Reads a .json file. Raises SceneError naming file, line, key, value and the allowed values."""
-    root = Part.read(file)
-    root.allow(*ROOT_KEYS)
-    stem = os.path.splitext(os.path.basename(file))[0]
-    name = os.path.basename(os.path.dirname(os.path.abspath(file))) if stem == "calibration" else stem
+    root = Part.read(file, "targets, quantities, bins and parameters")
+    root.allow("title", "targets", "quantities", "bins", "set", "parameters", "noise", "starts", "start_jacobians", "load_step",
+               "coarse_element_size", "check_samples", "seed")
+    name = name_of(file, "calibration")
     targets = [_target(part) for part in root.list("targets")]
     if not any(target.is_fitted for target in targets):
         root.refuse(" is missing, or none of the targets is fitted", "targets")
-    _demand_distinct(root, "targets", [target.name for target in targets])
-    kinds = _kinds(root)
-    bins = _bins(root) if kinds != ["ln_width"] else []
+    root.demand_distinct("targets", [target.name for target in targets])
+    kinds = [value_text(part.value) for part in root.list("quantities")]
+    if not kinds or not set(kinds) <= set(KINDS):
+        root.refuse(f" = '{', '.join(kinds)}' is not allowed; use some of {', '.join(KINDS)}", "quantities")
+    root.demand_distinct("quantities", kinds)
+    bins = [part.value for part in root.list("bins")]
+    ascend = len(bins) > 1 and all(map(is_number, bins)) and bins[0] >= 0 and np.all(np.diff(bins) > 0)
+    if kinds != ["ln_width"] and not ascend:
+        root.refuse(f" = {bins} is not allowed; give at least two edges that ascend from 0 or above", "bins")
     for target in targets:
         if target.curve:
-            read_curve(target.curve, list(zip(bins, bins[1:])))
+            read_curve(target.curve, list(zip(bins, bins[1:])) if kinds != ["ln_width"] else [])
     parameters = [_parameter(part, targets) for part in root.list("parameters")]
     if not 0 < len(parameters) <= MOST_PARAMETERS:
         root.refuse(f" is missing or empty; name 1 to {MOST_PARAMETERS} keys to be fitted", "parameters")
     for target in targets:  # each target uses a key once
-        _demand_distinct(root, "parameters", [p.key for p in parameters if p.is_of(target.name)])
-    c = Calibration(name, file, root.word("title", name), targets, kinds, bins, parameters, _fixed(root, parameters),
-                    _noise(root))
-    for key, low, high in (("starts", 1, 20), ("start_jacobians", 1, 20), ("check_samples", 0, 1000), ("seed", 0, 1_000_000)):
+        root.demand_distinct("parameters", [p.key for p in parameters if p.is_of(target.name)])
+    c = Calibration(name, file, root.word("title", name), targets, kinds, [float(edge) for edge in bins], parameters,
+                    _fixed(root, parameters), Noise())
+    if root.has("noise"):
+        part, names = root.at("noise"), [one.name for one in fields(Noise)[:-2]]
+        part.allow(*names)
+        for name in filter(part.has, names):
+            setattr(c.noise, name, part.number(name, 1e-9 if name in ("correlation_strain", "early_strain") else 0, FAR))
+    for key, low, high in (("starts", 1, 20), ("start_jacobians", 1, 20), ("check_samples", 0, 1000), ("seed", 0, 1_000_000),
+                           ("load_step", 1e-9, 1), ("coarse_element_size", 0.01, 1e3)):
         if root.has(key):
-            setattr(c, key, root.whole(key, low, high))
-    for key, smallest, largest in (("load_step", 1e-9, 1), ("coarse_element_size", 0.01, 1e3)):
-        if root.has(key):
-            setattr(c, key, root.number(key, smallest, largest))
+            setattr(c, key, root.number(key, low, high, isinstance(getattr(c, key), int)))
     return c

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+import scipy.linalg
 
 from ..arrays import Array
 
@@ -27,15 +28,11 @@ class Observable:
     low: float
     high: float
 
-    @property
-    def middle(self) -> float:
-        return 0.5 * (self.low + self.high)
-
 
 @dataclass
-class NoiseOptions:
-    """Values of the user replace the estimates; the others are the model tolerance, the misfit that the form of the law may
-    have."""
+class Noise:
+    """Standard deviations of one sample, None where they are to be estimated, and the model tolerance ("discrepancy"): the
+    misfit that the form of the law may have."""
 
     stress_level: float | None = None
     stress_shape: float | None = None
@@ -48,19 +45,8 @@ class NoiseOptions:
     early_strain: float = 0.002
     volume_discrepancy: float = 0.0008
     width_discrepancy: float = 0.1
-
-
-@dataclass
-class NoiseModel:
-    """Standard deviations of one sample. degrees_of_freedom: samples minus paths; 0: nothing was estimated."""
-
-    stress_level: float = 0.0
-    stress_shape: float = 0.0
-    volume_start: float = 0.0
-    volume_growth: float = 0.0
-    ln_width: float = 0.0
-    correlation_strain: float = 0.005
-    degrees_of_freedom: int = 0
+    estimated: tuple[str, ...] = ()  # the deviations that were estimated
+    degrees_of_freedom: int = 0  # samples minus paths
 
 
 @dataclass
@@ -89,22 +75,19 @@ class Data:
 
     @property
     def middles(self) -> Array:
-        return np.array([one.middle for one in self.observables])
+        return np.array([0.5 * (one.low + one.high) for one in self.observables])
 
 
 def _stress_squares(paths: Iterable[Data]) -> tuple[float, float]:
     """Variances of level and shape, pooled over the paths."""
-    level = shape = n_level = n_shape = 0.0
-    for path in paths:
-        at = path.of("stress_ratio")
-        if at.any() and len(path.values) > 1:
-            off = path.values[:, at] - path.mean[at]
-            shift = off.mean(1)
-            level += (shift**2).sum()
-            shape += ((off - shift[:, None]) ** 2).sum()
-            n_level += len(off) - 1
-            n_shape += (len(off) - 1) * max(1, at.sum() - 1)
-    return level / n_level if n_level else np.nan, shape / n_shape if n_shape else np.nan
+    off = [path.values[:, at] - path.mean[at] for path in paths
+           if (at := path.of("stress_ratio")).any() and len(path.values) > 1]
+    shifts = [one.mean(1, keepdims=True) for one in off]
+    if not off:
+        return np.nan, np.nan
+    level = sum((shift**2).sum() for shift in shifts) / sum(len(one) - 1 for one in off)
+    shape = sum(((one - shift) ** 2).sum() for one, shift in zip(off, shifts))
+    return level, shape / sum((len(one) - 1) * max(1, one.shape[1] - 1) for one in off)
 
 
 def _volume_squares(paths: Iterable[Data]) -> Array:
@@ -132,25 +115,23 @@ def _width_square(paths: Iterable[Data]) -> float:
     return square / freedom if freedom else np.nan
 
 
-def noise_of(paths: Sequence[Data], options: NoiseOptions) -> NoiseModel:
-    """Pools the scatter within every path; values of the options take precedence. Raises ValueError if a number is needed and
-    neither given nor can be estimated."""
+def noise_of(paths: Sequence[Data], given: Noise) -> Noise:
+    """Fills in the deviations that are not given: the scatter within every path, pooled. Raises ValueError if some are needed
+    and cannot be estimated."""
     squares = dict(zip(("stress_level", "stress_shape"), _stress_squares(paths)))
     squares.update(zip(("volume_start", "volume_growth"), _volume_squares(paths)), ln_width=_width_square(paths))
-    noise = NoiseModel(correlation_strain=options.correlation_strain,
-                       degrees_of_freedom=sum(len(path.values) - 1 for path in paths))
-    for kind, keys in ESTIMATED.items():
-        if not any((path.of(kind) & np.isnan(path.given)).any() for path in paths):
-            continue  # all deviations of this kind are measured
-        for key in keys:
-            value = getattr(options, key)
-            if value is None and np.isnan(squares[key]):
-                raise ValueError(f"noise: {key} must be given, because no path has two samples to estimate it from")
-            setattr(noise, key, np.sqrt(max(0.0, squares[key])) if value is None else value)
-    return noise
+    needed = [key for kind, keys in ESTIMATED.items() for key in keys  # else all deviations of this kind are measured
+              if any((path.of(kind) & np.isnan(path.given)).any() for path in paths)]
+    estimated = [key for key in needed if getattr(given, key) is None]
+    missing = [key for key in estimated if np.isnan(squares[key])]
+    if missing:
+        raise ValueError(f"noise: {', '.join(missing)} must be given, because no path has two samples to estimate them from")
+    values = {key: getattr(given, key) if key in needed else 0.0 for key in squares}
+    values |= {key: np.sqrt(max(0.0, squares[key])) for key in estimated}
+    return replace(given, **values, estimated=tuple(estimated), degrees_of_freedom=sum(len(path.values) - 1 for path in paths))
 
 
-def covariance(noise: NoiseModel, data: Data) -> Array:
+def covariance(noise: Noise, data: Data) -> Array:
     """(observables, observables): covariance of one sample."""
     x = data.middles
     near = np.exp(-np.abs(x[:, None] - x) / noise.correlation_strain)
@@ -165,19 +146,19 @@ def covariance(noise: NoiseModel, data: Data) -> Array:
     return result
 
 
-def discrepancy(options: NoiseOptions, data: Data) -> Array:
+def discrepancy(noise: Noise, data: Data) -> Array:
     """(observables): variance of the model tolerance."""
-    early = options.early_stress_discrepancy * np.exp(-data.middles / options.early_strain)
+    early = noise.early_stress_discrepancy * np.exp(-data.middles / noise.early_strain)
     return np.select([data.of("stress_ratio"), data.of("volumetric_strain")],
-                     [options.stress_discrepancy + early, np.full_like(early, options.volume_discrepancy)],
-                     options.width_discrepancy) ** 2
+                     [noise.stress_discrepancy + early, np.full_like(early, noise.volume_discrepancy)],
+                     noise.width_discrepancy) ** 2
 
 
-def working_weights(noise: NoiseModel, options: NoiseOptions, data: Data) -> Array:
+def working_weights(noise: Noise, data: Data) -> Array:
     """(observables): 1 / (scatter of the mean without what all bins have in common + model tolerance). The common part is left
     out on purpose, because a fit with it may lie below all data. 0 if the mean is NaN."""
     own = np.diag(covariance(replace(noise, stress_level=0.0), data))
-    variance = discrepancy(options, data) + own / np.maximum(1, data.count)
+    variance = discrepancy(noise, data) + own / np.maximum(1, data.count)
     return np.where(np.isfinite(data.mean) & (variance > 0), 1 / np.where(variance > 0, variance, 1), 0.0)
 
 
@@ -185,10 +166,9 @@ class FittedData:
     """The data of all fitted paths, one after the other, with the weights of the fit. left_out: a reason per observable of each
     path; one with a reason has no weight."""
 
-    def __init__(self, noise: NoiseModel, options: NoiseOptions, paths: Sequence[Data],
-                 left_out: Sequence[Sequence[str]]) -> None:
-        self.noise, self.options, self.paths = noise, options, paths
-        self.weights = np.concatenate([np.where([bool(why) for why in reasons], 0, working_weights(noise, options, path))
+    def __init__(self, noise: Noise, paths: Sequence[Data], left_out: Sequence[Sequence[str]]) -> None:
+        self.noise, self.paths = noise, paths
+        self.weights = np.concatenate([np.where([bool(why) for why in reasons], 0, working_weights(noise, path))
                                        for path, reasons in zip(paths, left_out)])
         self.mean = np.concatenate([path.mean for path in paths])
 
@@ -202,20 +182,12 @@ class FittedData:
 
     def of_means(self, with_tolerance: bool) -> Array:
         """(n, n): covariance of the means with the model tolerance; without it only the part estimated from the samples."""
-        noise = self.noise
+        noise, blocks = self.noise, []
         if not with_tolerance:
-            given = [key for keys in ESTIMATED.values() for key in keys if getattr(self.options, key) is not None]
-            noise = replace(noise, **dict.fromkeys(given, 0.0))
-        result, at = np.zeros((len(self.mean),) * 2), 0
+            noise = replace(noise, **{key: 0.0 for keys in ESTIMATED.values() for key in keys if key not in noise.estimated})
         for path in self.paths:
-            here = path if with_tolerance else replace_given(path)
-            block = covariance(noise, here) / np.sqrt(np.outer(np.maximum(1, path.count), np.maximum(1, path.count)))
-            block += np.diag(discrepancy(self.options, path)) if with_tolerance else 0
-            result[at:at + len(block), at:at + len(block)] = block
-            at += len(block)
-        return result
-
-
-def replace_given(path: Data) -> Data:
-    """The same path with measured deviations of zero: they are known and not estimated."""
-    return Data(path.observables, path.values, np.where(np.isfinite(path.given), 0.0, np.nan))
+            known = path.given if with_tolerance else np.where(np.isfinite(path.given), 0.0, np.nan)  # measured, not estimated
+            n = np.maximum(1, path.count)
+            block = covariance(noise, replace(path, given=known)) / np.sqrt(np.outer(n, n))
+            blocks.append(block + (np.diag(discrepancy(noise, path)) if with_tolerance else 0))
+        return scipy.linalg.block_diag(*blocks)

@@ -18,22 +18,19 @@ from .. import _diptych, operators
 from ..arrays import Array
 from ..errors import NotConverged, SceneError, Stopped
 from .calibration_file import CURVE_COLUMNS, Calibration, Target, read_curve
-from .calibration_noise import Data, NoiseModel, Observable, covariance
+from .calibration_noise import Data, Noise, Observable, covariance
 from .calibration_search import NORMAL
-from .engine import Options, last_words
+from .engine import Options
 from .folders import Runs, SceneRun, read_json
 from .histories import is_beyond, mean_over, panel_table, running_mean
 from .input_file import Setting
 from .members import is_mirror_symmetric
-from .points import scene_run
+from .points import on_sample, scene_run
 
 CURVE_POINTS = 120
+NO_CURVE = np.full(CURVE_POINTS, np.nan)
 SAME_PROGRESS = 1e-6
 BAND_OPTIONS = ("max_bands", "huber_threshold", "correlation_length", "minimum_jump", "residual_floor")
-
-
-def _nan_curve() -> Array:
-    return np.full(CURVE_POINTS, np.nan)
 
 
 @dataclass
@@ -43,9 +40,9 @@ class Observation:
     values: Array  # (observables), NaN: not reached, or no band
     peak_stress_ratio: float = np.nan  # largest running mean
     angle_deg: float = np.nan  # of the first band of the last window; without its sign if chance decides between left and right
-    progress: Array = field(default_factory=_nan_curve)  # of the curve
-    stress_ratio: Array = field(default_factory=_nan_curve)
-    volumetric_strain: Array = field(default_factory=_nan_curve)
+    progress: Array = field(default_factory=NO_CURVE.copy)  # of the curve
+    stress_ratio: Array = field(default_factory=NO_CURVE.copy)
+    volumetric_strain: Array = field(default_factory=NO_CURVE.copy)
     failure: str = ""  # reason if the run did not finish
 
 
@@ -56,7 +53,7 @@ class Outline:
     width: float  # [length]
     height: float  # [length]
     solid_fraction: float
-    frames: list[dict[str, Any]]  # where bands are searched, one per window
+    frames: list[dict[str, Any]]  # mean_diameter, platen_increment, centre, width and height of every window
     mesh: str  # file; empty: the rectangle of the scene
 
 
@@ -82,8 +79,7 @@ def observe_history(scene: _diptych.Scene, observables: Sequence[Observable], ta
         if one.kind in columns and not is_beyond(one.high, end):
             o.values[k] = mean_over(progress, columns[one.kind], one.low, one.high)
     if "stress_ratio" in columns:
-        means = running_mean(table, "stress_ratio", scene.averaging_width())
-        o.peak_stress_ratio = float(np.nanmax(means)) if np.isfinite(means).any() else np.nan
+        o.peak_stress_ratio = float(pd.Series(running_mean(table, "stress_ratio", scene.averaging_width())).max())
     edges = np.linspace(0, min(end, scene.dict()["loading"]["axial_strain"]), CURVE_POINTS + 1)
     o.progress = 0.5 * (edges[1:] + edges[:-1])
     for name, column in columns.items():
@@ -91,23 +87,10 @@ def observe_history(scene: _diptych.Scene, observables: Sequence[Observable], ta
     return o
 
 
-def snapshots_at(snapshots: Sequence[Any], one: Observable) -> tuple[Any, Any] | None:
+def snapshots_at(snapshots: Sequence[Any], one: Observable) -> list[Any] | None:
     """The snapshots at both edges of a window; None if one is missing."""
     pair = [next((s for s in snapshots if abs(s.progress - at) < SAME_PROGRESS), None) for at in (one.low, one.high)]
-    return None if None in pair else (pair[0], pair[1])
-
-
-def frames_of(observables: Sequence[Observable], snapshots: Sequence[Any]) -> list[dict[str, Any]]:
-    """Frames of the grains' windows: mean_diameter, platen_increment, centre, width and height."""
-    frames = []
-    for one in observables:
-        if one.kind == "ln_width":
-            pair = snapshots_at(snapshots, one)
-            if pair is None:
-                raise ValueError("an edge of comparison/window_edges is not a stage of the grains")
-            frames.append({key: value for key, value in operators.increment(*pair).items()
-                           if key not in ("points", "displacement", "weight")})
-    return frames
+    return None if None in pair else pair
 
 
 def add_bands(o: Observation, scene: _diptych.Scene, observables: Sequence[Observable], snapshots: Sequence[Any],
@@ -122,8 +105,8 @@ def add_bands(o: Observation, scene: _diptych.Scene, observables: Sequence[Obser
         pair = snapshots_at(snapshots, observables[k])
         if pair is None:
             continue
-        moved = operators.increment(*pair)
-        found = operators.find_bands(**{**moved, **({} if of_grains else frame)}, band_resamples=0, **options).bands
+        moved = {**operators.increment(*pair), **({} if of_grains else frame)}
+        found = operators.find_bands(**moved, band_resamples=0, **options).bands
         if found:
             o.values[k] = np.log(found[0].width_10_90 / d)
             o.angle_deg = abs(found[0].angle_deg) if is_mirror_symmetric(scene) else found[0].angle_deg
@@ -146,14 +129,6 @@ def observe_curve(scene: _diptych.Scene, observables: Sequence[Observable], file
     return o, deviations
 
 
-def failure_of(runs: Runs, run: SceneRun) -> str:
-    """Why a run has no result; empty: it has one."""
-    end = runs.found_end(run) if run.scene else None
-    if run.refusal or (end and end["exit_code"] == 0):
-        return run.refusal
-    return (last_words(runs.path(run, ".log")).replace(runs.directory + "/", "") if end else "") or "the run was lost"
-
-
 class CalibrationRuns:
     """Functions that run something raise Stopped after a stop signal, and NotConverged where grains do not come to their
     end."""
@@ -173,16 +148,19 @@ class CalibrationRuns:
             if run.name not in self._counted and os.path.exists(record):
                 self._counted.add(run.name)
                 self.cpu_s[run.command] += sum(phase["cpu_s"] for phase in read_json(record)["phases"])
-        return [failure_of(self.runs, run) for run in runs]
+        return [self._failure_of(run) for run in runs]
+
+    def _failure_of(self, run: SceneRun) -> str:
+        """Why a run has no result; empty: it has one."""
+        end = self.runs.found_end(run) if run.scene else None
+        if run.refusal or (end and end["exit_code"] == 0):
+            return run.refusal
+        return (self.runs.last_words(run) if end else "") or "the run was lost"
 
     def _grains(self, target: Target, seeds: Sequence[int], more: Sequence[Setting] = (), note: str = "") -> list[str]:
         """Runs samples of a target and returns their folders."""
-        def on_sample(seed: int) -> list[Setting]:
-            names_seed = any("{seed}" in one.value for one in target.settings)
-            own = [] if names_seed else [Setting("sample", "seed", str(seed), self.calibration.file)]
-            return [one.with_seed(seed) for one in [*target.settings, *more, *own]]
-
-        runs = [scene_run(target.scene, "discrete", on_sample(seed)) for seed in seeds]
+        runs = [scene_run(target.scene, "discrete", on_sample([*target.settings, *more], seed, self.calibration.file))
+                for seed in seeds]
         for seed, failure in zip(seeds, self._do(runs)):
             if failure:
                 raise NotConverged(f"{self.calibration.file}: target '{target.name}', seed {seed}{note}: "
@@ -194,6 +172,11 @@ class CalibrationRuns:
         for other in self.calibration.targets:
             if other.name in self.outlines and other.is_same_path(target):
                 return self.outlines[other.name]
+        pairs = [snapshots_at(snapshots, one) for one in observables if one.kind == "ln_width"]
+        if None in pairs:
+            raise ValueError("an edge of comparison/window_edges is not a stage of the grains")
+        frames = [{key: value for key, value in operators.increment(*pair).items()
+                   if key not in ("points", "displacement", "weight")} for pair in pairs]
         keys, first = scene.dict(), snapshots[0]
         sides = np.concatenate([first.outline_left, first.outline_right])
         mesh = str(keys["continuum"]["mesh"])
@@ -201,8 +184,7 @@ class CalibrationRuns:
             os.makedirs(self.runs.directory + "/meshes", exist_ok=True)
             mesh = os.path.abspath(f"{self.runs.directory}/meshes/path_{1 + len(self.outlines)}.msh")
             importlib.import_module("diptych._continuum").write_mesh(scene, first, mesh)  # loads deal.II only now
-        return Outline(*np.ptp(sides, axis=0), float(np.pi * (first.radius**2).sum() / first.area),
-                       frames_of(observables, snapshots), mesh)
+        return Outline(*np.ptp(sides, axis=0), float(np.pi * (first.radius**2).sum() / first.area), frames, mesh)
 
     def _path(self, target: Target) -> Path:
         scene = read_target(target)
@@ -234,7 +216,7 @@ class CalibrationRuns:
         """The grains of every target, run or read, with what they show."""
         return [self._path(target) for target in self.calibration.targets]
 
-    def unsteady(self, path: Path, noise: NoiseModel) -> list[str]:
+    def unsteady(self, path: Path, noise: Noise) -> list[str]:
         """Runs the first samples with half the step. Why an observable is left out: it moves by more than samples scatter, and
         by more than two runs of a sample differ by chance."""
         keys, seeds = path.scene.dict()["discrete"], path.target.seeds[:self.calibration.check_samples]
@@ -275,35 +257,26 @@ class CalibrationRuns:
         folder = self.runs.path(run)
         o = observe_history(path.scene, observables, panel_table(folder, "continuum"))
         return add_bands(o, path.scene, observables, _diptych.read_nodes(folder).snapshots,
-                         self.outlines[path.target.name].frames,
-                         False)
+                         self.outlines[path.target.name].frames, False)
 
     def continuum(self, paths: Sequence[Path], points: Sequence[Sequence[Sequence[Setting]]], fine: bool,
                   load_step: float) -> list[list[Observation]]:
         """Runs the continuum with points[point][path]; returns [point][path]."""
         runs = [scene_run(path.target.scene, "continuum", self._settings(path, settings, fine, load_step))
                 for point in points for path, settings in zip(paths, point)]
-        seen = [self._observed_continuum(path, run, failure) for path, run,
-                failure in zip(list(paths) * len(points), runs, self._do(runs))]
+        seen = [self._observed_continuum(path, run, failure)
+                for path, run, failure in zip(list(paths) * len(points), runs, self._do(runs))]
         return [seen[k:k + len(paths)] for k in range(0, len(seen), len(paths))]
 
 
 def read_target(target: Target, more: Sequence[Setting] = ()) -> _diptych.Scene:
     """The scene of a target with its settings and more. Raises SceneError."""
-    scene = _diptych.read_changed_scene(target.scene, [tuple(one) for one in [*target.settings, *more]], not target.curve)
-    keys = scene.dict()
-    if target.curve and keys["continuum"]["mesh"] != "rectangle":
-        raise SceneError(f"{target.scene}: continuum/mesh = {keys['continuum']['mesh']}: a measured curve has no grains with "
-                         "an outline; "
-                         "set mesh = rectangle, rectangle_width and rectangle_height")
+    scene = _diptych.read_changed_scene(target.scene, [*target.settings, *more], not target.curve)
+    mesh, mode = scene.dict()["continuum"]["mesh"], scene.dict()["loading"]["mode"]
+    if target.curve and mesh != "rectangle":
+        raise SceneError(f"{target.scene}: continuum/mesh = {mesh}: a measured curve has no grains with an outline; set "
+                         "mesh = rectangle, rectangle_width and rectangle_height")
     if target.curve and scene.walk() != "axial_strain":
-        raise SceneError(f"{target.scene}: loading/mode = {keys['loading']['mode']}: a measured curve needs mode = descent, "
-                         "whose "
-                         "progress is the axial strain")
+        raise SceneError(f"{target.scene}: loading/mode = {mode}: a measured curve needs mode = descent, whose progress is the "
+                         "axial strain")
     return scene
-
-
-def without_frames(scene: _diptych.Scene, observables: Sequence[Observable]) -> list[str]:
-    """Bins of an imported path that hold no frame, with the reason. Between frames nothing is known of the grains."""
-    return ["" if one.kind == "ln_width" or any(one.low <= at <= one.high for at in scene.stages()) else "no frame lies in it"
-            for one in observables]

@@ -55,7 +55,6 @@ class Fit:
     jacobian: Array | None = None
     evaluations: int = 0
     jacobians: int = 0  # computed by differences
-    arrived: bool = False
     note: str = ""
 
     @property
@@ -141,7 +140,6 @@ def least_squares(residuals: Residuals, start: Array, most_jacobians: int = 4, j
         before = fit.chi2
         went_well = fit.is_exact or _Search(residuals, fit).run(fresh)
         if (fresh and before - fit.chi2 < max(LEAST_GAIN, LEAST_DECREASE * before)) or (not fresh and went_well):
-            fit.arrived = True
             return fit
         if not fresh:
             fit.jacobian = None

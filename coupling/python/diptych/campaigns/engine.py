@@ -1,10 +1,8 @@
 # diptych: many runs of the program, on workers of this machine and of the other processes of mpirun
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A seat is a thread that takes one run after another.
-
-A local seat holds a worker: a process of `diptych-panels` that does one command after another. A worker receives a line of JSON
-and answers with the exit code on a line. Under mpirun each other process has a worker, and a seat here hands runs to it.
-Results depend neither on the number of seats nor on the order of the runs.
+"""A worker is a process of `diptych-panels` that does one command after another. It receives a line of JSON and answers with
+the exit code on a line. Threads hand the runs to workers; under mpirun each other process has a worker, too. Results depend
+neither on the number of workers nor on the order of the runs.
 """
 
 from __future__ import annotations
@@ -13,12 +11,14 @@ import json
 import os
 import queue
 import select
+import shlex
 import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
+from datetime import timedelta
 from typing import Any
 
 from .. import _diptych
@@ -39,7 +39,13 @@ class Options:
     quiet: bool = False
     resume: bool = False
     overwrite: bool = False
-    command: str = ""  # the command line, for provenance.json
+    words: Sequence[str] = ()  # the command line
+
+    @property
+    def again(self) -> str:
+        """The command that goes on with this one."""
+        job = f"mpirun -np {n_processes()} " if n_processes() > 1 else ""
+        return f"{job}diptych {shlex.join(word for word in self.words if word not in ('--overwrite', '--resume'))} --resume"
 
 
 @dataclass(frozen=True)
@@ -51,11 +57,6 @@ class Run:
     folder: str  # result folder
     log: str  # output and errors are appended to this file
     extra: tuple[str, ...] = ()
-
-    @property
-    def name(self) -> str:
-        """The name in messages: "seed 3"."""
-        return os.path.basename(self.folder).replace("_", " ")
 
     def line(self, threads: int) -> str:
         """The task as a worker reads it."""
@@ -75,12 +76,6 @@ class Outcome:
     message: str = ""  # last line of the log of a run that failed
 
 
-def leave_if_stopped(phase: str) -> None:
-    """Raises Stopped after Ctrl-C, SIGTERM or a closed terminal."""
-    if _diptych.stop_requested():
-        raise Stopped(f"{phase}: stopped on request")
-
-
 def _write(stream: str, text: str) -> None:
     try:
         print(text, end="", file=getattr(sys, stream), flush=True)
@@ -88,10 +83,15 @@ def _write(stream: str, text: str) -> None:
         setattr(sys, stream, open(os.devnull, "w", encoding="utf-8"))
 
 
+def tell(text: str) -> None:
+    """Prints a line to standard output."""
+    _write("stdout", text + "\n")
+
+
 def say(options: Options, text: str) -> None:
     """Prints a line to standard output, unless --quiet."""
     if not options.quiet:
-        _write("stdout", text + "\n")
+        tell(text)
 
 
 def complain(text: str) -> None:
@@ -107,23 +107,26 @@ def last_words(log: str) -> str:
         return ([""] + [line.rstrip("\r\n") for line in file if line.strip()])[-1]
 
 
+def first_file(places: Sequence[str], otherwise: str) -> str:
+    """The first of these paths that is a file. Raises FileNotFoundError with the text if there is none."""
+    for place in filter(os.path.isfile, places):
+        return place
+    raise FileNotFoundError(otherwise)
+
+
 def program() -> str:
     """Path of the program `diptych`: that which started this process, or the one of the package."""
     package = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))  # the folder that holds it
-    places = [os.environ.get("DIPTYCH_PROGRAM", ""), os.path.join(package, "..", "diptych"),
-              os.path.join(package, *[".."] * 3, "bin", "diptych")]
-    for place in filter(os.path.isfile, places):
-        return os.path.realpath(place)
-    raise FileNotFoundError(f"the program diptych is neither {places[1]} nor {places[2]}; set DIPTYCH_PROGRAM to its path")
+    built, installed = os.path.join(package, "..", "diptych"), os.path.join(package, *[".."] * 3, "bin", "diptych")
+    otherwise = f"the program diptych is neither {built} nor {installed}; set DIPTYCH_PROGRAM to its path"
+    return os.path.realpath(first_file([os.environ.get("DIPTYCH_PROGRAM", ""), built, installed], otherwise))
 
 
 def panels() -> str:
     """Path of `diptych-panels`, beside the program or in PREFIX/libexec."""
     folder = os.path.dirname(program())
-    places = [os.path.join(folder, "diptych-panels"), os.path.join(folder, "..", "libexec", "diptych", "diptych-panels")]
-    for place in filter(os.path.isfile, places):
-        return place
-    raise FileNotFoundError(f"diptych-panels is not beside {program()}; the installation is broken")
+    return first_file([os.path.join(folder, place, "diptych-panels") for place in ("", "../libexec/diptych")],
+                      f"diptych-panels is not beside {program()}; the installation is broken")
 
 
 def environment() -> dict[str, str]:
@@ -138,7 +141,8 @@ def run_program(words: Sequence[str]) -> int:
     while True:
         try:
             code = process.wait(0.02)
-            leave_if_stopped(os.path.basename(words[0]))
+            if _diptych.stop_requested():
+                raise Stopped(f"{os.path.basename(words[0])}: stopped on request")
             return code if code >= 0 else 128 - code
         except subprocess.TimeoutExpired:
             if _diptych.stop_requested():
@@ -219,10 +223,7 @@ class _Progress:
         self.terminal, self.shown, self.last_part = sys.stderr.isatty(), 0.0, -1
 
     def ended(self, outcome: Outcome) -> None:
-        if outcome.exit_code == 0:
-            self.done += 1
-        else:
-            self.failed += 1
+        self.done, self.failed = self.done + (outcome.exit_code == 0), self.failed + (outcome.exit_code != 0)
         self.seconds, self.known = self.seconds + outcome.seconds, self.known + 1
 
     def show(self, started: Iterable[float], seats: int) -> None:
@@ -234,7 +235,7 @@ class _Progress:
         at_work = [now - since for since in started]
         waiting = self.total - ended
         left = (self.seconds / max(1, self.known) * waiting - sum(at_work)) / max(1, min(seats, waiting))
-        remaining = f", {duration(left)} remaining" if self.known else ""
+        remaining = f", {timedelta(seconds=round(max(0.0, left)))} remaining" if self.known else ""
         text = f"{self.done} of {self.total} {self.noun} done, {len(at_work)} running, {self.failed} failed{remaining}"
         _write("stderr", f"\r\033[K{text}" if self.terminal else text + "\n")
         self.shown, self.last_part = now, part
@@ -242,38 +243,6 @@ class _Progress:
     def clear(self) -> None:
         if self.terminal and not self.quiet:
             _write("stderr", "\r\033[K")
-
-
-def duration(seconds: float) -> str:
-    """ "1 h 02 min", "3 min 20 s", "12 s" """
-    s = round(max(0.0, seconds))
-    if s >= 3600:
-        return f"{s // 3600} h {s // 60 % 60:02d} min"
-    return f"{s // 60} min {s % 60:02d} s" if s >= 60 else f"{s} s"
-
-
-@dataclass
-class _Work:
-    """What the seats share."""
-
-    lines: list[str]
-    waiting: queue.SimpleQueue[int] = field(default_factory=queue.SimpleQueue)
-    ended: queue.SimpleQueue[tuple[int, Outcome]] = field(default_factory=queue.SimpleQueue)
-    started: dict[int, float] = field(default_factory=dict)
-
-    def sit(self, serve: Callable[[str], tuple[int, bool]], close: Callable[[], object]) -> None:
-        """The loop of one seat. Its worker ends with it: the system ends a worker whose starting thread has ended."""
-        try:
-            while not _diptych.stop_requested():
-                k = self.waiting.get_nowait()
-                begun = self.started[k] = time.monotonic()
-                code, asked = serve(self.lines[k])
-                del self.started[k]
-                self.ended.put((k, Outcome(code, asked and code != 0, time.monotonic() - begun)))
-        except queue.Empty:
-            pass
-        finally:
-            close()
 
 
 def n_seats(options: Options) -> int:
@@ -291,44 +260,54 @@ def execute(runs: Sequence[Run], options: Options, *, noun: str = "runs", finish
     on_ended  is called with index and outcome as runs end; if it raises OSError, the run has failed with exit code 4
 
     On a stop request (SIGINT, SIGTERM, SIGHUP) workers are asked to stop, and no further run starts. Failures are reported on
-    standard error. A worker that was killed is one failed run; a new worker takes its seat.
+    standard error. A worker that was killed is one failed run; a new process takes its place.
     """
     _diptych.install_signals()
-    outcomes = [Outcome() for _ in runs]
-    work = _Work([run.line(options.threads) for run in runs])
-    for k in range(len(runs)):
-        work.waiting.put(k)
-    progress = _Progress(noun, options.quiet, len(runs) + finished, finished)
     seats, others = n_seats(options), n_processes() - 1
-    with ThreadPoolExecutor(seats) as threads:
-        sitting = []
-        for _ in range(min(len(runs), seats - others)):
-            worker = Worker()
-            sitting.append(threads.submit(work.sit, worker.run, worker.close))
-        if others and len(runs) > len(sitting):
-            sitting += [threads.submit(work.sit, lambda line: _pool.submit(_remote, line).result(), lambda: None)
-                        for _ in range(others)]
-        while any(not seat.done() for seat in sitting) or not work.ended.empty():
+    workers = [Worker() for _ in range(min(len(runs), seats - others))]
+    free: queue.SimpleQueue[Callable[[str], tuple[int, bool]]] = queue.SimpleQueue()
+    for serve in [*(worker.run for worker in workers), *[lambda line: _pool.submit(_remote, line).result()] * others]:
+        free.put(serve)
+    ended: queue.SimpleQueue[tuple[int, Future[Outcome]]] = queue.SimpleQueue()
+    started: dict[int, float] = {}
+
+    def do(k: int) -> Outcome:
+        if _diptych.stop_requested():
+            return Outcome()
+        serve, started[k] = free.get(), time.monotonic()
+        try:
+            code, asked = serve(runs[k].line(options.threads))
+        finally:
+            free.put(serve)
+        return Outcome(code, asked and code != 0, time.monotonic() - started.pop(k))
+
+    outcomes, left = [Outcome() for _ in runs], len(runs)
+    progress = _Progress(noun, options.quiet, len(runs) + finished, finished)
+    with ThreadPoolExecutor(max(1, free.qsize())) as threads:  # the system ends a worker when the thread that started it ends
+        for k in range(len(runs)):
+            threads.submit(do, k).add_done_callback(lambda future, k=k: ended.put((k, future)))
+        while left:
             try:
-                k, outcomes[k] = work.ended.get(timeout=0.05)
+                k, future = ended.get(timeout=0.05)
+                left, outcomes[k] = left - 1, future.result()
                 _note_end(runs[k], outcomes[k], progress, lambda: on_ended(k, outcomes[k]))
             except queue.Empty:
                 pass
-            progress.show(list(work.started.values()), seats)
+            progress.show(list(started.values()), seats)
         progress.clear()
-        for seat in sitting:
-            seat.result()  # raises what ended a seat
+        for worker in workers:
+            worker.close()
     return outcomes
 
 
 def _note_end(run: Run, outcome: Outcome, progress: _Progress, on_ended: Callable[[], None]) -> None:
-    if outcome.exit_code:
-        outcome.message = last_words(run.log)
+    name = os.path.basename(run.folder).replace("_", " ")  # seed 3
+    outcome.message = last_words(run.log) if outcome.exit_code else ""
     try:
         on_ended()
     except OSError as error:  # a full disk must not end the other runs
         progress.clear()
-        complain(f"{run.name}: {error}")
+        complain(f"{name}: {error}")
         outcome.exit_code = SYSTEM_FAILURE
     if outcome.interrupted:
         return
@@ -336,4 +315,4 @@ def _note_end(run: Run, outcome: Outcome, progress: _Progress, on_ended: Callabl
     if outcome.exit_code:
         progress.clear()
         why = outcome.message or ("ended by a signal, without a message" if outcome.exit_code > 128 else "without a message")
-        complain(f"{run.name} failed with exit code {outcome.exit_code}: {why} (log: {run.log})")
+        complain(f"{name} failed with exit code {outcome.exit_code}: {why} (log: {run.log})")

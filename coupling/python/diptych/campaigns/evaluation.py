@@ -20,10 +20,6 @@ UNFINISHED = ("not run", "refused", "stopped")
 Results = Sequence[Sequence[RunResult]]  # [point][sample]
 
 
-def _values(runs: Sequence[RunResult], q: int) -> list[float]:
-    return [run.values[q] for run in runs]
-
-
 def _verdict(limit: float, error: Interval, alone: bool) -> str:
     """One sample has no interval, so its error decides. With several samples an unknown interval leaves a doubt."""
     if alone:
@@ -76,7 +72,7 @@ def evaluate(study: Study, points: Sequence[Point], results: Results) -> list[di
             "labels": point.labels, "settings": point.settings, "folders": [f"runs/{run.name}" for run in point.runs],
             "words": next((run.words for run in runs if run.words), ""), "warned": sum(run.warned for run in runs),
             "halved_steps": max(run.halved_steps for run in runs), "cut_backs": max(run.cut_backs for run in runs),
-            "quantities": [_quantity_at(quantity, _values(reference, q), _values(runs, q), not study.seeds)
+            "quantities": [_quantity_at(quantity, *([run.values[q] for run in on] for on in (reference, runs)), not study.seeds)
                            for q, quantity in enumerate(study.quantities)]}
         record["class"], record["certain"] = _classify(study, runs, record)
         records.append(record)
@@ -130,18 +126,17 @@ def _cheapest(study: Study, records: Sequence[dict[str, Any]], rivals: list[dict
               reference: int) -> list[dict[str, Any]]:
     """The cheapest rival within each accuracy: 5, 2 and 1 % for relative errors; 2.5, 1 and 0.5 times the limit for absolute
     errors and for all quantities together. Without any limit there is none."""
-    judged = [(q, quantity) for q, quantity in enumerate(study.quantities) if quantity["limit"] is not None]
-
     def found(name: str, accuracy: float, wanted: list[tuple[int, float]]) -> dict[str, Any]:
-        best = {"quantity": name, "accuracy": accuracy, "reference": reference, "point": -1, "cpu_s": math.nan,
-                "certain": False}
+        fit = []
         for one in rivals:
             errors = [(records[one["point"]]["quantities"][q]["error"], most) for q, most in wanted]
-            if all(abs(e.value) <= most for e, most in errors) and not one["cpu_s"] >= best["cpu_s"]:
+            if all(abs(e.value) <= most for e, most in errors):
                 certain = all(abs(end) <= most for e, most in errors for end in (e[1:] if study.seeds else e[:1]))
-                best.update(point=one["point"], cpu_s=one["cpu_s"], certain=certain)
-        return best
+                fit.append({"point": one["point"], "cpu_s": one["cpu_s"], "certain": certain})
+        best = min(fit, key=lambda one: one["cpu_s"], default={"point": -1, "cpu_s": math.nan, "certain": False})
+        return {"quantity": name, "accuracy": accuracy, "reference": reference, **best}
 
+    judged = [(q, quantity) for q, quantity in enumerate(study.quantities) if quantity["limit"] is not None]
     multiples, result = (2.5, 1.0, 0.5), []
     for q, quantity in judged:
         for accuracy in (0.05, 0.02, 0.01) if quantity["relative"] else [m * quantity["limit"] for m in multiples]:

@@ -7,11 +7,10 @@ from __future__ import annotations
 import json
 import math
 import os
-import resource
 import shutil
 import sys
-import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,7 +20,8 @@ import numpy as np
 from .. import _diptych
 from ..arrays import Interval
 from ..errors import SceneError, Stopped
-from .engine import (KEPT_OPEN, WRONG_INPUT, Options, Outcome, Run, complain, execute, n_seats, program, run_program, say)
+from .engine import (KEPT_OPEN, WRONG_INPUT, Options, Outcome, Run, complain, execute, first_file, last_words, n_seats, program,
+                     run_program, say)
 
 LAST_CODE_OF_A_RESULT = 3  # higher codes: the system failed, or a signal came
 
@@ -64,10 +64,12 @@ class Folder:
         os.makedirs(os.path.join(self.directory, "runs"), exist_ok=True)
 
 
-def _written(path: str, write: Callable[[str], None]) -> None:
+@contextmanager
+def _part_of(path: str) -> Iterator[str]:
+    """PATH.part to write to; it is renamed at the end."""
     part = path + ".part"
     try:
-        write(part)
+        yield part
         os.replace(part, path)
     except BaseException:
         if os.path.exists(part):
@@ -77,12 +79,8 @@ def _written(path: str, write: Callable[[str], None]) -> None:
 
 def write_text(path: str, text: str) -> None:
     """Writes PATH.part and renames it."""
-
-    def write(part: str) -> None:
-        with open(part, "w", encoding="utf-8") as file:
-            file.write(text)
-
-    _written(path, write)
+    with _part_of(path) as part, open(part, "w", encoding="utf-8") as file:
+        file.write(text)
 
 
 def plain(value: Any) -> Any:
@@ -104,41 +102,32 @@ def write_json(path: str, record: Mapping[str, Any], indent: int | None = 1) -> 
 
 
 def read_json(path: str) -> Any:
-    """The record of a file. Raises ValueError, with the path, if it is missing or no JSON object."""
+    """The record of a file. Raises ValueError, with the path, if it is missing or no JSON."""
     try:
         with open(path, encoding="utf-8") as file:
-            record = json.load(file)
+            return json.load(file)
     except FileNotFoundError:
         raise ValueError(f"{path}: is missing") from None
     except ValueError as error:
         raise ValueError(f"{path}: no JSON: {error}") from error
-    if not isinstance(record, dict):
-        raise ValueError(f"{path}: is not a JSON object")
-    return record
 
 
 def write_arrays(path: str, arrays: Mapping[str, tuple[Any, str, str, str]],
                  attributes: Mapping[str, Mapping[str, float]]) -> None:
     """Writes HDF5 with checksums. arrays: name -> (values, title, unit, meaning); attributes: group -> name -> value."""
-
-    def write(part: str) -> None:
-        with h5py.File(part, "w", libver=("v110", "v110")) as file:
-            for name, (values, *words) in arrays.items():
-                data = file.create_dataset(name, data=values, fletcher32=np.size(values) > 0 or None)
-                data.attrs.update(zip(("title", "unit", "meaning"), map(np.bytes_, words)))
-            for group, numbers in attributes.items():
-                file.require_group(group).attrs.update(numbers)
-
-    _written(path, write)
+    with _part_of(path) as part, h5py.File(part, "w", libver=("v110", "v110")) as file:
+        for name, (values, *words) in arrays.items():
+            data = file.create_dataset(name, data=values, fletcher32=np.size(values) > 0 or None)
+            data.attrs.update(zip(("title", "unit", "meaning"), map(np.bytes_, words)))
+        for group, numbers in attributes.items():
+            file.require_group(group).attrs.update(numbers)
 
 
 def draw(options: Options, page: str, directory: str) -> None:
     """Draws report.html of a folder; page: "study", "ensemble", "calibration". Raises Stopped, ValueError or RuntimeError."""
     folder = os.path.dirname(program())
-    scripts = [os.path.join(folder, *[".."] * level, "share", "diptych", "report", "draw.py") for level in range(3)]
-    script = next((path for path in scripts if os.path.exists(path)), None)
-    if script is None:
-        raise RuntimeError(f"the report cannot be drawn: share/diptych/report/draw.py is not beside {program()}")
+    script = first_file([os.path.join(folder, *[".."] * level, "share", "diptych", "report", "draw.py") for level in range(3)],
+                        f"the report cannot be drawn: share/diptych/report/draw.py is not beside {program()}")
     report, code = os.path.join(directory, "report.html"), -1
     try:
         code = run_program([sys.executable, script, page, directory])
@@ -151,23 +140,6 @@ def draw(options: Options, page: str, directory: str) -> None:
         kind = ValueError if code == WRONG_INPUT else RuntimeError
         raise kind(f"{directory}: the report could not be drawn: {sys.executable} {script} {page} ended with exit code {code}")
     say(options, f"report: {os.path.abspath(report)}")
-
-
-class Timer:
-    """Cost of a phase of this process and of its workers."""
-
-    def __init__(self, name: str) -> None:
-        self.name, self._wall, self._cpu = name, time.monotonic(), self._used()
-
-    @staticmethod
-    def _used() -> float:
-        both = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
-        return sum(usage.ru_utime + usage.ru_stime for usage in both)
-
-    def stop(self) -> tuple[str, float, float, float]:
-        """(name, wall seconds, CPU seconds, peak memory of this process [MB])"""
-        peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-        return self.name, time.monotonic() - self._wall, self._used() - self._cpu, peak
 
 
 @dataclass
@@ -199,29 +171,29 @@ class Runs:
         """The result folder of a run; with an ending a file beside it: ".prm", ".log", ".json"."""
         return os.path.join(self.directory, "runs", run.name + ending)
 
+    def last_words(self, run: SceneRun) -> str:
+        """The last line of its log, without the folder of the campaign."""
+        return last_words(self.path(run, ".log")).replace(self.directory + "/", "")
+
     def found_end(self, run: SceneRun) -> dict[str, Any] | None:
         """exit_code, load and at_once of a run that need not be done again.
 
-        None: it has not ended; a signal or the system ended it; program, scene or files differ.
+        None: it has not ended; a signal or the system ended it; program, scene or files differ. The user may have run another
+        scene in this folder, or copied another run there.
         """
         try:
-            end = read_json(self.path(run, ".json"))
-            if not self._is_of_its_scene(run, end):
-                return None
-            for part in ("", "comparison"):
+            end, file = read_json(self.path(run, ".json")), os.path.join(self.path(run), "scene.prm")
+            if os.path.exists(file):
+                found, asked = _diptych.resolved_scene(file), _diptych.resolved_scene(self.path(run, ".prm"))
+                is_same = found and asked and run_name(found, run.command) == run_name(asked, run.command)
+            else:
+                is_same = end["exit_code"] == WRONG_INPUT  # refused before it wrote
+            for part in ("", "comparison") if is_same else ():
                 _diptych.check_part(self.path(run), part)
-            good = end["exit_code"] <= LAST_CODE_OF_A_RESULT and end["revision"] == _diptych.git_revision
-            return {"exit_code": end["exit_code"], "load": end["load"], "at_once": end.get("at_once", 1)} if good else None
+            good = is_same and end["exit_code"] <= LAST_CODE_OF_A_RESULT and end["revision"] == _diptych.git_revision
+            return {"exit_code": end["exit_code"], "load": end["load"], "at_once": end["at_once"]} if good else None
         except (ValueError, KeyError, TypeError, RuntimeError):  # damaged or of another version: run it again
             return None
-
-    def _is_of_its_scene(self, run: SceneRun, end: dict[str, Any]) -> bool:
-        """The user may have run another scene in this folder, or copied another run there."""
-        file = os.path.join(self.path(run), "scene.prm")
-        if not os.path.exists(file):  # refused before it wrote
-            return end.get("exit_code") == WRONG_INPUT
-        found, asked = _diptych.resolved_scene(file), _diptych.resolved_scene(self.path(run, ".prm"))
-        return bool(found and asked) and run_name(found, run.command) == run_name(asked, run.command)
 
     def prepare(self, run: SceneRun, anew: bool = False) -> bool:
         """Writes the scene of a run and removes an old log. Returns True if an earlier run in the folder can be resumed.
@@ -241,42 +213,33 @@ class Runs:
         write_json(self.path(run, ".json"), {"begun": _diptych.git_revision}, None)
         return os.path.exists(self.path(run))
 
-    def end(self, run: SceneRun, exit_code: int, at_once: int) -> None:
-        """Records the end of a run, with the load of the machine: processes ready to run, mean over the last minute."""
-        write_json(self.path(run, ".json"), {"exit_code": exit_code, "revision": _diptych.git_revision,
-                                             "load": os.getloadavg()[0], "at_once": at_once}, None)
-
     def do(self, runs: Sequence[SceneRun], options: Options) -> list[Outcome]:
         """Does the runs that are not finished, each name once. Runs whose checkpoint is damaged begin anew."""
         different = list({run.name: run for run in runs if run.scene is not None}.values())
         pending = [run for run in different if self.found_end(run) is None]
-        resumes = [self.prepare(run) for run in pending]
-        finished = len(different) - len(pending)
+        total, finished = len(different), len(different) - len(pending)
         if options.resume and finished:
-            say(options, f"{finished} of {len(different)} runs are finished in {self.directory}: not run again")
-        outcomes = self._execute(pending, resumes, options, finished)
-        refused = [k for k, outcome in enumerate(outcomes) if self._is_refused(resumes[k], outcome)]
-        if refused:
-            again = [pending[k] for k in refused]
-            for run in again:
-                self.prepare(run, anew=True)
-            complain(f"{len(again)} runs begin anew: their checkpoints are damaged")
-            for k, outcome in zip(refused, self._execute(again, [False] * len(again), options, len(different) - len(again))):
-                outcomes[k] = outcome
-        return outcomes
+            say(options, f"{finished} of {total} runs are finished in {self.directory}: not run again")
+        return self._execute(pending, options, total)
 
-    @staticmethod
-    def _is_refused(resumed: bool, outcome: Outcome) -> bool:
-        return resumed and not outcome.interrupted and outcome.exit_code == WRONG_INPUT
+    def _execute(self, runs: Sequence[SceneRun], options: Options, total: int, anew: bool = False) -> list[Outcome]:
+        resumes, seats = [self.prepare(run, anew) for run in runs], n_seats(options)
 
-    def _execute(self, runs: Sequence[SceneRun], resumes: Sequence[bool], options: Options, finished: int) -> list[Outcome]:
-        seats = n_seats(options)
+        def is_damaged(k: int, outcome: Outcome) -> bool:
+            return resumes[k] and not outcome.interrupted and outcome.exit_code == WRONG_INPUT
 
         def on_ended(k: int, outcome: Outcome) -> None:
-            if not outcome.interrupted and not self._is_refused(resumes[k], outcome):
-                self.end(runs[k], outcome.exit_code, seats)
+            if not outcome.interrupted and not is_damaged(k, outcome):  # load: processes ready to run, mean of the last minute
+                write_json(self.path(runs[k], ".json"), {"exit_code": outcome.exit_code, "revision": _diptych.git_revision,
+                                                         "load": os.getloadavg()[0], "at_once": seats}, None)
 
         tasks = [Run(run.command, self.path(run, ".prm"), self.path(run), self.path(run, ".log"),
                      ("--resume",) if goes_on and run.command != "material-point" else ())
                  for run, goes_on in zip(runs, resumes)]
-        return execute(tasks, options, finished=finished, on_ended=on_ended)
+        outcomes = execute(tasks, options, finished=total - len(runs), on_ended=on_ended)
+        damaged = [k for k, outcome in enumerate(outcomes) if is_damaged(k, outcome)]
+        if damaged:
+            complain(f"{len(damaged)} runs begin anew: their checkpoints are damaged")
+            for k, outcome in zip(damaged, self._execute([runs[k] for k in damaged], options, total, anew=True)):
+                outcomes[k] = outcome
+        return outcomes

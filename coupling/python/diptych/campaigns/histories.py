@@ -9,6 +9,7 @@ import os
 
 import numpy as np
 import pandas as pd
+from scipy.integrate import cumulative_trapezoid
 
 from .. import _diptych
 
@@ -38,10 +39,6 @@ def is_beyond(progress: float, end: float) -> bool:
     return progress > end + 1e-9 * abs(end)
 
 
-def _arrays(table: pd.DataFrame, name: str) -> tuple[np.ndarray, np.ndarray]:
-    return table["progress"].to_numpy(), table[name].to_numpy()
-
-
 def mean_over(x: np.ndarray, y: np.ndarray, begin: float, end: float) -> float:
     """Mean over [begin, end] of the broken line through (x, y), constant beyond its ends; for begin = end its value there."""
     if not end > begin:
@@ -66,12 +63,11 @@ def stress_ratio_of_means(table: pd.DataFrame, begin: float, end: float) -> floa
 
 def running_mean(table: pd.DataFrame, name: str, width: float) -> np.ndarray:
     """For each row the mean of a column over the preceding `width` of progress; NaN before the first full width."""
-    x, y = _arrays(table, name)
-    integral = np.concatenate([[0.0], np.cumsum(0.5 * (y[1:] + y[:-1]) * np.diff(x))])
-    at = x - width
-    k = np.clip(np.searchsorted(x, at, side="right") - 1, 0, None)
-    up_to = np.where(at <= x[0], y[0] * (at - x[0]), integral[k] + 0.5 * (y[k] + np.interp(at, x, y)) * (at - x[k]))
-    return np.where(x >= width * (1 - 1e-9), (integral - up_to) / width, np.nan)
+    x, y = table["progress"].to_numpy(), table[name].to_numpy()
+    at = np.union1d(x, x - width)
+    integral = cumulative_trapezoid(np.interp(at, x, y), at, initial=0)
+    means = (np.interp(x, at, integral) - np.interp(x - width, at, integral)) / width
+    return np.where(x >= width * (1 - 1e-9), means, np.nan)
 
 
 def resampled(table: pd.DataFrame, values: np.ndarray, grid: np.ndarray) -> np.ndarray:
@@ -84,14 +80,13 @@ def reduced(table: pd.DataFrame | None, quantity: dict) -> float:
     if table is None:
         return math.nan
     how, name, begin, end = (quantity[key] for key in ("reduction", "column", "from", "to"))
-    needed = {"strength": end, "mean": end, "at": begin}.get(how, -math.inf)
-    if is_beyond(needed, table["progress"].iloc[-1]):
+    end = begin if how == "at" else end
+    if how in ("strength", "mean", "at") and is_beyond(end, table["progress"].iloc[-1]):
         return math.nan
     if how == "strength":
         return stress_ratio_of_means(table, begin, end)
     if how in ("mean", "at"):
-        return mean_over(*_arrays(table, name), begin, end if how == "mean" else begin)
+        return mean_over(table["progress"].to_numpy(), table[name].to_numpy(), begin, end)
     if how == "peak":
-        means = running_mean(table, name, end)
-        return float(np.nanmax(means)) if np.isfinite(means).any() else math.nan
+        return float(pd.Series(running_mean(table, name, end)).max())  # without the NaNs
     return float(table[name].max() if how == "largest" else table[name].iloc[-1])

@@ -7,6 +7,7 @@ from __future__ import annotations
 import json
 import os
 import re
+from collections import Counter
 from collections.abc import Sequence
 from typing import Any, NamedTuple, NoReturn
 
@@ -53,33 +54,23 @@ def settings_of(overrides: Sequence[str], set_files: Sequence[str] = ()) -> list
 
 def read_seeds(text: str) -> list[int]:
     """Seeds of a list like 1-8 or 1,3,5-7, ascending. Raises SceneError, which begins with --seeds."""
-
-    def refuse(why: str) -> NoReturn:
-        raise SceneError(f"--seeds {text}: {why}")
-
-    seeds: list[int] = []
-    for item in text.split(","):
-        match = re.fullmatch(r"([0-9]+)(?:-([0-9]+))?", item)
-        if match is None:
-            refuse(f"'{item}' is neither a seed nor a range; write a list like 1-8 or 1,3,5-7")
-        first, last = int(match[1]), int(match[2] or match[1])
-        if last > LARGEST_SEED:
-            refuse(f"seeds must be from 0 to {LARGEST_SEED}")
-        if last < first:
-            refuse(f"the range {item} descends")
-        if last - first + 1 + len(seeds) > MOST_SEEDS:
-            refuse(f"at most {MOST_SEEDS} seeds are allowed")
-        seeds += range(first, last + 1)
-    seeds.sort()
-    for seed, following in zip(seeds, seeds[1:]):
-        if seed == following:
-            refuse(f"seed {seed} is given twice")
+    if not re.fullmatch(r"\d{1,10}(-\d{1,10})?(,\d{1,10}(-\d{1,10})?)*", text):
+        raise SceneError(f"--seeds {text} is not allowed; write a list like 1-8 or 1,3,5-7")
+    ends = [[int(end) for end in item.split("-")] for item in text.split(",")]
+    ranges = [range(first, (last or [first])[0] + 1) for first, *last in ends]
+    if not all(ranges) or sum(map(len, ranges)) > MOST_SEEDS or max(map(max, ranges)) > LARGEST_SEED:
+        raise SceneError(f"--seeds {text} is not allowed; ranges ascend, with at most {MOST_SEEDS} seeds up to {LARGEST_SEED}")
+    seeds = sorted(seed for one in ranges for seed in one)
+    if len(set(seeds)) < len(seeds):
+        raise SceneError(f"--seeds {text} is not allowed; a seed is given twice")
     return seeds
 
 
-def listed(names: Sequence[str]) -> str:
-    """ "a, b, c" """
-    return ", ".join(names)
+def name_of(file: str, usual: str) -> str:
+    """The name of an input file, without its ending. A file with the usual name is called like its folder."""
+    folder, name = os.path.split(os.path.abspath(file))
+    stem = os.path.splitext(name)[0]
+    return os.path.basename(folder) if stem == usual else stem
 
 
 def value_text(value: Any) -> str:
@@ -100,8 +91,10 @@ class Part:
         self.file, self.lines, self.value, self.pointer = file, lines, value, pointer
 
     @staticmethod
-    def read(file: str) -> Part:
-        """The whole of a JSON file; comments are allowed."""
+    def read(file: str, usual: str) -> Part:
+        """The whole of a JSON file; comments are allowed. usual: the keys that it needs."""
+        if os.path.isfile(file) and os.path.getsize(file) == 0:
+            raise SceneError(f"{file}: is empty; a JSON object with {usual} is needed")
         text, lines = _diptych.read_json(file)
         return Part(file, lines, json.loads(text))
 
@@ -121,11 +114,17 @@ class Part:
     def allow(self, *keys: str) -> None:
         """Refuses a value that is no object, and other keys than these."""
         if not isinstance(self.value, dict):
-            self.refuse(f"an object is needed; its keys are {listed(keys)}")
+            self.refuse(f"an object is needed; its keys are {', '.join(keys)}")
         for key in self.value:
             if key not in keys:
                 nearest = _diptych.nearest_name(key, list(keys))
-                self.refuse(f": unknown key; the nearest is '{nearest}'; allowed are {listed(keys)}", key)
+                self.refuse(f": unknown key; the nearest is '{nearest}'; allowed are {', '.join(keys)}", key)
+
+    def demand_distinct(self, key: str, names: Sequence[str]) -> None:
+        """Refuses a name that the entries of a list have twice."""
+        for name, count in Counter(names).items():
+            if count > 1:
+                self.refuse(f": two have the name '{name}'; give them different names", key)
 
     def has(self, key: str) -> bool:
         return isinstance(self.value, dict) and key in self.value
@@ -151,31 +150,33 @@ class Part:
             self.refuse(f" = {json.dumps(self.value[key])} is not allowed; use a text", key)
         return self.value[key]
 
-    def number(self, key: str, low: float, high: float) -> float:
-        """A number in [low, high] that must be there."""
+    def number(self, key: str, low: float, high: float, is_whole: bool = False) -> Any:
+        """A number in [low, high] that must be there: an int if it is to be whole, else a float."""
         value = self.at(key).value
-        if not is_number(value) or not low <= value <= high:
-            self.refuse(f" = {json.dumps(value)} is not allowed; use a number from {_diptych.text_of_number(low)} to "
-                        f"{_diptych.text_of_number(high)}", key)
-        return float(value)
-
-    def whole(self, key: str, low: int, high: int) -> int:
-        value = self.at(key).value
-        if is_number(value) and value != int(value):
-            self.refuse(f" = {json.dumps(value)} is not allowed; use a whole number", key)
-        return int(self.number(key, low, high))
+        if not is_number(value) or not low <= value <= high or (is_whole and value != int(value)):
+            self.refuse(f" = {json.dumps(value)} is not allowed; use a {'whole ' if is_whole else ''}number from "
+                        f"{_diptych.text_of_number(low)} to {_diptych.text_of_number(high)}", key)
+        return int(value) if is_whole else float(value)
 
     def flag(self, key: str) -> bool:
         """true or false; false if it is missing."""
-        value = self.value.get(key, False) if isinstance(self.value, dict) else False
+        value = self.value.get(key, False)
         if not isinstance(value, bool):
             self.refuse(f" = {json.dumps(value)} is not allowed; use true or false", key)
         return value
 
+    def existing_file(self, key: str) -> str:
+        """The path of a file that must be there; relative ones begin at the folder of the input file."""
+        self.at(key)
+        path = os.path.join(os.path.dirname(self.file), self.word(key))
+        if not os.path.isfile(path):
+            self.refuse(f" = '{path}': there is no such file", key)
+        return path
+
     def choice(self, key: str, choices: Sequence[str], otherwise: str) -> str:
         word = self.word(key, otherwise)
         if word not in choices:
-            self.refuse(f" = '{word}' is not allowed; use one of {listed(choices)}", key)
+            self.refuse(f" = '{word}' is not allowed; use one of {', '.join(choices)}", key)
         return word
 
     def seeds(self, key: str) -> list[int]:

@@ -24,7 +24,6 @@ def _described() -> dict[str, tuple[str, str]]:
 class Member:
     """numbers: name -> (value, unit, True for the angle of a line, place); bands: "window 0-0.01 discrete" -> their number."""
 
-    seed: int = 0
     numbers: dict[str, tuple[float, str, bool, str]] = field(default_factory=dict)
     bands: dict[str, int] = field(default_factory=dict)
 
@@ -48,8 +47,8 @@ class Member:
             for band in entries[:1]:
                 self.collect(band, place, f"{name} band")
             return
-        for entry in entries:
-            own = _name_of(entry)
+        for entry in entries if entries and isinstance(entries[0], dict) else ():
+            own = entry.get("name") or entry.get("label") or (f"{entry['of']}-{entry['and']}" if "of" in entry else "")
             if own:
                 self.collect(entry, place, f"{name} {_SINGULAR.get(key, key)} {own}")
 
@@ -76,36 +75,24 @@ class Member:
         self.numbers = folded
 
 
-def _name_of(entry: Any) -> str:
-    if not isinstance(entry, dict):
-        return ""
-    for key in ("name", "label"):
-        if isinstance(entry.get(key), str):
-            return entry[key]
-    return f"{entry['of']}-{entry['and']}" if "of" in entry and "and" in entry else ""
-
-
 def member_of(path: str, folded: bool) -> Member:
     """The numbers of a comparison.json. Names: "stage 0.04 discrete probe zone t_over_s", "window 0.02-0.04 continuum band
     angle_deg" (of the strongest band; absent without one), "discrete_summary peak_stress_ratio". Raises ValueError."""
-    return member_of_record(read_json(path), path, folded)
+    return member_of_record(read_json(path), folded)
 
 
-def member_of_record(record: dict[str, Any], path: str, folded: bool = False) -> Member:
+def member_of_record(record: dict[str, Any], folded: bool = False) -> Member:
     """The same from the contents of the file."""
-    try:
-        member = Member(record["seed"])
-        for panel in ("discrete_summary", "continuum_summary"):
-            member.collect(record[panel], panel, panel)
-        member.collect_windows(record["windows"], "windows")
-        for stage in record["stages"]:  # six digits: stages of two seeds may differ by rounding
-            member.collect(stage, "stages", f"stage {stage['progress']:.6g}")
-        coarse = record.get("continuum_coarse") or {}
-        if "windows" in coarse:
-            member.collect(coarse, "continuum_coarse", "continuum_coarse")
-            member.collect_windows(coarse["windows"], "continuum_coarse/windows", "continuum_coarse ")
-    except (KeyError, TypeError, AttributeError) as error:
-        raise ValueError(f"{path}: does not compare two panels: {error!r}") from error
+    member = Member()
+    for panel in ("discrete_summary", "continuum_summary"):
+        member.collect(record[panel], panel, panel)
+    member.collect_windows(record["windows"], "windows")
+    for stage in record["stages"]:  # six digits: stages of two seeds may differ by rounding
+        member.collect(stage, "stages", f"stage {stage['progress']:.6g}")
+    coarse = record.get("continuum_coarse") or {}
+    if "windows" in coarse:
+        member.collect(coarse, "continuum_coarse", "continuum_coarse")
+        member.collect_windows(coarse["windows"], "continuum_coarse/windows", "continuum_coarse ")
     if folded:
         member.fold()
     return member

@@ -53,10 +53,6 @@ class Settled:
     failure: str = ""  # reason if a run did not finish
 
 
-def _load_steps(size: float) -> list[Setting]:
-    return [planned("continuum/max_step", size), planned("continuum/initial_step", min(size, 0.001))]
-
-
 class ContinuumPlan:
     """The pilot for one question."""
 
@@ -83,7 +79,7 @@ class ContinuumPlan:
         elif not self._settle_elements():
             return self.plan
         steps = Knob("continuum/max_step", min(LONGEST_LOAD_STEP, self.keys["loading"]["stage_strain"]), OF_LOAD_STEPS,
-                     _load_steps,
+                     lambda size: [planned("continuum/max_step", size), planned("continuum/initial_step", min(size, 0.001))],
                      least_points=3, dearer_per_halving=2)
         if self._settle(steps, self._refine(steps)):
             self._settle_tolerance()
@@ -111,7 +107,8 @@ class ContinuumPlan:
                 if settled.points:
                     break
                 continue  # too coarse to run
-            self._report_size(knob, size, point)
+            values = ", ".join(f"{asked['name']} {values[0]:.4g}" for asked, values in zip(self.quantities, point.values))
+            self._note(f"{knob.name} = {_diptych.text_of_number(size)}: {values}; {point.cpu_s:.3g} CPU s")
             if settled.points and settled.points[-1].values == point.values:
                 settled.sizes.pop(), settled.points.pop()  # the previous size limited nothing
             settled.sizes.append(float(size))
@@ -125,10 +122,6 @@ class ContinuumPlan:
                     or (knob.may_have_no_limit and keeps_changing)):
                 break
         return settled
-
-    def _report_size(self, knob: Knob, size: float, point: Pilot) -> None:
-        values = ", ".join(f"{asked['name']} {values[0]:.4g}" for asked, values in zip(self.quantities, point.values))
-        self._note(f"{knob.name} = {_diptych.text_of_number(size)}: {values}; {point.cpu_s:.3g} CPU s")
 
     def _settle(self, knob: Knob, settled: Settled) -> bool:
         """Takes the largest size within the share, limited to the sizes that were run."""
@@ -153,8 +146,7 @@ class ContinuumPlan:
     def _first_elements(self, has_length: bool) -> float:
         o = self.options
         side = (min(o["rectangle_width"], o["rectangle_height"]) / self.keys["sample"]["mean_diameter"]
-                if o["mesh"] == "rectangle"
-                else np.sqrt(self.keys["sample"]["grains"]))
+                if o["mesh"] == "rectangle" else np.sqrt(self.keys["sample"]["grains"]))
         across = side / ELEMENTS_ACROSS
         return rounded_to_two_digits(min(across, ELEMENTS_OVER_LENGTH * o["internal_length"]) if has_length else across)
 
@@ -206,8 +198,7 @@ class ContinuumPlan:
         worst, saving = max(map(abs, shifts)), 1 - point.cpu_s / self.now.cpu_s
         if worst > self.left_for_models or saving < WORTH_SAVING:
             self._note(f"{name}: not used; it would save {f'{percent(saving)} of the' if saving > 0 else 'no'} time and "
-                       "change a quantity "
-                       f"by up to {percent(worst)}")
+                       f"change a quantity by up to {percent(worst)}")
             return
         for parts, shift in zip(self.parts, shifts):
             parts.append(Part(name, abs(shift), shift))

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -87,29 +88,22 @@ def samples_for(deviation: float, half: float) -> int:
         return 0
     if half_interval(deviation, 1) <= half:
         return 1
-    low, high = 1, 2  # `low` samples are too few
-    while high < MOST_SAMPLES and half_interval(deviation, high) > half:
-        low, high = high, 2 * high
-    if half_interval(deviation, high) > half:
-        return 0
-    while high - low > 1:
-        middle = (low + high) // 2
-        low, high = (middle, high) if half_interval(deviation, middle) > half else (low, middle)
-    return high
+    n = bisect_left(range(MOST_SAMPLES), -half, lo=2, key=lambda n: -half_interval(deviation, n))
+    return n if n < MOST_SAMPLES else 0
 
 
-def summary_of(values: Iterable[float], is_line: bool) -> tuple[Statistics, float]:
+def summary_of(values: Sequence[float], is_line: bool) -> tuple[Statistics, float]:
     """Statistics of the samples that have a value, in its unit, and the relative scatter of one sample (NaN below two)."""
-    finite = [value for value in values if np.isfinite(value)]
-    found = line_statistics(finite) if is_line else statistics(finite)
+    found = (line_statistics if is_line else statistics)(values)
     return found, found.deviation / (UNIT_OF_ANGLES if is_line else abs(found.mean))
 
 
 def relative_difference(values: Sequence[float], others: Sequence[float], is_line: bool) -> Statistics:
     """Differences values - others, sample by sample, relative to the mean of the others, or to 45 degrees."""
-    pairs = [(a, b) for a, b in zip(values, others) if np.isfinite(a) and np.isfinite(b)]
-    unit = UNIT_OF_ANGLES if is_line else abs(statistics([b for _, b in pairs]).mean)
-    return statistics([(line_turn(a, b) if is_line else a - b) / unit for a, b in pairs])
+    a, b = np.array(list(zip(values, others)), float).reshape(-1, 2).T
+    if is_line:
+        return statistics(line_turn(a, b) / UNIT_OF_ANGLES)
+    return statistics((a - b) / abs(statistics(b[np.isfinite(a)]).mean))
 
 
 def rounded_to_two_digits(number: float) -> float:
@@ -142,14 +136,12 @@ def cheapest_choice(errors: Sequence[GrainErrors], cost: Sequence[tuple[float, f
                     samples: int) -> tuple[float, int]:
     """(discrete/accuracy, number of samples) with the least cost; 0 samples: no number suffices. `samples`: their fixed number,
     or 0."""
-    best, least, k = (0.0, 0), np.inf, 0
-    while True:
+    best, least = (0.0, 0), np.inf
+    for k in range(24):
         accuracy = max(FINEST_ACCURACY, rounded_to_two_digits(COARSEST_ACCURACY * 2 ** (-k / 4)))
         left = [target - one.at(accuracy) for one in errors]
         needed = [samples or samples_for(one.scatter, rest) for one, rest in zip(errors, left)]
         n = max(1, samples, *needed)
         if min(left) > 0 and min(needed) > 0 and n <= MOST_SAMPLES_OF_A_PLAN and n * cost_at(cost, accuracy) < least:
             best, least = (accuracy, n), n * cost_at(cost, accuracy)
-        if accuracy == FINEST_ACCURACY:
-            return best
-        k += 1
+    return best

@@ -27,7 +27,7 @@ WORTH_TRYING = 0.1  # share of the time that a cheaper setting must save
 SHARE_OF_A_KNOB = 0.25  # of the accuracy: the largest change by a cheaper setting
 FAR_FROM_THE_PILOT = 1.5  # a choice finer by this factor is run,
 FURTHEST_AHEAD = 4  # at most this factor ahead at a time
-NORMAL = 1.959963984540054
+NORMAL = 1.959963984540054  # 97.5 % quantile
 
 
 @dataclass
@@ -38,8 +38,7 @@ class Level:
     @property
     def cpu_s(self) -> float:
         """Mean over the first samples, which all levels have."""
-        first = self.point.sample_cpu_s[:PAIRED_SAMPLES]
-        return float(np.mean(first)) if first else self.point.cpu_s
+        return float(np.mean(self.point.sample_cpu_s[:PAIRED_SAMPLES] or self.point.cpu_s))
 
 
 class _Unfinished(Exception):
@@ -167,8 +166,8 @@ class GrainsPlan:
 
     def _report_levels(self) -> None:
         for level in self.levels:
-            self._note(f"discrete/accuracy = {_diptych.text_of_number(level.accuracy)}: {level.point.cpu_s:.3g} CPU s per "
-                       "sample")
+            at = _diptych.text_of_number(level.accuracy)
+            self._note(f"discrete/accuracy = {at}: {level.point.cpu_s:.3g} CPU s per sample")
         for q, asked in enumerate(self.quantities if self.seeds else ()):
             first, second = self.levels[:2]
             d = self._difference(first.point, second.point, q)
@@ -184,8 +183,7 @@ class GrainsPlan:
             verdict = f"not tried; it would save {f'only {percent(saving)} of the' if saving > 0 else 'no'} time"
         elif not interval <= SHARE_OF_A_KNOB * self.question.accuracy:
             verdict = (f"not used; it would save {percent(saving)} of the time, but {len(self.seeds)} samples give its error "
-                       "only to +- "
-                       f"{percent(interval)}")
+                       f"only to +- {percent(interval)}")
         else:
             verdict = self._verdict_on(name, cheaper, saving)
         self._note(f"{name}: {verdict}")
@@ -224,9 +222,9 @@ class GrainsPlan:
         if without.failure or usual.failure:
             self._note(f"{name}: {without.failure or usual.failure}")
             return
-        first, second = self.levels[:2]
         self._try_knob(name, none, 1 - without.cpu_s / usual.cpu_s,
-                       [self._difference(first.point, second.point, q).deviation for q in range(len(self.quantities))])
+                       [self._difference(self.levels[0].point, self.levels[1].point, q).deviation
+                        for q in range(len(self.quantities))])
 
     def _advise(self) -> None:
         if not self.seeds:
@@ -235,8 +233,6 @@ class GrainsPlan:
         deciding = max(self.plan.quantities, key=lambda q: q.scatter)
         left = self.question.accuracy - deciding.method
         low, high = (samples_for(factor * deciding.scatter, left) or "more than a million" for factor in (0.66, 2.0))
-        self._note(f"eight samples give the scatter to within a factor of 0.66 to 2.0, so {low} to {high} samples may be "
-                   "needed")
+        self._note(f"eight samples give the scatter to within a factor of 0.66 to 2.0: {low} to {high} samples may be needed")
         self._note(f"{deciding.name} determines the number of samples; one sample scatters by {percent(deciding.scatter)}; "
-                   "the scatter "
-                   "falls with the square root of the number of grains")
+                   "the scatter falls with the square root of the number of grains")

@@ -122,11 +122,7 @@ class PanelPlan:
         return self.cpu_s * self.n_samples if self.quantities else 0.0
 
     def record(self) -> dict[str, Any]:
-        return {"panel": self.panel, "command": self.command, "settings": [one.text() for one in self.settings],
-                "seeds": self.seeds,
-                "reaches": self.reaches, "cpu_s": self.cpu_s, "total_cpu_s": self.total_cpu_s,
-                "peak_memory_mb": self.peak_memory_mb,
-                "decisions": self.decisions, "outcome_cpu_s": self.outcome_cpu_s, "outcomes": self.outcomes,
+        return {**vars(self), "settings": [one.text() for one in self.settings], "total_cpu_s": self.total_cpu_s,
                 "quantities": [{**vars(q), "total": q.total, "bias": q.bias, "parts": [vars(part) for part in q.parts]}
                                for q in self.quantities]}
 
@@ -146,6 +142,11 @@ class Plan:
         return len(self.panels) > 1 and all(panel.quantities and panel.command == "run" for panel in self.panels)
 
     @property
+    def settings(self) -> list[Setting]:
+        """Of all panels."""
+        return [one for panel in self.panels for one in panel.settings]
+
+    @property
     def total_cpu_s(self) -> float:
         return float((max if self.shares_samples else sum)(panel.total_cpu_s for panel in self.panels))
 
@@ -163,12 +164,12 @@ def planned(name: str, value: Any) -> Setting:
 
 def read_accuracy(text: str) -> float:
     """A relative accuracy from 0.1 to 50 %: "2 %", "2%", "0.02". Raises SceneError."""
-    match = re.fullmatch(r"\s*([-+.\deE]+)\s*(%?)\s*", text)
+    number, sign, rest = text.strip().partition("%")
     try:
-        accuracy = float(match[1]) / (100 if match[2] else 1) if match else np.nan
+        accuracy = float(number) / (100 if sign else 1)
     except ValueError:
         accuracy = np.nan
-    if not 0.001 <= accuracy <= 0.5:
+    if rest or not 0.001 <= accuracy <= 0.5:
         raise SceneError(f"--accuracy '{text}' is not allowed; use a number from 0.001 to 0.5, or from 0.1 % to 50 %")
     return accuracy
 
@@ -177,10 +178,11 @@ def _panels_of(file: str, scene: _diptych.Scene) -> set[str]:
     """Panels with keys in the scene file; a resolved scene sets all keys."""
     if _diptych.resolved_scene(file) is not None:
         return {"discrete", "continuum"} if scene.dict()["continuum"]["mesh"] == "outline" else {"continuum"}
-    with open(file, encoding="utf-8") as opened:
-        text = opened.read()
-    sections = set(json.loads(_diptych.read_json(file)[0])) if file.endswith(".json") else set(
-        re.findall(r"^\s*subsection\s+(\w+)", text, re.MULTILINE))
+    if file.endswith(".json"):
+        sections = set(json.loads(_diptych.read_json(file)[0]))
+    else:
+        with open(file, encoding="utf-8") as opened:
+            sections = set(re.findall(r"^\s*subsection\s+(\w+)", opened.read(), re.MULTILINE))
     return {panel for panel, asked in PANELS.items() if sections & set(asked)} or {"discrete"}
 
 
@@ -216,8 +218,7 @@ def _add(question: Question, word: str, panels: set[str], scene: _diptych.Scene)
     of = [panel for panel in PANELS if f" {panel} " in word or word.startswith(panel + "_summary ")]
     if len(of) != 1:
         raise SceneError(f"--for '{word}' is unknown; use {', '.join(NAMES)}, with the prefix discrete. or continuum. for one "
-                         "panel, or a "
-                         "number of comparison.json with its name in ensemble.csv")
+                         "panel, or a number of comparison.json with its name in ensemble.csv")
     question.quantities[of[0]].append(quantity(word, source="comparison", reduction="number", column=word, line="angle" in word,
                                                step_error=""))
 
@@ -227,7 +228,7 @@ def read_question(scene_file: str, accuracy: str, wanted: str, overrides: Sequen
     """The question of a command line. Raises SceneError."""
     changes = [one.check() for one in settings_of(overrides, set_files)]
     question = Question(scene_file, changes, read_accuracy(accuracy))
-    scene = _diptych.read_changed_scene(scene_file, [tuple(one) for one in changes], False)
+    scene = _diptych.read_changed_scene(scene_file, changes, False)
     panels = _panels_of(scene_file, scene)
     for word in (wanted or "peak_stress_ratio,strength").split(","):
         _add(question, word.strip(), panels, scene)
@@ -236,12 +237,10 @@ def read_question(scene_file: str, accuracy: str, wanted: str, overrides: Sequen
         raise SceneError(f"{scene_file}: loading/mode = time; plans support loadings along a strain only")
     if question.quantities["discrete"] and keys["discrete"]["method"] != "nscd":
         raise SceneError(f"{scene_file}: discrete/method = {keys['discrete']['method']}; plans support nscd only (cost of "
-                         "springs: "
-                         "benchmarks/penalty, benchmarks/rigid_limit)")
+                         "springs: benchmarks/penalty, benchmarks/rigid_limit)")
     if question.needs_comparison and keys["continuum"]["mesh"] != "outline":
         raise SceneError(f"{scene_file}: continuum/mesh = {keys['continuum']['mesh']}; --for asks for a number of the "
-                         "comparison, which "
-                         "needs both panels on one sample (mesh = outline)")
+                         "comparison, which needs both panels on one sample (mesh = outline)")
     return question
 
 
@@ -256,15 +255,14 @@ def _panel_text(panel: PanelPlan) -> list[str]:
     for q in panel.quantities:
         scatter = f"; one sample scatters by {percent(q.scatter)}" if np.isfinite(q.scatter) else ""
         lines.append(f"  {q.name:<43} error at most about {percent(q.total)}, bias {percent(q.bias)}{scatter}")
-        lines += [f"    {part.cause:<41} {percent(part.error)}" + (f" +- {percent(part.deviation)}"
-                                                                   if np.isfinite(part.deviation) else "")
-                  for part in q.parts]
+        for part in q.parts:
+            deviation = f" +- {percent(part.deviation)}" if np.isfinite(part.deviation) else ""
+            lines.append(f"    {part.cause:<41} {percent(part.error)}{deviation}")
     lines += ["  set " + one.text() for one in panel.settings]
     lines += [] if panel.reaches else ["  the accuracy is NOT reached by this plan"]
     seeds = f" (seeds {panel.seeds[0]}-{panel.seeds[-1]})" if len(panel.seeds) > 1 else ""
     lines.append(f"  {panel.command} on {panel.n_samples} sample{'s' if panel.n_samples > 1 else ''}{seeds}: "
-                 f"{panel.cpu_s:.3g} CPU s each, "
-                 f"{panel.total_cpu_s:.3g} s in all, {panel.peak_memory_mb:.3g} MB")
+                 f"{panel.cpu_s:.3g} CPU s each, {panel.total_cpu_s:.3g} s in all, {panel.peak_memory_mb:.3g} MB")
     if panel.outcomes:
         lines.append(f"  result, at {panel.outcome_cpu_s:.3g} CPU s per sample:")
         lines += [f"    {one['name']:<41} {one['mean']:.3g}" +

@@ -7,18 +7,18 @@ from __future__ import annotations
 import itertools
 import math
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from .. import _diptych
 from ..errors import SceneError
-from .engine import WRONG_INPUT, last_words
+from .engine import WRONG_INPUT
 from .folders import Runs, SceneRun, read_json, run_name
 from .histories import panel_table, reduced
 from .input_file import Setting
 from .members import is_mirror_symmetric, member_of
-from .study_file import COMMANDS, AxisPoint, Family, Study
+from .study_file import COMMANDS, Study
 
 MOST_RUNS = 100000
 
@@ -35,13 +35,13 @@ class Point:
     runs: list[SceneRun] = field(default_factory=list)  # one per sample
 
 
-def _on_sample(settings: list[Setting], seed: int | None, study: Study) -> list[Setting]:
-    """The settings for one sample: the seed replaces {seed} in the values, or becomes sample/seed."""
+def on_sample(settings: Sequence[Setting], seed: int | None, file: str) -> list[Setting]:
+    """The settings for one sample: the seed replaces {seed} in the values, or becomes sample/seed. file: gives the seeds."""
     if seed is None:
-        return settings
-    if not any("{seed}" in setting.value for setting in settings):
-        settings = [*settings, Setting("sample", "seed", str(seed), f"{study.file}: seeds")]
-    return [setting.with_seed(seed) for setting in settings]
+        return list(settings)
+    names_seed = any("{seed}" in setting.value for setting in settings)
+    own = [] if names_seed else [Setting("sample", "seed", str(seed), f"{file}: seeds")]
+    return [setting.with_seed(seed) for setting in [*settings, *own]]
 
 
 def scene_run(scene: str, command: str, settings: Sequence[Setting]) -> SceneRun:
@@ -57,13 +57,8 @@ def scene_run(scene: str, command: str, settings: Sequence[Setting]) -> SceneRun
 def _point(study: Study, settings: list[Setting], **place: Any) -> Point:
     point = Point(**place, settings=[setting.text() for setting in settings])
     for seed in study.seeds or [None]:
-        point.runs.append(scene_run(study.scene, study.command, _on_sample([*study.settings, *settings], seed, study)))
+        point.runs.append(scene_run(study.scene, study.command, on_sample([*study.settings, *settings], seed, study.file)))
     return point
-
-
-def _places(family: Family) -> Iterable[tuple[int, ...]]:
-    counts = [range(len(axis.points)) for axis in family.axes]
-    return itertools.product(*counts) if family.grid or not counts else zip(*counts)
 
 
 def points_of(study: Study) -> list[Point]:
@@ -77,14 +72,15 @@ def points_of(study: Study) -> list[Point]:
     references: dict[tuple[str, ...], Point] = {}
     points = []
     for index, family in enumerate(study.families):
-        for places in _places(family):
+        counts = [range(len(axis.points)) for axis in family.axes]
+        for places in itertools.product(*counts) if family.grid else zip(*counts):
             chosen = [axis.points[k] for axis, k in zip(family.axes, places)]
-            point = _point(study, [*family.settings, *_settings(chosen)], family=index, places=places,
-                           labels=[one.label for one in chosen])
+            settings = sum((one.settings for one in chosen), family.settings)
+            point = _point(study, settings, family=index, places=places, labels=[one.label for one in chosen])
             shared = [(axis.name, one) for axis, one in zip(family.axes, chosen) if axis.own_reference]
             labels = tuple(f"{name} {one.label}" for name, one in shared)
             if labels not in references:
-                settings = [*study.reference, *_settings(one for _, one in shared)]
+                settings = sum((one.settings for _, one in shared), study.reference)
                 references[labels] = reference = _point(study, settings, labels=list(labels), reference=len(references))
                 for run in reference.runs:
                     if run.scene is None:
@@ -92,10 +88,6 @@ def points_of(study: Study) -> list[Point]:
             point.reference = references[labels].reference
             points.append(point)
     return [*references.values(), *points]
-
-
-def _settings(points: Iterable[AxisPoint]) -> list[Setting]:
-    return [setting for point in points for setting in point.settings]
 
 
 @dataclass
@@ -110,6 +102,7 @@ class RunResult:
     cut_backs: float = 0.0  # of the continuum
     sweeps: float = math.nan
     newton_iterations: float = math.nan
+    expected_error: dict[str, float] = field(default_factory=dict)  # of the grains, by the rule of the step: strength, dilation
     load: float = math.nan  # of the machine at the end
     at_once: int = 1
     phases: list[dict[str, Any]] = field(default_factory=list)
@@ -134,34 +127,26 @@ def result_of(runs: Runs, run: SceneRun, quantities: Sequence[dict[str, Any]]) -
     result.known, result.exit_code, result.at_once = True, end["exit_code"], end["at_once"]
     result.load = end["load"] if end["load"] is not None else math.nan
     if result.exit_code:
-        result.words = last_words(runs.path(run, ".log")).replace(runs.directory + "/", "")
+        result.words = runs.last_words(run)
     folder = runs.path(run)
     if not os.path.exists(os.path.join(folder, "provenance.json")):
         return result
     record = read_json(os.path.join(folder, "provenance.json"))
     result.phases, grains = record["phases"], record.get("discrete", {})
     result.halved_steps, result.warned = grains.get("halved_steps") or 0, bool(grains.get("warnings"))
+    for kind in ("strength", "dilation"):
+        error = grains.get(f"expected_{kind}_error")
+        result.expected_error[kind] = math.nan if error is None else error
     result.tables = {source: panel_table(folder, source) for source in COMMANDS[run.command]}
-    _add_effort(result)
-    if result.exit_code == 0:
-        result.values = values_of(folder, run, result.tables, quantities)
-    return result
-
-
-def _add_effort(result: RunResult) -> None:
-    grains, continuum = result.tables.get("discrete"), result.tables.get("continuum")
-    if grains is not None:
-        result.sweeps = float(grains["sweeps"].sum())
-    if continuum is not None:
-        last = continuum.iloc[-1]
+    if result.tables.get("discrete") is not None:
+        result.sweeps = float(result.tables["discrete"]["sweeps"].sum())
+    if result.tables.get("continuum") is not None:
+        last = result.tables["continuum"].iloc[-1]
         result.newton_iterations, result.cut_backs = float(last["newton_iterations"]), float(last["cut_backs"])
-
-
-def values_of(folder: str, run: SceneRun, tables: dict[str, Any], quantities: Sequence[dict[str, Any]]) -> list[float]:
-    """The quantities of a finished run."""
-    numbers: dict[str, float] = {}
-    if any(q["source"] == "comparison" for q in quantities):
-        member = member_of(os.path.join(folder, "comparison.json"), is_mirror_symmetric(run.scene))
-        numbers = {name: value for name, (value, *_) in member.numbers.items()}
-    return [numbers.get(q["column"], math.nan) if q["source"] == "comparison" else reduced(tables.get(q["source"]), q)
-            for q in quantities]
+    if result.exit_code == 0:
+        numbers: dict[str, tuple[Any, ...]] = {}
+        if any(q["source"] == "comparison" for q in quantities):
+            numbers = member_of(os.path.join(folder, "comparison.json"), is_mirror_symmetric(run.scene)).numbers
+        result.values = [numbers.get(q["column"], (math.nan,))[0] if q["source"] == "comparison"
+                         else reduced(result.tables.get(q["source"]), q) for q in quantities]
+    return result

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -13,8 +13,6 @@ import numpy as np
 from scipy.special import betaincinv
 
 from ..arrays import Interval
-
-UNKNOWN = Interval(math.nan, math.nan, math.nan)
 
 
 def student_quantile(probability: float, degrees_of_freedom: float) -> float:
@@ -118,10 +116,7 @@ def paired(first: Sequence[float], second: Sequence[float], kind: str = "absolut
 
 def _fieller(a: np.ndarray, b: np.ndarray, confidence: float) -> Interval:
     """The ratios q that Student's test of mean(b - q a) = 0 does not reject, less 1: between the roots of a parabola."""
-    n = len(a)
-    if n == 0:
-        return UNKNOWN
-    mean_a, mean_b = a.mean(), b.mean()
+    n, (mean_a, mean_b) = len(a), (statistics(a).mean, statistics(b).mean)
     value = mean_b / mean_a - 1 if mean_a != 0 else math.nan
     if n < 2:
         return Interval(value, math.nan, math.nan)
@@ -132,15 +127,6 @@ def _fieller(a: np.ndarray, b: np.ndarray, confidence: float) -> Interval:
         return Interval(value, math.nan, math.nan)
     root = math.sqrt(max(0.0, product**2 - square * constant))
     return Interval(value, (product - root) / square - 1, (product + root) / square - 1)
-
-
-def jackknifed(value: float, without_one: Sequence[float]) -> Interval:
-    """The interval of a value from its values without one sample each (Tukey); unknown below three samples."""
-    s, n = statistics(without_one), len(without_one)
-    if n < 3:
-        return Interval(value, math.nan, math.nan)
-    half = student_quantile(0.975, n - 1) * (n - 1) / math.sqrt(n) * s.deviation
-    return Interval(value, value - half, value + half)
 
 
 class Convergence(NamedTuple):
@@ -173,13 +159,16 @@ def fit_convergence(h: Sequence[float], values: Sequence[float]) -> Convergence 
 
 
 def jackknife_convergence(h: Sequence[float], values: np.ndarray) -> tuple[Interval, Interval, float] | None:
-    """(order, limit, coefficient) of values (points, samples), with intervals from leaving out one sample at a time."""
-    fit = fit_convergence(h, values.mean(axis=1)) if len(h) >= 3 else None
+    """(order, limit, coefficient) of values (points, samples), with intervals from leaving out one sample at a time (Tukey).
+
+    They are unknown below three samples, or if there is no power law without one of them.
+    """
+    fit, n = fit_convergence(h, values.mean(axis=1)), values.shape[1]
     if fit is None:
         return None
-    n = values.shape[1]
     parts = [fit_convergence(h, np.delete(values, k, axis=1).mean(axis=1)) for k in range(n)] if n > 2 else [None]
-    if None in parts:  # without that sample there is no power law
-        parts = []
-    take: Callable[[str], Interval] = lambda name: jackknifed(getattr(fit, name), [getattr(part, name) for part in parts])
-    return take("order"), take("limit"), fit.coefficient
+    half = np.full(3, np.nan)
+    if None not in parts:
+        half = student_quantile(0.975, n - 1) * (n - 1) / math.sqrt(n) * np.std(parts, axis=0, ddof=1)
+    limit, _, order = (Interval(value, value - reach, value + reach) for value, reach in zip(fit, half))
+    return order, limit, fit.coefficient

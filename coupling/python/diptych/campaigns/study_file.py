@@ -6,14 +6,13 @@ from __future__ import annotations
 
 import math
 import os
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from .. import _diptych
 from .histories import SOURCES
-from .input_file import Part, Setting, is_number, listed, value_text
+from .input_file import Part, Setting, is_number, name_of, value_text
 
 COMMANDS = {"discrete": ("discrete",), "continuum": ("continuum",), "run": ("discrete", "continuum"),
             "material-point": ("material_point",)}  # the panels that each command runs
@@ -90,9 +89,7 @@ def _axis(part: Part) -> Axis:
     if not points:
         part.refuse("this axis has no points; give values or points")
     axis = Axis(part.word("name", key.partition("/")[2] or key), points, part.flag("converges"), part.flag("own_reference"))
-    for label, count in Counter(point.label for point in points).items():
-        if count > 1:
-            part.refuse(f"axis '{axis.name}' has '{label}' twice")
+    part.demand_distinct("values" if part.has("key") else "points", [point.label for point in points])
     for point in points if axis.converges else []:
         if not point.value > 0:
             part.refuse(f" needs values above 0, which '{point.label}' is not", "converges")
@@ -100,17 +97,14 @@ def _axis(part: Part) -> Axis:
 
 
 def _family(part: Part, settings: list[Setting]) -> Family:
-    family = Family(part.word("name"), settings, part.choice("combine", ("grid", "list"), "grid") == "grid")
-    for one in part.list("axes"):
-        axis = _axis(one)
-        if any(axis.name == other.name for other in family.axes):
-            one.refuse(f"two axes have the name '{axis.name}'")
-        family.axes.append(axis)
-        first = family.axes[0]
-        if not family.grid and len(axis.points) != len(first.points):
-            one.refuse(f"axes combined as a list need equally many points; '{first.name}' has {len(first.points)}, "
-                       f"'{axis.name}' {len(axis.points)}")
-    return family
+    axes = [_axis(one) for one in part.list("axes")]
+    part.demand_distinct("axes", [axis.name for axis in axes])
+    is_grid = part.choice("combine", ("grid", "list"), "grid") == "grid" or not axes
+    for axis in [] if is_grid else axes:
+        if len(axis.points) != len(axes[0].points):
+            part.refuse(f": a list needs equally many points; '{axes[0].name}' has {len(axes[0].points)}, '{axis.name}' "
+                        f"{len(axis.points)}", "axes")
+    return Family(part.word("name"), settings, is_grid, axes)
 
 
 def _families(root: Part) -> list[Family]:
@@ -118,18 +112,16 @@ def _families(root: Part) -> list[Family]:
         return [_family(root, [])]
     if root.has("axes"):
         root.refuse(" cannot be used together with families; put axes into each family", "axes")
-    families = []
     for part in root.list("families"):
         part.allow("name", "set", "axes", "combine")
         part.at("name")
-        families.append(_family(part, part.settings("set")))
-    return families
+    return [_family(part, part.settings("set")) for part in root.list("families")]
 
 
 def _reduction(part: Part) -> dict[str, Any]:
     given = [name for name in REDUCTIONS if part.has(name)]
     if len(given) != 1:
-        part.refuse(f"a quantity needs exactly one of {listed(REDUCTIONS)}")
+        part.refuse(f"a quantity needs exactly one of {', '.join(REDUCTIONS)}")
     how = given[0]
     if how in ("strength", "mean"):
         ends = [end.value for end in part.list(how)]
@@ -145,17 +137,6 @@ def _reduction(part: Part) -> dict[str, Any]:
     return {"reduction": how}
 
 
-def _limit(part: Part) -> dict[str, Any]:
-    if not part.has("limit"):
-        return {}
-    limit = part.at("limit")
-    limit.allow("relative", "absolute")
-    if len(limit.value) != 1:
-        limit.refuse("a limit needs one of relative and absolute")
-    relative = limit.has("relative")
-    return {"relative": relative, "limit": limit.number("relative" if relative else "absolute", 1e-12, _FAR)}
-
-
 def _describe_number(part: Part, name: str) -> dict[str, Any]:
     """Unit and kind of a number of comparison.json, by the last word of its name."""
     key, numbers = name.rpartition(" ")[2], _diptych.comparison_numbers()
@@ -163,17 +144,9 @@ def _describe_number(part: Part, name: str) -> dict[str, Any]:
         if place.rpartition("/")[2] == key:
             return {"column": name, "unit": unit, "line": kind == "line"}
     keys = [place.rpartition("/")[2] for place, (_, kind) in numbers.items() if kind in ("number", "line")]
-    longer = sorted((other for other in keys if key and other.startswith(key)), key=len)
-    nearest = longer[0] if longer else _diptych.nearest_name(key, keys)
+    nearest = min((one for one in keys if key and one.startswith(key)), key=len, default=_diptych.nearest_name(key, keys))
     part.refuse(f" = '{name}': no number of a comparison ends with '{key}'; the nearest is '{nearest}'. Use a name from the "
                 "first column of ensemble.csv, such as 'window 0.01-0.03 discrete band angle_deg'", "number")
-
-
-def _default_name(q: dict[str, Any]) -> str:
-    begin, end = _diptych.text_of_number(q["from"]), _diptych.text_of_number(q["to"])
-    return {"strength": f"{q['source']} strength {begin}-{end}", "mean": f"{q['source']} {q['column']} {begin}-{end}",
-            "at": f"{q['source']} {q['column']} at {begin}", "number": q["column"]}.get(
-                q["reduction"], f"{q['source']} {q['reduction']} {q['column']}")
 
 
 def _quantity(part: Part, command: str) -> dict[str, Any]:
@@ -181,7 +154,14 @@ def _quantity(part: Part, command: str) -> dict[str, Any]:
     source = "comparison" if part.has("number") else part.choice("of", (*SOURCES, "comparison"), COMMANDS[command][0])
     if source not in (*COMMANDS[command], "comparison" if command == "run" else ""):
         part.refuse(f"command {command} does not write what '{source}' is read from; change command or of")
-    q = quantity(source=source, column=part.word("column"), **_reduction(part), **_limit(part))
+    q = quantity(source=source, column=part.word("column"), **_reduction(part))
+    if part.has("limit"):
+        limit = part.at("limit")
+        limit.allow("relative", "absolute")
+        if len(limit.value) != 1:
+            limit.refuse("a limit needs one of relative and absolute")
+        q["relative"] = limit.has("relative")
+        q["limit"] = limit.number("relative" if q["relative"] else "absolute", 1e-12, _FAR)
     if q["reduction"] in ("strength", "number"):
         if part.has("column"):
             part.refuse(" has no effect here; remove it", "column")
@@ -193,7 +173,10 @@ def _quantity(part: Part, command: str) -> dict[str, Any]:
             part.refuse(f" = '{q['column']}': {source}.csv has no such column; the nearest is "
                         f"'{_diptych.nearest_name(q['column'], list(columns))}'", "column" if part.has("column") else "name")
         q["unit"] = columns[q["column"]]
-    q["name"] = part.word("name", _default_name(q))
+    begin, end = _diptych.text_of_number(q["from"]), _diptych.text_of_number(q["to"])
+    names = {"strength": f"{source} strength {begin}-{end}", "mean": f"{source} {q['column']} {begin}-{end}",
+             "at": f"{source} {q['column']} at {begin}", "number": q["column"]}
+    q["name"] = part.word("name", names.get(q["reduction"], f"{source} {q['reduction']} {q['column']}"))
     return q
 
 
@@ -210,32 +193,14 @@ def _border(part: Part, families: Sequence[Family]) -> dict[str, Any]:
     return border
 
 
-def _phase(part: Part) -> str:
-    name = value_text(part.value)
-    if name not in PHASES:  # a wrong name would count as a cost of zero
-        part.refuse(f"cost: '{name}' is not a phase; the nearest is '{_diptych.nearest_name(name, list(PHASES))}'")
-    return name
-
-
-def _demand_consistency(root: Part, study: Study) -> None:
-    for name, count in Counter(q["name"] for q in study.quantities).items():
-        if count > 1:
-            root.refuse(f": two have the name '{name}'; give them different names", "quantities")
-    for name, count in Counter(family.name for family in study.families).items():
-        if count > 1:
-            root.refuse(f": two have the name '{name}'", "families")
+def _demand_one_seed(root: Part, study: Study) -> None:
+    """Every point is run with every seed, which would replace a fixed one."""
     points = [point for family in study.families for axis in family.axes for point in axis.points]
     everything = [study.settings, study.reference, *(one.settings for one in (*study.families, *points))]
-    for setting in sum(everything, []):  # every point is run with every seed, which would replace a fixed one
+    for setting in sum(everything, []):
         if study.seeds and (setting.section, setting.key) == ("sample", "seed"):
             place = f"{setting.file}, line {setting.line}" if setting.line else setting.file
             root.refuse(f" cannot be used together with sample/seed = {setting.value}, set at {place}", "seeds")
-
-
-def _name_of(file: str) -> str:
-    folder, name = os.path.split(os.path.abspath(file))
-    stem = os.path.splitext(name)[0]
-    return os.path.basename(folder) if stem == "study" else stem
 
 
 def read_study(file: str, overrides: Sequence[Setting] = ()) -> Study:
@@ -244,23 +209,25 @@ def read_study(file: str, overrides: Sequence[Setting] = ()) -> Study:
     Paths are relative to the folder of the study; those of overrides to the working directory. Keys and values are checked one
     by one; the combinations are checked with the points. Raises SceneError with file, line, key, value and the allowed values.
     """
-    root = Part.read(file)
+    root = Part.read(file, "scene, reference, axes and quantities")
     root.allow("title", "scene", "command", "set", "seeds", "reference", "families", "axes", "combine", "quantities", "cost",
                "borders")
-    scene = os.path.abspath(os.path.join(os.path.dirname(file), root.word("scene")))
-    study = Study(_name_of(file), file, root.word("title", _name_of(file)), scene)
+    name = name_of(file, "study")
+    study = Study(name, file, root.word("title", name), os.path.abspath(root.existing_file("scene")))
     study.command = root.choice("command", tuple(COMMANDS), "run")
-    if not os.path.isfile(study.scene):
-        root.refuse(f" = '{study.scene}': there is no such file", "scene")
     study.settings = [*root.settings("set"), *(setting.check() for setting in overrides)]
     study.seeds = root.seeds("seeds")
     root.at("reference")
     study.reference = root.settings("reference")
     study.families = _families(root)
+    root.demand_distinct("families", [family.name for family in study.families])
     study.quantities = [_quantity(part, study.command) for part in root.list("quantities")]
     if not study.quantities:
         root.refuse(" is missing or empty; name at least one quantity", "quantities")
-    study.cost = [_phase(part) for part in root.list("cost")]
+    root.demand_distinct("quantities", [q["name"] for q in study.quantities])
+    study.cost = [value_text(part.value) for part in root.list("cost")]
+    for name in set(study.cost) - set(PHASES):  # a wrong name would count as a cost of zero
+        root.refuse(f": '{name}' is not a phase; the nearest is '{_diptych.nearest_name(name, list(PHASES))}'", "cost")
     study.borders = [_border(part, study.families) for part in root.list("borders")]
-    _demand_consistency(root, study)
+    _demand_one_seed(root, study)
     return study
